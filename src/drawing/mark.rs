@@ -1,0 +1,83 @@
+//! [`Mark`]: one painted path.
+
+use kurbo::BezPath;
+use serde::{Deserialize, Serialize};
+
+use crate::math::colour::Colour;
+
+/// How a line ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Cap {
+    /// Cut off at the end point.
+    Butt,
+    /// A half circle round the end point.
+    #[default]
+    Round,
+    /// Half a width beyond the end point.
+    Square,
+}
+
+/// How a line turns a corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Join {
+    /// Pointed.
+    Miter,
+    /// Rounded.
+    #[default]
+    Round,
+    /// Cut off.
+    Bevel,
+}
+
+/// Ink of a stroked path; lengths in user units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrokePaint {
+    /// Width.
+    pub width: f64,
+    /// Colour and opacity.
+    pub colour: Colour,
+    /// Ends.
+    pub cap: Cap,
+    /// Corners.
+    pub join: Join,
+    /// Lengths of dashes and gaps in turn; empty = solid.
+    pub dash: Vec<f64>,
+    /// Where in the dash pattern the path starts.
+    pub dash_offset: f64,
+}
+
+/// How a mark is painted.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Paint {
+    /// A line of constant width.
+    Stroke(StrokePaint),
+    /// A filled outline.
+    Fill(Colour),
+}
+
+/// Where a mark comes from, as plain text: becomes classes and `data-` attributes in SVG, and is
+/// what drawings are compared by.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Provenance {
+    /// Classes: the line kind first, then `silhouette`.
+    pub classes: Vec<&'static str>,
+    /// Name of the part of the model.
+    pub part: Option<std::sync::Arc<str>>,
+    /// Name of the material.
+    pub material: Option<std::sync::Arc<str>>,
+    /// How many surfaces hide the line; 0 for visible ones.
+    pub invisibility: u16,
+}
+
+/// One painted path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Geometry in user units, x right, y down.
+    pub path: BezPath,
+    /// How it is painted.
+    pub paint: Paint,
+    /// Where it comes from.
+    pub provenance: Provenance,
+}

@@ -1,0 +1,67 @@
+//! [`Drawing`]: a pure 2-D document that knows nothing of 3-D, all that an exporter needs.
+
+pub mod length;
+pub mod mark;
+pub mod page;
+
+pub use length::Length;
+pub use mark::{Cap, Join, Mark, Paint, Provenance, StrokePaint};
+pub use page::{Page, Unit};
+
+/// The layers of a drawing, back to front.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum LayerKind {
+    /// The paper and its texture.
+    Paper,
+    /// Flat colour regions.
+    Fills,
+    /// Cast shadows.
+    Shadows,
+    /// Hatching.
+    Hatching,
+    /// Motion lines.
+    Motion,
+    /// Lines behind surfaces.
+    HiddenLines,
+    /// Visible lines.
+    Lines,
+    /// Call-outs.
+    Callouts,
+}
+
+impl LayerKind {
+    /// The group's id in SVG.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Fills => "fills",
+            Self::Shadows => "shadows",
+            Self::Hatching => "hatching",
+            Self::Motion => "motion",
+            Self::HiddenLines => "hidden-lines",
+            Self::Lines => "lines",
+            Self::Callouts => "callouts",
+        }
+    }
+}
+
+/// One layer: marks painted in order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// Which layer it is.
+    pub kind: LayerKind,
+    /// Its marks, painted first to last.
+    pub marks: Vec<Mark>,
+}
+
+/// A 2-D document: a page and layers of marks, back to front; empty layers are absent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    /// Title, shown by viewers: the model's name.
+    pub title: String,
+    /// Size and unit.
+    pub page: Page,
+    /// Layers, back to front.
+    pub layers: Vec<Layer>,
+}

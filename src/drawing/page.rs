@@ -1,0 +1,40 @@
+//! The page: its size and the unit that all coordinates are in.
+
+use serde::{Deserialize, Serialize};
+
+use crate::math::colour::Colour;
+
+/// Unit of a drawing's coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Unit {
+    /// CSS pixels, 96 to the inch.
+    #[default]
+    Px,
+    /// Millimetres.
+    Mm,
+}
+
+impl Unit {
+    /// `px` or `mm`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Px => "px",
+            Self::Mm => "mm",
+        }
+    }
+}
+
+/// The page of a drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Page {
+    /// Width in user units.
+    pub width: f64,
+    /// Height in user units.
+    pub height: f64,
+    /// What a user unit is.
+    pub unit: Unit,
+    /// Colour of the paper; `None` leaves it transparent.
+    pub background: Option<Colour>,
+}

@@ -1,0 +1,1 @@
+//! Bytes: a [`crate::drawing::Drawing`] as SVG or PNG.

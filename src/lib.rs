@@ -1,0 +1,37 @@
+//! **ligne** turns a 3D model into a vector drawing: ink lines with exact hidden-line removal.
+//!
+//! The pipeline is one function, [`render::render`]: a [`scene::Scene`] is flattened to one
+//! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
+//! [`viewmap::ViewMap`] decides what is visible; [`chain`] links the pieces to long chains;
+//! [`stroke`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
+//! [`export`] writes as SVG or PNG.
+//!
+//! # Decisions not taken
+//!
+//! - No trait for stages: a stage is a function `(&inputs, &options) -> output`; there is one of each.
+//! - No plug-ins: styles are data (see [`style`]).
+//! - No generic scalar: geometry is `f64` throughout, `f32` only where it may propose, never decide.
+//! - No scene graph: instances are flattened to one mesh that remembers part and material.
+//! - No half-edge pointers: ids into arrays.
+//! - No dynamic dispatch: closed sets are enums.
+//! - No async.
+#![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::unwrap_used)]
+
+pub mod chain;
+pub mod cli;
+pub mod drawing;
+pub mod error;
+pub mod export;
+pub mod lines;
+pub mod math;
+pub mod mesh;
+pub mod raster;
+pub mod render;
+pub mod scene;
+pub mod stroke;
+pub mod style;
+pub mod view;
+pub mod viewmap;
+
+pub use error::Error;

@@ -1,0 +1,75 @@
+//! [`LineKind`]: the classes of feature lines, in order of strength.
+
+use serde::{Deserialize, Serialize};
+
+/// What a feature line is. Earlier kinds are stronger: where two lines coincide, the stronger
+/// one is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LineKind {
+    /// The surface turns from facing to averted.
+    Contour,
+    /// An edge with one face.
+    Border,
+    /// An edge whose faces turn by more than an angle.
+    Crease,
+    /// An edge between two materials.
+    Material,
+    /// Two surfaces pass through each other.
+    Intersection,
+    /// A contour that would appear from a nearby eye.
+    Suggestive,
+    /// Where the larger curvature has a maximum along its direction.
+    Ridge,
+    /// Where the smaller curvature has a minimum along its direction.
+    Valley,
+    /// A tone border.
+    Isophote,
+    /// Painted colours change.
+    Artist,
+    /// Found in the image, not on the surface.
+    Image,
+    /// A line of the model that belongs to no face.
+    Wire,
+    /// Trails of moving vertices.
+    Motion,
+}
+
+impl LineKind {
+    /// All kinds, strongest first.
+    pub const ALL: [Self; 13] = [
+        Self::Contour,
+        Self::Border,
+        Self::Crease,
+        Self::Material,
+        Self::Intersection,
+        Self::Suggestive,
+        Self::Ridge,
+        Self::Valley,
+        Self::Isophote,
+        Self::Artist,
+        Self::Image,
+        Self::Wire,
+        Self::Motion,
+    ];
+
+    /// The class name in SVG and style sheets.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Contour => "contour",
+            Self::Border => "border",
+            Self::Crease => "crease",
+            Self::Material => "material",
+            Self::Intersection => "intersection",
+            Self::Suggestive => "suggestive",
+            Self::Ridge => "ridge",
+            Self::Valley => "valley",
+            Self::Isophote => "isophote",
+            Self::Artist => "artist",
+            Self::Image => "image",
+            Self::Wire => "wire",
+            Self::Motion => "motion",
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Transcendental functions whose last bit is the same on every machine.
+//!
+//! The standard library's `sin` and friends call the platform's C library, whose results differ
+//! between machines; these go through the portable `libm` instead, and `clippy.toml` forbids the
+//! others. Square roots are exact everywhere and need no twin.
+
+/// Sine of an angle in radians.
+#[must_use]
+pub fn sin(radians: f64) -> f64 {
+    libm::sin(radians)
+}
+
+/// Cosine of an angle in radians.
+#[must_use]
+pub fn cos(radians: f64) -> f64 {
+    libm::cos(radians)
+}
+
+/// Tangent of an angle in radians.
+#[must_use]
+pub fn tan(radians: f64) -> f64 {
+    libm::tan(radians)
+}
+
+/// Angle of the vector (x, y) from the x axis, in radians, −π to π.
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+/// Angle in radians, 0 to π, whose cosine is `x` (clamped to −1..=1).
+#[must_use]
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x.clamp(-1.0, 1.0))
+}
+
+/// `base` to the power `exponent`.
+#[must_use]
+pub fn pow(base: f64, exponent: f64) -> f64 {
+    libm::pow(base, exponent)
+}

@@ -1,0 +1,5 @@
+//! Numbers without meaning: tolerances, colours, intervals, deterministic functions.
+
+pub mod colour;
+pub mod function;
+pub mod tolerance;

@@ -1,0 +1,32 @@
+//! Every epsilon of the crate, each tied to the length (or angle) it is a fraction of.
+//!
+//! `model` means the diagonal of the model's bounding box, so that a gear of 3 mm and a cathedral
+//! are judged alike.
+
+/// Vertices nearer than this fraction of the model are one vertex, where they lie on open edges.
+pub const WELD_OF_MODEL: f64 = 1e-8;
+
+/// Single-precision files additionally weld within this fraction of their largest coordinate:
+/// one and a half units in the last place of an `f32`.
+pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
+
+/// A triangle lower than this fraction of the model is degenerate: it hides nothing and has no
+/// normal worth asking.
+pub const DEGENERATE_HEIGHT_OF_MODEL: f64 = 1e-12;
+
+/// A face whose normal is within this cosine of a right angle to the line of sight is seen
+/// edge-on, and counts as averted.
+pub const EDGE_ON_COSINE: f64 = 1e-10;
+
+/// A surface this near in depth (fraction of the model) touches a line rather than hiding it.
+pub const CONTACT_OF_MODEL: f64 = 5e-7;
+
+/// A point this near to the projected border of a triangle (px) counts as inside, so that a line
+/// exactly behind an edge is hidden by the faces of that edge.
+pub const COVER_PX: f64 = 1e-7;
+
+/// Hidden or visible pieces shorter than this (px) are rounding, not geometry.
+pub const PIECE_PX: f64 = 1e-6;
+
+/// The near plane of a perspective view lies at this fraction of the farthest depth of the model.
+pub const NEAR_OF_FARTHEST: f64 = 1e-5;

@@ -1,0 +1,47 @@
+//! Typed ids, so that mixing a vertex and an edge does not compile.
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+        #[repr(transparent)]
+        pub struct $name(pub u32);
+
+        impl $name {
+            /// The id as an index into the arrays of its kind.
+            #[inline]
+            #[must_use]
+            pub const fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+
+        impl From<usize> for $name {
+            #[inline]
+            fn from(index: usize) -> Self {
+                Self(index as u32)
+            }
+        }
+    };
+}
+
+id!(
+    /// A vertex of the mesh.
+    VertexId
+);
+id!(
+    /// A triangle of the mesh.
+    FaceId
+);
+id!(
+    /// An edge of the mesh, shared by the faces that meet there.
+    EdgeId
+);
+id!(
+    /// A part of the scene: a glTF node, an OBJ object or group.
+    PartId
+);
+id!(
+    /// A material of the scene.
+    MaterialId
+);

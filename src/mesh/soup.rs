@@ -1,0 +1,61 @@
+//! [`Soup`]: the triangles of a flattened scene, before welding.
+
+use glam::DVec3;
+
+use super::{MaterialId, PartId};
+
+/// What a file says about one side of a triangle (EXT_mesh_primitive_edge_visibility).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(u8)]
+pub enum EdgeMark {
+    /// Nothing: the dihedral angle decides.
+    #[default]
+    Unmarked = 0,
+    /// Never a crease.
+    Hidden = 1,
+    /// A line only where it is a contour.
+    Contour = 2,
+    /// Always a crease.
+    Hard = 3,
+}
+
+/// A line of the model that belongs to no face: OBJ `l`, glTF line primitives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wire {
+    /// Its two vertices.
+    pub vertices: [u32; 2],
+    /// The part it belongs to.
+    pub part: PartId,
+    /// Its material.
+    pub material: MaterialId,
+}
+
+/// All triangles and wires of a scene in world space, as the files have them.
+///
+/// Arrays "per triangle" are as long as `triangles`, or empty where nothing is known.
+#[derive(Debug, Clone, Default)]
+pub struct Soup {
+    /// World positions, finite.
+    pub positions: Vec<DVec3>,
+    /// Vertices of each triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Part of each triangle.
+    pub triangle_part: Vec<PartId>,
+    /// Material of each triangle.
+    pub triangle_material: Vec<MaterialId>,
+    /// Unit normals in world space, to which `corner_normals` points.
+    pub normals: Vec<[f32; 3]>,
+    /// For each triangle the normals of its corners (`u32::MAX` = none), or empty.
+    pub corner_normals: Vec<[u32; 3]>,
+    /// Texture coordinates, to which `corner_uvs` points.
+    pub uvs: Vec<[f32; 2]>,
+    /// For each triangle the texture coordinates of its corners (`u32::MAX` = none), or empty.
+    pub corner_uvs: Vec<[u32; 3]>,
+    /// For each triangle the marks of its sides 0-1, 1-2, 2-0, or empty.
+    pub edge_marks: Vec<[EdgeMark; 3]>,
+    /// Lines without faces.
+    pub wires: Vec<Wire>,
+    /// Whether the file stored single-precision positions, so that corners that belong together
+    /// may differ in the last bits of an `f32`.
+    pub single_precision: bool,
+}

@@ -1,0 +1,1 @@
+//! Buffers of a view: they propose, exact geometry decides.

@@ -1,0 +1,1 @@
+//! Flattening: all instances of a scene into one [`Soup`] in world space.

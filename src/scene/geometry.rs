@@ -1,0 +1,49 @@
+//! Shapes and the parts that show them.
+
+use glam::{DAffine3, DVec3};
+
+use crate::mesh::EdgeMark;
+
+/// A shape: triangles and wires in its own space.
+///
+/// Arrays "per triangle" are as long as `triangles`, or empty where the file says nothing.
+#[derive(Debug, Clone, Default)]
+pub struct Geometry {
+    /// Vertex positions, finite.
+    pub positions: Vec<DVec3>,
+    /// Vertices of each triangle, counter-clockwise seen from outside; each below
+    /// `positions.len()`. Polygons are already triangulated.
+    pub triangles: Vec<[u32; 3]>,
+    /// Material of each triangle, an index into [`super::Scene::materials`]; empty: `material`.
+    pub triangle_material: Vec<u32>,
+    /// Material of all triangles if `triangle_material` is empty, and of the wires.
+    pub material: Option<u32>,
+    /// Normals of the file, to which `corner_normals` points; not necessarily of unit length.
+    pub normals: Vec<[f32; 3]>,
+    /// For each triangle the normals of its corners (`u32::MAX` = none), or empty.
+    pub corner_normals: Vec<[u32; 3]>,
+    /// Texture coordinates, to which `corner_uvs` points.
+    pub uvs: Vec<[f32; 2]>,
+    /// For each triangle the texture coordinates of its corners (`u32::MAX` = none), or empty.
+    pub corner_uvs: Vec<[u32; 3]>,
+    /// Linear RGBA of each vertex, or empty.
+    pub colours: Vec<[f32; 4]>,
+    /// For each triangle the marks of its sides 0-1, 1-2, 2-0, or empty.
+    pub edge_marks: Vec<[EdgeMark; 3]>,
+    /// Line segments that belong to no face.
+    pub wires: Vec<[u32; 2]>,
+    /// Whether the positions were stored in single precision.
+    pub single_precision: bool,
+}
+
+/// One instance of a geometry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Name of the glTF node, OBJ object or group; unnamed parts get the name of the mesh or
+    /// `part N`. Not necessarily unique.
+    pub name: String,
+    /// Index into [`super::Scene::geometries`].
+    pub geometry: usize,
+    /// Places the geometry in the world. A negative determinant turns the winding round.
+    pub world_from_part: DAffine3,
+}

@@ -1,0 +1,1 @@
+//! Strokes: chains with their ink.

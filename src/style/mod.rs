@@ -1,0 +1,1 @@
+//! [`Style`]: style sheets in TOML, the options of every stage.

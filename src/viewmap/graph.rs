@@ -1,0 +1,84 @@
+//! The nodes and pieces of the view map.
+
+use kurbo::Point;
+
+use crate::lines::LineKind;
+use crate::mesh::{MaterialId, PartId};
+
+/// A node of the view map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ViewVertexId(pub u32);
+
+impl ViewVertexId {
+    /// The id as an index into [`ViewMap::vertices`].
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Why a view edge ends where it does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ViewVertexKind {
+    /// The image of a vertex of the mesh (or of a wire, or of an intersection curve).
+    Vertex,
+    /// The line passes under (or out from under) a nearer surface here: a T-junction.
+    TJunction,
+    /// The line pierces a surface, or two lines on the surface cross.
+    Piercing,
+    /// Something behind the line begins or ends here; visibility does not change.
+    Backdrop,
+    /// The frame or the near plane cuts the line.
+    Frame,
+}
+
+/// A node: a point of the image, in user units (px or mm), x right, y down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViewVertex {
+    /// Where it is in the image.
+    pub position: Point,
+    /// Distance from the eye along the optical axis, world units.
+    pub depth: f64,
+    /// Why there is a node here.
+    pub kind: ViewVertexKind,
+}
+
+/// A straight piece of a feature line between two nodes, of one invisibility throughout.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViewEdge {
+    /// Where it starts.
+    pub start: ViewVertexId,
+    /// Where it ends.
+    pub end: ViewVertexId,
+    /// What line it is.
+    pub kind: LineKind,
+    /// Number of surface layers between it and the eye; 0 = visible.
+    pub invisibility: u16,
+    /// A contour with nothing but background behind it.
+    pub silhouette: bool,
+    /// Whether both surfaces that meet in the line face the eye (thin by the thick-and-thin rule).
+    pub both_seen: bool,
+    /// Whether the line lies on a smooth surface, so that the corners of the mesh along it are
+    /// artefacts of tessellation: contours of rounded surfaces.
+    pub smooth: bool,
+    /// How pronounced the line is: for a crease its dihedral angle in degrees (0 to 180),
+    /// for other kinds 180.
+    pub strength: f32,
+    /// The part the line belongs to (of its nearer surface).
+    pub part: PartId,
+    /// The material beside it (of its nearer surface).
+    pub material: MaterialId,
+    /// Feature line segment it was cut from: pieces of one segment share it.
+    pub segment: u32,
+}
+
+/// The planar graph of all feature lines in the image.
+///
+/// Edges meet because they share a vertex id, never because two positions are near.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ViewMap {
+    /// Nodes.
+    pub vertices: Vec<ViewVertex>,
+    /// Pieces, in the order of the feature segments they were cut from.
+    pub edges: Vec<ViewEdge>,
+}
