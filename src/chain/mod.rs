@@ -1,5 +1,9 @@
 //! [`Chain`]: view edges joined end to end, tidied, smoothed and fitted with curves.
 
+pub mod options;
+
+pub use options::ChainOptions;
+
 use kurbo::{BezPath, Point};
 
 use crate::lines::LineKind;

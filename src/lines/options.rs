@@ -1,0 +1,50 @@
+//! Which feature lines are sought and drawn: the `[lines]` table of a style sheet.
+
+use serde::{Deserialize, Serialize};
+
+use super::LineKind;
+
+/// What becomes of lines behind surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HiddenLines {
+    /// Left out.
+    #[default]
+    None,
+    /// Drawn with the dashes of their pen.
+    Dashed,
+    /// Drawn without dashes.
+    Solid,
+}
+
+/// Which feature lines are sought and drawn.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LineOptions {
+    /// Draw lines at all. Default: true.
+    pub enabled: bool,
+    /// Kinds that are drawn. Default: contour, border, crease, material, intersection, wire.
+    pub kinds: Vec<LineKind>,
+    /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
+    pub crease_deg: f64,
+    /// What becomes of lines behind surfaces. Default: none.
+    pub hidden: HiddenLines,
+}
+
+impl Default for LineOptions {
+    fn default() -> Self {
+        Self {
+            enabled: true,
+            kinds: vec![
+                LineKind::Contour,
+                LineKind::Border,
+                LineKind::Crease,
+                LineKind::Material,
+                LineKind::Intersection,
+                LineKind::Wire,
+            ],
+            crease_deg: 40.0,
+            hidden: HiddenLines::None,
+        }
+    }
+}
