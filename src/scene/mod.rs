@@ -1,10 +1,13 @@
 //! [`Scene`]: what a model file holds, whatever its format.
 
 pub mod camera;
+pub mod camera_record;
 pub mod flatten;
+pub mod framing;
 pub mod geometry;
 pub mod light;
 pub mod material;
+pub mod views;
 pub mod warnings;
 
 use std::path::{Path, PathBuf};
@@ -13,6 +16,7 @@ pub use camera::{Camera, Projection};
 pub use geometry::{Geometry, Part};
 pub use light::{Light, LightKind};
 pub use material::Material;
+pub use views::NamedView;
 pub use warnings::Warnings;
 
 use crate::error::Error;
