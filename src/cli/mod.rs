@@ -1,6 +1,108 @@
 //! The command line: what was typed, what is meant, one file a command.
 
-/// Runs the program.
-pub fn main() -> std::process::ExitCode {
-    std::process::ExitCode::from(2)
+mod completions;
+mod draw;
+mod draw_args;
+mod info;
+mod number;
+mod output;
+mod paper;
+mod pipeline;
+mod progress;
+mod request;
+mod styles;
+mod viewpoint;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::Error;
+
+/// Exit status where the call or an input file is wrong.
+const WRONG: u8 = 2;
+
+/// What was typed.
+#[derive(Debug, Parser)]
+#[command(
+    name = "ligne",
+    version,
+    about = "Turns a 3D model into a vector line drawing",
+    arg_required_else_help = true,
+    after_help = "Example:\n  ligne draw bunny.obj bunny.svg"
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Draw a model
+    Draw(Box<draw_args::DrawArgs>),
+    /// Say what is in a model file, and what is wrong with it
+    Info(info::InfoArgs),
+    /// List the built-in styles, or show one
+    Styles(styles::StylesArgs),
+    /// Write a completion script for a shell
+    Completions(completions::CompletionsArgs),
+}
+
+/// Runs the program with the arguments of the process.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Nobody is left to tell where this fails.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
+        }
+    };
+    let done = match cli.command {
+        Command::Draw(args) => request::DrawRequest::new(*args).and_then(|request| draw::run(&request)),
+        Command::Info(args) => info::run(&args),
+        Command::Styles(args) => styles::run(&args),
+        Command::Completions(args) => completions::run(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            say(&format!("error: {error}"));
+            ExitCode::from(WRONG)
+        }
+    }
+}
+
+/// A line on standard error; one that nobody reads is no error.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// Writes to standard output; a reader that has seen enough and closed the pipe is no error.
+fn print(bytes: &[u8]) -> Result<(), Error> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::new(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_commands_are_sound_and_show_an_example() {
+        let mut command = super::Cli::command();
+        command.build();
+        command.clone().debug_assert();
+        for subcommand in command.get_subcommands_mut().filter(|c| c.get_name() != "help") {
+            let help = subcommand.render_long_help().to_string();
+            assert!(help.contains("Example"), "{help}");
+        }
+    }
 }

@@ -1,0 +1,299 @@
+//! `ligne info`: what is in a model file, and what is wrong with it.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::number::{counted, plain};
+use super::{pipeline, print};
+use crate::error::Error;
+use crate::math::colour::Colour;
+use crate::scene::framing::{bounds, world_points};
+use crate::scene::{LightKind, Projection, Scene, UpAxis};
+
+/// Entries of a list that are shown to people; programs get all.
+const SHOWN: usize = 20;
+
+/// What was typed.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  ligne info bunny.obj
+  ligne info drive.glb --json | jq '.parts[].name'")]
+pub(super) struct InfoArgs {
+    /// The model: .obj, .gltf, .glb, .stl or .ply
+    model: PathBuf,
+
+    /// Write JSON, for programs
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is in a model file.
+#[derive(Debug, Serialize)]
+struct Info {
+    file: String,
+    format: &'static str,
+    up: &'static str,
+    triangles: u64,
+    /// As stored, those that are drawn; instances counted each.
+    vertices: u64,
+    parts: Vec<PartInfo>,
+    materials: Vec<MaterialInfo>,
+    lights: Vec<LightInfo>,
+    cameras: Vec<CameraInfo>,
+    animations: Vec<String>,
+    bounds: Option<BoundsInfo>,
+    warnings: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct PartInfo {
+    name: String,
+    triangles: u64,
+    wires: u64,
+}
+
+#[derive(Debug, Serialize)]
+struct MaterialInfo {
+    name: String,
+    colour: Colour,
+    texture: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct LightInfo {
+    name: String,
+    kind: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct CameraInfo {
+    name: String,
+    r#type: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct BoundsInfo {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+/// Reads the model and says what is in it.
+pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
+    let scene = Scene::open(&args.model)?;
+    let info = Info::of(&scene, args.model.display().to_string());
+    if args.json {
+        let json = serde_json::to_string_pretty(&info).unwrap_or_default();
+        print(format!("{json}\n").as_bytes())
+    } else {
+        print(info.text().as_bytes())
+    }
+}
+
+impl Info {
+    fn of(scene: &Scene, file: String) -> Self {
+        let points = world_points(scene);
+        let parts: Vec<PartInfo> = scene
+            .parts
+            .iter()
+            .map(|part| {
+                let geometry = scene.geometries.get(part.geometry);
+                PartInfo {
+                    name: part.name.clone(),
+                    triangles: geometry.map_or(0, |geometry| geometry.triangles.len() as u64),
+                    wires: geometry.map_or(0, |geometry| geometry.wires.len() as u64),
+                }
+            })
+            .collect();
+        let mut warnings = scene.warnings.clone();
+        warnings.extend(&pipeline::mesh_warnings(scene));
+        Self {
+            file,
+            format: scene.format,
+            up: match scene.up {
+                UpAxis::Y => "y",
+                UpAxis::Z => "z",
+            },
+            triangles: parts.iter().map(|part| part.triangles).sum(),
+            vertices: points.len() as u64,
+            parts,
+            materials: scene.materials.iter().map(MaterialInfo::of).collect(),
+            lights: scene
+                .lights
+                .iter()
+                .map(|light| LightInfo { name: light.name.clone(), kind: light_kind(light.kind) })
+                .collect(),
+            cameras: scene
+                .cameras
+                .iter()
+                .map(|named| CameraInfo {
+                    name: named.name.clone(),
+                    r#type: match named.camera.projection {
+                        Projection::Perspective { .. } => "perspective",
+                        Projection::Orthographic { .. } => "orthographic",
+                    },
+                })
+                .collect(),
+            animations: scene.animations.clone(),
+            bounds: bounds(&points).map(|(min, max)| BoundsInfo { min: min.to_array(), max: max.to_array() }),
+            warnings: warnings.lines(),
+        }
+    }
+
+    /// The same for people.
+    fn text(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);
+        let _ = writeln!(text, "  {}, {}", counted(self.triangles, "triangle"), vertices(self.vertices));
+        if let Some(BoundsInfo { min, max }) = &self.bounds {
+            let size: Vec<String> = min.iter().zip(max).map(|(low, high)| short(high - low)).collect();
+            let corner = |corner: &[f64; 3]| corner.map(short).join(", ");
+            let _ = writeln!(text, "  {}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
+        }
+        list(&mut text, "part", self.parts.iter().map(PartInfo::line));
+        list(&mut text, "material", self.materials.iter().map(MaterialInfo::line));
+        list(&mut text, "light", self.lights.iter().map(|light| aside(&light.name, light.kind)));
+        list(&mut text, "camera", self.cameras.iter().map(|camera| aside(&camera.name, camera.r#type)));
+        list(&mut text, "animation", self.animations.iter().map(|name| named(name).to_owned()));
+        list(&mut text, "warning", self.warnings.iter().cloned());
+        text
+    }
+}
+
+impl PartInfo {
+    fn line(&self) -> String {
+        let lines = if self.wires > 0 { format!(", {}", counted(self.wires, "line")) } else { String::new() };
+        format!("{}: {}{lines}", named(&self.name), counted(self.triangles, "triangle"))
+    }
+}
+
+impl MaterialInfo {
+    fn of(material: &crate::scene::Material) -> Self {
+        Self { name: material.name.clone(), colour: material.colour, texture: material.texture.clone() }
+    }
+
+    fn line(&self) -> String {
+        let texture = self.texture.as_ref().map_or(String::new(), |file| format!(", texture {file}"));
+        format!("{}: {}{texture}", named(&self.name), String::from(self.colour))
+    }
+}
+
+fn light_kind(kind: LightKind) -> &'static str {
+    match kind {
+        LightKind::Directional { .. } => "directional",
+        LightKind::Point { .. } => "point",
+        LightKind::Spot { .. } => "spot",
+    }
+}
+
+fn vertices(n: u64) -> String {
+    counted(n, "vertex").replace("vertexs", "vertices")
+}
+
+fn aside(name: &str, kind: &str) -> String {
+    format!("{}: {kind}", named(name))
+}
+
+fn named(name: &str) -> &str {
+    if name.is_empty() { "(no name)" } else { name }
+}
+
+/// A coordinate with six digits that count.
+fn short(value: f64) -> String {
+    let large = value.abs() >= 1e9 || (value != 0.0 && value.abs() < 1e-4);
+    if large {
+        return format!("{value:.5e}");
+    }
+    let before_point = if value.abs() < 1.0 { 0 } else { value.abs() as u64 }.to_string().len();
+    plain(value, 7_usize.saturating_sub(before_point).min(6))
+}
+
+/// A heading with the count, and the entries below it; nothing for an empty list.
+fn list(text: &mut String, noun: &str, entries: impl ExactSizeIterator<Item = String>) {
+    let n = entries.len();
+    if n == 0 {
+        return;
+    }
+    let _ = writeln!(text, "  {}:", counted(n as u64, noun));
+    for entry in entries.take(SHOWN) {
+        // A name may hold line ends or the codes of a terminal.
+        let _ = writeln!(text, "    {}", entry.replace(char::is_control, " "));
+    }
+    if n > SHOWN {
+        let _ = writeln!(text, "    and {} more (--json lists all)", n - SHOWN);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DAffine3, DVec3};
+
+    use super::*;
+    use crate::scene::{Geometry, Material, Part};
+
+    fn scene(parts: usize) -> Scene {
+        let geometry = Geometry {
+            positions: vec![DVec3::ZERO, DVec3::X * 12.5, DVec3::Y],
+            triangles: vec![[0, 1, 2]],
+            wires: vec![[0, 1]],
+            ..Geometry::default()
+        };
+        let part = |n: usize| Part {
+            name: format!("bolt\u{1b}{n}"),
+            geometry: 0,
+            world_from_part: DAffine3::from_translation(DVec3::Z * n as f64),
+        };
+        let mut scene = Scene {
+            format: "OBJ",
+            geometries: vec![geometry],
+            parts: (0..parts).map(part).collect(),
+            materials: vec![Material::default()],
+            animations: vec!["Walk".to_owned()],
+            ..Scene::default()
+        };
+        scene.warnings.count("doubled faces", 3);
+        scene
+    }
+
+    #[test]
+    fn people_read_lists_of_a_bearable_length() {
+        let text = Info::of(&scene(22), "m.obj".to_owned()).text();
+        let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
+                     22 parts:\n    bolt 0: 1 triangle, 1 line\n";
+        assert!(text.starts_with(start), "{text}");
+        assert!(text.contains("    and 2 more (--json lists all)\n  1 material:\n    (no name): #cccccc\n"));
+        assert!(
+            text.contains("  1 animation:\n    Walk\n") && text.contains("    3 doubled faces\n"),
+            "{text}"
+        );
+        assert!(!text.contains("camera") && !text.contains("light"));
+    }
+
+    #[test]
+    fn programs_read_everything() -> Result<(), serde_json::Error> {
+        let json = serde_json::to_string(&Info::of(&scene(22), "m.obj".to_owned()))?;
+        let value: serde_json::Value = serde_json::from_str(&json)?;
+        assert_eq!(value["parts"].as_array().map(Vec::len), Some(22));
+        assert_eq!(value["parts"][3]["name"], "bolt\u{1b}3");
+        assert_eq!(value["bounds"]["max"], serde_json::json!([12.5, 1.0, 21.0]));
+        assert_eq!(value["warnings"][0], "3 doubled faces");
+        Ok(())
+    }
+
+    #[test]
+    fn an_empty_model_has_no_bounds() {
+        assert!(
+            Info::of(&scene(0), "m.obj".to_owned()).text().starts_with("m.obj: OBJ, y up\n  0 triangles")
+        );
+    }
+
+    #[test]
+    fn coordinates_are_short() {
+        let numbers = [0.0, -1.5, 4_600_000.123, 1e-7, 3e9, 77.990_000_1, 0.25];
+        let texts = ["0", "-1.5", "4600000", "1.00000e-7", "3.00000e9", "77.99", "0.25"];
+        assert_eq!(numbers.map(short), texts);
+    }
+}

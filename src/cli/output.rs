@@ -1,0 +1,233 @@
+//! Outputs: files are written beside their place and renamed at the end, all or none.
+
+use std::fs;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+
+/// What is written, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    Svg,
+    Png,
+    SvgToStdout,
+}
+
+/// One output of a drawing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Output {
+    /// The path as it was typed.
+    pub(super) path: PathBuf,
+    pub(super) format: Format,
+}
+
+impl Output {
+    /// Tells the format by the ending.
+    pub(super) fn new(path: PathBuf) -> Result<Self, Error> {
+        if path.as_os_str() == "-" {
+            return Ok(Self { path, format: Format::SvgToStdout });
+        }
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let format = match ending.as_deref() {
+            Some("svg") => Format::Svg,
+            Some("png") => Format::Png,
+            Some(other) => {
+                return Err(Error::new(format!("drawings are not written as .{other}"))
+                    .in_file(path)
+                    .remedy("end the name with .svg or .png, or write - for SVG on standard output"));
+            }
+            None => {
+                return Err(Error::new("the name of the drawing does not tell its format")
+                    .in_file(path)
+                    .remedy("end it with .svg or .png, or write - for SVG on standard output"));
+            }
+        };
+        Ok(Self { path, format })
+    }
+
+    /// The name in messages.
+    pub(super) fn name(&self) -> String {
+        match self.format {
+            Format::SvgToStdout => "standard output".to_owned(),
+            Format::Svg | Format::Png => self.path.display().to_string(),
+        }
+    }
+}
+
+/// Refuses a place that nothing can be written to, before any work is done.
+pub(super) fn check_place(path: &Path) -> Result<(), Error> {
+    if path.is_dir() {
+        return Err(Error::new("this is a folder").in_file(path).remedy("name a file in it"));
+    }
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+            Err(Error::new(format!("there is no folder {}", folder.display()))
+                .in_file(path)
+                .remedy("create the folder first"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Files written beside their places, not yet in them. What is not committed is removed again.
+#[derive(Debug, Default)]
+pub(super) struct Staging {
+    files: Vec<Staged>,
+}
+
+#[derive(Debug)]
+struct Staged {
+    /// The path as it was typed, for messages.
+    typed: PathBuf,
+    /// The file that is replaced in the end; symbolic links followed.
+    place: PathBuf,
+    /// What is written: beside the place; or the place itself if that is a device or a pipe, which
+    /// has nothing to lose.
+    written: PathBuf,
+}
+
+impl Staging {
+    /// Writes a file beside its place.
+    pub(super) fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
+        check_place(path)?;
+        let place = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        let existing = fs::metadata(&place).ok();
+        if let Some(existing) = &existing {
+            if existing.permissions().readonly() {
+                return Err(Error::new("the file may not be changed")
+                    .in_file(path)
+                    .remedy("make it writable, or give the output another name"));
+            }
+            if !existing.is_file() {
+                let file = fs::OpenOptions::new().write(true).open(&place);
+                return file.and_then(|mut file| file.write_all(bytes)).map_err(|e| cannot_write(path, &e));
+            }
+        }
+        let (written, mut file) = create_beside(&place).map_err(|error| cannot_write(path, &error))?;
+        // Listed before it is filled, so that a full disc leaves nothing behind.
+        self.files.push(Staged { typed: path.to_path_buf(), place, written: written.clone() });
+        file.write_all(bytes).map_err(|error| cannot_write(path, &error))?;
+        if let Some(existing) = existing {
+            fs::set_permissions(&written, existing.permissions()).map_err(|e| cannot_write(path, &e))?;
+        }
+        Ok(())
+    }
+
+    /// Puts all files in their places.
+    pub(super) fn commit(mut self) -> Result<(), Error> {
+        while let Some(file) = self.files.first() {
+            fs::rename(&file.written, &file.place).map_err(|error| cannot_write(&file.typed, &error))?;
+            self.files.remove(0);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        for file in &self.files {
+            // Nothing more can be done about a file that cannot be removed.
+            let _ = fs::remove_file(&file.written);
+        }
+    }
+}
+
+/// A new file in the folder of `place`, under a name that nothing has.
+fn create_beside(place: &Path) -> std::io::Result<(PathBuf, fs::File)> {
+    let name = place.file_name().unwrap_or(place.as_os_str()).to_string_lossy();
+    for attempt in 0_u32.. {
+        let beside = place.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
+        match fs::File::create_new(&beside) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists && attempt < 100 => {}
+            created => return created.map(|file| (beside, file)),
+        }
+    }
+    Err(ErrorKind::AlreadyExists.into())
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
+    let remedy = match error.kind() {
+        ErrorKind::NotFound => "create the folder first",
+        ErrorKind::PermissionDenied => "write to a folder of your own",
+        ErrorKind::StorageFull => "free some space",
+        _ => "check the path",
+    };
+    Error::new(format!("cannot write: {error}")).in_file(path).remedy(remedy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An empty folder of this test's own.
+    fn folder(name: &str) -> std::io::Result<PathBuf> {
+        let folder = std::env::temp_dir().join(format!("ligne-output-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder)?;
+        Ok(folder)
+    }
+
+    fn names(folder: &Path) -> std::io::Result<Vec<String>> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            names.push(entry?.file_name().to_string_lossy().into_owned());
+        }
+        names.sort();
+        Ok(names)
+    }
+
+    #[test]
+    fn nothing_changes_before_the_commit() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = folder("commit")?;
+        let (old, new) = (folder.join("old.svg"), folder.join("new.svg"));
+        fs::write(&old, "before")?;
+        let mut staging = Staging::default();
+        staging.add(&old, b"after")?;
+        staging.add(&new, b"new")?;
+        assert_eq!((fs::read(&old)?.as_slice(), new.exists()), (b"before".as_slice(), false));
+        staging.commit()?;
+        assert_eq!((fs::read(&old)?, fs::read(&new)?), (b"after".to_vec(), b"new".to_vec()));
+        assert_eq!(names(&folder)?, ["new.svg", "old.svg"]);
+        fs::remove_dir_all(folder)?;
+        Ok(())
+    }
+
+    #[test]
+    fn a_failure_leaves_everything_as_it_was() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = folder("failure")?;
+        let old = folder.join("old.svg");
+        fs::write(&old, "before")?;
+        let mut staging = Staging::default();
+        staging.add(&old, b"after")?;
+        let error = staging.add(&folder.join("no/such/folder.svg"), b"x").expect_err("no such folder");
+        assert!(error.to_string().ends_with("create the folder first"), "{error}");
+        assert!(staging.add(&folder, b"x").is_err());
+        drop(staging);
+        assert_eq!(fs::read(&old)?, b"before");
+        assert_eq!(names(&folder)?, ["old.svg"]);
+        fs::remove_dir_all(folder)?;
+        Ok(())
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_permissions_stay() -> Result<(), Box<dyn std::error::Error>> {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = folder("links")?;
+        let (real, link) = (folder.join("real.svg"), folder.join("link.svg"));
+        fs::write(&real, "before")?;
+        fs::set_permissions(&real, fs::Permissions::from_mode(0o640))?;
+        symlink(&real, &link)?;
+        let mut staging = Staging::default();
+        staging.add(&link, b"after")?;
+        staging.commit()?;
+        assert!(fs::symlink_metadata(&link)?.is_symlink());
+        assert_eq!(fs::read(&real)?, b"after");
+        assert_eq!(fs::metadata(&real)?.permissions().mode() & 0o777, 0o640);
+        fs::set_permissions(&real, fs::Permissions::from_mode(0o440))?;
+        assert!(Staging::default().add(&link, b"again").is_err());
+        fs::remove_dir_all(folder)?;
+        Ok(())
+    }
+}

@@ -1,0 +1,211 @@
+//! [`DrawRequest`]: what is meant by what was typed, checked before any work is done.
+
+use std::path::{Path, PathBuf};
+
+use super::draw_args::{DrawArgs, GroupBy};
+use super::output::{Format, Output};
+use super::paper::{Extent, Measure};
+use super::viewpoint::{Lens, View};
+use crate::drawing::Unit;
+use crate::error::Error;
+use crate::math::colour::Colour;
+use crate::render::Stage;
+use crate::scene::UpAxis;
+
+/// One drawing to be made, in one or several formats.
+#[derive(Debug)]
+pub(super) struct DrawRequest {
+    pub(super) model: PathBuf,
+    /// At least one; no two to the same place.
+    pub(super) outputs: Vec<Output>,
+    pub(super) report: Option<PathBuf>,
+    pub(super) style: String,
+    pub(super) sets: Vec<String>,
+    /// In place of the style's, which `None` leaves.
+    pub(super) background: Option<Option<Colour>>,
+    pub(super) view: View,
+    pub(super) up: Option<UpAxis>,
+    pub(super) only: Vec<String>,
+    pub(super) hide: Vec<String>,
+    /// Size of the sheet where one was asked for, and its unit.
+    pub(super) extent: Option<(Extent, Unit)>,
+    pub(super) margin: Option<Measure>,
+    pub(super) svg: SvgChoices,
+    pub(super) dpi: Option<f64>,
+    pub(super) stage: Option<Stage>,
+    pub(super) threads: Option<u16>,
+    pub(super) quiet: bool,
+    pub(super) strict: bool,
+}
+
+/// How SVG is written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct SvgChoices {
+    /// Decimals of coordinates; `None` for the exporter's own choice.
+    pub(super) precision: Option<u8>,
+    pub(super) id_prefix: Option<String>,
+    pub(super) group: GroupBy,
+}
+
+impl DrawRequest {
+    /// What is meant by the arguments.
+    ///
+    /// # Errors
+    /// Where an output has no known format, where two outputs are the same file, and where an
+    /// output would overwrite the model.
+    pub(super) fn new(args: DrawArgs) -> Result<Self, Error> {
+        let mut paths: Vec<PathBuf> = args.out.into_iter().chain(args.outputs).collect();
+        if paths.is_empty() {
+            paths.push(beside_here(&args.model));
+        }
+        let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
+        check_apart(&args.model, &outputs, args.report.as_deref())?;
+        let lens = match (args.fov, args.ortho || args.scale.is_some()) {
+            (Some(fov_y_deg), _) => Some(Lens::Perspective { fov_y_deg }),
+            (None, true) => Some(Lens::Orthographic { scale: args.scale }),
+            (None, false) => None,
+        };
+        let view = match (args.camera, args.view) {
+            (Some(camera), _) => View::Recorded(camera),
+            (None, Some(view)) => View::Named(view, lens),
+            (None, None) => View::Angles { azimuth_deg: args.azimuth, elevation_deg: args.elevation, lens },
+        };
+        let page = args.page.map(|page| if args.landscape { page.lying() } else { page });
+        Ok(Self {
+            model: args.model,
+            outputs,
+            report: args.report,
+            style: args.style,
+            sets: args.sets,
+            background: args.background.map(|background| background.0),
+            view,
+            up: args.up,
+            only: args.only,
+            hide: args.hide,
+            extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
+            margin: args.margin,
+            svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
+            dpi: args.dpi,
+            stage: args.stage,
+            threads: args.threads,
+            quiet: args.quiet,
+            strict: args.strict,
+        })
+    }
+}
+
+/// The model's name with `.svg`, in the current folder.
+fn beside_here(model: &Path) -> PathBuf {
+    let mut name = model.file_stem().unwrap_or(model.as_os_str()).to_owned();
+    name.push(".svg");
+    PathBuf::from(name)
+}
+
+/// Refuses files that would be written twice, or over the model.
+fn check_apart(model: &Path, outputs: &[Output], report: Option<&Path>) -> Result<(), Error> {
+    let mut taken: Vec<PathBuf> = Vec::new();
+    let files = outputs.iter().filter(|output| output.format != Format::SvgToStdout);
+    for path in files.map(|output| output.path.as_path()).chain(report) {
+        if same_file(path, model) {
+            return Err(Error::new("the drawing would overwrite the model")
+                .in_file(path)
+                .remedy("give the drawing another name"));
+        }
+        if taken.iter().any(|other| same_file(path, other)) {
+            return Err(Error::new("this output is given twice").in_file(path).remedy("leave one out"));
+        }
+        taken.push(path.to_path_buf());
+    }
+    if outputs.len() - outputs.iter().filter(|output| output.format != Format::SvgToStdout).count() > 1 {
+        return Err(Error::new("standard output is given twice").remedy("leave one `-` out"));
+    }
+    Ok(())
+}
+
+/// Whether two paths lead to one file, as far as that can be told before writing.
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b && a.is_file(),
+        _ => a == b,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Typed {
+        #[command(flatten)]
+        args: DrawArgs,
+    }
+
+    fn request(line: &str) -> Result<DrawRequest, String> {
+        let words = std::iter::once("draw").chain(line.split_whitespace());
+        let typed = Typed::try_parse_from(words).map_err(|error| error.to_string())?;
+        DrawRequest::new(typed.args).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_drawing_is_named_after_the_model() -> Result<(), String> {
+        let request = request("some/folder/bunny.v2.obj")?;
+        let paths: Vec<_> = request.outputs.iter().map(|output| output.path.clone()).collect();
+        assert_eq!(paths, [PathBuf::from("bunny.v2.svg")]);
+        assert_eq!(request.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens: None });
+        assert!(request.extent.is_none() && request.background.is_none());
+        Ok(())
+    }
+
+    #[test]
+    fn options_become_what_is_meant() -> Result<(), String> {
+        let sheet = request("m.stl a.svg -o b.PNG -o - --page a4 --landscape --scale 1:2 --background none")?;
+        let formats: Vec<_> = sheet.outputs.iter().map(|output| output.format).collect();
+        assert_eq!(formats, [Format::Svg, Format::Png, Format::SvgToStdout]);
+        assert_eq!(sheet.extent, Some((Extent { width: 297.0, height: 210.0 }, Unit::Mm)));
+        assert_eq!(sheet.background, Some(None));
+        let lens = Some(Lens::Orthographic { scale: Some(0.5) });
+        assert_eq!(sheet.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens });
+        let turned = request("m.stl --azimuth -35 --elevation -10.5 --fov 20")?;
+        let lens = Some(Lens::Perspective { fov_y_deg: 20.0 });
+        assert_eq!(turned.view, View::Angles { azimuth_deg: Some(-35.0), elevation_deg: Some(-10.5), lens });
+        Ok(())
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        let wrong = [
+            "",
+            "m.stl a.gif",
+            "m.stl a.pdf",
+            "m.stl a",
+            "m.stl a.svg -o a.svg",
+            "m.stl - -o -",
+            "m.stl a.svg --report a.svg",
+            "m.svg m.svg",
+            "m.stl --view iso --azimuth 3",
+            "m.stl --view sideways",
+            "m.stl --fov 30 --ortho",
+            "m.stl --fov 180",
+            "m.stl --elevation 91",
+            "m.stl --azimuth nan",
+            "m.stl --camera c.json --view top",
+            "m.stl --scale 1:2",
+            "m.stl --scale 1:2 --page A4 --fov 30",
+            "m.stl --landscape",
+            "m.stl --size 10x10 --page A4",
+            "m.stl --threads 0",
+            "m.stl --precision 10",
+            "m.stl --set seed",
+            "m.stl --background bluish",
+            "m.stl --id-prefix 9",
+            "m.stl --stage cells",
+            "m.stl --dpi 0",
+            "m.stl --up x",
+        ];
+        for line in wrong {
+            assert!(request(line).is_err(), "{line}");
+        }
+    }
+}

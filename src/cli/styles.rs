@@ -1,0 +1,50 @@
+//! `ligne styles`: the built-in styles, or the text of one.
+
+use clap::Args;
+
+use super::{pipeline, print};
+use crate::error::Error;
+
+/// What was typed.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  ligne styles                        list the styles
+  ligne styles ink > mine.toml        start a style of your own")]
+pub(super) struct StylesArgs {
+    /// The style whose text is shown
+    name: Option<String>,
+}
+
+/// Lists the styles with the idea of each, or shows a sheet.
+pub(super) fn run(args: &StylesArgs) -> Result<(), Error> {
+    let names = pipeline::style_names();
+    let Some(name) = &args.name else {
+        let width = names.iter().map(|name| name.len()).max().unwrap_or(0);
+        let mut list = String::new();
+        for name in names {
+            let idea = pipeline::sheet_text(name).map_or("", idea);
+            list.push_str(format!("{name:width$}  {idea}").trim_end());
+            list.push('\n');
+        }
+        return print(list.as_bytes());
+    };
+    let text = pipeline::sheet_text(name).ok_or_else(|| {
+        Error::new(format!("there is no built-in style `{name}`"))
+            .remedy(format!("the styles are {}", names.join(", ")))
+    })?;
+    print(text.as_bytes())
+}
+
+/// The idea of a sheet: its first comment line.
+fn idea(sheet: &str) -> &str {
+    sheet.lines().find_map(|line| line.trim().strip_prefix('#')).map_or("", str::trim)
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_idea_is_the_first_comment() {
+        assert_eq!(super::idea("\n# Black ink.\n# More.\nseed = 1 # no"), "Black ink.");
+        assert_eq!(super::idea("seed = 1"), "");
+    }
+}

@@ -1,0 +1,137 @@
+//! [`Report`]: what a drawing took and what it holds, as JSON for other programs.
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+/// How long each stage took, in milliseconds; 0 for stages that did not run.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct StagesMs {
+    /// Reading the model file.
+    pub load: f64,
+    /// Welding and finding the edges.
+    pub topology: f64,
+    /// Posing skins and morphs.
+    pub pose: f64,
+    /// Finding feature lines.
+    pub features: f64,
+    /// Deciding what is hidden.
+    pub visibility: f64,
+    /// Linking, tidying, smoothing and fitting chains.
+    pub chains: f64,
+    /// Giving chains their ink.
+    pub strokes: f64,
+    /// Gathering regions.
+    pub regions: f64,
+    /// Filling regions with hatches.
+    pub hatching: f64,
+    /// Writing the drawing in its formats.
+    pub write: f64,
+}
+
+/// How much of everything there was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Counts {
+    /// Triangles of the model, instances counted each.
+    pub triangles: u64,
+    /// Vertices after welding.
+    pub vertices: u64,
+    /// Edges of the mesh.
+    pub edges: u64,
+    /// Pieces of feature lines.
+    pub feature_edges: u64,
+    /// Rays that decided what is hidden.
+    pub ray_tests: u64,
+    /// Chains.
+    pub chains: u64,
+    /// Paths of the drawing.
+    pub paths: u64,
+    /// Points of the drawing's paths, control points counted.
+    pub points: u64,
+    /// Regions.
+    pub regions: u64,
+    /// Bytes of all outputs together, the report left out.
+    pub bytes_out: u64,
+}
+
+/// What a drawing took and what it holds.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Report {
+    /// Milliseconds by stage.
+    pub stages_ms: StagesMs,
+    /// Counts.
+    pub counts: Counts,
+    /// Defects that were drawn around, one line each.
+    pub warnings: Vec<String>,
+}
+
+impl Report {
+    /// The report as JSON, indented, with a line end.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Numbers and strings always serialise.
+        let mut json = serde_json::to_string_pretty(self).unwrap_or_default();
+        json.push('\n');
+        json
+    }
+}
+
+/// Measures stages: the only place that reads a clock, and no drawing depends on it.
+#[derive(Debug, Clone, Copy)]
+pub struct Stopwatch {
+    started: Instant,
+    lap: Instant,
+}
+
+impl Stopwatch {
+    /// A stopwatch that runs from now.
+    #[must_use]
+    pub fn start() -> Self {
+        let now = Instant::now();
+        Self { started: now, lap: now }
+    }
+
+    /// Milliseconds since the last lap (or the start), and the start of the next.
+    pub fn lap_ms(&mut self) -> f64 {
+        let now = Instant::now();
+        let lap = now.duration_since(self.lap);
+        self.lap = now;
+        (lap.as_secs_f64() * 1e6).round() / 1e3
+    }
+
+    /// Seconds since the start.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_has_the_names_other_programs_read() {
+        let report = Report { warnings: vec!["3 \"odd\" faces".to_owned()], ..Report::default() };
+        let json = report.to_json();
+        let names = [
+            "stages_ms load topology pose features visibility chains strokes regions hatching write",
+            "counts triangles vertices edges feature_edges ray_tests chains paths points regions bytes_out",
+            "warnings",
+        ];
+        let mut rest = json.as_str();
+        for name in names.join(" ").split(' ') {
+            let key = format!("\"{name}\": ");
+            let (_, after) = rest.split_once(&key).unwrap_or_else(|| panic!("no {key} in order in {json}"));
+            rest = after;
+        }
+        assert!(rest.contains(r#""3 \"odd\" faces""#));
+    }
+
+    #[test]
+    fn laps_add_up_to_the_whole() {
+        let mut watch = Stopwatch::start();
+        let laps = watch.lap_ms() + watch.lap_ms();
+        assert!(laps >= 0.0 && laps <= watch.seconds() * 1e3 + 0.002);
+    }
+}
