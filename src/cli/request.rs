@@ -60,6 +60,13 @@ impl DrawRequest {
         }
         let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
         check_apart(&args.model, &outputs, args.report.as_deref())?;
+        // clap drops what an option requires where that conflicts with another option given.
+        let alone = [("--scale", args.scale.is_some()), ("--landscape", args.landscape)];
+        if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given && args.page.is_none()) {
+            return Err(Error::new("this needs a page in mm")
+                .at(option)
+                .remedy("give --page, such as --page A4"));
+        }
         let lens = match (args.fov, args.ortho || args.scale.is_some()) {
             (Some(fov_y_deg), _) => Some(Lens::Perspective { fov_y_deg }),
             (None, true) => Some(Lens::Orthographic { scale: args.scale }),
@@ -193,7 +200,9 @@ mod tests {
             "m.stl --camera c.json --view top",
             "m.stl --scale 1:2",
             "m.stl --scale 1:2 --page A4 --fov 30",
+            "m.stl --scale 1:2 --size 9",
             "m.stl --landscape",
+            "m.stl --landscape --size 9",
             "m.stl --size 10x10 --page A4",
             "m.stl --threads 0",
             "m.stl --precision 10",

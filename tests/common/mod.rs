@@ -1,7 +1,7 @@
 //! What the tests of the command line share: running the program in a folder of its own.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output};
 
 /// A cube of side 2 with a second, smaller one on top, each a part of its own.
@@ -31,10 +31,6 @@ impl Folder {
         let folder = Self::new(name);
         folder.write("cubes.obj", CUBES);
         folder
-    }
-
-    pub fn path(&self) -> &Path {
-        &self.0
     }
 
     pub fn write(&self, name: &str, text: &str) {
