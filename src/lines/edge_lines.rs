@@ -107,10 +107,8 @@ impl Finder<'_> {
     }
 
     fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
-        (self.wants(LineKind::Border) && !self.degenerate(face)).then(|| FeatureSegment {
-            both_seen: false,
-            ..self.segment(edge, LineKind::Border, face)
-        })
+        (self.wants(LineKind::Border) && !self.degenerate(face))
+            .then(|| FeatureSegment { both_seen: false, ..self.segment(edge, LineKind::Border, face) })
     }
 
     fn classify_beside_needle(&self, edge: usize, faces: &[u32; 2]) -> Option<FeatureSegment> {
@@ -183,10 +181,8 @@ impl Finder<'_> {
         let turn_round = std::f64::consts::TAU;
         let below = angles.iter().rev().find(|x| **x <= eye).copied();
         let above = angles.iter().find(|x| **x > eye).copied();
-        let (low, high) = (
-            below.unwrap_or(angles[angles.len() - 1] - turn_round),
-            above.unwrap_or(angles[0] + turn_round),
-        );
+        let (low, high) =
+            (below.unwrap_or(angles[angles.len() - 1] - turn_round), above.unwrap_or(angles[0] + turn_round));
         (std::f64::consts::PI - (high - low)).abs().to_degrees() as f32
     }
 

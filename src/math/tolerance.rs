@@ -26,7 +26,20 @@ pub const CONTACT_OF_MODEL: f64 = 5e-7;
 pub const COVER_PX: f64 = 1e-7;
 
 /// Hidden or visible pieces shorter than this (px) are rounding, not geometry.
-pub const PIECE_PX: f64 = 1e-6;
+pub const PIECE_PX: f64 = 1e-4;
 
 /// The near plane of a perspective view lies at this fraction of the farthest depth of the model.
 pub const NEAR_OF_FARTHEST: f64 = 1e-5;
+
+/// How far beside a contour (px) the view asks whether there is only background.
+pub const BESIDE_PX: f64 = 1e-3;
+
+/// A surface that shares a vertex with a line hides it only where it is at least this much nearer
+/// (fraction of the model): below that lies rounding.
+pub const NEIGHBOUR_OF_MODEL: f64 = 1e-10;
+
+/// A triangle lower than this in the image (px) is seen edge-on and covers nothing.
+pub const IMAGE_HEIGHT_PX: f64 = 1e-8;
+
+/// Two lines that run within this distance (px) of each other are drawn once.
+pub const DOUBLE_PX: f64 = 5e-3;

@@ -149,7 +149,14 @@ mod tests {
     fn separate_corners_are_welded_and_nearly_equal_ones_too() {
         let d = 1e-9;
         let mesh = Mesh::build(soup(
-            &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0 + d, 0.0], [1.0, 1.0, 0.0]],
+            &[
+                [0.0; 3],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0 + d, 0.0],
+                [1.0, 1.0, 0.0],
+            ],
             &[[0, 1, 2], [3, 5, 4]],
         ));
         assert_eq!((mesh.cleaning.welded, mesh.cleaning.borders), (2, 4));

@@ -37,7 +37,8 @@ impl Frame {
     #[must_use]
     pub fn new(camera: &Camera, origin: DVec3) -> Self {
         let forward = (camera.target - camera.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
-        let right = forward.cross(camera.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
+        let right =
+            forward.cross(camera.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
         let up = right.cross(forward);
         let (perspective, scale) = match camera.projection {
             Projection::Perspective { fov_y_deg } => {
