@@ -38,7 +38,7 @@ pub(super) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
 /// `None` if all are.
 pub(super) fn first_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
     let mut suspects: Vec<u32> = Vec::new();
-    for &edge in &edges.doubled {
+    for &edge in &edges.suspects {
         match edges.faces(edge as usize) {
             super::EdgeFaces::One(_) => {}
             super::EdgeFaces::Two { faces, .. } => suspects.extend(faces),

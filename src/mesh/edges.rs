@@ -33,15 +33,14 @@ pub struct Edges {
     faces: Vec<[u32; 2]>,
     fans: Vec<u32>,
     fan_starts: Vec<u32>,
-    /// Edges (ids) two of whose faces have the same three vertices.
-    pub(super) doubled: Vec<u32>,
+    /// Edges (ids) near which faces with the same three vertices may be found.
+    pub(super) suspects: Vec<u32>,
 }
 
 /// A side of a triangle as seen from its smaller vertex.
 #[derive(Clone, Copy)]
 struct Side {
     other: u32,
-    opposite: u32,
     /// Face id shifted left by one; bit 0 says whether the face runs from the smaller vertex.
     face_way: u32,
 }
@@ -53,7 +52,7 @@ struct Range {
     faces: Vec<[u32; 2]>,
     fans: Vec<u32>,
     fan_starts: Vec<u32>,
-    doubled: Vec<u32>,
+    suspects: Vec<u32>,
 }
 
 impl Edges {
@@ -73,7 +72,7 @@ impl Edges {
                 faces: r.faces,
                 fans: r.fans,
                 fan_starts: r.fan_starts,
-                doubled: r.doubled,
+                suspects: r.suspects,
             };
         }
         let mut all = Self::default();
@@ -92,7 +91,7 @@ impl Edges {
             all.faces.append(&mut range.faces);
             all.fans.append(&mut range.fans);
             all.fan_starts.extend(range.fan_starts.iter().map(|s| s + entry));
-            all.doubled.extend(range.doubled.iter().map(|e| e + edge));
+            all.suspects.extend(range.suspects.iter().map(|e| e + edge));
         }
         all
     }
@@ -143,43 +142,37 @@ impl Edges {
 fn edges_of_range(triangles: &[[u32; 3]], first: u32, end: u32) -> Range {
     let span = (end - first) as usize;
     let mut starts = vec![0u32; span + 1];
-    for t in triangles {
-        for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
-            let bucket = a.min(b).wrapping_sub(first) as usize;
+    for &[a, b, c] in triangles {
+        for smaller in [a.min(b), b.min(c), c.min(a)] {
+            let bucket = smaller.wrapping_sub(first) as usize;
             if bucket < span {
-                starts[bucket + 1] += 1;
+                starts[bucket] += 1;
             }
         }
     }
-    for i in 0..span {
-        starts[i + 1] += starts[i];
+    let mut total = 0;
+    for start in &mut starts {
+        total += *start;
+        *start = total;
     }
-    let mut fill = starts.clone();
-    let mut sides = vec![Side { other: 0, opposite: 0, face_way: 0 }; starts[span] as usize];
-    for (face, t) in triangles.iter().enumerate() {
-        for (a, b, c) in [(t[0], t[1], t[2]), (t[1], t[2], t[0]), (t[2], t[0], t[1])] {
+    // Filled from behind, `starts` moves from the ends of the buckets to their beginnings.
+    let mut sides = vec![Side { other: 0, face_way: 0 }; total as usize];
+    for (face, &[a, b, c]) in triangles.iter().enumerate().rev() {
+        for (a, b) in [(c, a), (b, c), (a, b)] {
             let bucket = a.min(b).wrapping_sub(first) as usize;
             if bucket < span {
-                let at = fill[bucket] as usize;
-                fill[bucket] += 1;
-                sides[at] =
-                    Side { other: a.max(b), opposite: c, face_way: (face as u32) << 1 | u32::from(a < b) };
+                starts[bucket] -= 1;
+                sides[starts[bucket] as usize] =
+                    Side { other: a.max(b), face_way: (face as u32) << 1 | u32::from(a < b) };
             }
         }
     }
-    drop(fill);
     let mut range = Range::default();
     range.vertices.reserve_exact(sides.len() / 2 + span / 64 + 1);
     range.faces.reserve_exact(sides.len() / 2 + span / 64 + 1);
     for bucket in 0..span {
         let bucket_sides = &mut sides[starts[bucket] as usize..starts[bucket + 1] as usize];
-        sort_by_other(bucket_sides);
-        let mut rest = &bucket_sides[..];
-        while let Some(side) = rest.first() {
-            let count = rest.iter().take_while(|s| s.other == side.other).count();
-            range.push(first + bucket as u32, &rest[..count]);
-            rest = &rest[count..];
-        }
+        range.push_bucket(first + bucket as u32, bucket_sides);
     }
     range
 }
@@ -202,28 +195,42 @@ fn sort_by_other(sides: &mut [Side]) {
 }
 
 impl Range {
-    fn push(&mut self, vertex: u32, sides: &[Side]) {
-        let edge = self.vertices.len() as u32;
-        self.vertices.push([vertex, sides[0].other]);
-        let face = |s: &Side| s.face_way >> 1;
-        match sides {
-            [one] => self.faces.push([face(one), NONE]),
-            [one, two] => {
-                if one.opposite == two.opposite {
-                    self.doubled.push(edge);
-                }
-                let same_way = if (one.face_way ^ two.face_way) & 1 == 0 { SAME_WAY } else { 0 };
-                self.faces.push([face(one), face(two) | same_way]);
+    /// Adds the edges from `vertex` to its larger neighbours.
+    fn push_bucket(&mut self, vertex: u32, sides: &mut [Side]) {
+        sort_by_other(sides);
+        let first_edge = self.vertices.len();
+        let first_fan = self.fan_starts.len();
+        let mut i = 0;
+        while i < sides.len() {
+            let one = sides[i];
+            let mut end = i + 1;
+            while end < sides.len() && sides[end].other == one.other {
+                end += 1;
             }
-            many => {
-                let twin = |i: usize| many[..i].iter().any(|s| s.opposite == many[i].opposite);
-                if (1..many.len()).any(twin) {
-                    self.doubled.push(edge);
+            self.vertices.push([vertex, one.other]);
+            self.faces.push(match end - i {
+                1 => [one.face_way >> 1, NONE],
+                2 => {
+                    let two = sides[i + 1].face_way;
+                    let same_way = if (one.face_way ^ two) & 1 == 0 { SAME_WAY } else { 0 };
+                    [one.face_way >> 1, two >> 1 | same_way]
                 }
-                self.faces.push([MANY, self.fan_starts.len() as u32]);
-                self.fan_starts.push(self.fans.len() as u32);
-                self.fans.extend(many.iter().map(face));
-            }
+                _ => {
+                    self.fan_starts.push(self.fans.len() as u32);
+                    self.fans.extend(sides[i..end].iter().map(|s| s.face_way >> 1));
+                    [MANY, self.fan_starts.len() as u32 - 1]
+                }
+            });
+            i = end;
+        }
+        // Two faces with the same three corners meet at both edges of their smallest one.
+        let fresh = &self.faces[first_edge..];
+        let twins = (1..fresh.len()).any(|k| {
+            let pair = |f: &[u32; 2]| (f[0], f[1] & !SAME_WAY);
+            fresh[k][1] != NONE && fresh[..k].iter().any(|f| pair(f) == pair(&fresh[k]))
+        });
+        if twins || self.fan_starts.len() > first_fan {
+            self.suspects.extend((first_edge..self.faces.len()).map(|e| e as u32));
         }
     }
 }
@@ -248,9 +255,9 @@ mod tests {
         assert_eq!(edges.border_count(), 4);
         let edges = Edges::build(5, &[[0, 1, 2], [1, 0, 3], [0, 1, 4]]);
         assert_eq!(edges.faces(0), EdgeFaces::Many(&[0, 1, 2]));
-        assert!(edges.doubled.is_empty());
+        assert!(edges.suspects.iter().all(|e| *e < 4));
         let edges = Edges::build(5, &[[0, 1, 2], [2, 1, 0]]);
-        assert_eq!(edges.doubled.len(), 3);
+        assert_eq!(edges.suspects, [0, 1]);
     }
 
     #[test]

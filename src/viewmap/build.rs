@@ -2,6 +2,7 @@
 
 use kurbo::Point;
 
+use super::doubles;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::occlude::Limits;
 use super::project::{ImageSegment, project};
@@ -39,7 +40,9 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     for (segment, seen) in segments.iter().zip(&seen) {
         builder.add(segment, seen, limits.piece);
     }
-    builder.map
+    let mut map = builder.map;
+    doubles::remove(&mut map, limits.double, view.frame.width.max(view.frame.height) / 128.0);
+    map
 }
 
 struct Builder<'a> {
