@@ -190,7 +190,7 @@ mod tests {
             assert_eq!(dashes.len() % 2, 0);
             assert!(dashes.len() >= 8, "{text}: {dashes:?}");
             for corner in corners {
-                for near in [corner - 1.0, corner, corner + 1.0] {
+                for near in [corner - 1.0_f64, corner, corner + 1.0] {
                     let near = near.clamp(0.0, if closed { 1e9 } else { 226.999 });
                     assert!(inked(&dashes, offset, near), "{text} at {near}: {dashes:?} {offset}");
                 }
