@@ -27,7 +27,8 @@ const LAST_CELL: u32 = (1 << CELL_BITS) - 2;
 /// Children of a node, and triangles of a leaf.
 const WIDTH: usize = 8;
 
-/// A box on the grid: its lowest and its highest cell along each axis, packed.
+/// A box on the grid: its lowest and its highest cell along each axis, packed, the latter with all
+/// spare bits set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct GridBox {
     low: u64,
@@ -36,28 +37,29 @@ struct GridBox {
 
 impl GridBox {
     /// Overlaps nothing, and adds nothing to a union.
-    const EMPTY: Self = Self { low: CELLS, high: 0 };
+    const EMPTY: Self = Self { low: CELLS, high: SPARE };
 
     #[inline]
     fn of_cells([a, b, c]: [u64; 3]) -> Self {
-        Self { low: lesser(lesser(a, b), c), high: greater(greater(a, b), c) }
+        Self { low: lesser(lesser(a, b), c), high: greater(greater(a, b), c) | SPARE }
     }
 
     #[inline]
     fn union(self, other: Self) -> Self {
-        Self { low: lesser(self.low, other.low), high: greater(self.high, other.high) }
+        Self { low: lesser(self.low, other.low), high: greater(self.high, other.high & CELLS) | SPARE }
     }
 
     #[inline]
     fn overlaps(self, other: Self) -> bool {
-        not_less(self.high, other.low) & not_less(other.high, self.low) & SPARE == SPARE
+        // A spare bit stays where its cell of `high` is at least that of `low`.
+        (self.high - other.low) & (other.high - self.low) & SPARE == SPARE
     }
 
     /// Position of the centre along the Morton curve, 30 bits.
     #[inline]
     fn curve_key(self) -> u32 {
         // The sum of two cells fills the spare bit, never the next field.
-        let twice_centre = self.low + self.high;
+        let twice_centre = self.low + (self.high & CELLS);
         let axis = |n: u32| {
             let top = (twice_centre >> (n * FIELD_BITS + FIELD_BITS - 10)) as u32 & 0x3ff;
             spread_bits(top) << n
@@ -66,16 +68,10 @@ impl GridBox {
     }
 }
 
-/// Spare bits set where the cell of `a` is at least that of `b`; other bits are rubbish.
-#[inline]
-fn not_less(a: u64, b: u64) -> u64 {
-    (a | SPARE) - b
-}
-
 /// Value bits set where the cell of `a` is at least that of `b`.
 #[inline]
 fn not_less_mask(a: u64, b: u64) -> u64 {
-    let spare = not_less(a, b) & SPARE;
+    let spare = ((a | SPARE) - b) & SPARE;
     spare - (spare >> CELL_BITS)
 }
 
@@ -106,6 +102,8 @@ fn spread_bits(ten: u32) -> u32 {
 pub struct BoxTree {
     /// Face of each rank along the curve.
     faces: Vec<u32>,
+    /// Vertices of each rank, beside each other so that neighbours are told apart quickly.
+    vertices: Vec<[u32; 3]>,
     /// Level 0 holds the boxes of the triangles by rank, each level above the unions of eight;
     /// all padded with empty boxes to a multiple of eight.
     levels: Vec<Vec<GridBox>>,
@@ -154,6 +152,7 @@ impl BoxTree {
         let mut boxes: Vec<GridBox> =
             entries.par_iter().map(|&entry| box_of(triangles[entry as u32 as usize])).collect();
         let faces: Vec<u32> = entries.par_iter().map(|&entry| entry as u32).collect();
+        let vertices: Vec<[u32; 3]> = faces.par_iter().map(|&face| triangles[face as usize]).collect();
         let mut levels = Vec::new();
         loop {
             boxes.resize(boxes.len().next_multiple_of(WIDTH), GridBox::EMPTY);
@@ -168,11 +167,11 @@ impl BoxTree {
                 break;
             }
         }
-        Self { faces, levels }
+        Self { faces, vertices, levels }
     }
 
-    /// Calls `visit` once for each triangle that has any, with the other triangles whose boxes
-    /// overlap its own, every pair once, and returns what the calls pushed.
+    /// Calls `visit` for triangles with others whose boxes overlap theirs and that have no vertex
+    /// in common with them, every pair in one call, and returns what the calls pushed.
     ///
     /// Works in parallel; the order of the result does not depend on the number of threads.
     pub fn overlaps<T, F>(&self, visit: F) -> Vec<T>
@@ -215,12 +214,12 @@ impl BoxTree {
                 }
                 for candidate in (other * WIDTH).max(leaf)..(other + 1) * WIDTH {
                     if leaves[candidate].overlaps(leaf_box) {
-                        search.leaves.push(candidate);
+                        search.leaves.push((candidate as u32, leaves[candidate]));
                     }
                 }
             }
             for rank in leaf * WIDTH..((leaf + 1) * WIDTH).min(self.faces.len()) {
-                self.overlapping_triangles(rank, triangles, search);
+                self.overlapping_strangers(rank, triangles, search);
                 if !search.faces.is_empty() {
                     visit(self.faces[rank], &search.faces, found);
                 }
@@ -248,29 +247,43 @@ impl BoxTree {
         }
     }
 
-    /// Gathers the later triangles of the gathered leaves whose boxes overlap that of `rank`.
+    /// Gathers the later triangles of the gathered leaves whose boxes overlap that of `rank` and
+    /// that share no vertex with it.
     #[inline]
-    fn overlapping_triangles(&self, rank: usize, triangles: &[GridBox], search: &mut Search) {
+    fn overlapping_strangers(&self, rank: usize, triangles: &[GridBox], search: &mut Search) {
+        let Search { leaves, near_leaves, ranks, faces, .. } = search;
         let own = triangles[rank];
-        search.faces.clear();
-        for &leaf in &search.leaves {
-            if !self.levels[1][leaf].overlaps(own) {
-                continue;
+        let vertices = self.vertices[rank];
+        faces.clear();
+        // Whether boxes overlap is as good as chance, so the lists are filled without branches.
+        near_leaves.resize(leaves.len() + 1, 0);
+        let mut near = 0;
+        for &(leaf, leaf_box) in leaves.iter() {
+            near_leaves[near] = leaf;
+            near += usize::from(leaf_box.overlaps(own));
+        }
+        ranks.resize(near * WIDTH + 1, 0);
+        let mut count = 0;
+        for &leaf in &near_leaves[..near] {
+            let first = leaf as usize * WIDTH;
+            let Some(boxes) = triangles[first..].first_chunk::<WIDTH>() else { continue };
+            for (place, other) in boxes.iter().enumerate() {
+                ranks[count] = (first + place) as u32;
+                count += usize::from(own.overlaps(*other) & (first + place > rank));
             }
-            let first = leaf * WIDTH;
-            let mut mask = 0_u32;
-            for (bit, other) in triangles[first..first + WIDTH].iter().enumerate() {
-                mask |= u32::from(own.overlaps(*other)) << bit;
-            }
-            if first <= rank {
-                mask &= !((2 << (rank - first)) - 1);
-            }
-            while mask != 0 {
-                search.faces.push(self.faces[first + mask.trailing_zeros() as usize]);
-                mask &= mask - 1;
+        }
+        for &other in &ranks[..count] {
+            if !share_a_vertex(vertices, self.vertices[other as usize]) {
+                faces.push(self.faces[other as usize]);
             }
         }
     }
+}
+
+#[inline]
+fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
+    let holds = |v: u32| (b[0] == v) | (b[1] == v) | (b[2] == v);
+    holds(a[0]) | holds(a[1]) | holds(a[2])
 }
 
 /// Faces handled by one task of the build.
@@ -283,7 +296,9 @@ const GROUPS_PER_TASK: usize = 16;
 struct Search {
     stack: Vec<(usize, usize)>,
     groups: Vec<usize>,
-    leaves: Vec<usize>,
+    leaves: Vec<(u32, GridBox)>,
+    near_leaves: Vec<u32>,
+    ranks: Vec<u32>,
     faces: Vec<u32>,
 }
 

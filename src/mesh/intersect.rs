@@ -60,14 +60,9 @@ pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
     let tolerance = PairTolerance::of_model((high - low).length());
     let tree = BoxTree::new(positions, triangles, active, low, high);
     let mut pairs = tree.overlaps(|face, others, found: &mut Vec<Pair>| {
-        let vertices = triangles[face as usize];
-        let mut own = None;
+        let own = &Triangle::new(positions, triangles[face as usize]);
         for &other in others {
             let other_vertices = triangles[other as usize];
-            if share_a_vertex(vertices, other_vertices) {
-                continue;
-            }
-            let own: &Triangle = own.get_or_insert_with(|| Triangle::new(positions, vertices));
             if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
                 continue;
             }
@@ -105,12 +100,6 @@ fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)>
         })
         .reduce(empty, |a, b| (a.0.min(b.0), a.1.max(b.1)));
     (!triangles.is_empty()).then_some((low, high))
-}
-
-#[inline]
-fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
-    let holds = |v: u32| (b[0] == v) | (b[1] == v) | (b[2] == v);
-    holds(a[0]) | holds(a[1]) | holds(a[2])
 }
 
 /// What an end is: a feature, and the face it pierces (with [`FACE`]) or the feature it meets.
