@@ -14,6 +14,16 @@ pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_MODEL: f64 = 1e-12;
 
+/// A vertex this near to the plane of a triangle (fraction of the model) lies in it, where surfaces
+/// are tested for passing through each other.
+pub const PLANE_OF_MODEL: f64 = 1e-12;
+
+/// Two triangles whose common part is no longer than this fraction of the model merely touch.
+pub const OVERLAP_OF_MODEL: f64 = 1e-9;
+
+/// Planes at an angle of this sine or less are parallel, and have no line in common.
+pub const PARALLEL_SINE: f64 = 1e-9;
+
 /// A face whose normal is within this cosine of a right angle to the line of sight is seen
 /// edge-on, and counts as averted.
 pub const EDGE_ON_COSINE: f64 = 1e-10;

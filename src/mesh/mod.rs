@@ -1,10 +1,13 @@
 //! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
+pub mod boxes;
 pub mod build;
 pub mod clean;
 pub mod edges;
 pub mod ids;
+pub mod intersect;
 pub mod soup;
+pub mod triangle_pair;
 pub mod weld;
 
 use glam::DVec3;
