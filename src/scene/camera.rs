@@ -1,6 +1,17 @@
-//! [`Camera`]: the camera record of the contract, and named views.
+//! [`Camera`]: where the eye is, where it looks, and the frame it looks through.
 
 use glam::DVec3;
+
+use crate::error::Error;
+
+/// Vertical field of view of a perspective camera for which none is asked, in degrees.
+pub const DEFAULT_FOV_Y_DEG: f64 = 35.0;
+
+/// Width and height of the frame of a camera for which none is asked, in px.
+pub const DEFAULT_FRAME_PX: f64 = 1000.0;
+
+/// Sine of the angle between `up` and the optical axis below which they count as parallel.
+const PARALLEL_SINE: f64 = 1e-9;
 
 /// Perspective or parallel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,4 +48,146 @@ pub struct Camera {
     /// Nearest depth drawn; without it, everything in front of a perspective eye and everything
     /// at all in a parallel view.
     pub near: Option<f64>,
+}
+
+impl Camera {
+    /// The camera's axes in the world, unit vectors at right angles: to the right of the picture,
+    /// up in it, and forward into it. `NaN` for a camera that [`Camera::validate`] refuses.
+    #[must_use]
+    pub fn axes(&self) -> [DVec3; 3] {
+        let forward = (self.target - self.eye).normalize();
+        let right = forward.cross(self.up.normalize()).normalize();
+        [right, right.cross(forward), forward]
+    }
+
+    /// The same camera looking through a frame of another size, in user units; the vertical field
+    /// of view (or height) stays.
+    #[must_use]
+    pub fn with_frame(self, width: f64, height: f64) -> Self {
+        Self { width, height, ..self }
+    }
+
+    /// The same camera with another projection.
+    #[must_use]
+    pub fn with_projection(self, projection: Projection) -> Self {
+        Self { projection, ..self }
+    }
+
+    /// Checks that the camera can take a picture.
+    ///
+    /// # Errors
+    /// Names the key of the camera record that is wrong, and what would be right: numbers that
+    /// are not finite, eye on target, up along the optical axis, a field of view that is not
+    /// between 0 and 180 degrees, sizes that are not positive.
+    pub fn validate(&self) -> Result<(), Error> {
+        for (key, point) in [("eye", self.eye), ("target", self.target), ("up", self.up)] {
+            if !point.is_finite() {
+                return Err(wrong(key, "a coordinate is not a finite number", "write three finite numbers"));
+            }
+        }
+        let axis = self.target - self.eye;
+        if axis == DVec3::ZERO {
+            return Err(wrong(
+                "target",
+                "eye and target are the same point",
+                "put the target where the eye looks",
+            ));
+        }
+        if !axis.length().is_normal() {
+            return Err(wrong("target", "eye and target are too far apart or too near", "scale the model"));
+        }
+        let up = self.up.try_normalize().unwrap_or(DVec3::ZERO);
+        if axis.normalize().cross(up).length() < PARALLEL_SINE {
+            return Err(wrong(
+                "up",
+                "up is zero or parallel to the line from eye to target",
+                "give a direction to the side of it",
+            ));
+        }
+        match self.projection {
+            Projection::Perspective { fov_y_deg } if !(fov_y_deg > 0.0 && fov_y_deg < 180.0) => Err(wrong(
+                "fov_y_deg",
+                format!("a field of view of {fov_y_deg} degrees cannot be drawn"),
+                "give one between 0 and 180, such as 35",
+            )),
+            Projection::Orthographic { height } if !positive(height) => Err(wrong(
+                "ortho_height",
+                format!("a height of {height} cannot be drawn"),
+                "give the world units that the picture's height spans",
+            )),
+            Projection::Perspective { .. } if self.near.is_some_and(|near| !positive(near)) => {
+                Err(wrong("near", "the near plane is not in front of the eye", "give a distance above 0"))
+            }
+            _ => self.validate_frame(),
+        }
+    }
+
+    fn validate_frame(&self) -> Result<(), Error> {
+        if self.near.is_some_and(|near| !near.is_finite()) {
+            return Err(wrong("near", "the near plane is not at a finite depth", "give a distance or null"));
+        }
+        for (key, size) in [("width_px", self.width), ("height_px", self.height)] {
+            if !positive(size) {
+                return Err(wrong(key, format!("a size of {size} cannot be drawn"), "give one above 0"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a number is a length that something can have.
+fn positive(number: f64) -> bool {
+    number.is_finite() && number > 0.0
+}
+
+fn wrong(key: &str, message: impl Into<String>, remedy: &str) -> Error {
+    Error::new(message).at(format!("key {key}")).remedy(remedy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{NamedView, UpAxis};
+
+    fn camera() -> Camera {
+        Camera::named(NamedView::Iso, UpAxis::Z)
+    }
+
+    #[test]
+    fn axes_are_a_right_handed_frame() {
+        let [right, up, forward] = camera().axes();
+        assert!((right.cross(up) + forward).length() < 1e-15);
+        assert!(right.dot(up).abs() < 1e-15 && (right.length() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn refuses_what_cannot_be_drawn() {
+        let good = camera();
+        assert_eq!(good.validate(), Ok(()));
+        let perspective = |fov_y_deg| good.with_projection(Projection::Perspective { fov_y_deg });
+        let orthographic = |height| good.with_projection(Projection::Orthographic { height });
+        let bad = [
+            ("target", Camera { target: good.eye, ..good }),
+            ("eye", Camera { eye: DVec3::new(f64::NAN, 0.0, 0.0), ..good }),
+            ("target", Camera { target: DVec3::splat(f64::INFINITY), ..good }),
+            ("target", Camera { eye: DVec3::splat(-1e200), target: DVec3::splat(1e200), ..good }),
+            ("up", Camera { up: DVec3::ZERO, ..good }),
+            ("up", Camera { up: (good.target - good.eye) * 3.0, ..good }),
+            ("up", Camera { up: good.eye - good.target, ..good }),
+            ("fov_y_deg", perspective(0.0)),
+            ("fov_y_deg", perspective(180.0)),
+            ("fov_y_deg", perspective(f64::NAN)),
+            ("ortho_height", orthographic(0.0)),
+            ("ortho_height", orthographic(f64::INFINITY)),
+            ("width_px", good.with_frame(0.0, 10.0)),
+            ("height_px", good.with_frame(10.0, -1.0)),
+            ("near", Camera { near: Some(0.0), ..perspective(35.0) }),
+            ("near", Camera { near: Some(f64::NAN), ..good }),
+        ];
+        for (key, camera) in bad {
+            let error = camera.validate().expect_err(key);
+            assert_eq!(error.place, Some(format!("key {key}")), "{error}");
+            assert!(error.remedy.is_some());
+        }
+    }
 }

@@ -2,7 +2,9 @@
 
 pub mod camera;
 pub mod coordinate;
+pub mod camera_record;
 pub mod flatten;
+pub mod framing;
 pub mod geometry;
 pub mod light;
 pub mod material;
@@ -13,6 +15,7 @@ pub mod polygon;
 pub mod select;
 pub mod stl;
 mod text;
+pub mod views;
 pub mod warnings;
 
 use std::path::{Path, PathBuf};
@@ -21,6 +24,7 @@ pub use camera::{Camera, Projection};
 pub use geometry::{Geometry, Part};
 pub use light::{Light, LightKind};
 pub use material::Material;
+pub use views::NamedView;
 pub use warnings::Warnings;
 
 use crate::error::Error;
