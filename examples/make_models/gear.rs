@@ -13,7 +13,7 @@ const TEETH: usize = 24;
 const MODULE: f64 = 4.0;
 const PRESSURE_ANGLE: f64 = 20.0 * PI / 180.0;
 const FILLET: f64 = 1.1;
-const CIRCLE_STEPS: usize = 96;
+const CIRCLE_STEPS: usize = 72;
 
 const RIM_HALF: f64 = 10.0;
 const WEB_HALF: f64 = 3.5;
@@ -37,14 +37,17 @@ fn flank() -> Vec<(f64, f64)> {
     let angle_at = |radius: f64| half_at_pitch + involute(base, pitch) - involute(base, radius.max(base));
     let start = root + FILLET;
     // The root fillet is a quarter of an ellipse from the root circle to the flank.
-    let fillet = (0..8).map(|i| {
-        let angle = PI / 2.0 * f64::from(i) / 8.0;
+    let fillet = (0..18).map(|i| {
+        let angle = PI / 2.0 * f64::from(i) / 18.0;
         let out = 1.0 - cos(angle);
         let aside = 1.0 - ligne::math::function::sin(angle);
         (root + FILLET * out, angle_at(start) + FILLET * aside / root)
     });
-    let involute = (0..=14).map(|i| {
-        let radius = start + (tip - start) * f64::from(i) / 14.0;
+    // Equal steps of the roll angle turn the flank by equal angles.
+    let roll = |radius: f64| ((radius / base).powi(2) - 1.0).max(0.0).sqrt();
+    let involute = (0..=8).map(|i| {
+        let angle = roll(start) + (roll(tip) - roll(start)) * f64::from(i) / 8.0;
+        let radius = if i == 0 { start } else { base * (1.0 + angle * angle).sqrt() };
         (radius, angle_at(radius))
     });
     fillet.chain(involute).collect()
@@ -59,14 +62,14 @@ fn teeth() -> Vec<DVec2> {
         let point = |&(radius, angle): &(f64, f64), side: f64| polar(DVec2::ZERO, radius, middle + side * angle);
         outline.extend(flank.iter().map(|place| point(place, -1.0)));
         if let Some(&(tip, half)) = flank.last() {
-            let along = arc(DVec2::ZERO, tip, middle - half, middle + half, 4);
-            outline.extend(&along[1..4]);
+            let along = arc(DVec2::ZERO, tip, middle - half, middle + half, 2);
+            outline.extend(&along[1..2]);
         }
         outline.extend(flank.iter().rev().map(|place| point(place, 1.0)));
         if let Some(&(root, half)) = flank.first() {
             let next = TAU / TEETH as f64 - half;
-            let along = arc(DVec2::ZERO, root, middle + half, middle + next, 3);
-            outline.extend(&along[1..3]);
+            let along = arc(DVec2::ZERO, root, middle + half, middle + next, 2);
+            outline.extend(&along[1..2]);
         }
     }
     outline
@@ -94,9 +97,9 @@ fn rings(solid: &mut Solid, profile: &[(f64, f64)]) -> (Vec<u32>, Vec<u32>) {
     (rings[0].clone(), rings[rings.len() - 1].clone())
 }
 
-/// A quarter circle as (radius, z), 8 pieces.
+/// A quarter circle as (radius, z).
 fn quarter(centre: (f64, f64), radius: f64, from: f64, to: f64) -> Vec<(f64, f64)> {
-    arc(at(centre.0, centre.1), radius, from, to, 9).into_iter().map(|point| (point.x, point.y)).collect()
+    arc(at(centre.0, centre.1), radius, from, to, 18).into_iter().map(|point| (point.x, point.y)).collect()
 }
 
 /// The gear about the z axis, in mm.
@@ -114,10 +117,8 @@ pub fn gear() -> Solid {
         let mut half = Solid::default();
         let outline = half.ring(teeth.iter().map(lift(RIM_HALF)));
         let blend = 2.0;
-        let rim = quarter((RIM_RADIUS - blend, WEB_HALF + blend), blend, -PI / 2.0, 0.0);
-        let rim: Vec<_> = rim.into_iter().chain([(RIM_RADIUS, RIM_HALF - 0.8), (RIM_RADIUS + 0.8, RIM_HALF)]).collect();
         // This wall looks inwards, so it is listed from the top down.
-        let rim: Vec<_> = rim.into_iter().rev().collect();
+        let rim = [(RIM_RADIUS + 0.8, RIM_HALF), (RIM_RADIUS, RIM_HALF - 0.8), (RIM_RADIUS, WEB_HALF)];
         let (rim_top, rim_foot) = rings(&mut half, &rim);
         let hub = quarter((HUB_RADIUS + blend, WEB_HALF + blend), blend, 1.5 * PI, PI);
         let hub: Vec<_> = hub.into_iter().chain([(HUB_RADIUS, HUB_HALF - 1.0), (HUB_RADIUS - 1.0, HUB_HALF)]).collect();

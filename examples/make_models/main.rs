@@ -2,6 +2,7 @@
 //!
 //! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
 
+mod bracket;
 mod gear;
 mod knot;
 mod obj;
@@ -36,6 +37,7 @@ fn main() -> std::io::Result<()> {
     write("teapot.obj", obj::text("The Utah teapot, from its published patches", None, &parts, &normals).as_bytes())?;
     let gear = Part::new("gear", STEEL, gear::gear());
     write("gear.obj", obj::text("A spur gear of 24 teeth, in mm", None, &[gear], &[]).as_bytes())?;
+    write("bracket.stl", &stl::bytes("angle bracket, in mm", &bracket::bracket()))?;
     let (knot, normals) = knot::knot();
     write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))
 }
