@@ -3,7 +3,9 @@
 //! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
 
 mod bracket;
+mod creased;
 mod gear;
+mod glb;
 mod knot;
 mod obj;
 mod outline;
@@ -11,6 +13,9 @@ mod part;
 mod patches;
 mod ply;
 mod polygon;
+mod pump;
+mod pump_motor;
+mod pump_parts;
 mod solid;
 mod stl;
 mod sweep;
@@ -38,6 +43,7 @@ fn main() -> std::io::Result<()> {
     let gear = Part::new("gear", STEEL, gear::gear());
     write("gear.obj", obj::text("A spur gear of 24 teeth, in mm", None, &[gear], &[]).as_bytes())?;
     write("bracket.stl", &stl::bytes("angle bracket, in mm", &bracket::bracket()))?;
+    write("pump.glb", &glb::bytes("ligne make_models", &pump::pump()))?;
     let (knot, normals) = knot::knot();
     write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))
 }
