@@ -1,13 +1,33 @@
 //! [`Chain`]: view edges joined end to end, tidied, smoothed and fitted with curves.
 
+mod corners;
+mod crumbs;
+mod curve;
+mod doubles;
+mod finish;
+mod fit;
+mod flips;
+mod line;
+mod link;
 pub mod options;
+mod resample;
+mod simplify;
+mod smooth;
+mod tidy;
+mod unfold;
 
 pub use options::ChainOptions;
 
 use kurbo::{BezPath, Point};
+use rayon::prelude::*;
 
+use crate::drawing::{Length, Unit};
 use crate::lines::LineKind;
 use crate::mesh::{MaterialId, PartId};
+use crate::viewmap::ViewMap;
+use finish::{Tolerances, finish};
+use line::Line;
+use link::{Class, Step, routes};
 
 /// What a chain knows of the world at one of its points; travels with the chain so that strokes
 /// never look back into the scene.
@@ -31,7 +51,8 @@ pub struct Chain {
     pub kind: LineKind,
     /// A contour with background behind it.
     pub silhouette: bool,
-    /// Number of surfaces that hide it; 0 = visible.
+    /// Number of surfaces that hide it; 0 = visible. Hidden pieces of different number join, and
+    /// the chain has the smallest.
     pub invisibility: u16,
     /// Whether both surfaces that meet in it face the eye.
     pub both_seen: bool,
@@ -43,4 +64,67 @@ pub struct Chain {
     pub smooth: bool,
     /// The curve that is drawn: fitted Béziers, or the polyline of `points`.
     pub path: BezPath,
+}
+
+/// Length over which directions are measured at junctions, px.
+const DIRECTION_PX: f64 = 3.0;
+
+/// Joins the view edges end to end and makes drawn lines of them.
+///
+/// Visible and hidden edges, kinds, parts, materials and silhouettes never join. With every option
+/// off each edge longer than nothing is in exactly one chain and no point is moved; points between
+/// pieces of one straight line are left out. Chains come in the order of the feature segments
+/// they begin with.
+#[must_use]
+pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit) -> Vec<Chain> {
+    let px = Length::px(1.0).in_unit(unit);
+    let t = Tolerances {
+        px,
+        smooth: options.smooth.in_unit(unit).max(0.0),
+        simplify: options.simplify.in_unit(unit).max(0.0),
+        tidy: options.tidy.in_unit(unit).max(0.0),
+        fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
+    };
+    let window = DIRECTION_PX * px;
+    let classes = tidy::tidy(map, t, window);
+    let routes = routes(map, &classes, window);
+    (0..routes.len())
+        .into_par_iter()
+        .with_min_len(16)
+        .filter_map(|route| {
+            let (steps, closed) = routes.get(route);
+            let class = steps.first().and_then(|step| classes[step.edge as usize])?;
+            chain(map, steps, closed, class, t)
+        })
+        .collect()
+}
+
+/// The chain of a route, or nothing for one seen end-on as a point.
+fn chain(map: &ViewMap, steps: &[Step], closed: bool, class: Class, t: Tolerances) -> Option<Chain> {
+    let raw = Line::of_route(map, steps, closed);
+    // A closed line of two points runs there and back.
+    let raw = if closed && raw.len() == 2 { raw.opened_at(0) } else { raw };
+    if raw.len() < 2 {
+        return None;
+    }
+    let edges = || steps.iter().map(|step| &map.edges[step.edge as usize]);
+    let smooth: usize = edges().filter(|edge| edge.smooth).count();
+    let (line, path) = finish(&raw, t);
+    Some(Chain {
+        samples: line.depths.iter().map(|depth| Sample { depth: *depth }).collect(),
+        points: line.points,
+        closed: line.closed,
+        kind: class.kind,
+        silhouette: class.silhouette,
+        invisibility: if class.hidden {
+            edges().map(|e| e.invisibility).filter(|i| *i > 0).min()?
+        } else {
+            0
+        },
+        both_seen: class.both_seen,
+        part: class.part,
+        material: class.material,
+        smooth: 2 * smooth > steps.len(),
+        path,
+    })
 }

@@ -1,5 +1,8 @@
 //! [`Length`]: a length on the page, in px or mm.
 
+use std::fmt;
+
+use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Unit;
@@ -7,7 +10,8 @@ use super::Unit;
 /// Millimetres in a px: CSS's 96 px an inch.
 pub const MM_PER_PX: f64 = 25.4 / 96.0;
 
-/// A length on the page. Written as a number (px) or as a string with a unit (`"0.35mm"`).
+/// A length on the page, at least 0 in style sheets. Written as a number (px) or as a string with
+/// a unit (`"0.35mm"`).
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Length {
     /// The number.
@@ -69,20 +73,64 @@ impl Serialize for Length {
 
 impl<'de> Deserialize<'de> for Length {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Written {
-            Integer(i64),
-            Number(f64),
-            Text(String),
-        }
-        let wrong = || {
-            serde::de::Error::custom("a length is a number of px or a string with a unit, such as \"0.35mm\"")
-        };
-        match Written::deserialize(deserializer).map_err(|_| wrong())? {
-            Written::Integer(px) => Ok(Self::px(px as f64)),
-            Written::Number(px) => Ok(Self::px(px)),
-            Written::Text(text) => Self::parse(&text).ok_or_else(wrong),
-        }
+        deserializer.deserialize_any(LengthVisitor)
+    }
+}
+
+/// Reads either form by what it meets, so that errors keep their place in the file.
+struct LengthVisitor;
+
+impl Visitor<'_> for LengthVisitor {
+    type Value = Length;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a length: a number of px or a string with a unit, such as \"0.35mm\"")
+    }
+
+    fn visit_i64<E: Error>(self, px: i64) -> Result<Length, E> {
+        self.visit_f64(px as f64)
+    }
+
+    fn visit_u64<E: Error>(self, px: u64) -> Result<Length, E> {
+        self.visit_f64(px as f64)
+    }
+
+    fn visit_f64<E: Error>(self, px: f64) -> Result<Length, E> {
+        in_range(Length::px(px), &px.to_string())
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Length, E> {
+        let length = Length::parse(text).ok_or_else(|| {
+            E::custom(format!(
+                "`{text}` is not a length; write a number of px or a string with a unit, such as \"0.35mm\""
+            ))
+        })?;
+        in_range(length, text)
+    }
+}
+
+/// The length, if it is finite and not negative.
+fn in_range<E: Error>(length: Length, text: &str) -> Result<Length, E> {
+    if length.value.is_finite() && length.value >= 0.0 {
+        Ok(length)
+    } else {
+        Err(E::custom(format!("`{text}` is not a length; it must be finite and at least 0")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_convert_and_text_is_read() {
+        assert_eq!(Length::parse("0.35mm"), Some(Length::mm(0.35)));
+        assert_eq!(Length::parse(" 2 px "), Some(Length::px(2.0)));
+        assert_eq!(Length::parse("1e1"), Some(Length::px(10.0)));
+        assert_eq!(Length::parse("1in").map(|length| length.in_unit(Unit::Px).round()), Some(96.0));
+        assert_eq!(Length::parse("mm"), None);
+        assert_eq!(Length::parse("1 ell"), None);
+        assert_eq!(Length::parse("inf"), None);
+        assert!((Length::px(96.0).in_unit(Unit::Mm) - 25.4).abs() < 1e-12);
     }
 }

@@ -51,6 +51,8 @@ impl LayerKind {
 pub struct Layer {
     /// Which layer it is.
     pub kind: LayerKind,
+    /// Which pen draws it, where the drawing has one layer a pen: `1 0.35 mm #1a1a1a`.
+    pub pen: Option<String>,
     /// Its marks, painted first to last.
     pub marks: Vec<Mark>,
 }

@@ -1,6 +1,7 @@
 //! Which feature lines are sought and drawn: the `[lines]` table of a style sheet.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::LineKind;
 
@@ -26,6 +27,7 @@ pub struct LineOptions {
     /// Kinds that are drawn. Default: contour, border, crease, material, intersection, wire.
     pub kinds: Vec<LineKind>,
     /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
+    #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
@@ -46,5 +48,15 @@ impl Default for LineOptions {
             crease_deg: 40.0,
             hidden: HiddenLines::None,
         }
+    }
+}
+
+/// An angle of 0 to 180 degrees.
+fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let degrees = f64::deserialize(deserializer)?;
+    if (0.0..=180.0).contains(&degrees) {
+        Ok(degrees)
+    } else {
+        Err(D::Error::custom(format!("{degrees} is not the angle of a crease; write degrees from 0 to 180")))
     }
 }

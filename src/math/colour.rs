@@ -82,6 +82,14 @@ impl Colour {
     }
 }
 
+/// The linear-light value, 0 to 1, of an sRGB channel 0 to 1.
+#[must_use]
+pub fn linear(channel: f32) -> f32 {
+    let c = f64::from(channel.clamp(0.0, 1.0));
+    let l = if c <= 0.040_45 { c / 12.92 } else { crate::math::function::pow((c + 0.055) / 1.055, 2.4) };
+    l as f32
+}
+
 impl TryFrom<String> for Colour {
     type Error = String;
 

@@ -14,6 +14,16 @@ pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_MODEL: f64 = 1e-12;
 
+/// A vertex this near to the plane of a triangle (fraction of the model) lies in it, where surfaces
+/// are tested for passing through each other.
+pub const PLANE_OF_MODEL: f64 = 1e-12;
+
+/// Two triangles whose common part is no longer than this fraction of the model merely touch.
+pub const OVERLAP_OF_MODEL: f64 = 1e-9;
+
+/// Planes at an angle of this sine or less are parallel, and have no line in common.
+pub const PARALLEL_SINE: f64 = 1e-9;
+
 /// A face whose normal is within this cosine of a right angle to the line of sight is seen
 /// edge-on, and counts as averted.
 pub const EDGE_ON_COSINE: f64 = 1e-10;
@@ -26,7 +36,20 @@ pub const CONTACT_OF_MODEL: f64 = 5e-7;
 pub const COVER_PX: f64 = 1e-7;
 
 /// Hidden or visible pieces shorter than this (px) are rounding, not geometry.
-pub const PIECE_PX: f64 = 1e-6;
+pub const PIECE_PX: f64 = 1e-4;
 
 /// The near plane of a perspective view lies at this fraction of the farthest depth of the model.
 pub const NEAR_OF_FARTHEST: f64 = 1e-5;
+
+/// How far beside a contour (px) the view asks whether there is only background.
+pub const BESIDE_PX: f64 = 1e-3;
+
+/// A surface that shares a vertex with a line hides it only where it is at least this much nearer
+/// (fraction of the model): below that lies rounding.
+pub const NEIGHBOUR_OF_MODEL: f64 = 1e-10;
+
+/// A triangle lower than this in the image (px) is seen edge-on and covers nothing.
+pub const IMAGE_HEIGHT_PX: f64 = 1e-8;
+
+/// Two lines that run within this distance (px) of each other are drawn once.
+pub const DOUBLE_PX: f64 = 5e-3;

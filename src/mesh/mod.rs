@@ -1,7 +1,73 @@
-//! [`Mesh`]: all that can be drawn, as one welded triangle mesh in world space.
+//! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
+pub mod boxes;
+pub mod build;
+pub mod clean;
+pub mod edges;
 pub mod ids;
+pub mod intersect;
 pub mod soup;
+pub mod triangle_pair;
+pub mod weld;
 
+use glam::DVec3;
+
+pub use clean::Cleaning;
+pub use edges::{EdgeFaces, Edges};
 pub use ids::{EdgeId, FaceId, MaterialId, PartId, VertexId};
 pub use soup::{EdgeMark, Soup, Wire};
+
+/// A welded triangle mesh, centred on its bounding box.
+///
+/// Non-manifold and open meshes are fine; every face has three different vertices and no face
+/// stands twice in one part. Built by [`Mesh::build`].
+#[derive(Debug, Clone, Default)]
+pub struct Mesh {
+    /// The world point that is the zero of `positions`: the centre of the bounding box, so that
+    /// far-away models keep their digits.
+    pub origin: DVec3,
+    /// Diagonal of the bounding box, world units; every tolerance is a fraction of it.
+    pub size: f64,
+    /// Vertices, world units relative to `origin`.
+    pub positions: Vec<DVec3>,
+    /// Vertex ids of each face, counter-clockwise seen from outside as far as the file is right.
+    pub triangles: Vec<[u32; 3]>,
+    /// Unit normal of each face; zero for degenerate faces.
+    pub face_normals: Vec<[f32; 3]>,
+    /// Part of each face.
+    pub face_part: Vec<PartId>,
+    /// Material of each face.
+    pub face_material: Vec<MaterialId>,
+    /// Unit normals to which `corner_normals` points.
+    pub normals: Vec<[f32; 3]>,
+    /// Normals of the corners of each face (`u32::MAX` = none), or empty.
+    pub corner_normals: Vec<[u32; 3]>,
+    /// Texture coordinates to which `corner_uvs` points.
+    pub uvs: Vec<[f32; 2]>,
+    /// Texture coordinates of the corners of each face (`u32::MAX` = none), or empty.
+    pub corner_uvs: Vec<[u32; 3]>,
+    /// What the file says about the sides 0-1, 1-2, 2-0 of each face, or empty.
+    pub edge_marks: Vec<[EdgeMark; 3]>,
+    /// Which faces meet at which edge.
+    pub edges: Edges,
+    /// Lines without faces; their vertices are vertices of the mesh.
+    pub wires: Vec<Wire>,
+    /// What was mended.
+    pub cleaning: Cleaning,
+}
+
+impl Mesh {
+    /// Whether a face has no area to speak of: it hides nothing.
+    #[inline]
+    #[must_use]
+    pub fn is_degenerate(&self, face: FaceId) -> bool {
+        self.face_normals[face.index()] == [0.0; 3]
+    }
+
+    /// Positions of the three corners of a face.
+    #[inline]
+    #[must_use]
+    pub fn corners(&self, face: FaceId) -> [DVec3; 3] {
+        self.triangles[face.index()].map(|v| self.positions[v as usize])
+    }
+}

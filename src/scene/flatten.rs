@@ -1,1 +1,286 @@
-//! Flattening: all instances of a scene into one [`Soup`] in world space.
+//! Flattening: all instances of a scene into one [`Soup`] in world space, and what can be known of it before.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::coordinate::is_drawable;
+use super::{Geometry, Part, Scene};
+use crate::mesh::{EdgeMark, MaterialId, PartId, Soup, Wire};
+
+const NONE: u32 = u32::MAX;
+
+impl Scene {
+    /// All triangles and wires in world space.
+    ///
+    /// Part ids index [`Scene::parts`]; material ids index [`Scene::materials`], and what has no
+    /// material gets the id after the last. Mirrored parts have their winding turned round. Parts
+    /// that are scaled to nothing (or beyond all numbers) are left out.
+    #[must_use]
+    pub fn to_soup(&self) -> Soup {
+        let mut soup = Soup::default();
+        let default_material = self.materials.len() as u32;
+        for (id, part) in self.parts.iter().enumerate() {
+            if let Some(geometry) = self.geometry_of(part) {
+                append(&mut soup, geometry, &part.world_from_part, PartId::from(id), default_material);
+            }
+        }
+        soup
+    }
+
+    /// Box around all that can be drawn, in world space: least and greatest coordinates. None
+    /// where nothing can be drawn.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let mut used: Vec<Option<Vec<DVec3>>> = vec![None; self.geometries.len()];
+        let mut bounds: Option<(DVec3, DVec3)> = None;
+        for part in &self.parts {
+            let Some(geometry) = self.geometry_of(part) else { continue };
+            let Some(points) = used.get_mut(part.geometry) else { continue };
+            let points = points.get_or_insert_with(|| used_points(geometry));
+            let place = &part.world_from_part;
+            let is_identity = *place == DAffine3::IDENTITY;
+            let mut own: Option<(DVec3, DVec3)> = bounds;
+            for &point in points.iter() {
+                let point = if is_identity { point } else { place.transform_point3(point) };
+                let (least, greatest) = own.get_or_insert((point, point));
+                *least = least.min(point);
+                *greatest = greatest.max(point);
+            }
+            // A part that reaches beyond all numbers is not drawn.
+            if own.is_none_or(|(least, greatest)| is_drawable(least) && is_drawable(greatest)) {
+                bounds = own;
+            }
+        }
+        bounds
+    }
+
+    /// How many triangles are drawn, each instance counted.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.parts.iter().filter_map(|part| self.geometry_of(part)).map(|g| g.triangles.len()).sum()
+    }
+
+    /// The geometry of a part that can be placed.
+    fn geometry_of(&self, part: &Part) -> Option<&Geometry> {
+        let determinant = part.world_from_part.matrix3.determinant();
+        let can_be_placed = determinant != 0.0 && determinant.is_finite() && part.world_from_part.is_finite();
+        self.geometries.get(part.geometry).filter(|_| can_be_placed)
+    }
+}
+
+/// The positions that triangles or wires use, each once.
+fn used_points(geometry: &Geometry) -> Vec<DVec3> {
+    let mut used = vec![false; geometry.positions.len()];
+    let corners = geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened());
+    for &corner in corners {
+        if let Some(used) = used.get_mut(corner as usize) {
+            *used = true;
+        }
+    }
+    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.then_some(p)).collect()
+}
+
+fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, default_material: u32) {
+    let first = soup.positions.len();
+    // Ids are 32 bits wide; what lies beyond them cannot be drawn.
+    if first + from.positions.len() >= NONE as usize {
+        return;
+    }
+    let is_identity = *place == DAffine3::IDENTITY;
+    if is_identity {
+        soup.positions.extend_from_slice(&from.positions);
+    } else {
+        soup.positions.extend(from.positions.iter().map(|&p| place.transform_point3(p)));
+        if !soup.positions.iter().skip(first).all(|&p| is_drawable(p)) {
+            soup.positions.truncate(first);
+            return;
+        }
+    }
+    let turned = place.matrix3.determinant() < 0.0;
+    let first_triangle = soup.triangles.len();
+    append_corners(&mut soup.triangles, &from.triangles, first as u32, turned);
+    let count = soup.triangles.len();
+
+    let material = from.material.unwrap_or(default_material);
+    soup.triangle_part.resize(count, part);
+    if from.triangle_material.is_empty() {
+        soup.triangle_material.resize(count, MaterialId(material));
+    } else {
+        soup.triangle_material.extend(from.triangle_material.iter().map(|&m| MaterialId(m)));
+        soup.triangle_material.resize(count, MaterialId(material));
+    }
+    append_normals(soup, from, place, first_triangle, turned);
+
+    let first_uv = soup.uvs.len() as u32;
+    soup.uvs.extend_from_slice(&from.uvs);
+    append_optional(&mut soup.corner_uvs, &from.corner_uvs, first_uv, turned, first_triangle, count);
+
+    if !from.edge_marks.is_empty() {
+        soup.edge_marks.resize(first_triangle, [EdgeMark::Unmarked; 3]);
+        let marks =
+            from.edge_marks.iter().map(|&[ab, bc, ca]| if turned { [ca, bc, ab] } else { [ab, bc, ca] });
+        soup.edge_marks.extend(marks);
+    }
+    if !soup.edge_marks.is_empty() {
+        soup.edge_marks.resize(count, [EdgeMark::Unmarked; 3]);
+    }
+    let first = first as u32;
+    soup.wires.extend(from.wires.iter().map(|&[a, b]| Wire {
+        vertices: [a, b].map(|i| i.saturating_add(first)),
+        part,
+        material: MaterialId(material),
+    }));
+    soup.single_precision |= from.single_precision;
+}
+
+fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned: bool) {
+    match (first, turned) {
+        (0, false) => to.extend_from_slice(from),
+        (_, false) => to.extend(from.iter().map(|t| t.map(|i| i.saturating_add(first)))),
+        (_, true) => to.extend(from.iter().map(|&[a, b, c]| [a, c, b].map(|i| i.saturating_add(first)))),
+    }
+}
+
+/// Appends corners of normals or texture coordinates, with none for the triangles that lack them.
+fn append_optional(
+    to: &mut Vec<[u32; 3]>,
+    from: &[[u32; 3]],
+    first: u32,
+    turned: bool,
+    first_triangle: usize,
+    count: usize,
+) {
+    if !from.is_empty() {
+        to.resize(first_triangle, [NONE; 3]);
+        append_corners(to, from, first, turned);
+    }
+    if !to.is_empty() {
+        to.resize(count, [NONE; 3]);
+    }
+}
+
+/// Normals go with the inverse transpose, so that they stay at right angles to the surface.
+fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_triangle: usize, turned: bool) {
+    let first = soup.normals.len();
+    let count = soup.triangles.len();
+    let is_identity = place.matrix3 == DMat3::IDENTITY;
+    let turn = if is_identity { DMat3::IDENTITY } else { place.matrix3.inverse().transpose() };
+    let mut all_sound = true;
+    soup.normals.extend(from.normals.iter().map(|&[x, y, z]| {
+        let normal = DVec3::new(x.into(), y.into(), z.into());
+        let normal = if is_identity { normal } else { turn * normal }.try_normalize();
+        all_sound &= normal.is_some();
+        normal.map_or([0.0; 3], |n| [n.x as f32, n.y as f32, n.z as f32])
+    }));
+    append_optional(
+        &mut soup.corner_normals,
+        &from.corner_normals,
+        first as u32,
+        turned,
+        first_triangle,
+        count,
+    );
+    if !all_sound {
+        for corner in soup.corner_normals.iter_mut().skip(first_triangle).flatten() {
+            if soup.normals.get(*corner as usize).is_some_and(|n| *n == [0.0; 3]) {
+                *corner = NONE;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Material;
+
+    fn triangle() -> Geometry {
+        Geometry {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(99.0)],
+            triangles: vec![[0, 1, 2]],
+            normals: vec![[0.0, 0.0, 2.0], [0.0; 3]],
+            corner_normals: vec![[0, 0, 1]],
+            edge_marks: vec![[EdgeMark::Hidden, EdgeMark::Hard, EdgeMark::Contour]],
+            ..Geometry::default()
+        }
+    }
+
+    fn scene(places: &[DAffine3]) -> Scene {
+        let part =
+            |(i, &world_from_part): (usize, _)| Part { name: format!("p{i}"), geometry: 0, world_from_part };
+        let parts = places.iter().enumerate().map(part).collect();
+        Scene {
+            geometries: vec![triangle()],
+            parts,
+            materials: vec![Material::default()],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn identity_is_a_copy() {
+        let soup = scene(&[DAffine3::IDENTITY]).to_soup();
+        assert_eq!(soup.triangles, [[0, 1, 2]]);
+        assert_eq!(soup.normals[0], [0.0, 0.0, 1.0]);
+        assert_eq!(soup.corner_normals, [[0, 0, NONE]]);
+        assert_eq!(soup.triangle_material, [MaterialId(1)]);
+    }
+
+    #[test]
+    fn mirrored_parts_are_turned_round() {
+        let mirror = DAffine3::from_scale(DVec3::new(1.0, 1.0, -4.0));
+        let soup = scene(&[DAffine3::from_translation(DVec3::Z), mirror]).to_soup();
+        assert_eq!(soup.triangles, [[0, 1, 2], [4, 6, 5]]);
+        assert_eq!(soup.triangle_part, [PartId(0), PartId(1)]);
+        assert_eq!(soup.positions[0], DVec3::Z);
+        assert_eq!(soup.corner_normals[1], [2, NONE, 2]);
+        assert_eq!(soup.normals[2], [0.0, 0.0, -1.0]);
+        assert_eq!(soup.edge_marks[1], [EdgeMark::Contour, EdgeMark::Hard, EdgeMark::Hidden]);
+    }
+
+    #[test]
+    fn normals_stay_at_right_angles() {
+        let mut model = scene(&[DAffine3::from_scale(DVec3::new(1.0, 3.0, 1.0))]);
+        model.geometries[0].normals[0] = [1.0, 1.0, 0.0];
+        let [x, y, _] = model.to_soup().normals[0];
+        assert!((x - 3.0 * y).abs() < 1e-6);
+    }
+
+    #[test]
+    fn parts_that_cannot_be_placed_are_left_out() {
+        let huge = DAffine3::from_scale(DVec3::splat(1e100));
+        let flat = DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0));
+        let model =
+            scene(&[DAffine3::from_scale(DVec3::ZERO), flat, huge, DAffine3::from_translation(DVec3::NAN)]);
+        let soup = model.to_soup();
+        assert!(soup.triangles.is_empty() && soup.positions.is_empty());
+        assert_eq!(model.bounds(), None);
+    }
+
+    #[test]
+    fn bounds_hold_what_is_drawn() {
+        let model = scene(&[DAffine3::IDENTITY, DAffine3::from_translation(DVec3::new(5.0, -1.0, 0.0))]);
+        assert_eq!(model.bounds(), Some((DVec3::new(0.0, -1.0, 0.0), DVec3::new(6.0, 1.0, 0.0))));
+        assert_eq!(model.triangle_count(), 2);
+        assert_eq!(Scene::default().bounds(), None);
+    }
+
+    #[test]
+    fn what_one_part_lacks_is_filled() {
+        let mut model = scene(&[DAffine3::IDENTITY; 2]);
+        let plain = Geometry {
+            positions: vec![DVec3::ZERO; 3],
+            triangles: vec![[0, 1, 2]],
+            wires: vec![[1, 2]],
+            ..Geometry::default()
+        };
+        model.geometries.push(plain);
+        model.parts[1].geometry = 1;
+        let soup = model.to_soup();
+        assert_eq!(soup.corner_normals[1], [NONE; 3]);
+        assert_eq!(soup.edge_marks[1], [EdgeMark::Unmarked; 3]);
+        assert_eq!(soup.wires, [Wire { vertices: [5, 6], part: PartId(1), material: MaterialId(1) }]);
+        model.parts.reverse();
+        let soup = model.to_soup();
+        assert_eq!(soup.corner_normals, [[NONE; 3], [0, 0, NONE]]);
+    }
+}

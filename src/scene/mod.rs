@@ -1,12 +1,20 @@
 //! [`Scene`]: what a model file holds, whatever its format.
 
 pub mod camera;
+pub mod coordinate;
 pub mod camera_record;
 pub mod flatten;
 pub mod framing;
 pub mod geometry;
 pub mod light;
 pub mod material;
+pub mod obj;
+pub mod open;
+pub mod ply;
+pub mod polygon;
+pub mod select;
+pub mod stl;
+mod text;
 pub mod views;
 pub mod warnings;
 
@@ -72,7 +80,6 @@ impl Scene {
     /// Names the file, the place in it and the remedy if it cannot be read, if it is broken, or
     /// if its format is not one of OBJ, glTF, GLB, STL and PLY.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let path = path.as_ref();
-        Err(Error::new("no reader").in_file(path))
+        open::open(path.as_ref())
     }
 }

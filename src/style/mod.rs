@@ -1,1 +1,75 @@
 //! [`Style`]: style sheets in TOML, the options of every stage.
+
+mod fault;
+mod load;
+mod sheet;
+
+use crate::chain::ChainOptions;
+use crate::error::Error;
+use crate::lines::LineOptions;
+use crate::math::colour::Colour;
+use crate::stroke::StrokeOptions;
+
+/// The options of every stage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Style {
+    /// Colour of the paper; `None` leaves it transparent. Default: white.
+    pub background: Option<Colour>,
+    /// Which lines are sought and drawn.
+    pub lines: LineOptions,
+    /// How lines are linked, tidied, smoothed and fitted.
+    pub chain: ChainOptions,
+    /// Pens, and which lines they draw.
+    pub stroke: StrokeOptions,
+    /// The hand: seeds everything that varies by chance, and changes nothing else. Default: 0.
+    pub seed: u64,
+}
+
+impl Default for Style {
+    /// The style `ink`.
+    fn default() -> Self {
+        Self::preset("ink").unwrap_or_else(|| sheet::Sheet::default().into_style())
+    }
+}
+
+/// The built-in sheets, by name: the file styles/NAME.toml.
+const BUILT_IN: [(&str, &str); 3] = [
+    ("ink", include_str!("../../styles/ink.toml")),
+    ("plotter", include_str!("../../styles/plotter.toml")),
+    ("technical", include_str!("../../styles/technical.toml")),
+];
+
+impl Style {
+    /// A built-in style; `None` if there is none of this name.
+    #[must_use]
+    pub fn preset(name: &str) -> Option<Self> {
+        Self::sheet_text(name)?;
+        Self::load(name, &[]).ok()
+    }
+
+    /// The names of the built-in styles, in alphabetical order.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        BUILT_IN.iter().map(|(name, _)| *name)
+    }
+
+    /// The text of a built-in style's sheet.
+    #[must_use]
+    pub fn sheet_text(name: &str) -> Option<&'static str> {
+        BUILT_IN.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+    }
+
+    /// The idea of a built-in style in one line: the first comment of its sheet.
+    #[must_use]
+    pub fn idea(name: &str) -> Option<&'static str> {
+        Some(Self::sheet_text(name)?.lines().next()?.trim_start_matches('#').trim())
+    }
+
+    /// Reads a style: the name of a built-in one or the path of a sheet, then changes to it, each
+    /// `KEY=VALUE` with a dotted key such as `pen.contour.width=2`.
+    ///
+    /// # Errors
+    /// Names the file (or the change), the line and the key, and the nearest known one.
+    pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
+        load::load(name_or_path, sets)
+    }
+}

@@ -1,5 +1,14 @@
 //! [`ViewMap`]: the planar graph of the projected feature lines, cut where visibility changes.
 
+pub mod build;
+pub mod doubles;
 pub mod graph;
+pub mod grid;
+pub mod layers;
+pub mod occlude;
+pub mod occluders;
+pub mod project;
+pub mod visibility;
 
+pub use build::build;
 pub use graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};

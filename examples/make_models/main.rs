@@ -1,0 +1,49 @@
+//! Writes the example models: `cargo run --release --example make_models [-- DIR]`.
+//!
+//! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
+
+mod bracket;
+mod creased;
+mod gear;
+mod glb;
+mod knot;
+mod obj;
+mod outline;
+mod part;
+mod patches;
+mod ply;
+mod polygon;
+mod pump;
+mod pump_motor;
+mod pump_parts;
+mod solid;
+mod stl;
+mod sweep;
+mod teapot;
+
+use std::path::PathBuf;
+
+use part::{Material, Part};
+
+const STEEL: Material = Material { name: "steel", colour: [0.7, 0.72, 0.75], metallic: 1.0, roughness: 0.4 };
+
+fn main() -> std::io::Result<()> {
+    let folder = std::env::args_os().nth(1).map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models")),
+        PathBuf::from,
+    );
+    std::fs::create_dir_all(&folder)?;
+    let write = |name: &str, bytes: &[u8]| {
+        println!("{name}: {} bytes", bytes.len());
+        std::fs::write(folder.join(name), bytes)
+    };
+
+    let (parts, normals) = teapot::teapot();
+    write("teapot.obj", obj::text("The Utah teapot, from its published patches", None, &parts, &normals).as_bytes())?;
+    let gear = Part::new("gear", STEEL, gear::gear());
+    write("gear.obj", obj::text("A spur gear of 24 teeth, in mm", None, &[gear], &[]).as_bytes())?;
+    write("bracket.stl", &stl::bytes("angle bracket, in mm", &bracket::bracket()))?;
+    write("pump.glb", &glb::bytes("ligne make_models", &pump::pump()))?;
+    let (knot, normals) = knot::knot();
+    write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))
+}

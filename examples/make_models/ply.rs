@@ -1,0 +1,30 @@
+//! Binary little-endian PLY bytes.
+
+use glam::DVec3;
+
+use crate::solid::Solid;
+
+/// The triangles of a solid, with one normal a point.
+pub fn bytes(title: &str, solid: &Solid, normals: &[DVec3]) -> Vec<u8> {
+    let triangles: Vec<[u32; 3]> = solid.triangles().collect();
+    let mut out = format!(
+        "ply\nformat binary_little_endian 1.0\ncomment {title}\nelement vertex {}\n",
+        solid.points.len()
+    );
+    for name in ["x", "y", "z", "nx", "ny", "nz"] {
+        out.push_str(&format!("property float {name}\n"));
+    }
+    out.push_str(&format!("element face {}\n", triangles.len()));
+    out.push_str("property list uchar int vertex_indices\nend_header\n");
+    let mut out = out.into_bytes();
+    for (point, normal) in solid.points.iter().zip(normals) {
+        for value in [point, normal].into_iter().flat_map(|vector| vector.as_vec3().to_array()) {
+            out.extend((value + 0.0).to_le_bytes());
+        }
+    }
+    for triangle in triangles {
+        out.push(3);
+        out.extend(triangle.iter().flat_map(|corner| corner.to_le_bytes()));
+    }
+    out
+}

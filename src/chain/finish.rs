@@ -1,0 +1,182 @@
+//! Makes the drawn curve and the points of a chain from the raw line of a route.
+
+use kurbo::{BezPath, Point};
+
+use super::corners::corners;
+use super::curve::{add_exact, add_smooth, closed_exact, closed_smooth, polyline};
+use super::line::Line;
+use super::resample::resample;
+use super::simplify::{COLLINEAR, simplify};
+use super::smooth::smooth;
+use super::unfold::unfold;
+
+/// Options in user units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tolerances {
+    /// A CSS px.
+    pub px: f64,
+    pub smooth: f64,
+    pub simplify: f64,
+    pub tidy: f64,
+    /// 0 when curves are not fitted.
+    pub fit: f64,
+}
+
+/// Spacing of the points that smoothing works on, px.
+const SPACING_PX: f64 = 1.0;
+
+/// Length over which a turn must last to be a corner, px.
+const CORNER_PX: f64 = 6.0;
+
+/// A finished line and its path.
+pub(super) fn finish(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    if t.smooth <= 0.0 || !raw.is_soft() {
+        return exact(raw, t);
+    }
+    if raw.closed {
+        return match raw.soft.iter().position(|soft| !*soft) {
+            None => closed(raw, t),
+            // Begins with a stretch that is not smoothed, so that no smooth stretch is cut.
+            Some(hard) => {
+                let (mut line, mut path) = open(&raw.opened_at(hard), t);
+                close(&mut line);
+                path.close_path();
+                (line, path)
+            }
+        };
+    }
+    open(raw, t)
+}
+
+/// Drops the repeated end of a line that ends where it began.
+fn close(line: &mut Line) {
+    line.closed = true;
+    line.points.pop();
+    line.depths.pop();
+    line.soft.pop();
+}
+
+/// A line nothing of which is smoothed.
+fn exact(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    let straightened = simplify(raw, COLLINEAR);
+    let line = if t.simplify > 0.0 { simplify(&straightened, t.simplify) } else { straightened.clone() };
+    if t.fit <= 0.0 {
+        let path = polyline(&line);
+        return (line, path);
+    }
+    let path = if raw.closed {
+        closed_exact(&straightened, t.fit)
+    } else {
+        let mut path = BezPath::new();
+        if let Some(first) = straightened.points.first() {
+            path.move_to(*first);
+            add_exact(&straightened.points, t.fit, &mut path);
+        }
+        path
+    };
+    (line, path)
+}
+
+/// A closed line that is smooth all round.
+fn closed(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
+    let (dense, spacing) = resample(&line, SPACING_PX * t.px);
+    let found = find_corners(&dense, spacing, t);
+    if let Some(first) = found.first() {
+        let turned = dense.opened_at(*first);
+        let n = dense.len();
+        let cuts: Vec<usize> = found.iter().map(|c| (c + n - first) % n).chain([n]).collect();
+        let (mut line, mut path) = between(&turned, &cuts, t);
+        close(&mut line);
+        path.close_path();
+        return (line, path);
+    }
+    let mut dense = dense;
+    dense.points = smooth(&dense.points, true, t.smooth);
+    let line = simplify(&dense, t.simplify);
+    let path =
+        if t.fit > 0.0 && dense.len() > 8 { closed_smooth(&dense.points, t.fit) } else { polyline(&line) };
+    (line, path)
+}
+
+/// An open line, in stretches that are smooth and stretches that are exact.
+fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    let mut line = Line::default();
+    let mut path = BezPath::new();
+    if let Some(first) = raw.points.first() {
+        path.move_to(*first);
+    }
+    let sides = raw.len().saturating_sub(1);
+    let mut i = 0;
+    while i < sides {
+        let soft = raw.soft[i];
+        let run = raw.soft[i..sides].iter().take_while(|s| **s == soft).count();
+        let stretch = raw.slice(i, i + run);
+        let (part, drawn) = if soft { soft_stretch(&stretch, t) } else { exact(&stretch, t) };
+        append(&mut line, &part);
+        path.extend(drawn.elements().iter().skip(1).copied());
+        i += run;
+    }
+    if sides == 0 {
+        append(&mut line, raw);
+    }
+    (line, path)
+}
+
+/// A smooth open stretch: cut at its corners, each part smoothed.
+fn soft_stretch(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
+    let (dense, spacing) = resample(&line, SPACING_PX * t.px);
+    let mut cuts = vec![0];
+    cuts.extend(find_corners(&dense, spacing, t));
+    cuts.push(dense.len().saturating_sub(1));
+    between(&dense, &cuts, t)
+}
+
+/// Corners are looked for on a line that is smoothed a little, as the raw one turns everywhere.
+fn find_corners(dense: &Line, spacing: f64, t: Tolerances) -> Vec<usize> {
+    let n = dense.len();
+    let mut points: Vec<Point> = dense.points.clone();
+    for _ in 0..2 {
+        let before = points.clone();
+        for i in 0..n {
+            if dense.closed || (i > 0 && i + 1 < n) {
+                let (a, b) = (before[(i + n - 1) % n], before[(i + 1) % n]);
+                points[i] = before[i].lerp(a.midpoint(b), 0.5);
+            }
+        }
+    }
+    corners(&points, dense.closed, spacing, CORNER_PX * t.px)
+}
+
+/// Smooths, simplifies and fits the parts of a dense open line between cuts.
+fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
+    let mut line = Line::default();
+    let mut path = BezPath::new();
+    if let Some(first) = dense.points.first() {
+        path.move_to(*first);
+    }
+    for pair in cuts.windows(2) {
+        let &[a, b] = pair else { continue };
+        if b <= a {
+            continue;
+        }
+        let mut part = dense.slice(a, b);
+        part.points = smooth(&part.points, false, t.smooth);
+        let simple = simplify(&part, t.simplify);
+        append(&mut line, &simple);
+        if t.fit > 0.0 {
+            add_smooth(&part.points, t.fit, &mut path);
+        } else {
+            path.extend(polyline(&simple).elements().iter().skip(1).copied());
+        }
+    }
+    (line, path)
+}
+
+/// Adds a line that begins where the other ends.
+fn append(line: &mut Line, part: &Line) {
+    for i in 0..part.len() {
+        line.push(part.points[i], part.depths[i], part.soft[i]);
+    }
+}

@@ -1,0 +1,56 @@
+//! Leaves out points that a line does without.
+//!
+//! Source: Douglas and Peucker, Algorithms for the reduction of the number of points required to
+//! represent a digitized line, Cartographica 1973; measured against the segment, not its line, so
+//! that a line that doubles back keeps its tip.
+
+use super::line::{Line, distance2};
+
+/// Deviation below which points of a straight line are one straight line even with simplifying off.
+pub(super) const COLLINEAR: f64 = 1e-9;
+
+/// Keeps the ends and every point without which the line would move by more than `tolerance`. A
+/// closed line keeps its first point and the one farthest from it.
+pub(super) fn simplify(line: &Line, tolerance: f64) -> Line {
+    let n = line.len();
+    if n < 3 {
+        return line.clone();
+    }
+    let tolerance2 = tolerance.max(COLLINEAR) * tolerance.max(COLLINEAR);
+    if !line.closed {
+        let kept = keep(line, tolerance2);
+        return line.pick(&kept);
+    }
+    let away = |i: &usize| (line.points[*i] - line.points[0]).hypot2();
+    let far = (1..n).max_by(|a, b| away(a).total_cmp(&away(b)).then(b.cmp(a))).unwrap_or(1);
+    let whole = line.opened_at(0);
+    let mut kept = keep(&whole.slice(0, far), tolerance2);
+    kept.pop();
+    kept.extend(keep(&whole.slice(far, n), tolerance2).into_iter().map(|i| i + far));
+    kept.pop();
+    line.pick(&kept)
+}
+
+/// Indices of the points that stay in an open line.
+fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
+    let n = line.len();
+    let mut stays = vec![false; n];
+    let mut open = vec![(0, n - 1)];
+    stays[0] = true;
+    stays[n - 1] = true;
+    while let Some((a, b)) = open.pop() {
+        let mut worst = (tolerance2, None);
+        for i in a + 1..b {
+            let d = distance2(line.points[i], line.points[a], line.points[b]);
+            if d > worst.0 {
+                worst = (d, Some(i));
+            }
+        }
+        if let Some(i) = worst.1 {
+            stays[i] = true;
+            open.push((a, i));
+            open.push((i, b));
+        }
+    }
+    (0..n).filter(|i| stays[*i]).collect()
+}

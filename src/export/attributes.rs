@@ -1,0 +1,152 @@
+//! Painting attributes of SVG, hoisted to the groups that share them.
+
+use rustc_hash::FxHashMap;
+
+use super::number::Decimals;
+use crate::drawing::{Cap, Join, Mark, Paint};
+use crate::math::colour::Colour;
+
+/// Value of one attribute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Value {
+    /// Has no influence on the mark.
+    Any,
+    /// `none`.
+    None,
+    /// A colour; its opacity is an attribute of its own.
+    Colour(Colour),
+    /// 0 to 255.
+    Opacity(u8),
+    /// Steps of [`WIDTH_DECIMALS`].
+    Width(i64),
+    Cap(Cap),
+    Join(Join),
+}
+
+/// Decimals of widths, finer than those of coordinates: 0.25 mm is 0.945 px.
+const WIDTH_DECIMALS: u8 = 3;
+
+const NAMES: [&str; 7] =
+    ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linecap", "stroke-linejoin"];
+
+/// What holds where nothing is written.
+const INITIAL: Attributes = Attributes([
+    Value::Colour(Colour::BLACK),
+    Value::Opacity(255),
+    Value::None,
+    Value::Opacity(255),
+    Value::Width(1000),
+    Value::Cap(Cap::Butt),
+    Value::Join(Join::Miter),
+]);
+
+/// How marks are painted, but for dashes: one value for each of [`NAMES`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Attributes([Value; 7]);
+
+impl Attributes {
+    /// The attributes a mark needs.
+    pub fn of(mark: &Mark) -> Self {
+        use Value::Any;
+        match &mark.paint {
+            Paint::Stroke(stroke) => Self([
+                Value::None,
+                Any,
+                Value::Colour(opaque(stroke.colour)),
+                Value::Opacity(stroke.colour.a),
+                Value::Width(Decimals::new(WIDTH_DECIMALS).round(stroke.width)),
+                Value::Cap(stroke.cap),
+                Value::Join(stroke.join),
+            ]),
+            Paint::Fill(colour) => Self([
+                Value::Colour(opaque(*colour)),
+                Value::Opacity(colour.a),
+                Value::None,
+                Any,
+                Any,
+                Any,
+                Any,
+            ]),
+        }
+    }
+
+    /// What is best written on a group: of each attribute the value of the most marks, the first
+    /// of equally frequent ones.
+    pub fn common(marks: &[&Mark]) -> Self {
+        let needed: Vec<Self> = marks.iter().map(|mark| Self::of(mark)).collect();
+        let mut common = INITIAL;
+        for (index, value) in common.0.iter_mut().enumerate() {
+            let mut counts: FxHashMap<Value, usize> = FxHashMap::default();
+            let mut best = 0;
+            let values = || needed.iter().filter_map(|set| set.0.get(index)).filter(|v| **v != Value::Any);
+            for needed in values() {
+                *counts.entry(*needed).or_default() += 1;
+            }
+            for needed in values() {
+                let count = counts.get(needed).copied().unwrap_or_default();
+                if count > best {
+                    best = count;
+                    *value = *needed;
+                }
+            }
+        }
+        common
+    }
+
+    /// Writes what a group must say at the top of the document.
+    pub fn write(&self, out: &mut Vec<u8>) {
+        self.write_over(&INITIAL, out);
+    }
+
+    /// Writes what differs inside a group that says `outer`.
+    pub fn write_over(&self, outer: &Self, out: &mut Vec<u8>) {
+        for ((name, value), outer) in NAMES.iter().zip(&self.0).zip(&outer.0) {
+            if value == outer || *value == Value::Any {
+                continue;
+            }
+            out.push(b' ');
+            out.extend_from_slice(name.as_bytes());
+            out.extend_from_slice(b"=\"");
+            match value {
+                Value::Any => {}
+                Value::None => out.extend_from_slice(b"none"),
+                Value::Colour(colour) => out.extend_from_slice(hex(*colour).as_bytes()),
+                Value::Opacity(a) => {
+                    out.extend_from_slice(Decimals::new(3).text(f64::from(*a) / 255.0).as_bytes());
+                }
+                Value::Width(width) => Decimals::new(WIDTH_DECIMALS).write(out, *width),
+                Value::Cap(cap) => out.extend_from_slice(match cap {
+                    Cap::Butt => b"butt",
+                    Cap::Round => b"round",
+                    Cap::Square => b"square",
+                }),
+                Value::Join(join) => out.extend_from_slice(match join {
+                    Join::Miter => b"miter",
+                    Join::Round => b"round",
+                    Join::Bevel => b"bevel",
+                }),
+            }
+            out.push(b'"');
+        }
+    }
+
+    /// Whether nothing needs to be written inside a group that says `outer`.
+    pub fn fits(&self, outer: &Self) -> bool {
+        self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == Value::Any)
+    }
+}
+
+/// The colour without its opacity.
+fn opaque(colour: Colour) -> Colour {
+    Colour { a: 255, ..colour }
+}
+
+/// `#rgb` where it says the same as `#rrggbb`.
+pub(super) fn hex(colour: Colour) -> String {
+    let Colour { r, g, b, .. } = colour;
+    if [r, g, b].iter().all(|channel| channel % 17 == 0) {
+        format!("#{:x}{:x}{:x}", r / 17, g / 17, b / 17)
+    } else {
+        colour.hex()
+    }
+}

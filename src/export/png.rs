@@ -1,0 +1,109 @@
+//! A drawing as PNG, rasterised from the same SVG text.
+
+use tiny_skia::{Pixmap, Transform};
+
+use super::SvgOptions;
+use crate::drawing::{Drawing, Unit};
+use crate::error::Error;
+
+/// Dots an inch of a drawing in millimetres, unless others are asked for.
+const PRINT_DPI: f64 = 300.0;
+/// CSS pixels an inch.
+const CSS_DPI: f64 = 96.0;
+const MM_PER_INCH: f64 = 25.4;
+/// More pixels than this are refused: a gigabyte of memory.
+const MOST_PIXELS: f64 = 268_435_456.0;
+const LONGEST_SIDE: f64 = 65_535.0;
+
+/// How many pixels there are.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Resolution {
+    /// One to a px of the drawing, or 300 an inch of a drawing in millimetres.
+    #[default]
+    Natural,
+    /// So many an inch; a px of the drawing is 1/96 inch.
+    Dpi(f64),
+    /// So many across; the height follows.
+    Width(u32),
+}
+
+/// How PNG is written.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PngOptions {
+    /// How many pixels there are. Default: natural.
+    pub resolution: Resolution,
+}
+
+impl Drawing {
+    /// The drawing as a PNG file; transparent where the page has no background.
+    ///
+    /// # Errors
+    /// If the picture would have no pixels, or more than memory should hold, or if the drawing
+    /// has more paths than the rasteriser takes.
+    pub fn to_png(&self, options: &PngOptions) -> Result<Vec<u8>, Error> {
+        let (width, height, dpi) = self.pixels(options)?;
+        let svg = self.to_svg(&SvgOptions::default());
+        let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).map_err(|error| {
+            Error::new(format!("the drawing cannot be rasterised: {error}")).remedy("write SVG instead")
+        })?;
+        drop(svg);
+        let mut pixmap = Pixmap::new(width, height)
+            .ok_or_else(|| Error::new(format!("there is no memory for {width} x {height} pixels")))?;
+        let scale = |pixels: u32, size: f32| (f64::from(pixels) / f64::from(size)) as f32;
+        let transform =
+            Transform::from_scale(scale(width, tree.size().width()), scale(height, tree.size().height()));
+        resvg::render(&tree, transform, &mut pixmap.as_mut());
+        let opaque = self.page.background.is_some_and(|colour| colour.a == 255);
+        encode(pixmap, opaque, dpi).map_err(|error| Error::new(format!("cannot write PNG: {error}")))
+    }
+
+    /// Width and height in pixels, and pixels an inch.
+    fn pixels(&self, options: &PngOptions) -> Result<(u32, u32, f64), Error> {
+        let (per_inch, natural) = match self.page.unit {
+            Unit::Px => (CSS_DPI, CSS_DPI),
+            Unit::Mm => (MM_PER_INCH, PRINT_DPI),
+        };
+        let dpi = match options.resolution {
+            Resolution::Natural => natural,
+            Resolution::Dpi(dpi) => dpi,
+            Resolution::Width(pixels) => f64::from(pixels) / self.page.width * per_inch,
+        };
+        let width = (self.page.width / per_inch * dpi).round();
+        let height = (self.page.height / per_inch * dpi).round();
+        let sides = width.max(height);
+        if !(width >= 1.0 && height >= 1.0 && sides <= LONGEST_SIDE && width * height <= MOST_PIXELS) {
+            return Err(Error::new(format!("a picture of {width} x {height} pixels cannot be made"))
+                .remedy("choose a size of 1 to 65535 pixels a side and 268 million in all, or other dpi"));
+        }
+        Ok((width as u32, height as u32, dpi))
+    }
+}
+
+/// The file; without an alpha channel if every pixel is opaque.
+fn encode(pixmap: Pixmap, opaque: bool, dpi: f64) -> Result<Vec<u8>, png::EncodingError> {
+    let (width, height) = (pixmap.width(), pixmap.height());
+    let mut pixels = pixmap.take_demultiplied();
+    if opaque {
+        let mut to = 0;
+        for from in (0..pixels.len()).step_by(4) {
+            pixels.copy_within(from..from + 3, to);
+            to += 3;
+        }
+        pixels.truncate(to);
+    }
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba });
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    let per_metre = (dpi / MM_PER_INCH * 1000.0).round() as u32;
+    encoder.set_pixel_dims(Some(png::PixelDimensions {
+        xppu: per_metre,
+        yppu: per_metre,
+        unit: png::Unit::Meter,
+    }));
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&pixels)?;
+    writer.finish()?;
+    Ok(file)
+}

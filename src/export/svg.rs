@@ -1,0 +1,273 @@
+//! A drawing as SVG: Inkscape layers or groups of parts, small and fast to write.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::attributes::{Attributes, hex};
+use super::number::Decimals;
+use super::path_data;
+use super::xml::{Ids, escape};
+use crate::drawing::{Drawing, Layer, LayerKind, Mark, Paint, Unit};
+
+/// Marks that one task writes. Fixed, so that the bytes do not depend on the number of threads.
+const CHUNK: usize = 2048;
+/// Decimals of dash lengths: finer than coordinates, since they add up along a path.
+const DASH_DECIMALS: u8 = 3;
+
+/// What the groups of the document are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Grouping {
+    /// Layers, back to front.
+    #[default]
+    Layer,
+    /// One group for each part of the model, for hot-spots.
+    Part,
+}
+
+/// How SVG is written.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SvgOptions {
+    /// Decimals of coordinates, at most 8. Default: 2 for pixels, 3 for millimetres.
+    pub precision: Option<u8>,
+    /// Put before every id, so that several drawings fit into one page. Default: empty.
+    pub id_prefix: String,
+    /// What the groups are. Default: layers.
+    pub group: Grouping,
+}
+
+impl SvgOptions {
+    /// Decimals of the coordinates of a drawing in this unit.
+    #[must_use]
+    pub fn decimals(&self, unit: Unit) -> u8 {
+        self.precision.unwrap_or(match unit {
+            Unit::Px => 2,
+            Unit::Mm => 3,
+        })
+    }
+}
+
+impl Drawing {
+    /// The drawing as SVG text. The same drawing gives the same bytes.
+    ///
+    /// Coordinates are off by at most half a unit of the last written decimal.
+    #[must_use]
+    pub fn to_svg(&self, options: &SvgOptions) -> String {
+        let decimals = Decimals::new(options.decimals(self.page.unit));
+        let mut ids = Ids::new(&options.id_prefix);
+        let mut out = Vec::new();
+        self.open(&mut out);
+        self.paper(&mut out, &mut ids);
+        match options.group {
+            Grouping::Layer => {
+                for layer in &self.layers {
+                    let marks: Vec<&Mark> = layer.marks.iter().collect();
+                    let (id, label) = self.names(layer);
+                    open_layer(&mut out, &mut ids, &id, &label);
+                    group(&mut out, &marks, decimals, b"");
+                }
+            }
+            Grouping::Part => {
+                for (name, marks) in self.by_part() {
+                    match name {
+                        Some(name) => {
+                            out.extend_from_slice(b"<g id=\"");
+                            out.extend_from_slice(ids.take(&format!("part-{name}")).as_bytes());
+                            out.push(b'"');
+                            let mut title = b"<title>".to_vec();
+                            escape(&mut title, &name);
+                            title.extend_from_slice(b"</title>\n");
+                            group(&mut out, &marks, decimals, &title);
+                        }
+                        None => {
+                            out.extend_from_slice(b"<g");
+                            group(&mut out, &marks, decimals, b"");
+                        }
+                    }
+                }
+            }
+        }
+        out.extend_from_slice(b"</svg>\n");
+        // All that is written is ASCII or copied from text.
+        String::from_utf8(out).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
+    }
+
+    /// The root element and the title.
+    fn open(&self, out: &mut Vec<u8>) {
+        let number = |value: f64| Decimals::new(4).text(value);
+        let unit = match self.page.unit {
+            Unit::Px => "",
+            Unit::Mm => "mm",
+        };
+        let (width, height) = (number(self.page.width), number(self.page.height));
+        let root = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" \
+             xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
+             width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\">\n"
+        );
+        out.extend_from_slice(root.as_bytes());
+        if !self.title.is_empty() {
+            out.extend_from_slice(b"<title>");
+            escape(out, &self.title);
+            out.extend_from_slice(b"</title>\n");
+        }
+    }
+
+    /// The coloured paper.
+    fn paper(&self, out: &mut Vec<u8>, ids: &mut Ids) {
+        let Some(colour) = self.page.background else { return };
+        let number = |value: f64| Decimals::new(4).text(value);
+        let kind = LayerKind::Paper;
+        // A paper layer with marks of its own follows; the plain colour lies below it.
+        let taken = self.layers.iter().any(|layer| layer.kind == kind);
+        open_layer(out, ids, if taken { "paper-colour" } else { kind.id() }, kind.id());
+        let opacity = match colour.a {
+            255 => String::new(),
+            a => format!(" fill-opacity=\"{}\"", Decimals::new(3).text(f64::from(a) / 255.0)),
+        };
+        let rectangle = format!(
+            ">\n<rect width=\"{}\" height=\"{}\" fill=\"{}\"{opacity}/>\n</g>\n",
+            number(self.page.width),
+            number(self.page.height),
+            hex(colour),
+        );
+        out.extend_from_slice(rectangle.as_bytes());
+    }
+
+    /// Id and label of a layer. Layers of several pens are numbered, and labelled by their pen.
+    fn names(&self, layer: &Layer) -> (String, String) {
+        let id = layer.kind.id();
+        let mut same = self.layers.iter().filter(|other| other.kind == layer.kind);
+        let id = match (&layer.pen, same.nth(1)) {
+            (Some(pen), Some(_)) => format!("{id}-{}", pen.split(' ').next().unwrap_or_default()),
+            _ => id.to_owned(),
+        };
+        let label = layer.pen.clone().unwrap_or_else(|| id.clone());
+        (id, label)
+    }
+
+    /// The marks of all layers by part, in order of first appearance; those of no part first.
+    fn by_part(&self) -> Vec<(Option<Arc<str>>, Vec<&Mark>)> {
+        let mut groups: Vec<(Option<Arc<str>>, Vec<&Mark>)> = vec![(None, Vec::new())];
+        let mut index: FxHashMap<&str, usize> = FxHashMap::default();
+        for mark in self.layers.iter().flat_map(|layer| &layer.marks) {
+            let at = match &mark.provenance.part {
+                None => 0,
+                Some(name) => *index.entry(name).or_insert_with(|| {
+                    groups.push((Some(Arc::clone(name)), Vec::new()));
+                    groups.len() - 1
+                }),
+            };
+            if let Some((_, marks)) = groups.get_mut(at) {
+                marks.push(mark);
+            }
+        }
+        groups.retain(|(_, marks)| !marks.is_empty());
+        groups
+    }
+}
+
+/// The start tag of a layer, but for its attributes of painting and its closing bracket.
+fn open_layer(out: &mut Vec<u8>, ids: &mut Ids, id: &str, label: &str) {
+    out.extend_from_slice(b"<g id=\"");
+    out.extend_from_slice(ids.take(id).as_bytes());
+    out.extend_from_slice(b"\" inkscape:groupmode=\"layer\" inkscape:label=\"");
+    escape(out, label);
+    out.push(b'"');
+}
+
+/// The rest of a group whose start tag is open: shared attributes, `head`, marks, end tag.
+fn group(out: &mut Vec<u8>, marks: &[&Mark], decimals: Decimals, head: &[u8]) {
+    let common = Attributes::common(marks);
+    common.write(out);
+    out.extend_from_slice(b">\n");
+    out.extend_from_slice(head);
+    let pieces: Vec<Vec<u8>> =
+        marks.par_chunks(CHUNK).map(|chunk| write_chunk(chunk, &common, decimals)).collect();
+    out.reserve(pieces.iter().map(Vec::len).sum::<usize>() + 16);
+    for piece in pieces {
+        out.extend_from_slice(&piece);
+    }
+    out.extend_from_slice(b"</g>\n");
+}
+
+/// Some marks of a group; neighbours that are painted alike, but unlike the group, share a group
+/// of their own.
+fn write_chunk(marks: &[&Mark], outer: &Attributes, decimals: Decimals) -> Vec<u8> {
+    let mut out = Vec::with_capacity(marks.len() * 96);
+    for run in marks.chunk_by(|a, b| Attributes::of(a) == Attributes::of(b)) {
+        let Some(first) = run.first() else { continue };
+        let attributes = Attributes::of(first);
+        let shared = run.len() > 1 && !attributes.fits(outer);
+        if shared {
+            out.extend_from_slice(b"<g");
+            attributes.write_over(outer, &mut out);
+            out.extend_from_slice(b">\n");
+        }
+        for mark in run {
+            write_mark(&mut out, mark, if shared { &attributes } else { outer }, decimals, &attributes);
+        }
+        if shared {
+            out.extend_from_slice(b"</g>\n");
+        }
+    }
+    out
+}
+
+/// One path.
+fn write_mark(
+    out: &mut Vec<u8>,
+    mark: &Mark,
+    outer: &Attributes,
+    decimals: Decimals,
+    attributes: &Attributes,
+) {
+    let provenance = &mark.provenance;
+    out.extend_from_slice(b"<path");
+    if let Some((first, others)) = provenance.classes.split_first() {
+        out.extend_from_slice(b" class=\"");
+        out.extend_from_slice(first.as_bytes());
+        for class in others {
+            out.push(b' ');
+            out.extend_from_slice(class.as_bytes());
+        }
+        out.push(b'"');
+    }
+    let mut named = |name: &[u8], text: &str| {
+        out.extend_from_slice(name);
+        escape(out, text);
+        out.push(b'"');
+    };
+    if let Some(part) = &provenance.part {
+        named(b" data-part=\"", part);
+    }
+    if let (Paint::Fill(_), Some(material)) = (&mark.paint, &provenance.material) {
+        named(b" data-material=\"", material);
+    }
+    if provenance.invisibility > 0 {
+        named(b" data-invisibility=\"", &provenance.invisibility.to_string());
+    }
+    attributes.write_over(outer, out);
+    if let Paint::Stroke(stroke) = &mark.paint
+        && !stroke.dash.is_empty()
+    {
+        let fine = Decimals::new(DASH_DECIMALS);
+        out.extend_from_slice(b" stroke-dasharray=\"");
+        for (index, dash) in stroke.dash.iter().enumerate() {
+            if index > 0 {
+                out.push(b' ');
+            }
+            fine.write(out, fine.round(*dash));
+        }
+        out.push(b'"');
+        if fine.round(stroke.dash_offset) != 0 {
+            out.extend_from_slice(b" stroke-dashoffset=\"");
+            fine.write(out, fine.round(stroke.dash_offset));
+            out.push(b'"');
+        }
+    }
+    out.extend_from_slice(b" d=\"");
+    path_data::write(out, &mark.path, decimals);
+    out.extend_from_slice(b"\"/>\n");
+}

@@ -1,0 +1,255 @@
+//! Feature lines that are edges of the mesh: contours, borders, creases, material boundaries.
+//!
+//! Source: Lake, Marshall, Harris and Blackstein, "Stylized rendering techniques for scalable
+//! real-time 3D animation", NPAR 2000, section 4.1. A contour is told from the geometry of its
+//! faces, not from their winding alone, so that meshes of mixed winding are drawn right.
+
+use rayon::prelude::*;
+
+use super::needle::{Beyond, beyond};
+use super::{FeatureSegment, LineKind, LineOptions, NO_FACE};
+use crate::math::function::{acos, cos};
+use crate::mesh::{EdgeFaces, EdgeMark, FaceId, Mesh};
+use crate::view::View;
+
+/// All edges of the mesh that are feature lines of the kinds asked for, in edge order.
+#[must_use]
+pub fn find(mesh: &Mesh, view: &View, options: &LineOptions) -> Vec<FeatureSegment> {
+    let finder = Finder {
+        mesh,
+        view,
+        wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
+        crease_cosine: cos(options.crease_deg.to_radians()) as f32,
+        crease_deg: options.crease_deg as f32,
+    };
+    const CHUNK: usize = 1 << 14;
+    let chunks = mesh.edges.len().div_ceil(CHUNK);
+    let found: Vec<Vec<FeatureSegment>> = (0..chunks)
+        .into_par_iter()
+        .map(|k| {
+            let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
+            edges.filter_map(|e| finder.classify(e)).collect()
+        })
+        .collect();
+    found.concat()
+}
+
+struct Finder<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    wanted: u32,
+    crease_cosine: f32,
+    crease_deg: f32,
+}
+
+impl Finder<'_> {
+    fn wants(&self, kind: LineKind) -> bool {
+        self.wanted & (1 << kind as u32) != 0
+    }
+
+    #[inline]
+    fn classify(&self, edge: usize) -> Option<FeatureSegment> {
+        match self.mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces: [first, second], same_way } => {
+                if self.degenerate(first) || self.degenerate(second) {
+                    return self.classify_beside_needle(edge, &[first, second]);
+                }
+                self.classify_pair(edge, first, second, same_way)
+            }
+            EdgeFaces::One(face) => self.classify_single(edge, face),
+            EdgeFaces::Many(faces) => self.classify_fan(edge, faces),
+        }
+    }
+
+    fn degenerate(&self, face: u32) -> bool {
+        self.mesh.is_degenerate(FaceId(face))
+    }
+
+    #[inline]
+    fn classify_pair(&self, edge: usize, first: u32, second: u32, same_way: bool) -> Option<FeatureSegment> {
+        let facing = &self.view.facing;
+        let contour = (facing[first as usize] != facing[second as usize]) != same_way;
+        let dot = self.normal_dot(first, second, same_way);
+        if !contour && dot >= self.crease_cosine && !self.speaks(first, second) {
+            return None;
+        }
+        let turn = acos(f64::from(dot)).to_degrees() as f32;
+        let mark = self.mark(edge, &[first, second]);
+        let crease = match mark {
+            EdgeMark::Unmarked => turn > self.crease_deg,
+            EdgeMark::Hard => true,
+            EdgeMark::Hidden | EdgeMark::Contour => false,
+        };
+        let other_material = mark != EdgeMark::Hidden
+            && self.mesh.face_material[first as usize] != self.mesh.face_material[second as usize];
+        let kind = if contour && self.wants(LineKind::Contour) {
+            LineKind::Contour
+        } else if crease && self.wants(LineKind::Crease) {
+            LineKind::Crease
+        } else if other_material && self.wants(LineKind::Material) {
+            LineKind::Material
+        } else {
+            return None;
+        };
+        let nearer = if facing[first as usize] { first } else { second };
+        Some(FeatureSegment {
+            both_seen: !contour,
+            smooth: turn <= self.crease_deg && mark != EdgeMark::Hard,
+            strength: turn,
+            ..self.segment(edge, kind, nearer)
+        })
+    }
+
+    /// Whether a flat edge may still be a line: its materials differ or the file marks it.
+    fn speaks(&self, first: u32, second: u32) -> bool {
+        self.mesh.face_material[first as usize] != self.mesh.face_material[second as usize]
+            || !self.mesh.edge_marks.is_empty()
+    }
+
+    fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
+        (self.wants(LineKind::Border) && !self.degenerate(face))
+            .then(|| FeatureSegment { both_seen: false, ..self.segment(edge, LineKind::Border, face) })
+    }
+
+    fn classify_beside_needle(&self, edge: usize, faces: &[u32; 2]) -> Option<FeatureSegment> {
+        let real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
+        let needle = faces.iter().copied().find(|f| self.degenerate(*f))?;
+        let &[face] = real.as_slice() else { return None };
+        let [lo, hi] = self.mesh.edges.vertices[edge];
+        match beyond(self.mesh, needle, lo, hi) {
+            Beyond::Face(other) => self.classify_pair(edge, face, other, false),
+            Beyond::LongEdge => None,
+            Beyond::Nothing => self.classify_single(edge, face),
+        }
+    }
+
+    /// Three faces or more. The line is a contour if all of them lie on one side of it in the
+    /// image. Else the eye looks into one of the corners between neighbouring faces, and that
+    /// corner decides about a crease, or any part's own corner does.
+    fn classify_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
+        let mesh = self.mesh;
+        let real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
+        match *real.as_slice() {
+            [] => return None,
+            [face] => return self.classify_single(edge, face),
+            [first, second] => {
+                let same_way = self.runs_up(edge, first) == self.runs_up(edge, second);
+                return self.classify_pair(edge, first, second, same_way);
+            }
+            _ => {}
+        }
+        let side = |f: u32| self.view.facing[f as usize] == self.runs_up(edge, f);
+        let contour = real.iter().all(|f| side(*f)) || real.iter().all(|f| !side(*f));
+        let turn = self.corner_turn(edge, &real).max(self.own_turn(edge, &real));
+        let materials = |f: &u32| mesh.face_material[*f as usize];
+        let other_material = real.iter().any(|f| materials(f) != materials(&real[0]));
+        let kind = if contour && self.wants(LineKind::Contour) {
+            LineKind::Contour
+        } else if turn > self.crease_deg && self.wants(LineKind::Crease) {
+            LineKind::Crease
+        } else if other_material && self.wants(LineKind::Material) {
+            LineKind::Material
+        } else {
+            return None;
+        };
+        let nearer = real.iter().copied().find(|f| self.view.facing[*f as usize]).unwrap_or(real[0]);
+        Some(FeatureSegment { both_seen: !contour, strength: turn, ..self.segment(edge, kind, nearer) })
+    }
+
+    /// Degrees by which the surface turns in the corner between two faces into which the eye
+    /// looks.
+    fn corner_turn(&self, edge: usize, faces: &[u32]) -> f32 {
+        let mesh = self.mesh;
+        let [lo, hi] = mesh.edges.vertices[edge];
+        let (a, b) = (mesh.positions[lo as usize], mesh.positions[hi as usize]);
+        let Some(axis) = (b - a).try_normalize() else { return 0.0 };
+        let away = |p: glam::DVec3| (p - a) - axis * (p - a).dot(axis);
+        let spoke = |f: u32| {
+            let opposite = mesh.triangles[f as usize].iter().find(|v| **v != lo && **v != hi);
+            away(opposite.map_or(a, |v| mesh.positions[*v as usize]))
+        };
+        let zero = spoke(faces[0]);
+        let quarter = axis.cross(zero);
+        let angle = |d: glam::DVec3| crate::math::function::atan2(d.dot(quarter), d.dot(zero));
+        let eye = if self.view.frame.perspective {
+            angle(self.view.frame.eye - (a + b) / 2.0)
+        } else {
+            angle(-self.view.frame.forward)
+        };
+        let mut angles: Vec<f64> = faces.iter().map(|f| angle(spoke(*f))).collect();
+        angles.sort_by(f64::total_cmp);
+        let turn_round = std::f64::consts::TAU;
+        let below = angles.iter().rev().find(|x| **x <= eye).copied();
+        let above = angles.iter().find(|x| **x > eye).copied();
+        let (low, high) =
+            (below.unwrap_or(angles[angles.len() - 1] - turn_round), above.unwrap_or(angles[0] + turn_round));
+        (std::f64::consts::PI - (high - low)).abs().to_degrees() as f32
+    }
+
+    /// The largest turn between the two faces that one part has at the edge: where parts touch,
+    /// each keeps its own creases.
+    fn own_turn(&self, edge: usize, faces: &[u32]) -> f32 {
+        let mesh = self.mesh;
+        let part = |f: &u32| mesh.face_part[*f as usize];
+        if faces.iter().all(|f| part(f) == part(&faces[0])) {
+            return 0.0;
+        }
+        let mut most = 0.0f32;
+        for first in faces {
+            let own: Vec<u32> = faces.iter().copied().filter(|f| part(f) == part(first)).collect();
+            if let [a, b] = *own.as_slice() {
+                let same_way = self.runs_up(edge, a) == self.runs_up(edge, b);
+                most = most.max(acos(f64::from(self.normal_dot(a, b, same_way))).to_degrees() as f32);
+            }
+        }
+        most
+    }
+
+    /// Whether a face runs along the edge from its smaller vertex to its larger one.
+    fn runs_up(&self, edge: usize, face: u32) -> bool {
+        let [lo, hi] = self.mesh.edges.vertices[edge];
+        let [a, b, c] = self.mesh.triangles[face as usize];
+        [(a, b), (b, c), (c, a)].contains(&(lo, hi))
+    }
+
+    #[inline]
+    fn normal_dot(&self, first: u32, second: u32, same_way: bool) -> f32 {
+        let (a, b) = (self.mesh.face_normals[first as usize], self.mesh.face_normals[second as usize]);
+        let dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        if same_way { -dot } else { dot }
+    }
+
+    fn mark(&self, edge: usize, faces: &[u32]) -> EdgeMark {
+        let mesh = self.mesh;
+        if mesh.edge_marks.is_empty() {
+            return EdgeMark::Unmarked;
+        }
+        let [lo, hi] = mesh.edges.vertices[edge];
+        let mut strongest = EdgeMark::Unmarked;
+        for face in faces {
+            let [a, b, c] = mesh.triangles[*face as usize];
+            for (side, (u, v)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+                if (u.min(v), u.max(v)) == (lo, hi) {
+                    let mark = mesh.edge_marks[*face as usize][side];
+                    if mark as u8 > strongest as u8 {
+                        strongest = mark;
+                    }
+                }
+            }
+        }
+        strongest
+    }
+
+    fn segment(&self, edge: usize, kind: LineKind, nearer: u32) -> FeatureSegment {
+        FeatureSegment {
+            ends: self.mesh.edges.vertices[edge],
+            hosts: [NO_FACE; 2],
+            kind,
+            both_seen: true,
+            smooth: false,
+            strength: 180.0,
+            part: self.mesh.face_part[nearer as usize],
+            material: self.mesh.face_material[nearer as usize],
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! [`FeatureSegment`]: one straight piece of a feature line, on one edge or between two faces.
+
+use glam::DVec3;
+
+use super::LineKind;
+use crate::mesh::{MaterialId, Mesh, PartId, Wire};
+
+/// In [`FeatureSegment::hosts`]: no face.
+pub const NO_FACE: u32 = u32::MAX;
+
+/// A straight piece of a feature line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeatureSegment {
+    /// Its ends: vertices of the mesh, or beyond those, points of [`FeatureLines::points`].
+    pub ends: [u32; 2],
+    /// Faces that the line lies on and that therefore never hide it ([`NO_FACE`] = none). Faces
+    /// that contain both ends as corners need not be named.
+    pub hosts: [u32; 2],
+    /// What line it is.
+    pub kind: LineKind,
+    /// Whether both surfaces that meet in it turn the same side to the eye.
+    pub both_seen: bool,
+    /// Whether the surface is rounded here, so that the mesh's corners along the line are
+    /// artefacts.
+    pub smooth: bool,
+    /// The angle by which the surface turns across the line, degrees; 180 where there is none.
+    pub strength: f32,
+    /// The part of the nearer surface.
+    pub part: PartId,
+    /// The material of the nearer surface.
+    pub material: MaterialId,
+}
+
+impl FeatureSegment {
+    /// A line of the model that belongs to no face.
+    #[must_use]
+    pub fn of_wire(wire: &Wire) -> Self {
+        Self {
+            ends: wire.vertices,
+            hosts: [NO_FACE; 2],
+            kind: LineKind::Wire,
+            both_seen: true,
+            smooth: false,
+            strength: 180.0,
+            part: wire.part,
+            material: wire.material,
+        }
+    }
+}
+
+/// All feature lines of a view.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FeatureLines {
+    /// The pieces; those that share an end id are joined there.
+    pub segments: Vec<FeatureSegment>,
+    /// Ends that are no vertices of the mesh, in local space.
+    pub points: Vec<DVec3>,
+}
+
+impl FeatureLines {
+    /// The local position of an end.
+    #[inline]
+    #[must_use]
+    pub fn position(&self, mesh: &Mesh, end: u32) -> DVec3 {
+        let end = end as usize;
+        let vertices = mesh.positions.len();
+        if end < vertices { mesh.positions[end] } else { self.points[end - vertices] }
+    }
+}

@@ -1,0 +1,52 @@
+//! Needles: faces without area, across which two real faces meet.
+//!
+//! A triangle whose corners lie on one line has no normal and hides nothing, but meshes use it to
+//! stitch a long edge to two short ones. The faces on its far side are looked up *through* it: its
+//! short edges see the face beyond its long edge, and its long edge draws nothing itself.
+
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
+
+/// What lies across an edge when a needle is looked through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beyond {
+    /// A face with area.
+    Face(u32),
+    /// The edge is the needle's long one: its short edges speak for it.
+    LongEdge,
+    /// Nothing: the edge is a border.
+    Nothing,
+}
+
+/// Looks from an edge (`lo` < `hi`) through `needle`.
+#[must_use]
+pub fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
+    let (mut needle, mut edge) = (needle, [lo, hi]);
+    // Needles may lie side by side; a ring of them must not hold us up for ever.
+    for step in 0..16 {
+        let long = long_edge(mesh, needle);
+        if long == edge {
+            return if step == 0 { Beyond::LongEdge } else { Beyond::Nothing };
+        }
+        let Ok(id) = mesh.edges.vertices.binary_search(&long) else { return Beyond::Nothing };
+        let EdgeFaces::Two { faces, .. } = mesh.edges.faces(id) else { return Beyond::Nothing };
+        let next = if faces[0] == needle { faces[1] } else { faces[0] };
+        if !mesh.is_degenerate(FaceId(next)) {
+            return Beyond::Face(next);
+        }
+        (needle, edge) = (next, long);
+    }
+    Beyond::Nothing
+}
+
+/// The longest edge of a face, smaller vertex first.
+fn long_edge(mesh: &Mesh, face: u32) -> [u32; 2] {
+    let [a, b, c] = mesh.triangles[face as usize];
+    let length = |[u, v]: [u32; 2]| mesh.positions[u as usize].distance_squared(mesh.positions[v as usize]);
+    let mut longest = [a, b];
+    for side in [[b, c], [c, a]] {
+        if length(side) > length(longest) {
+            longest = side;
+        }
+    }
+    [longest[0].min(longest[1]), longest[0].max(longest[1])]
+}

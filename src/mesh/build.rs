@@ -1,0 +1,181 @@
+//! From [`Soup`] to [`Mesh`]: centring, welding, cleaning, topology, face normals.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::clean::{first_of_doubles, retain_faces};
+use super::{Cleaning, EdgeFaces, Edges, Mesh, Soup, weld};
+use crate::math::tolerance;
+
+impl Mesh {
+    /// Builds the mesh of a flattened scene.
+    ///
+    /// Vertices at the same place are joined (see [`weld`]), faces with repeated corners and
+    /// faces that stand twice in one part are dropped, everything is counted in
+    /// [`Mesh::cleaning`].
+    #[must_use]
+    pub fn build(mut soup: Soup) -> Self {
+        let mut cleaning = Cleaning::default();
+        let Some((low, high)) = bounds(&soup) else {
+            return Self { cleaning, ..Self::default() };
+        };
+        let origin = (low + high) / 2.0;
+        let size = low.distance(high);
+        let largest = low.abs().max(high.abs()).max_element();
+        soup.positions.par_iter_mut().for_each(|p| *p -= origin);
+
+        if let Some(joined) = weld::exact(&soup.positions) {
+            replace_vertices(&mut soup, &joined, &mut cleaning);
+        }
+        drop_collapsed(&mut soup, &mut cleaning);
+        let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
+
+        let mut reach = tolerance::WELD_OF_MODEL * size;
+        if soup.single_precision {
+            reach = reach.max(tolerance::WELD_OF_F32_COORDINATE * largest);
+        }
+        if let Some(joined) = weld::near(&soup.positions, &border_vertices(&edges), reach) {
+            replace_vertices(&mut soup, &joined, &mut cleaning);
+            drop_collapsed(&mut soup, &mut cleaning);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+        }
+        if let Some(keep) = first_of_doubles(&soup, &edges) {
+            cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
+            retain_faces(&mut soup, &keep);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+        }
+
+        let face_normals = face_normals(&soup.positions, &soup.triangles, size);
+        cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
+        cleaning.borders = edges.border_count() as u64;
+        cleaning.non_manifold = edges.non_manifold_count() as u64;
+        soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
+        soup.triangle_material.resize(soup.triangles.len(), super::MaterialId::default());
+        Self {
+            origin,
+            size,
+            positions: soup.positions,
+            triangles: soup.triangles,
+            face_normals,
+            face_part: soup.triangle_part,
+            face_material: soup.triangle_material,
+            normals: soup.normals,
+            corner_normals: soup.corner_normals,
+            uvs: soup.uvs,
+            corner_uvs: soup.corner_uvs,
+            edge_marks: soup.edge_marks,
+            edges,
+            wires: soup.wires,
+            cleaning,
+        }
+    }
+}
+
+/// The box around all vertices that a face or wire uses.
+fn bounds(soup: &Soup) -> Option<(DVec3, DVec3)> {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let grow = |(low, high): (DVec3, DVec3), v: u32| {
+        let p = soup.positions[v as usize];
+        (low.min(p), high.max(p))
+    };
+    let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
+    let faces = soup
+        .triangles
+        .par_chunks(1 << 14)
+        .map(|chunk| chunk.iter().flatten().fold(nothing, |b, v| grow(b, *v)))
+        .reduce(|| nothing, join);
+    let all = soup.wires.iter().flat_map(|w| w.vertices).fold(faces, grow);
+    (all.0.x <= all.1.x).then_some(all)
+}
+
+fn replace_vertices(soup: &mut Soup, joined: &[u32], cleaning: &mut Cleaning) {
+    cleaning.welded += joined.iter().enumerate().filter(|(id, to)| *id as u32 != **to).count() as u64;
+    soup.triangles.par_iter_mut().for_each(|t| *t = t.map(|v| joined[v as usize]));
+    for wire in &mut soup.wires {
+        wire.vertices = wire.vertices.map(|v| joined[v as usize]);
+    }
+}
+
+fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
+    let sound = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+    if !soup.triangles.par_iter().all(sound) {
+        let keep: Vec<bool> = soup.triangles.iter().map(sound).collect();
+        cleaning.collapsed += keep.iter().filter(|k| !**k).count() as u64;
+        retain_faces(soup, &keep);
+    }
+    soup.wires.retain(|w| w.vertices[0] != w.vertices[1]);
+}
+
+fn border_vertices(edges: &Edges) -> Vec<u32> {
+    let mut vertices: Vec<u32> = (0..edges.len())
+        .filter(|e| matches!(edges.faces(*e), EdgeFaces::One(_)))
+        .flat_map(|e| edges.vertices[e])
+        .collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    vertices
+}
+
+/// Unit normals; zero where the triangle is lower than rounding.
+fn face_normals(positions: &[DVec3], triangles: &[[u32; 3]], size: f64) -> Vec<[f32; 3]> {
+    let normal = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| positions[v as usize]);
+        let (u, v, w) = (b - a, c - a, c - b);
+        let cross = u.cross(v);
+        let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
+        let area = cross.length();
+        if area <= tolerance::DEGENERATE_HEIGHT_OF_MODEL * size * longest {
+            [0.0; 3]
+        } else {
+            (cross / area).as_vec3().to_array()
+        }
+    };
+    triangles.par_iter().with_min_len(1 << 12).map(normal).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn soup(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Soup {
+        Soup {
+            positions: points.iter().map(|p| DVec3::from_array(*p)).collect(),
+            triangles: triangles.to_vec(),
+            ..Soup::default()
+        }
+    }
+
+    #[test]
+    fn separate_corners_are_welded_and_nearly_equal_ones_too() {
+        let d = 1e-9;
+        let mesh = Mesh::build(soup(
+            &[
+                [0.0; 3],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0 + d, 0.0],
+                [1.0, 1.0, 0.0],
+            ],
+            &[[0, 1, 2], [3, 5, 4]],
+        ));
+        assert_eq!((mesh.cleaning.welded, mesh.cleaning.borders), (2, 4));
+        assert_eq!(mesh.origin, DVec3::new(0.5, 0.5 + d / 2.0, 0.0));
+    }
+
+    #[test]
+    fn doubled_collapsed_and_flat_faces_are_counted() {
+        let mesh = Mesh::build(soup(
+            &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0]],
+            &[[0, 1, 2], [2, 1, 0], [1, 1, 2], [0, 1, 3]],
+        ));
+        let c = mesh.cleaning;
+        assert_eq!((c.doubled, c.collapsed, c.degenerate), (1, 1, 1));
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 1, 3]]);
+    }
+
+    #[test]
+    fn an_empty_soup_is_an_empty_mesh() {
+        assert!(Mesh::build(Soup::default()).triangles.is_empty());
+    }
+}

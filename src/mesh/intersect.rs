@@ -1,0 +1,192 @@
+//! [`IntersectionCurves`]: where triangles of a mesh pass through each other.
+//!
+//! A tree of boxes proposes pairs, exact signs decide. Segments of neighbouring triangles meet
+//! because the same edge pierces the same triangle, not because two positions are near: every end
+//! carries the *names* of what it is, and ends with a name in common are one point. An end has
+//! more than one name where, within one pair of triangles, the borders of both are met at the same
+//! place: it is then "edge of one through face of the other", the same the other way round, and
+//! "border of one on border of the other", so that all triangles around the place agree.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::boxes::BoxTree;
+use super::triangle_pair::{Common, End, Feature, PairTolerance, Triangle, cross};
+
+/// The triangles to look at.
+#[derive(Debug, Clone, Copy)]
+pub struct IntersectionInput<'a> {
+    /// World positions, finite.
+    pub positions: &'a [DVec3],
+    /// Vertices of each triangle, all of them indices of `positions`.
+    pub triangles: &'a [[u32; 3]],
+    /// Whether each triangle may take part; empty: all do.
+    pub active: &'a [bool],
+}
+
+/// Curves along which triangles pass through each other.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct IntersectionCurves {
+    /// Ends of the segments in world space, each once.
+    pub points: Vec<DVec3>,
+    /// One segment per pair of triangles, sorted by faces.
+    pub segments: Vec<IntersectionSegment>,
+}
+
+/// The common segment of two triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IntersectionSegment {
+    /// Two different points of the curves. They follow each other along the cross product of the
+    /// normals of the two faces, so that consecutive segments of a surface oriented throughout
+    /// point the same way as long as the lesser face stays on the same surface.
+    pub ends: [u32; 2],
+    /// The two triangles, the lesser first.
+    pub faces: [u32; 2],
+}
+
+/// Finds where triangles strictly pass through each other.
+///
+/// Triangles with a common vertex are neighbours and never reported; nor are overlaps in one
+/// plane, triangles that touch from one side, and contacts shorter than
+/// [`OVERLAP_OF_MODEL`](crate::math::tolerance::OVERLAP_OF_MODEL) of the diagonal of the box
+/// around all triangles. A vertex in the other plane is no obstacle where the other two corners
+/// lie on either side. The result does not depend on the number of threads.
+#[must_use]
+pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
+    let IntersectionInput { positions, triangles, active } = *input;
+    let Some((low, high)) = bounds(positions, triangles) else {
+        return IntersectionCurves::default();
+    };
+    let tolerance = PairTolerance::of_model((high - low).length());
+    let tree = BoxTree::new(positions, triangles, active, low, high);
+    let mut pairs = tree.overlaps(|face, others, found: &mut Vec<Pair>| {
+        let own = &Triangle::new(positions, triangles[face as usize]);
+        for &other in others {
+            let other_vertices = triangles[other as usize];
+            if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
+                continue;
+            }
+            let other_triangle = Triangle::new(positions, other_vertices);
+            let common = if face < other {
+                cross(own, &other_triangle, tolerance)
+            } else {
+                cross(&other_triangle, own, tolerance)
+            };
+            if let Some(common) = common {
+                found.push(Pair { faces: [face.min(other), face.max(other)], common });
+            }
+        }
+    });
+    pairs.par_sort_unstable_by_key(|pair| pair.faces);
+    join(&pairs)
+}
+
+/// Two triangles that have something in common.
+struct Pair {
+    faces: [u32; 2],
+    common: Common,
+}
+
+/// The box around all corners of all triangles.
+fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
+    let empty = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = triangles
+        .par_iter()
+        .fold(empty, |bounds, corners| {
+            corners.iter().fold(bounds, |(low, high), &v| {
+                let p = positions[v as usize];
+                (low.min(p), high.max(p))
+            })
+        })
+        .reduce(empty, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    (!triangles.is_empty()).then_some((low, high))
+}
+
+/// What an end is: a feature, and the face it pierces (with [`FACE`]) or the feature it meets.
+type Name = (Feature, [u32; 2]);
+
+/// Stands where a face and not a feature is named; no vertex has this id.
+const FACE: u32 = u32::MAX;
+
+/// One name of one end.
+struct Naming {
+    name: Name,
+    end: u32,
+    point: DVec3,
+}
+
+/// Makes ends that share a name one point.
+fn join(pairs: &[Pair]) -> IntersectionCurves {
+    // Segments have two ends each; a point is one end that only lends its names.
+    let mut namings = Vec::new();
+    let mut end_count = 0;
+    let mut segments = Vec::new();
+    for &Pair { faces, common } in pairs {
+        let (ends, step) = match common {
+            Common::Segment(ends) => (ends, 1),
+            Common::Point(ends) => (ends, 0),
+        };
+        if step == 1 {
+            segments.push(IntersectionSegment { ends: [end_count, end_count + 1], faces });
+        }
+        name_end(ends[0], faces, end_count, &mut namings);
+        name_end(ends[1], faces, end_count + step, &mut namings);
+        end_count += step + 1;
+    }
+    namings.par_sort_unstable_by_key(|naming| (naming.name, naming.end));
+
+    let mut parent: Vec<u32> = (0..end_count).collect();
+    for same in namings.chunk_by(|a, b| a.name == b.name) {
+        for naming in &same[1..] {
+            let (a, b) = (root(&mut parent, same[0].end), root(&mut parent, naming.end));
+            parent[a.max(b) as usize] = a.min(b);
+        }
+    }
+
+    // Of several names the first gives the position, that of a vertex before that of an edge.
+    let mut place: Vec<Option<DVec3>> = vec![None; end_count as usize];
+    let is_of_vertex = |naming: &&Naming| naming.name.0[0] == naming.name.0[1];
+    let of_edges = namings.iter().filter(|naming| !is_of_vertex(naming));
+    for naming in namings.iter().filter(is_of_vertex).chain(of_edges) {
+        place[root(&mut parent, naming.end) as usize].get_or_insert(naming.point);
+    }
+
+    let mut points = Vec::new();
+    let mut index: Vec<Option<u32>> = vec![None; end_count as usize];
+    for segment in &mut segments {
+        segment.ends = segment.ends.map(|end| {
+            let end = root(&mut parent, end) as usize;
+            *index[end].get_or_insert_with(|| {
+                points.extend(place[end]);
+                points.len() as u32 - 1
+            })
+        });
+    }
+    segments.retain(|segment| segment.ends[0] != segment.ends[1]);
+    IntersectionCurves { points, segments }
+}
+
+/// Adds all names of the end of the common part of two faces.
+fn name_end([a, b]: End, faces: [u32; 2], end: u32, namings: &mut Vec<Naming>) {
+    if let Some(a) = a {
+        namings.push(Naming { name: (a.feature, [faces[1], FACE]), end, point: a.point });
+    }
+    if let Some(b) = b {
+        namings.push(Naming { name: (b.feature, [faces[0], FACE]), end, point: b.point });
+    }
+    if let (Some(a), Some(b)) = (a, b) {
+        // A vertex on the other's border has its own position; two edges that meet have two, near
+        // to each other, of which the lesser edge gives one.
+        let (first, second) = if a.feature < b.feature { (a, b) } else { (b, a) };
+        namings.push(Naming { name: (first.feature, second.feature), end, point: first.point });
+    }
+}
+
+/// The least end that is the same point as `end`.
+fn root(parent: &mut [u32], mut end: u32) -> u32 {
+    while parent[end as usize] != end {
+        parent[end as usize] = parent[parent[end as usize] as usize];
+        end = parent[end as usize];
+    }
+    end
+}

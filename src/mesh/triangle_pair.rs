@@ -1,0 +1,183 @@
+//! [`cross`]: where two triangles pass through each other, decided by exact signs.
+//!
+//! Source: T. Möller, "A fast triangle-triangle intersection test", Journal of Graphics Tools
+//! 2(2), 1997: the overlap of two intervals on the line common to both planes. Here the signs
+//! come from exact predicates, and each end says which edge pierces which triangle, so that
+//! neighbouring segments meet by identity.
+
+use glam::DVec3;
+use robust::{Coord3D, orient3d};
+
+use crate::math::tolerance::{OVERLAP_OF_MODEL, PARALLEL_SINE, PLANE_OF_MODEL};
+
+/// Lengths below which a pair of triangles merely touches, in world units.
+#[derive(Debug, Clone, Copy)]
+pub struct PairTolerance {
+    /// A vertex this near to the other plane lies in it.
+    pub plane: f64,
+    /// An overlap up to this long is a point.
+    pub overlap: f64,
+}
+
+impl PairTolerance {
+    /// The tolerance for a model whose bounding box has this diagonal.
+    #[must_use]
+    pub fn of_model(diagonal: f64) -> Self {
+        Self { plane: PLANE_OF_MODEL * diagonal, overlap: OVERLAP_OF_MODEL * diagonal }
+    }
+}
+
+/// A triangle with its corners in the order of the mesh.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangle {
+    /// Vertices of the mesh.
+    pub vertices: [u32; 3],
+    /// Their positions.
+    pub corners: [DVec3; 3],
+    /// Twice the area, along the normal.
+    pub normal: DVec3,
+    /// Whether the normal is accurate enough to reject by sides without exact arithmetic.
+    trusted: bool,
+}
+
+impl Triangle {
+    /// The triangle of three vertices.
+    #[inline]
+    #[must_use]
+    pub fn new(positions: &[DVec3], vertices: [u32; 3]) -> Self {
+        let corners = vertices.map(|v| positions[v as usize]);
+        let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
+        let normal = e1.cross(e2);
+        // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the model. Where
+        // the corner's sine is above 1/100 that is less than 3e-13 of the model in distance, well
+        // inside the tolerance within which a vertex lies in the plane anyway.
+        let trusted = normal.length_squared() > 1e-4 * e1.length_squared() * e2.length_squared();
+        Self { vertices, corners, normal, trusted }
+    }
+
+    /// Whether the points certainly lie all on one side of the plane, or in it.
+    #[inline]
+    #[must_use]
+    pub fn has_on_one_side(&self, points: &[DVec3; 3]) -> bool {
+        let [a, b, c] = points.map(|p| self.normal.dot(p - self.corners[0]));
+        self.trusted & (a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0)
+    }
+
+    /// Distance of a point from the plane, right in sign; zero within the tolerance.
+    fn distance(&self, point: DVec3, normal_length: f64, tolerance: PairTolerance) -> f64 {
+        let [a, b, c] = self.corners.map(coordinates);
+        let distance = -orient3d(a, b, c, coordinates(point)) / normal_length;
+        if distance.abs() < tolerance.plane { 0.0 } else { distance }
+    }
+}
+
+fn coordinates(p: DVec3) -> Coord3D<f64> {
+    Coord3D { x: p.x, y: p.y, z: p.z }
+}
+
+/// The part of a triangle that lies in the other plane: an edge (lesser vertex first) that goes
+/// through it, or a vertex (twice) in it.
+pub type Feature = [u32; 2];
+
+/// Where the border of one triangle meets the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piercing {
+    /// What pierces.
+    pub feature: Feature,
+    /// Where; the same to the last bit for every triangle that has the feature.
+    pub point: DVec3,
+}
+
+/// One end of the common part of two triangles: where the border of the first, of the second, or
+/// (within the tolerance) of both is met.
+pub type End = [Option<Piercing>; 2];
+
+/// What two triangles have in common, from its first to its last end along the cross product of
+/// their normals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Common {
+    /// A segment.
+    Segment([End; 2]),
+    /// A segment too short to count, whose ends are one: segments of neighbours may end there.
+    Point([End; 2]),
+}
+
+/// Where two triangles without common vertices strictly pass through each other, if they do.
+///
+/// Triangles in one plane, and triangles that touch the other's plane from one side, have nothing
+/// in common.
+#[must_use]
+pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
+    if a.has_on_one_side(&b.corners) || b.has_on_one_side(&a.corners) {
+        return None;
+    }
+    let (a_length, b_length) = (a.normal.length(), b.normal.length());
+    if !(a_length > 0.0 && b_length > 0.0) {
+        return None;
+    }
+    let b_distances = b.corners.map(|p| a.distance(p, a_length, tolerance));
+    let b_crossings = crossings(b, b_distances)?;
+    let a_distances = a.corners.map(|p| b.distance(p, b_length, tolerance));
+    let a_crossings = crossings(a, a_distances)?;
+
+    let along = (a.normal / a_length).cross(b.normal / b_length);
+    let sine = along.length();
+    if sine <= PARALLEL_SINE {
+        return None;
+    }
+    let direction = along / sine;
+    let ordered = |[p, q]: [Piercing; 2]| {
+        let place = |piercing: Piercing| (direction.dot(piercing.point - a.corners[0]), piercing);
+        let (p, q) = (place(p), place(q));
+        if p.0 <= q.0 { [p, q] } else { [q, p] }
+    };
+    let [a_first, a_last] = ordered(a_crossings);
+    let [b_first, b_last] = ordered(b_crossings);
+    let length = a_last.0.min(b_last.0) - a_first.0.max(b_first.0);
+    let end = |a: (f64, Piercing), b: (f64, Piercing), a_is_inner: bool| {
+        let meet = (a.0 - b.0).abs() <= tolerance.overlap;
+        [(meet || a_is_inner).then_some(a.1), (meet || !a_is_inner).then_some(b.1)]
+    };
+    let ends = [end(a_first, b_first, a_first.0 >= b_first.0), end(a_last, b_last, a_last.0 <= b_last.0)];
+    if length > tolerance.overlap {
+        Some(Common::Segment(ends))
+    } else if length >= -tolerance.overlap {
+        Some(Common::Point(ends))
+    } else {
+        None
+    }
+}
+
+/// The two places where the border of a triangle goes through a plane, given the distances of its
+/// corners from it; none unless there are corners on both sides.
+fn crossings(triangle: &Triangle, distances: [f64; 3]) -> Option<[Piercing; 2]> {
+    let below = distances.iter().any(|&d| d < 0.0);
+    let above = distances.iter().any(|&d| d > 0.0);
+    if !(below && above) {
+        return None;
+    }
+    // With corners on both sides there are two crossed edges, or a crossed edge and a vertex.
+    let mut found = [None; 2];
+    let mut slots = found.iter_mut();
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        let (vertex_i, vertex_j) = (triangle.vertices[i], triangle.vertices[j]);
+        let piercing = if distances[i] == 0.0 {
+            Piercing { feature: [vertex_i, vertex_i], point: triangle.corners[i] }
+        } else if (distances[i] < 0.0) != (distances[j] < 0.0) && distances[j] != 0.0 {
+            let (i, j) = if vertex_i < vertex_j { (i, j) } else { (j, i) };
+            let t = distances[i] / (distances[i] - distances[j]);
+            let point = triangle.corners[i] + t * (triangle.corners[j] - triangle.corners[i]);
+            Piercing { feature: [vertex_i.min(vertex_j), vertex_i.max(vertex_j)], point }
+        } else {
+            continue;
+        };
+        if let Some(slot) = slots.next() {
+            *slot = Some(piercing);
+        }
+    }
+    match found {
+        [Some(p), Some(q)] => Some([p, q]),
+        _ => None,
+    }
+}

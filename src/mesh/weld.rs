@@ -1,0 +1,125 @@
+//! Welding: vertices at the same place become one.
+//!
+//! Exporters split vertices at normal and texture seams, STL has no connectivity at all, and the
+//! corners of CAD faces differ in their last bits. Two passes mend that: the exact one joins all
+//! equal positions, and the near one joins what lies within a tolerance, but looks only at
+//! vertices on open edges, since a closed fan of faces has nothing to be joined to. Parts keep
+//! their names through both: a weld joins vertices, never faces.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+const EMPTY: u32 = u32::MAX;
+
+/// For each vertex the smallest id of those at exactly its place; `None` if all places differ.
+#[must_use]
+pub fn exact(positions: &[DVec3]) -> Option<Vec<u32>> {
+    let capacity = (positions.len() * 2).next_power_of_two().max(16);
+    let mask = capacity - 1;
+    let mut slots = vec![EMPTY; capacity];
+    let mut representative: Vec<u32> = Vec::new();
+    for (id, &p) in positions.iter().enumerate() {
+        let mut slot = hash(p) & mask;
+        loop {
+            let other = slots[slot];
+            if other == EMPTY {
+                slots[slot] = id as u32;
+                break;
+            }
+            if positions[other as usize] == p {
+                if representative.is_empty() {
+                    representative = (0..positions.len() as u32).collect();
+                }
+                representative[id] = other;
+                break;
+            }
+            slot = (slot + 1) & mask;
+        }
+    }
+    (!representative.is_empty()).then_some(representative)
+}
+
+/// Mixes the bits of a position; −0 and +0 are one place.
+fn hash(p: DVec3) -> usize {
+    const K: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mut h = 0u64;
+    for c in [p.x, p.y, p.z] {
+        h = (h.rotate_left(21) ^ (c + 0.0).to_bits()).wrapping_mul(K);
+    }
+    (h ^ (h >> 29)) as usize
+}
+
+/// For each vertex the smallest id of those that are joined to it by steps of at most
+/// `tolerance`, looking only at `candidates` (ascending); `None` if nothing is joined.
+#[must_use]
+pub fn near(positions: &[DVec3], candidates: &[u32], tolerance: f64) -> Option<Vec<u32>> {
+    if tolerance <= 0.0 {
+        return None;
+    }
+    // Cells are much larger than the tolerance, so that few points need to ask a second cell.
+    let cell = tolerance * 16.0;
+    let key = |p: DVec3| (p / cell).floor().to_array().map(|c| c as i64);
+    let mut cells: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
+    let mut parent: Vec<u32> = Vec::new();
+    for &id in candidates {
+        let p = positions[id as usize];
+        let (low, high) = (key(p - tolerance), key(p + tolerance));
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for z in low[2]..=high[2] {
+                    for &other in cells.get(&[x, y, z]).map_or(&[][..], Vec::as_slice) {
+                        if positions[other as usize].distance_squared(p) <= tolerance * tolerance {
+                            if parent.is_empty() {
+                                parent = (0..positions.len() as u32).collect();
+                            }
+                            let (a, b) = (root(&mut parent, id), root(&mut parent, other));
+                            parent[a.max(b) as usize] = a.min(b);
+                        }
+                    }
+                }
+            }
+        }
+        cells.entry(key(p)).or_default().push(id);
+    }
+    if parent.is_empty() {
+        return None;
+    }
+    for id in 0..parent.len() as u32 {
+        let r = root(&mut parent, id);
+        parent[id as usize] = r;
+    }
+    Some(parent)
+}
+
+fn root(parent: &mut [u32], mut id: u32) -> u32 {
+    while parent[id as usize] != id {
+        parent[id as usize] = parent[parent[id as usize] as usize];
+        id = parent[id as usize];
+    }
+    id
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_places_become_one() {
+        let a = DVec3::new(0.0, 1.0, 2.0);
+        let b = DVec3::new(-0.0, 1.0, 2.0);
+        let c = DVec3::new(0.0, 1.0, 2.000_000_000_1);
+        assert_eq!(exact(&[a, c, b, c]), Some(vec![0, 1, 0, 1]));
+        assert_eq!(exact(&[a, c]), None);
+    }
+
+    #[test]
+    fn near_places_become_one_across_cells() {
+        let places: Vec<DVec3> = (0..200).map(|i| DVec3::new(f64::from(i) * 0.37, 0.0, 0.0)).collect();
+        let mut doubled = places.clone();
+        doubled.extend(places.iter().map(|p| *p + DVec3::splat(5e-7)));
+        let all: Vec<u32> = (0..400).collect();
+        let joined = near(&doubled, &all, 1e-6).expect("pairs lie within the tolerance");
+        assert!((0..200).all(|i| joined[i + 200] == i as u32));
+        assert_eq!(near(&doubled, &all, 1e-7), None);
+    }
+}

@@ -1,0 +1,280 @@
+//! Parts and materials out of the statements of an OBJ file.
+
+use glam::DAffine3;
+use rustc_hash::FxHashMap;
+
+use super::library;
+use super::statements::{NONE, Object, Run, Statements};
+use crate::math::colour::linear;
+use crate::scene::open::stays_inside;
+use crate::scene::text::decode;
+use crate::scene::{Geometry, Material, Part, Scene, UpAxis, Warnings};
+
+/// One geometry a part, each with just the vertices it uses.
+pub(super) fn scene(
+    mut statements: Statements,
+    stem: &str,
+    library: impl FnMut(&str) -> Option<Vec<u8>>,
+) -> Scene {
+    let mut warnings = std::mem::take(&mut statements.warnings);
+    let materials = materials(&statements, library, &mut warnings);
+    let mut scene = Scene { format: "OBJ", up: UpAxis::Y, materials, warnings, ..Scene::default() };
+
+    let mut runs: Vec<Vec<Run>> = vec![Vec::new(); statements.objects.len()];
+    // Parts come in the order of their first face.
+    let mut order = Vec::new();
+    for run in std::mem::take(&mut statements.runs) {
+        if let Some(own) = runs.get_mut(run.object) {
+            if own.is_empty() {
+                order.push(run.object);
+            }
+            own.push(run);
+        }
+    }
+    for (geometry, &object) in order.iter().enumerate() {
+        let name = match statements.objects.get(object) {
+            Some(Object::Named([])) => format!("part {}", geometry + 1),
+            Some(Object::Named(name)) => decode(name).into_owned(),
+            _ => stem.to_owned(),
+        };
+        scene.parts.push(Part { name, geometry, world_from_part: DAffine3::IDENTITY });
+    }
+    // Triangles before the first `usemtl` have a material of their own if others have one.
+    let unnamed = scene.materials.len() as u32;
+    let all_runs = || order.iter().filter_map(|&o| runs.get(o)).flatten();
+    if all_runs().any(|run| run.material.is_none()) && all_runs().any(|run| run.material.is_some()) {
+        scene.materials.push(Material::default());
+    }
+    fill_white(&mut statements);
+    if let ([object], false) = (&order[..], statements.has_bad_positions) {
+        let own = runs.get(*object).map(Vec::as_slice).unwrap_or_default();
+        let mut geometry = whole(statements);
+        assign_materials(&mut geometry, own, unnamed);
+        scene.geometries.push(geometry);
+        return scene;
+    }
+    let mut split = Split::new(&statements);
+    for &object in &order {
+        let own = runs.get(object).map(Vec::as_slice).unwrap_or_default();
+        let mut geometry = split.geometry(own);
+        assign_materials(&mut geometry, own, unnamed);
+        scene.geometries.push(geometry);
+    }
+    scene
+}
+
+/// The materials used, from the libraries or else grey.
+fn materials(
+    statements: &Statements,
+    mut library: impl FnMut(&str) -> Option<Vec<u8>>,
+    warnings: &mut Warnings,
+) -> Vec<Material> {
+    let mut defined = Vec::new();
+    let mut all_found = true;
+    let mut load = |name: &str, warnings: &mut Warnings| {
+        let path = name.replace('\\', "/");
+        if !stays_inside(&path) {
+            warnings.note(format!("material library {name} lies outside the model's folder and is left out"));
+            return true;
+        }
+        let Some(bytes) = library(&path) else { return false };
+        let folder = path.rfind('/').map_or("", |slash| path.get(..=slash).unwrap_or_default());
+        library::parse(&bytes, folder, &mut defined, warnings);
+        true
+    };
+    for name in &statements.libraries {
+        let name = decode(name);
+        if name.is_empty() || load(&name, warnings) {
+            continue;
+        }
+        // Several libraries may stand on one line; a name with blanks was tried before.
+        let words: Vec<&str> = name.split_whitespace().collect();
+        for word in &words {
+            if words.len() == 1 || !load(word, warnings) {
+                warnings.note(format!("material library {word} is missing"));
+                all_found = false;
+            }
+        }
+    }
+    let mut by_name: FxHashMap<&str, &Material> = FxHashMap::default();
+    for material in &defined {
+        by_name.entry(&material.name).or_insert(material);
+    }
+    let mut undefined = 0;
+    let used = statements.materials.iter().map(|name| {
+        let name = decode(name);
+        by_name.get(&*name).map_or_else(
+            || {
+                undefined += u64::from(!name.is_empty());
+                Material { name: name.to_string(), ..Material::default() }
+            },
+            |&material| material.clone(),
+        )
+    });
+    let used = used.collect();
+    if all_found {
+        warnings.count("materials that no library defines", undefined);
+    }
+    used
+}
+
+/// Vertices after the last coloured one are white.
+fn fill_white(statements: &mut Statements) {
+    if !statements.colours.is_empty() {
+        statements.colours.resize(statements.positions.len(), [1.0; 3]);
+    }
+}
+
+fn rgba([r, g, b]: [f32; 3]) -> [f32; 4] {
+    [linear(r), linear(g), linear(b), 1.0]
+}
+
+fn assign_materials(geometry: &mut Geometry, runs: &[Run], unnamed: u32) {
+    let id = |run: &Run| run.material.map_or(unnamed, |m| m as u32);
+    let first = runs.first().and_then(|run| run.material);
+    if runs.iter().all(|run| run.material == first) && first.is_none() {
+        return;
+    }
+    geometry.material = runs.first().map(id);
+    if runs.iter().any(|run| run.material != first) {
+        geometry.triangle_material =
+            runs.iter().flat_map(|run| run.triangles.clone().map(move |_| id(run))).collect();
+    }
+}
+
+/// The geometry of a file of one part: nothing is copied.
+fn whole(statements: Statements) -> Geometry {
+    let Statements { positions, triangles, wires, normals, uvs, colours, .. } = statements;
+    let pad = |mut corners: Vec<[u32; 3]>, count: usize| {
+        if !corners.is_empty() {
+            corners.resize(triangles.len(), [NONE; 3]);
+            for corner in corners.iter_mut().flatten() {
+                *corner = if (*corner as usize) < count { *corner } else { NONE };
+            }
+        }
+        corners
+    };
+    let corner_normals = pad(statements.corner_normals, normals.len());
+    let corner_uvs = pad(statements.corner_uvs, uvs.len());
+    let colours = colours.into_iter().map(rgba).collect();
+    Geometry {
+        positions,
+        triangles,
+        normals,
+        corner_normals,
+        uvs,
+        corner_uvs,
+        colours,
+        wires,
+        ..Geometry::default()
+    }
+}
+
+/// Cuts the arrays of a file into those of its parts.
+struct Split<'a> {
+    statements: &'a Statements<'a>,
+    positions: Renumber,
+    normals: Renumber,
+    uvs: Renumber,
+}
+
+impl<'a> Split<'a> {
+    fn new(statements: &'a Statements<'a>) -> Self {
+        Self {
+            statements,
+            positions: Renumber::new(statements.positions.len()),
+            normals: Renumber::new(statements.normals.len()),
+            uvs: Renumber::new(statements.uvs.len()),
+        }
+    }
+
+    fn geometry(&mut self, runs: &[Run]) -> Geometry {
+        let from = self.statements;
+        let mut triangles = gather(&from.triangles, runs);
+        let mut wires: Vec<[u32; 2]> =
+            runs.iter().filter_map(|run| from.wires.get(run.wires.clone())).flatten().copied().collect();
+        let kept = self.positions.renumber(&mut [triangles.as_flattened_mut(), wires.as_flattened_mut()]);
+        let positions = pick(&from.positions, &kept);
+        let colours = pick(&from.colours, &kept).into_iter().map(rgba).collect();
+
+        let mut corner_normals = gather(&from.corner_normals, runs);
+        let normals = pick(&from.normals, &self.normals.renumber(&mut [corner_normals.as_flattened_mut()]));
+        let mut corner_uvs = gather(&from.corner_uvs, runs);
+        let uvs = pick(&from.uvs, &self.uvs.renumber(&mut [corner_uvs.as_flattened_mut()]));
+        if normals.is_empty() {
+            corner_normals.clear();
+        }
+        if uvs.is_empty() {
+            corner_uvs.clear();
+        }
+        Geometry {
+            positions,
+            triangles,
+            normals,
+            corner_normals,
+            uvs,
+            corner_uvs,
+            colours,
+            wires,
+            ..Geometry::default()
+        }
+    }
+}
+
+/// The corners of the triangles of some runs; none where the file has none.
+fn gather(all: &[[u32; 3]], runs: &[Run]) -> Vec<[u32; 3]> {
+    let count = runs.iter().map(|run| run.triangles.len()).sum();
+    let mut corners = Vec::with_capacity(if all.is_empty() { 0 } else { count });
+    if all.is_empty() {
+        return corners;
+    }
+    for run in runs {
+        let end = run.triangles.end.min(all.len());
+        let have = all.get(run.triangles.start.min(end)..end).unwrap_or_default();
+        corners.extend_from_slice(have);
+        corners.extend(std::iter::repeat_n([NONE; 3], run.triangles.len() - have.len()));
+    }
+    corners
+}
+
+fn pick<T: Copy>(from: &[T], kept: &[u32]) -> Vec<T> {
+    kept.iter().filter_map(|&i| from.get(i as usize).copied()).collect()
+}
+
+/// Gives what a part uses new numbers from 0, in the order of the file.
+struct Renumber {
+    /// New number of each old one; [`NONE`] outside the part at hand.
+    new_from_old: Vec<u32>,
+}
+
+impl Renumber {
+    fn new(count: usize) -> Self {
+        Self { new_from_old: vec![NONE; count] }
+    }
+
+    /// Changes the indices and gives the old ones that are used. Those that point nowhere become [`NONE`].
+    fn renumber(&mut self, indices: &mut [&mut [u32]]) -> Vec<u32> {
+        let mut kept = Vec::new();
+        for &old in indices.iter().flat_map(|part| part.iter()) {
+            if let Some(new) = self.new_from_old.get_mut(old as usize).filter(|new| **new == NONE) {
+                *new = 0;
+                kept.push(old);
+            }
+        }
+        kept.sort_unstable();
+        for (new, &old) in kept.iter().enumerate() {
+            if let Some(slot) = self.new_from_old.get_mut(old as usize) {
+                *slot = new as u32;
+            }
+        }
+        for index in indices.iter_mut().flat_map(|part| part.iter_mut()) {
+            *index = self.new_from_old.get(*index as usize).copied().unwrap_or(NONE);
+        }
+        for &old in &kept {
+            if let Some(slot) = self.new_from_old.get_mut(old as usize) {
+                *slot = NONE;
+            }
+        }
+        kept
+    }
+}

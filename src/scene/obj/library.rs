@@ -1,0 +1,171 @@
+//! MTL libraries: materials by name.
+
+use crate::math::colour::Colour;
+use crate::scene::Material;
+use crate::scene::open::stays_inside;
+use crate::scene::text::{Cursor, decode};
+use crate::scene::warnings::Warnings;
+
+/// Adds the materials of a library; `folder` is where it lies as seen from the model, empty or
+/// with a slash at the end. Colours are taken as sRGB, as most programs do.
+pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, warnings: &mut Warnings) {
+    let mut cursor = Cursor::new(bytes);
+    let mut current: Option<Material> = None;
+    // `d` tells the truth where `Tr` does not.
+    let mut has_dissolve = false;
+    while !cursor.at_end() {
+        cursor.skip_space();
+        let keyword = cursor.word();
+        cursor.skip_blanks();
+        if keyword == b"newmtl" {
+            materials.extend(current.take());
+            has_dissolve = false;
+            let name = decode(cursor.rest_of_line()).into_owned();
+            current = Some(Material { name, ..Material::default() });
+            continue;
+        }
+        let Some(material) = &mut current else {
+            cursor.rest_of_line();
+            continue;
+        };
+        match keyword {
+            b"Kd" => {
+                if let Some([r, g, b]) = channels(&mut cursor) {
+                    material.colour = Colour { r, g, b, ..material.colour };
+                }
+            }
+            b"Ke" => {
+                if let Some([r, g, b]) = channels(&mut cursor) {
+                    material.emissive = Colour::rgb(r, g, b);
+                }
+            }
+            b"d" => {
+                if cursor.peek() == b'-' && cursor.peek_on(1) == b'h' {
+                    cursor.word();
+                    cursor.skip_blanks();
+                }
+                if let Some(opacity) = cursor.number() {
+                    material.colour.a = byte(opacity);
+                    has_dissolve = true;
+                }
+            }
+            b"Tr" if !has_dissolve => {
+                if let Some(clear) = cursor.number() {
+                    material.colour.a = byte(1.0 - clear);
+                }
+            }
+            b"map_Kd" => {
+                let name = texture(cursor.rest_of_line());
+                if !name.is_empty() {
+                    let path = format!("{folder}{}", name.replace('\\', "/"));
+                    if stays_inside(&path) && !name.starts_with(['/', '\\']) {
+                        material.texture = Some(path);
+                    } else {
+                        warnings
+                            .note(format!("texture {name} lies outside the model's folder and is left out"));
+                    }
+                }
+            }
+            _ => {}
+        }
+        cursor.rest_of_line();
+    }
+    materials.extend(current);
+}
+
+/// Three channels, or one for all.
+fn channels(cursor: &mut Cursor) -> Option<[u8; 3]> {
+    let r = cursor.number()?;
+    let mut next = || {
+        cursor.skip_blanks();
+        cursor.number()
+    };
+    let g = next().unwrap_or(r);
+    let b = next().unwrap_or(g);
+    Some([r, g, b].map(byte))
+}
+
+fn byte(channel: f64) -> u8 {
+    (channel.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// The file name after the options of a texture statement; it may hold blanks.
+fn texture(statement: &[u8]) -> String {
+    let text = decode(statement);
+    let mut rest = text.trim();
+    while let Some((option, after)) = rest.split_once(char::is_whitespace).filter(|(o, _)| o.starts_with('-'))
+    {
+        rest = after.trim_start();
+        let (words, numbers) = match option {
+            "-blendu" | "-blendv" | "-cc" | "-clamp" | "-imfchan" | "-type" | "-colorspace" => (1, 0),
+            "-boost" | "-bm" | "-texres" => (0, 1),
+            "-mm" => (0, 2),
+            "-o" | "-s" | "-t" => (0, 3),
+            // A file whose name begins with a dash.
+            _ => return format!("{option} {rest}"),
+        };
+        for i in 0..words + numbers {
+            let Some((word, after)) = rest.split_once(char::is_whitespace) else { break };
+            // Options take as many numbers as there are, up to three.
+            if i < words || word.parse::<f64>().is_ok() {
+                rest = after.trim_start();
+            }
+        }
+    }
+    rest.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (Vec<Material>, Warnings) {
+        let (mut materials, mut warnings) = (Vec::new(), Warnings::default());
+        parse(text.as_bytes(), "maps/", &mut materials, &mut warnings);
+        (materials, warnings)
+    }
+
+    #[test]
+    fn materials_have_colour_opacity_and_light() {
+        let text =
+            "# c\r\nnewmtl a b\r\n\tKd 1 0.5 0\r\n d 0.5\r\nTr 0.9\r\nnewmtl c\nTr 0.8\nKe 1 1 0\nKd 0.2\n";
+        let (materials, _) = read(text);
+        let [first, second] = &materials[..] else { panic!("two") };
+        assert_eq!((first.name.as_str(), first.colour), ("a b", Colour { r: 255, g: 128, b: 0, a: 128 }));
+        assert_eq!(
+            (second.colour, second.emissive),
+            (Colour { r: 51, g: 51, b: 51, a: 51 }, Colour::rgb(255, 255, 0))
+        );
+        assert_eq!(read("newmtl halo\nd -halo 0.5").0[0].colour.a, 128);
+    }
+
+    #[test]
+    fn textures_have_options_and_blanks_in_names() {
+        for (statement, wanted) in [
+            ("wood.png", "maps/wood.png"),
+            ("-s 2 2 1 -o 0.25 0 0 checker board.png", "maps/checker board.png"),
+            ("-s 2 a.png", "maps/a.png"),
+            ("-clamp on -bm 0.3 -mm 0 1 -blendu off deep\\a.png", "maps/deep/a.png"),
+            ("-strange.png", "maps/-strange.png"),
+            ("-strange name.png", "maps/-strange name.png"),
+        ] {
+            let (materials, warnings) = read(&format!("newmtl m\nmap_Kd {statement}\n"));
+            assert_eq!(materials[0].texture.as_deref(), Some(wanted));
+            assert!(warnings.is_empty());
+        }
+    }
+
+    #[test]
+    fn textures_outside_the_folder_are_left_out() {
+        for name in ["../../secret.png", "/etc/passwd", "C:\\secret.png", "a/../../../b.png"] {
+            let (materials, warnings) = read(&format!("newmtl m\nmap_Kd {name}\n"));
+            assert_eq!(materials[0].texture, None);
+            assert!(warnings.lines()[0].contains("outside"), "{name}");
+        }
+    }
+
+    #[test]
+    fn statements_before_a_material_are_passed_over() {
+        assert!(read("Kd 1 1 1\nmap_Kd a.png").0.is_empty());
+    }
+}

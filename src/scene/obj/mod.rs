@@ -1,0 +1,50 @@
+//! Wavefront OBJ with its MTL libraries.
+//!
+//! Source: Wavefront Technologies, *Object Files (.obj)* and *MTL material format*, appendices B1 and B2 of
+//! the Advanced Visualizer manual; free-form curves and surfaces are passed over.
+//!
+//! `o` begins a part; in files (or before objects) without `o`, each name of `g` is one, however
+//! often it is taken up again. y is taken to point up.
+
+mod assemble;
+mod library;
+mod statements;
+
+use std::path::Path;
+
+use super::Scene;
+use crate::error::Error;
+
+/// Reads an OBJ file and the libraries beside it.
+///
+/// # Errors
+/// Names the file and the line if something is not a number, an index points nowhere, or nothing
+/// can be drawn.
+pub fn read(path: &Path) -> Result<Scene, Error> {
+    super::open::read_with(path, |bytes, stem| {
+        read_bytes(bytes, stem, |name| super::open::read_beside(path, name).ok())
+    })
+}
+
+/// Reads the text of an OBJ file; `stem` names faces outside objects, `library` gives the text of
+/// an MTL file by the name the model calls it.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_bytes(
+    bytes: &[u8],
+    stem: &str,
+    library: impl FnMut(&str) -> Option<Vec<u8>>,
+) -> Result<Scene, Error> {
+    let statements = statements::Statements::parse(bytes)?;
+    let scene = assemble::scene(statements, stem, library);
+    if bytes.contains(&0) {
+        return super::open::drawable(scene).map_err(|_| {
+            Error::new("this is binary data, not OBJ text; nothing to draw").remedy("check the file's ending")
+        });
+    }
+    super::open::drawable(scene)
+}
+
+#[cfg(test)]
+mod tests;

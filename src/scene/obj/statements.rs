@@ -1,0 +1,506 @@
+//! The statements of an OBJ file as flat arrays, in one pass over its bytes.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
+use crate::scene::open::shown;
+use crate::scene::polygon::{self, Cut};
+use crate::scene::text::Cursor;
+use crate::scene::warnings::Warnings;
+
+/// No index.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Position, texture coordinate and normal of a corner.
+type Corner = [u32; 3];
+
+/// Triangles and wires that follow one another in the same part with the same material.
+#[derive(Debug, Clone)]
+pub(super) struct Run {
+    /// Index into `objects`.
+    pub object: usize,
+    /// Index into `materials`, if `usemtl` came before.
+    pub material: Option<usize>,
+    /// Its triangles.
+    pub triangles: Range<usize>,
+    /// Its wires.
+    pub wires: Range<usize>,
+}
+
+/// An `o`, a `g`, or what came before both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Object<'a> {
+    Unnamed,
+    Named(&'a [u8]),
+}
+
+/// All that an OBJ file says, with polygons cut into triangles.
+#[derive(Default)]
+pub(super) struct Statements<'a> {
+    pub positions: Vec<DVec3>,
+    /// Colours of the first vertices, or of none.
+    pub colours: Vec<[f32; 3]>,
+    pub uvs: Vec<[f32; 2]>,
+    pub normals: Vec<[f32; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    /// As long as `triangles` or shorter: the rest has none.
+    pub corner_uvs: Vec<[u32; 3]>,
+    pub corner_normals: Vec<[u32; 3]>,
+    pub wires: Vec<[u32; 2]>,
+    pub runs: Vec<Run>,
+    pub objects: Vec<Object<'a>>,
+    /// Names of `usemtl`, each once, in order of first use.
+    pub materials: Vec<&'a [u8]>,
+    pub libraries: Vec<&'a [u8]>,
+    /// Whether there are positions that cannot be drawn.
+    pub has_bad_positions: bool,
+    pub warnings: Warnings,
+}
+
+/// What stopped the parser.
+enum Stop {
+    Error(Error),
+    /// A face before its vertices.
+    FaceFirst,
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
+    }
+}
+
+impl<'a> Statements<'a> {
+    /// Parses the file.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, Error> {
+        match Parser::new(bytes, Vec::new()).run() {
+            Ok(statements) => Ok(statements),
+            Err(Stop::Error(error)) => Err(error),
+            Err(Stop::FaceFirst) => {
+                // Some writers put the faces first; cutting polygons needs all positions by then.
+                let mut parser = Parser::new(bytes, Vec::new());
+                parser.only_vertices = true;
+                let vertices = parser.run().map_err(Stop::into_error)?;
+                Parser::new(bytes, vertices.positions).run().map_err(Stop::into_error)
+            }
+        }
+    }
+}
+
+impl Stop {
+    fn into_error(self) -> Error {
+        match self {
+            Self::Error(error) => error,
+            Self::FaceFirst => Error::new("a face uses a vertex that is not in the file"),
+        }
+    }
+}
+
+struct Parser<'a> {
+    cursor: Cursor<'a>,
+    out: Statements<'a>,
+    /// Positions read so far; fewer than `out.positions` in a second pass.
+    position_count: usize,
+    second_pass: bool,
+    only_vertices: bool,
+    corners: Vec<Corner>,
+    points: Vec<DVec3>,
+    cut: Vec<[u32; 3]>,
+    has_objects: bool,
+    object: usize,
+    material: Option<usize>,
+    groups: rustc_hash::FxHashMap<&'a [u8], usize>,
+    material_ids: rustc_hash::FxHashMap<&'a [u8], usize>,
+    unusable: u64,
+    too_short: u64,
+    points_passed: u64,
+    not_understood: u64,
+}
+
+impl<'a> Parser<'a> {
+    fn new(bytes: &'a [u8], positions: Vec<DVec3>) -> Self {
+        let second_pass = !positions.is_empty();
+        let objects = vec![Object::Unnamed];
+        Self {
+            cursor: Cursor::new(bytes),
+            out: Statements { positions, objects, ..Statements::default() },
+            position_count: 0,
+            second_pass,
+            only_vertices: false,
+            corners: Vec::new(),
+            points: Vec::new(),
+            cut: Vec::new(),
+            has_objects: false,
+            object: 0,
+            material: None,
+            groups: Default::default(),
+            material_ids: Default::default(),
+            unusable: 0,
+            too_short: 0,
+            points_passed: 0,
+            not_understood: 0,
+        }
+    }
+
+    fn run(mut self) -> Result<Statements<'a>, Stop> {
+        self.out.has_bad_positions = self.out.positions.iter().any(|&p| !is_drawable(p));
+        while !self.cursor.at_end() {
+            let c = &mut self.cursor;
+            match (c.peek(), c.peek_on(1)) {
+                (b'v', b' ' | b'\t') => {
+                    c.at += 2;
+                    self.position()?;
+                }
+                (b'f', b' ' | b'\t') if !self.only_vertices => {
+                    c.at += 2;
+                    self.face()?;
+                }
+                (b' ' | b'\t' | b'\n' | b'\r' | b'\\', _) => c.at += 1,
+                _ => self.other()?,
+            }
+        }
+        self.close_run();
+        let Self { mut out, unusable, too_short, points_passed, not_understood, .. } = self;
+        out.warnings.count(NOT_DRAWABLE, unusable);
+        out.warnings.count("faces or lines left out, with too few corners", too_short);
+        out.warnings.count("points left out", points_passed);
+        out.warnings.count("lines left out that are not OBJ statements", not_understood);
+        Ok(out)
+    }
+
+    /// The less frequent statements.
+    fn other(&mut self) -> Result<(), Stop> {
+        let start = self.cursor.at;
+        let keyword = self.cursor.word();
+        match keyword {
+            b"vt" => {
+                let u = self.number()?;
+                self.cursor.skip_blanks();
+                let v = self.cursor.number().unwrap_or(0.0);
+                self.out.uvs.push([u as f32, v as f32]);
+                self.pass_line();
+            }
+            b"vn" => {
+                let normal = [self.number()? as f32, self.number()? as f32, self.number()? as f32];
+                self.out.normals.push(normal);
+                self.pass_line();
+            }
+            b"v" => self.position()?,
+            b"f" if !self.only_vertices => self.face()?,
+            b"l" if !self.only_vertices => self.line()?,
+            b"p" => {
+                self.points_passed += 1;
+                self.pass_line();
+            }
+            b"o" => {
+                let name = self.cursor.rest_of_line();
+                if !self.has_objects {
+                    // Groups inside objects are finer than parts.
+                    self.groups.clear();
+                    self.has_objects = true;
+                }
+                self.begin_object(name);
+            }
+            b"g" => {
+                let name = self.cursor.rest_of_line();
+                if self.has_objects {
+                    return Ok(());
+                }
+                self.close_run();
+                match self.groups.get(name) {
+                    Some(&object) => self.object = object,
+                    None => {
+                        self.begin_object(name);
+                        self.groups.insert(name, self.object);
+                    }
+                }
+            }
+            b"usemtl" => {
+                let name = self.cursor.rest_of_line();
+                self.close_run();
+                let next = self.out.materials.len();
+                let id = *self.material_ids.entry(name).or_insert(next);
+                if id == next {
+                    self.out.materials.push(name);
+                }
+                self.material = Some(id);
+            }
+            b"mtllib" => {
+                let name = self.cursor.rest_of_line();
+                self.out.libraries.push(name);
+            }
+            _ => {
+                let known = keyword.first().is_some_and(|c| c.is_ascii_alphabetic() || *c == b'#')
+                    && keyword.iter().all(|c| (b' '..=b'~').contains(c));
+                if !known && self.cursor.at > start {
+                    self.not_understood += 1;
+                }
+                if keyword.starts_with(b"#") {
+                    _ = self.cursor.rest_of_line()
+                } else {
+                    self.pass_line()
+                }
+                // A byte that is neither a word nor a blank.
+                if self.cursor.at == start {
+                    self.cursor.at += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn begin_object(&mut self, name: &'a [u8]) {
+        self.close_run();
+        self.object = self.out.objects.len();
+        self.out.objects.push(Object::Named(name));
+    }
+
+    /// Ends the run of triangles and wires before a change of part or material.
+    fn close_run(&mut self) {
+        let (triangles, wires) =
+            self.out.runs.last().map_or((0, 0), |run| (run.triangles.end, run.wires.end));
+        let (triangles, wires) = (triangles..self.out.triangles.len(), wires..self.out.wires.len());
+        if !triangles.is_empty() || !wires.is_empty() {
+            self.out.runs.push(Run { object: self.object, material: self.material, triangles, wires });
+        }
+    }
+
+    /// Passes the rest of a statement, with the lines that continue it.
+    fn pass_line(&mut self) {
+        while self.cursor.rest_of_line().ends_with(b"\\") && !self.cursor.at_end() {
+            self.cursor.at +=
+                if (self.cursor.peek(), self.cursor.peek_on(1)) == (b'\r', b'\n') { 2 } else { 1 };
+        }
+    }
+
+    #[inline]
+    fn number(&mut self) -> Result<f64, Error> {
+        self.cursor.skip_blanks();
+        let number = self.cursor.number();
+        number.filter(|_| self.cursor.at_word_end()).ok_or_else(|| self.not_a_number())
+    }
+
+    /// `v x y z`, with a weight or a colour after it.
+    #[inline]
+    fn position(&mut self) -> Result<(), Stop> {
+        let point = DVec3::new(self.number()?, self.number()?, self.number()?);
+        let id = self.position_count;
+        self.position_count += 1;
+        if !self.second_pass {
+            self.out.has_bad_positions |= !is_drawable(point);
+            self.out.positions.push(point);
+        }
+        self.cursor.skip_blanks();
+        if !self.cursor.at_line_end() {
+            self.colour(id)?;
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn colour(&mut self, id: usize) -> Result<(), Error> {
+        let mut extra = [0.0_f32; 4];
+        let mut count = 0;
+        while !self.cursor.at_line_end() {
+            let value = self.number()? as f32;
+            if let Some(slot) = extra.get_mut(count) {
+                *slot = value;
+            }
+            count += 1;
+            self.cursor.skip_blanks();
+        }
+        if count >= 3 {
+            let [r, g, b, _] = extra;
+            // White for those before it that have none.
+            self.out.colours.resize(id, [1.0; 3]);
+            self.out.colours.push([r, g, b]);
+        }
+        Ok(())
+    }
+
+    /// The next corner of a face or line; none at the end of the line.
+    #[inline]
+    fn corner(&mut self) -> Result<Option<Corner>, Stop> {
+        self.cursor.skip_blanks();
+        if self.cursor.at_line_end() {
+            return Ok(None);
+        }
+        let start = self.cursor.at;
+        let mut index = 0;
+        let digits = self.cursor.digits(&mut index);
+        let position = if digits.wrapping_sub(1) < 18 && index.wrapping_sub(1) < self.position_count as u64 {
+            (index - 1) as u32
+        } else {
+            self.cursor.at = start;
+            self.unusual_position()?
+        };
+        let mut corner = [position, NONE, NONE];
+        if self.cursor.peek() == b'/' {
+            self.cursor.at += 1;
+            corner[1] = self.attribute(self.out.uvs.len());
+            if self.cursor.peek() == b'/' {
+                self.cursor.at += 1;
+                corner[2] = self.attribute(self.out.normals.len());
+            }
+        }
+        if self.cursor.at_word_end() { Ok(Some(corner)) } else { Err(self.not_an_index().into()) }
+    }
+
+    /// Index of a texture coordinate or a normal. One that points nowhere is none.
+    #[inline]
+    fn attribute(&mut self, count: usize) -> u32 {
+        match self.cursor.integer() {
+            Some(index) if index > 0 => u32::try_from(index - 1).unwrap_or(NONE),
+            Some(index) if index < 0 => {
+                usize::try_from(count as i64 + index).ok().and_then(|i| u32::try_from(i).ok()).unwrap_or(NONE)
+            }
+            _ => NONE,
+        }
+    }
+
+    /// A negative index, or one of a vertex still to come, or a mistake.
+    #[cold]
+    fn unusual_position(&mut self) -> Result<u32, Stop> {
+        let place = self.cursor.clone();
+        let Some(index) = self.cursor.integer() else { return Err(self.not_an_index().into()) };
+        let count = self.position_count as i64;
+        let found = if index < 0 { count + index } else { index - 1 };
+        let fail = |message: String| {
+            let place = format!("line {}", place.line());
+            Err(Stop::Error(
+                Error::new(message).at(place).remedy("indices count from 1, or from −1 backwards"),
+            ))
+        };
+        if index == 0 || found < 0 {
+            return fail(format!("vertex {index} does not exist"));
+        }
+        if found >= count {
+            if found < self.out.positions.len() as i64 {
+                return Ok(found as u32);
+            }
+            let all = if self.second_pass { self.out.positions.len() } else { count_vertices(&self.cursor) };
+            if self.second_pass || found >= count + all as i64 {
+                let all = if self.second_pass { all } else { self.position_count + all };
+                return fail(format!("vertex {index} does not exist; the file has {all}"));
+            }
+            return Err(Stop::FaceFirst);
+        }
+        u32::try_from(found).or_else(|_| fail(format!("vertex {index} is beyond what can be drawn")))
+    }
+
+    #[inline]
+    fn face(&mut self) -> Result<(), Stop> {
+        self.corners.clear();
+        while let Some(corner) = self.corner()? {
+            self.corners.push(corner);
+        }
+        if self.out.has_bad_positions && self.corners.iter().any(|c| !is_drawable(self.point(c[0]))) {
+            self.unusable += 1;
+            return Ok(());
+        }
+        match *self.corners.as_slice() {
+            [a, b, c] => self.triangle(a, b, c),
+            [a, b, c, d] => {
+                let corners = [a, b, c, d];
+                let [p, q, r, s] = corners.map(|c| self.point(c[0]));
+                for triangle in polygon::quad(p, q, r, s) {
+                    let [a, b, c] = triangle.map(|i| corners[i as usize % 4]);
+                    self.triangle(a, b, c);
+                }
+            }
+            [] | [_] | [_, _] => self.too_short += 1,
+            _ => self.polygon(),
+        }
+        Ok(())
+    }
+
+    fn polygon(&mut self) {
+        let corners = std::mem::take(&mut self.corners);
+        let mut points = std::mem::take(&mut self.points);
+        let mut cut = std::mem::take(&mut self.cut);
+        points.clear();
+        points.extend(corners.iter().map(|c| self.point(c[0])));
+        cut.clear();
+        if polygon::triangulate(&points, &mut cut) == Cut::TooLarge {
+            self.out.warnings.count("concave polygons with too many corners, cut roughly", 1);
+        }
+        for &[a, b, c] in &cut {
+            if let [Some(&a), Some(&b), Some(&c)] = [a, b, c].map(|i| corners.get(i as usize)) {
+                self.triangle(a, b, c);
+            }
+        }
+        (self.corners, self.points, self.cut) = (corners, points, cut);
+    }
+
+    #[inline]
+    fn point(&self, id: u32) -> DVec3 {
+        self.out.positions.get(id as usize).copied().unwrap_or(DVec3::NAN)
+    }
+
+    #[inline]
+    fn triangle(&mut self, a: Corner, b: Corner, c: Corner) {
+        let count = self.out.triangles.len();
+        self.out.triangles.push([a[0], b[0], c[0]]);
+        if (a[1] & b[1] & c[1]) != NONE {
+            self.out.corner_uvs.resize(count, [NONE; 3]);
+            self.out.corner_uvs.push([a[1], b[1], c[1]]);
+        }
+        if (a[2] & b[2] & c[2]) != NONE {
+            self.out.corner_normals.resize(count, [NONE; 3]);
+            self.out.corner_normals.push([a[2], b[2], c[2]]);
+        }
+    }
+
+    fn line(&mut self) -> Result<(), Stop> {
+        self.corners.clear();
+        while let Some(corner) = self.corner()? {
+            self.corners.push(corner);
+        }
+        if self.corners.len() < 2 {
+            self.too_short += 1;
+        }
+        for pair in self.corners.windows(2) {
+            if let [a, b] = pair {
+                if self.out.has_bad_positions && [a, b].iter().any(|c| !is_drawable(self.point(c[0]))) {
+                    self.unusable += 1;
+                } else {
+                    self.out.wires.push([a[0], b[0]]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn not_a_number(&self) -> Error {
+        if self.cursor.at_line_end() {
+            return Error::new("a coordinate is missing").at(format!("line {}", self.cursor.line()));
+        }
+        self.error("a number")
+    }
+
+    #[cold]
+    fn not_an_index(&self) -> Error {
+        self.error("the index of a vertex")
+    }
+
+    fn error(&self, wanted: &str) -> Error {
+        let word = shown(self.cursor.clone().word());
+        Error::new(format!("`{word}` is not {wanted}")).at(format!("line {}", self.cursor.line()))
+    }
+}
+
+/// How many vertices there are from here on.
+fn count_vertices(cursor: &Cursor) -> usize {
+    let mut cursor = cursor.clone();
+    let mut count = 0;
+    while !cursor.at_end() {
+        cursor.rest_of_line();
+        cursor.skip_space();
+        count += usize::from(cursor.peek() == b'v' && matches!(cursor.peek_on(1), b' ' | b'\t'));
+    }
+    count
+}

@@ -1,0 +1,197 @@
+use glam::DVec3;
+
+use super::*;
+use crate::math::colour::Colour;
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+fn try_read(text: impl AsRef<[u8]>) -> Result<Scene, Error> {
+    read_bytes(text.as_ref(), "stem", |_| None)
+}
+
+fn read(text: impl AsRef<[u8]>) -> Scene {
+    try_read(text).unwrap()
+}
+
+fn error(text: impl AsRef<[u8]>) -> String {
+    try_read(text).unwrap_err().to_string()
+}
+
+#[test]
+fn faces_and_wires() {
+    let scene = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\nl 1 3 2\np 1\n");
+    let geometry = &scene.geometries[0];
+    assert_eq!(geometry.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
+    assert_eq!(geometry.wires, [[0, 2], [2, 1]]);
+    assert_eq!((scene.parts[0].name.as_str(), scene.format), ("stem", "OBJ"));
+    assert_eq!(scene.warnings.lines(), ["1 points left out"]);
+}
+
+#[test]
+fn all_ways_to_end_and_continue_a_line() {
+    let text =
+        "\u{feff}# c\r\nv\t0 0\\\r\n 0\r\n  v 1 0 0 # c\r\nv 0 1 0\rf 1 2 \\\n3# c\n\nf -3 -2 -1 \r\nf 1 2 3";
+    assert_eq!(read(text).geometries[0].triangles, [[0, 1, 2]; 3]);
+}
+
+#[test]
+fn corners_have_texture_coordinates_and_normals() {
+    let text = format!(
+        "{TRIANGLE}vt 0.5\nvt 1 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/2 3/-1\nf 1//1 2//-1 3//1\nf 1/1/1 2/2/1 3//9\nf 1 2 3\n"
+    );
+    let scene = read(text);
+    let geometry = &scene.geometries[0];
+    let none = u32::MAX;
+    assert_eq!(geometry.uvs, [[0.5, 0.0], [1.0, 0.0]]);
+    assert_eq!(geometry.corner_uvs, [[none; 3], [0, 1, 1], [none; 3], [0, 1, none], [none; 3]]);
+    assert_eq!(geometry.corner_normals, [[none; 3], [none; 3], [0; 3], [0, 0, none], [none; 3]]);
+}
+
+#[test]
+fn vertices_have_weights_or_colours() {
+    let scene = read("v 0 0 0 1.0\nv 1 0 0 1 0 0.5\nv 0 1 0\nf 1 2 3\n");
+    let colours = &scene.geometries[0].colours;
+    assert_eq!((colours[0], colours[2]), ([1.0; 4], [1.0; 4]));
+    assert!((colours[1][2] - 0.214).abs() < 1e-3);
+}
+
+#[test]
+fn objects_are_parts_and_groups_inside_them_are_not() {
+    let scene =
+        read(format!("{TRIANGLE}f 1 2 3\no a b\ng x\nf 1 2 3\ng y\nf 1 2 3\no\nv 5 5 5\nf 2 3 4\no empty\n"));
+    let names: Vec<_> = scene.parts.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["stem", "a b", "part 3"]);
+    assert_eq!(scene.geometries[1].triangles.len(), 2);
+    let last = &scene.geometries[2];
+    assert_eq!(
+        (&last.positions[..], &last.triangles[..]),
+        (&[DVec3::X, DVec3::Y, DVec3::splat(5.0)][..], &[[0, 1, 2]][..])
+    );
+}
+
+#[test]
+fn groups_are_parts_and_may_be_taken_up_again() {
+    let scene = read(format!("g one\n{TRIANGLE}f 1 2 3\ng two\nf 3 2 1\ng one\nf 2 3 1\nl 1 2\n"));
+    let names: Vec<_> = scene.parts.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["one", "two"]);
+    assert_eq!(scene.geometries[0].triangles, [[0, 1, 2], [1, 2, 0]]);
+    assert_eq!(scene.geometries[0].wires, [[0, 1]]);
+}
+
+#[test]
+fn parts_keep_just_what_they_use() {
+    let text = format!("{TRIANGLE}v 9 9 9\nvn 0 0 1\nvn 0 1 0\no a\nf 1//2 2//2 3//7\no b\nf 4 2 3\n");
+    let scene = read(text);
+    let [a, b] = &scene.geometries[..] else { panic!("two") };
+    assert_eq!((&a.normals[..], &a.corner_normals[..]), (&[[0.0, 1.0, 0.0]][..], &[[0, 0, u32::MAX]][..]));
+    assert_eq!(b.positions, [DVec3::X, DVec3::Y, DVec3::splat(9.0)]);
+    assert_eq!(b.triangles, [[2, 0, 1]]);
+    assert!(b.normals.is_empty() && b.corner_normals.is_empty());
+}
+
+#[test]
+fn materials_belong_to_triangles() {
+    let text = format!(
+        "mtllib my lib.mtl\n{TRIANGLE}f 1 2 3\nusemtl red\nf 1 2 3\nusemtl\nf 1 2 3\nusemtl red\nf 1 2 3\n"
+    );
+    let mut asked = Vec::new();
+    let scene = read_bytes(text.as_bytes(), "stem", |name| {
+        asked.push(name.to_owned());
+        Some(b"newmtl unused\nnewmtl red\nKd 1 0 0\n".to_vec())
+    })
+    .unwrap();
+    assert_eq!(asked, ["my lib.mtl"]);
+    let names: Vec<_> = scene.materials.iter().map(|m| m.name.as_str()).collect();
+    assert_eq!(names, ["red", "", ""]);
+    assert_eq!(scene.materials[0].colour, Colour::rgb(255, 0, 0));
+    assert_eq!(scene.geometries[0].triangle_material, [2, 0, 1, 0]);
+    assert!(scene.warnings.is_empty());
+}
+
+#[test]
+fn one_material_for_all_is_not_spelt_out() {
+    let scene = read(format!("{TRIANGLE}usemtl m\nf 1 2 3\nf 1 2 3\n"));
+    assert_eq!((scene.geometries[0].material, scene.geometries[0].triangle_material.len()), (Some(0), 0));
+    assert_eq!(scene.warnings.lines(), ["1 materials that no library defines"]);
+}
+
+#[test]
+fn missing_and_escaping_libraries_are_warned_of() {
+    let scene = read(format!(
+        "mtllib none.mtl\nmtllib ../out.mtl\nmtllib a.mtl b.mtl\n{TRIANGLE}usemtl m\nf 1 2 3\n"
+    ));
+    let lines = scene.warnings.lines().join("; ");
+    for wanted in ["none.mtl is missing", "../out.mtl lies outside", "a.mtl is missing", "b.mtl is missing"] {
+        assert!(lines.contains(wanted), "{lines}");
+    }
+    assert_eq!(scene.materials[0].name, "m");
+}
+
+#[test]
+fn faces_may_stand_before_their_vertices() {
+    let scene = read(format!("f 1 2 3 4\n{TRIANGLE}v 1 1 0\nf -4 -3 -2\nf 1 2 4\n"));
+    assert_eq!(scene.geometries[0].triangles[2..], [[0, 1, 2], [0, 1, 3]]);
+    assert!(
+        error(format!("f 1 2 3\n{TRIANGLE}f 1 2 4\n"))
+            .contains("line 5: vertex 4 does not exist; the file has 3")
+    );
+}
+
+#[test]
+fn indices_that_point_nowhere_are_errors_with_a_line() {
+    for (index, place) in
+        [("0", "line 4"), ("9", "line 4"), ("-4", "line 4"), ("99999999999999999999", "line 4")]
+    {
+        let error = error(format!("{TRIANGLE}f 1 2 {index}\n"));
+        assert!(error.starts_with(place) && error.contains("does not exist"), "{error}");
+    }
+    for word in ["x", "1x", "1.5", "1/2/3/4", "/1"] {
+        let error = error(format!("{TRIANGLE}f 1 2 {word}\n"));
+        assert!(error.contains("line 4") && error.contains("not the index"), "{error}");
+    }
+}
+
+#[test]
+fn coordinates_must_be_numbers() {
+    assert_eq!(error("v a b c\n"), "line 1: `a` is not a number");
+    assert_eq!(error("\nv 1 0\n"), "line 2: a coordinate is missing");
+    assert_eq!(error("\n\nv 1 0 0,5\n"), "line 3: `,5` is not a number");
+}
+
+#[test]
+fn what_is_no_number_is_left_out() {
+    let scene = read(
+        "v nan 0 0\nv 1 inf 0\nv 0 1e400 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\nf 4 5 6 1\nl 1 4\n",
+    );
+    let geometry = &scene.geometries[0];
+    assert_eq!((geometry.positions.len(), &geometry.triangles[..]), (3, &[[0, 1, 2]][..]));
+    assert!(scene.warnings.lines()[0].starts_with("3 faces or lines left out"));
+    assert!(error("v 1e400 0 0\nv 1 1e39 0\nv 0 1 0\nf 1 2 3\n").contains("nothing to draw"));
+}
+
+#[test]
+fn nothing_to_draw_is_said() {
+    for text in ["# c\n", TRIANGLE, &format!("{TRIANGLE}f 1\n"), "garbage\n", "p 1\n", "\0\0\0"] {
+        assert!(error(text).contains("nothing to draw"), "{}", error(text));
+    }
+}
+
+#[test]
+fn names_may_be_latin1() {
+    assert_eq!(read([b"o caf\xe9\n", TRIANGLE.as_bytes(), b"f 1 2 3"].concat()).parts[0].name, "café");
+}
+
+#[test]
+fn free_forms_and_unknown_statements_are_passed_over() {
+    let scene = read(format!("{TRIANGLE}vp 0.5\ncurv2 ignored \\\nf 9 9 9\ns off\n\u{1}\u{2}\nf 1 2 3\n"));
+    assert_eq!(scene.warnings.lines(), ["1 lines left out that are not OBJ statements"]);
+}
+
+#[test]
+fn a_huge_polygon_is_quick() {
+    let face = "1 2 3 ".repeat(20_000);
+    let scene = read(format!("{TRIANGLE}f {face}\n"));
+    assert_eq!(scene.geometries[0].triangles.len(), 59_998);
+    let scene = read(format!("{TRIANGLE}v 0.1 0.2 0\nf {face} 4\n"));
+    assert_eq!(scene.warnings.lines(), ["1 concave polygons with too many corners, cut roughly"]);
+}

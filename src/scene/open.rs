@@ -1,0 +1,164 @@
+//! Opening model files: which reader, and what all readers share.
+
+use std::fs;
+use std::path::Path;
+
+use super::text::decode;
+use super::{Scene, obj, ply, stl};
+use crate::error::Error;
+
+const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
+
+/// Reads a model with the reader for its ending, whatever its case.
+pub(super) fn open(path: &Path) -> Result<Scene, Error> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    let scene = match ending.as_str() {
+        "obj" => obj::read(path),
+        "stl" => stl::read(path),
+        "ply" => ply::read(path),
+
+        // One arm for both kinds of glTF.
+        "gltf" | "glb" => Err(Error::new("glTF is not read yet")),
+
+        "" => Err(Error::new("the file has no ending that tells its format").remedy(FORMATS)),
+        _ => Err(Error::new(format!("the format .{ending} is not known")).remedy(FORMATS)),
+    };
+    scene.map_err(|error| if error.file.is_none() { error.in_file(path) } else { error })
+}
+
+/// Reads a file and hands its bytes and the stem of its name to a reader.
+pub(super) fn read_with(
+    path: &Path,
+    reader: impl FnOnce(&[u8], &str) -> Result<Scene, Error>,
+) -> Result<Scene, Error> {
+    let bytes = bytes(path)?;
+    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let mut scene = reader(&bytes, &stem).map_err(|error| error.in_file(path))?;
+    scene.file = Some(path.to_path_buf());
+    Ok(scene)
+}
+
+/// The bytes of a model file, unless they are surely not a model.
+///
+/// # Errors
+/// If the file cannot be read, is empty, or holds a git-lfs pointer or a web page.
+pub fn bytes(path: &Path) -> Result<Vec<u8>, Error> {
+    let bytes = fs::read(path).map_err(|e| Error::new(format!("cannot be read: {e}")).in_file(path))?;
+    refuse_strangers(&bytes).map_err(|error| error.in_file(path))?;
+    Ok(bytes)
+}
+
+/// Refuses what stands in the place of a model when a download went wrong.
+fn refuse_strangers(bytes: &[u8]) -> Result<(), Error> {
+    let start = bytes.trim_ascii_start();
+    let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
+    let begins =
+        |what: &str| start.get(..what.len()).is_some_and(|b| b.eq_ignore_ascii_case(what.as_bytes()));
+    if bytes.is_empty() {
+        return Err(Error::new("the file is empty; nothing to draw"));
+    }
+    if begins("version https://git-lfs") {
+        return Err(Error::new("this is a git-lfs pointer, not the model itself")
+            .remedy("fetch it with `git lfs pull`"));
+    }
+    if begins("<!doctype html") || begins("<html") {
+        return Err(Error::new("this is a web page, not a model").remedy("download the file itself"));
+    }
+    Ok(())
+}
+
+/// The bytes of a file beside the model, by the name the model calls it.
+///
+/// # Errors
+/// If the name leads outside the model's folder, or the file cannot be read.
+pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
+    if !stays_inside(name) {
+        return Err(Error::new(format!("{name} lies outside the model's folder")).in_file(model));
+    }
+    let path = model.parent().unwrap_or(Path::new("")).join(name);
+    if !path.is_file() {
+        return Err(Error::new(format!("{name} is missing")).in_file(model));
+    }
+    fs::read(&path).map_err(|e| Error::new(format!("cannot be read: {e}")).in_file(path))
+}
+
+/// Whether a relative path, written with slashes, stays inside the folder it starts from.
+#[must_use]
+pub fn stays_inside(path: &str) -> bool {
+    let mut depth = 0_i32;
+    for step in path.split(['/', '\\']) {
+        match step {
+            "" | "." => {}
+            ".." => depth -= 1,
+            _ => depth += 1,
+        }
+        if depth < 0 {
+            return false;
+        }
+    }
+    // A colon is a drive or a protocol.
+    !path.starts_with(['/', '\\']) && !path.contains([':', '\0'])
+}
+
+/// The scene, unless there is nothing in it to draw.
+///
+/// # Errors
+/// If it has neither triangles nor wires.
+pub fn drawable(scene: Scene) -> Result<Scene, Error> {
+    if scene.geometries.iter().any(|g| !g.triangles.is_empty() || !g.wires.is_empty()) {
+        return Ok(scene);
+    }
+    let points: usize = scene.geometries.iter().map(|g| g.positions.len()).sum();
+    let lines = scene.warnings.lines();
+    let left_out = lines.iter().find(|line| line.contains("left out"));
+    Err(match (left_out, points) {
+        (Some(line), _) => Error::new(format!("{line}; nothing to draw")),
+        (None, 0) => Error::new("no faces and no lines; nothing to draw"),
+        (None, _) => Error::new("only points; nothing to draw"),
+    })
+}
+
+/// How a place in the text is called in errors, with the word found there.
+pub(super) fn shown(word: &[u8]) -> String {
+    let start: Vec<u8> = word.iter().copied().take(20).collect();
+    decode(&start).escape_debug().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strangers_are_told() {
+        for (bytes, wanted) in [
+            ("version https://git-lfs.github.com/spec/v1\noid", "git lfs pull"),
+            ("\n <!DOCTYPE html><html>", "web page"),
+            ("\u{feff}<HTML>", "web page"),
+            ("", "nothing to draw"),
+        ] {
+            let error = refuse_strangers(bytes.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(wanted), "{error}");
+        }
+        assert!(refuse_strangers(b"v 0 0 0").is_ok());
+    }
+
+    #[test]
+    fn unknown_endings_list_the_formats() {
+        for name in ["a.xyz", "a"] {
+            let error = open(Path::new(name)).unwrap_err().to_string();
+            assert!(error.contains(".obj, .gltf, .glb, .stl and .ply"), "{error}");
+        }
+        let error = open(Path::new("missing.OBJ")).unwrap_err().to_string();
+        assert!(error.starts_with("missing.OBJ: cannot be read"), "{error}");
+    }
+
+    #[test]
+    fn paths_stay_inside() {
+        for good in ["a.mtl", "a/b.mtl", "a/../b.mtl", "./a b.mtl", ".a"] {
+            assert!(stays_inside(good), "{good}");
+        }
+        for bad in ["../a", "a/../../b", "/a", "\\a", "C:\\a", "http://a/b", "a\\..\\..\\b", "a\0"] {
+            assert!(!stays_inside(bad), "{bad}");
+        }
+    }
+}

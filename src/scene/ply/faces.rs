@@ -1,0 +1,179 @@
+//! The faces of a PLY file: polygons, and strips of triangles.
+
+use glam::DVec3;
+
+use super::body::{Body, Row, place};
+use super::header::{Element, Encoding, Scalar};
+use crate::error::Error;
+use crate::scene::coordinate::is_drawable;
+use crate::scene::polygon::{self, Cut};
+use crate::scene::warnings::Warnings;
+
+const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// Collects triangles over the positions of the file.
+pub(super) struct Faces<'a> {
+    positions: &'a [DVec3],
+    has_bad_positions: bool,
+    corners: Vec<u32>,
+    points: Vec<DVec3>,
+    cut: Vec<[u32; 3]>,
+    /// The triangles so far.
+    pub triangles: Vec<[u32; 3]>,
+    /// Faces left out for their coordinates.
+    pub unusable: u64,
+    pub warnings: Warnings,
+}
+
+impl<'a> Faces<'a> {
+    /// No faces yet.
+    pub fn new(positions: &'a [DVec3]) -> Self {
+        Self {
+            positions,
+            has_bad_positions: !positions.iter().all(|&p| is_drawable(p)),
+            corners: Vec::new(),
+            points: Vec::new(),
+            cut: Vec::new(),
+            triangles: Vec::new(),
+            unusable: 0,
+            warnings: Warnings::default(),
+        }
+    }
+
+    /// Reads the element `face`.
+    pub fn polygons(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
+        let count = body.check_count(element)?;
+        let Some(list) = element.find(&LISTS).filter(|&p| is_list(element, p)) else {
+            self.warnings.note("faces without a list of vertices left out");
+            return skip(body, element);
+        };
+        self.triangles.reserve(count);
+        let packed = Packed::new(body, element, list);
+        let mut too_short = 0;
+        let mut row = Row::default();
+        for number in 0..count {
+            if let Some((triangle, size)) = packed.as_ref().and_then(|p| p.triangle(body.rest())) {
+                let exists = triangle.iter().all(|&i| (i as usize) < self.positions.len());
+                if exists && !self.has_bad_positions {
+                    self.triangles.push(triangle);
+                    body.cursor.at += size;
+                    continue;
+                }
+            }
+            let mut start = body.cursor.clone();
+            body.row(element, number, &mut row)?;
+            let mut corners = std::mem::take(&mut self.corners);
+            corners.clear();
+            for &index in row.list(list) {
+                let Some(index) = self.index(index) else {
+                    start.skip_space();
+                    let line = (body.encoding == Encoding::Text).then(|| format!("line {}", start.line()));
+                    let place = line.unwrap_or_else(|| place(element, number));
+                    return Err(self.no_vertex(index).at(place));
+                };
+                corners.push(index);
+            }
+            too_short += u64::from(corners.len() < 3);
+            self.polygon(&corners);
+            self.corners = corners;
+        }
+        self.warnings.count("faces left out, with too few corners", too_short);
+        Ok(())
+    }
+
+    /// Reads the element `tristrips`: −1 starts a new strip.
+    pub fn strips(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
+        let count = body.check_count(element)?;
+        let Some(list) = element.find(&LISTS).filter(|&p| is_list(element, p)) else {
+            return skip(body, element);
+        };
+        let mut row = Row::default();
+        for number in 0..count {
+            body.row(element, number, &mut row)?;
+            let values = row.list(list);
+            for strip in values.split(|&index| index == -1.0) {
+                let ids: Option<Vec<u32>> = strip.iter().map(|&index| self.index(index)).collect();
+                let Some(ids) = ids else {
+                    let bad = strip.iter().copied().find(|&index| self.index(index).is_none());
+                    return Err(self.no_vertex(bad.unwrap_or_default()).at(place(element, number)));
+                };
+                for (i, corners) in ids.windows(3).enumerate() {
+                    let &[a, b, c] = corners else { continue };
+                    // Every other triangle runs the other way; repeated corners only steer the strip.
+                    if a != b && b != c && c != a {
+                        self.polygon(&if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn index(&self, value: f64) -> Option<u32> {
+        let exists = value >= 0.0
+            && value < self.positions.len().min(u32::MAX as usize) as f64
+            && value.fract() == 0.0;
+        exists.then_some(value as u32)
+    }
+
+    #[cold]
+    fn no_vertex(&self, index: f64) -> Error {
+        Error::new(format!("vertex {index} does not exist; the file has {}", self.positions.len()))
+            .remedy("indices count from 0")
+    }
+
+    fn polygon(&mut self, corners: &[u32]) {
+        self.points.clear();
+        self.points.extend(corners.iter().filter_map(|&i| self.positions.get(i as usize)));
+        if self.has_bad_positions && !self.points.iter().all(|&p| is_drawable(p)) {
+            self.unusable += 1;
+            return;
+        }
+        self.cut.clear();
+        if polygon::triangulate(&self.points, &mut self.cut) == Cut::TooLarge {
+            self.warnings.count("concave polygons with too many corners, cut roughly", 1);
+        }
+        let id = |corner: u32| corners.get(corner as usize).copied().unwrap_or_default();
+        self.triangles.extend(self.cut.iter().map(|triangle| triangle.map(id)));
+    }
+}
+
+fn is_list(element: &Element, property: usize) -> bool {
+    element.properties.get(property).is_some_and(|p| p.list.is_some())
+}
+
+/// Passes over an element.
+pub(super) fn skip(body: &mut Body, element: &Element) -> Result<(), Error> {
+    let count = body.check_count(element)?;
+    let mut row = Row::default();
+    (0..count).try_for_each(|number| body.row(element, number, &mut row))
+}
+
+/// The most frequent layout: a byte for the length, 32-bit indices, perhaps numbers around.
+struct Packed {
+    before: usize,
+    after: usize,
+}
+
+impl Packed {
+    fn new(body: &Body, element: &Element, list: usize) -> Option<Self> {
+        let property = element.properties.get(list)?;
+        let usual = property.list == Some(Scalar::U8)
+            && matches!(property.kind, Scalar::I32 | Scalar::U32)
+            && body.encoding == Encoding::Little;
+        let others = element.properties.iter().skip(list + 1);
+        let after: Option<usize> = others.map(|p| p.list.is_none().then(|| p.kind.size())).sum();
+        usual.then_some(Self { before: element.offset(list)?, after: after? })
+    }
+
+    /// The triangle at the start of some bytes, and how many bytes its row takes; none if it is
+    /// another polygon, or cut off.
+    #[inline]
+    fn triangle(&self, bytes: &[u8]) -> Option<([u32; 3], usize)> {
+        let row = bytes.get(self.before..)?.first_chunk::<13>()?;
+        let size = self.before + 13 + self.after;
+        let &[3, a, b, c, d, e, f, g, h, i, j, k, l] = row else { return None };
+        let corners = [[a, b, c, d], [e, f, g, h], [i, j, k, l]].map(u32::from_le_bytes);
+        (bytes.len() >= size).then_some((corners, size))
+    }
+}

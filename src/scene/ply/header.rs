@@ -1,0 +1,246 @@
+//! The header of a PLY file: its encoding and what its body holds.
+
+use crate::error::Error;
+use crate::scene::open::shown;
+use crate::scene::text::{Cursor, decode};
+
+/// How the body is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Text,
+    Little,
+    Big,
+}
+
+/// A kind of number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Scalar {
+    fn parse(word: &[u8]) -> Option<Self> {
+        Some(match word {
+            b"char" | b"int8" => Self::I8,
+            b"uchar" | b"uint8" => Self::U8,
+            b"short" | b"int16" => Self::I16,
+            b"ushort" | b"uint16" => Self::U16,
+            b"int" | b"int32" => Self::I32,
+            b"uint" | b"uint32" => Self::U32,
+            b"float" | b"float32" => Self::F32,
+            b"double" | b"float64" => Self::F64,
+            _ => return None,
+        })
+    }
+
+    /// Bytes of one number in a binary body.
+    pub fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    /// The number that stands for 1 where a colour is stored.
+    pub fn full(self) -> f64 {
+        match self {
+            Self::I8 => 127.0,
+            Self::U8 => 255.0,
+            Self::I16 => 32_767.0,
+            Self::U16 => 65_535.0,
+            Self::I32 => 2_147_483_647.0,
+            Self::U32 => 4_294_967_295.0,
+            Self::F32 | Self::F64 => 1.0,
+        }
+    }
+
+    /// A number of this kind at the start of some bytes; 0 if they are too few.
+    #[inline]
+    pub fn read(self, bytes: &[u8], encoding: Encoding) -> f64 {
+        macro_rules! number {
+            ($kind:ty) => {{
+                let array = bytes.first_chunk().copied().unwrap_or_default();
+                if encoding == Encoding::Big {
+                    <$kind>::from_be_bytes(array)
+                } else {
+                    <$kind>::from_le_bytes(array)
+                }
+                .into()
+            }};
+        }
+        match self {
+            Self::I8 => number!(i8),
+            Self::U8 => number!(u8),
+            Self::I16 => number!(i16),
+            Self::U16 => number!(u16),
+            Self::I32 => number!(i32),
+            Self::U32 => number!(u32),
+            Self::F32 => number!(f32),
+            Self::F64 => number!(f64),
+        }
+    }
+}
+
+/// A number of an element, or a list of them.
+#[derive(Debug, Clone)]
+pub(super) struct Property {
+    pub name: String,
+    /// Kind of the length, if it is a list.
+    pub list: Option<Scalar>,
+    pub kind: Scalar,
+}
+
+/// Rows of the same properties.
+#[derive(Debug, Clone)]
+pub(super) struct Element {
+    pub name: String,
+    pub count: u64,
+    pub properties: Vec<Property>,
+}
+
+impl Element {
+    /// The first property of one of these names.
+    pub fn find(&self, names: &[&str]) -> Option<usize> {
+        self.properties.iter().position(|p| names.contains(&p.name.as_str()))
+    }
+
+    /// Fewest bytes of a row.
+    pub fn least_size(&self, encoding: Encoding) -> usize {
+        match encoding {
+            // A digit and a blank.
+            Encoding::Text => 2 * self.properties.len(),
+            _ => self.properties.iter().map(|p| p.list.unwrap_or(p.kind).size()).sum(),
+        }
+    }
+
+    /// Bytes from the start of a row to a property, if there is no list before it.
+    pub fn offset(&self, property: usize) -> Option<usize> {
+        self.properties.iter().take(property).map(|p| p.list.is_none().then(|| p.kind.size())).sum()
+    }
+}
+
+/// All that the header says.
+#[derive(Debug, Clone)]
+pub(super) struct Header {
+    pub encoding: Encoding,
+    pub elements: Vec<Element>,
+    /// Where the body begins.
+    pub body: usize,
+}
+
+impl Header {
+    /// Reads the header at the start of a file.
+    pub fn parse(bytes: &[u8]) -> Result<Self, Error> {
+        let mut cursor = Cursor::new(bytes);
+        if cursor.rest_of_line() != b"ply" {
+            return Err(Error::new("the file does not begin with `ply`")
+                .at("line 1")
+                .remedy("it is not a PLY file"));
+        }
+        // A body may begin with the byte of a newline, so the first line says how lines end.
+        let line_end = if (cursor.peek(), cursor.peek_on(1)) == (b'\r', b'\n') { 2 } else { 1 };
+        let mut encoding = None;
+        let mut elements: Vec<Element> = Vec::new();
+        loop {
+            cursor.at += line_end;
+            if cursor.at_end() {
+                return Err(Error::new("the header has no `end_header`").remedy("the file is cut off"));
+            }
+            let place = cursor.clone();
+            let fail = |message: String| Err(Error::new(message).at(format!("line {}", place.line())));
+            let line = cursor.rest_of_line();
+            let words: Vec<&[u8]> = line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty()).collect();
+            match *words.as_slice() {
+                [b"end_header", ..] => break,
+                [b"format", name, version] => {
+                    encoding = Some(match name {
+                        b"ascii" => Encoding::Text,
+                        b"binary_little_endian" => Encoding::Little,
+                        b"binary_big_endian" => Encoding::Big,
+                        _ => return fail(format!("`{}` is not a PLY format", shown(name))),
+                    });
+                    if version != b"1.0" {
+                        return fail(format!("version {} of PLY is not known; 1.0 is", shown(version)));
+                    }
+                }
+                [b"element", name, count] => {
+                    let Some(count) = std::str::from_utf8(count).ok().and_then(|c| c.parse().ok()) else {
+                        return fail(format!("`{}` is not a number of rows", shown(count)));
+                    };
+                    elements.push(Element { name: decode(name).into_owned(), count, properties: Vec::new() });
+                }
+                [b"property", b"list", length, kind, name] => {
+                    match (Scalar::parse(length), Scalar::parse(kind)) {
+                        (Some(list), Some(kind)) => {
+                            let property =
+                                Property { name: decode(name).into_owned(), list: Some(list), kind };
+                            let Some(element) = elements.last_mut() else {
+                                return fail("a property of nothing".into());
+                            };
+                            element.properties.push(property);
+                        }
+                        _ => return fail(format!("`{}` has an unknown type", shown(line))),
+                    }
+                }
+                [b"property", kind, name] => {
+                    let Some(kind) = Scalar::parse(kind) else {
+                        return fail(format!("`{}` is not a type", shown(kind)));
+                    };
+                    let property = Property { name: decode(name).into_owned(), list: None, kind };
+                    let Some(element) = elements.last_mut() else {
+                        return fail("a property of nothing".into());
+                    };
+                    element.properties.push(property);
+                }
+                [] | [b"comment" | b"obj_info", ..] => {}
+                _ => return fail(format!("`{}` does not belong into a header", shown(line))),
+            }
+        }
+        let Some(encoding) = encoding else { return Err(Error::new("the header does not say its format")) };
+        Ok(Self { encoding, elements, body: (cursor.at + line_end).min(bytes.len()) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(text: &str) -> String {
+        Header::parse(text.as_bytes()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn elements_and_properties_are_read() {
+        let text = "ply\r\nformat binary_big_endian 1.0\r\ncomment a b\r\nelement vertex 3\r\nproperty double x\r\n\
+                    property list uchar short l\r\nproperty int8 y\r\nend_header\r\n\n\n";
+        let header = Header::parse(text.as_bytes()).unwrap();
+        assert_eq!((header.encoding, header.body), (Encoding::Big, text.len() - 2));
+        let element = &header.elements[0];
+        assert_eq!((element.name.as_str(), element.count, element.find(&["q", "y"])), ("vertex", 3, Some(2)));
+        assert_eq!(
+            (element.least_size(Encoding::Big), element.offset(1), element.offset(2)),
+            (10, Some(8), None)
+        );
+    }
+
+    #[test]
+    fn mistakes_name_the_line() {
+        assert!(error("plx").contains("line 1"));
+        assert!(error("ply\nformat ascii 1.0\nelement vertex many").contains("line 3: `many`"));
+        assert!(error("ply\nformat ascii 9.9\n").contains("line 2: version 9.9"));
+        assert!(error("ply\nformat text 1.0\n").contains("`text`"));
+        assert!(error("ply\nproperty int x\n").contains("line 2: a property of nothing"));
+        assert!(error("ply\nelement v 1\nproperty real x\n").contains("`real` is not a type"));
+        assert!(error("ply\nformat ascii 1.0\nelement vertex 3").contains("end_header"));
+        assert!(error("ply\nend_header\n").contains("format"));
+    }
+}

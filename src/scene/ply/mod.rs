@@ -1,0 +1,90 @@
+//! PLY, text and binary of either byte order.
+//!
+//! Source: Greg Turk, *The PLY Polygon File Format* (1994). y is taken to point up.
+
+mod body;
+mod faces;
+mod header;
+mod vertices;
+
+use std::path::Path;
+
+use glam::DAffine3;
+
+use self::body::Body;
+use self::faces::Faces;
+use self::header::Header;
+use super::coordinate::{NOT_DRAWABLE, is_drawable};
+use super::text::Cursor;
+use super::{Geometry, Part, Scene, UpAxis, open};
+use crate::error::Error;
+
+/// Reads a PLY file.
+///
+/// # Errors
+/// Names the file and the place if the header is wrong, rows are missing, an index points
+/// nowhere, or nothing can be drawn.
+pub fn read(path: &Path) -> Result<Scene, Error> {
+    open::read_with(path, read_bytes)
+}
+
+/// Reads the bytes of a PLY file; `stem` names its only part.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
+    let header = Header::parse(bytes)?;
+    let mut body = Body { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };
+    let mut scene = Scene { format: "PLY", up: UpAxis::Y, ..Scene::default() };
+    let mut geometry = Geometry::default();
+    let mut has_vertices = false;
+    let mut triangles = Vec::new();
+    let mut unusable = 0;
+    for element in &header.elements {
+        match element.name.as_str() {
+            "vertex" if !has_vertices => {
+                geometry = vertices::read(&mut body, element)?;
+                has_vertices = true;
+            }
+            name @ ("face" | "tristrips") => {
+                if !has_vertices {
+                    return Err(
+                        Error::new("the faces stand before the vertices").at(format!("element {name}"))
+                    );
+                }
+                let mut faces = Faces::new(&geometry.positions);
+                if name == "face" {
+                    faces.polygons(&mut body, element)?
+                } else {
+                    faces.strips(&mut body, element)?
+                }
+                scene.warnings.extend(&faces.warnings);
+                unusable += faces.unusable;
+                if triangles.is_empty() {
+                    triangles = faces.triangles
+                } else {
+                    triangles.extend(faces.triangles)
+                }
+            }
+            _ => faces::skip(&mut body, element)?,
+        }
+    }
+    scene.warnings.count(NOT_DRAWABLE, unusable);
+    geometry.triangles = triangles;
+    // No triangle uses these any more.
+    for position in geometry.positions.iter_mut().filter(|p| !is_drawable(**p)) {
+        *position = glam::DVec3::ZERO;
+    }
+    if !geometry.normals.is_empty() {
+        geometry.corner_normals.clone_from(&geometry.triangles);
+    }
+    if !geometry.uvs.is_empty() {
+        geometry.corner_uvs.clone_from(&geometry.triangles);
+    }
+    scene.geometries.push(geometry);
+    scene.parts.push(Part { name: stem.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY });
+    open::drawable(scene)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,423 @@
+//! Cutting polygons into triangles: quads by the better diagonal, others by a fan or by ears.
+//!
+//! Source: Eberly, *Triangulation by Ear Clipping*, sections 2 and 3. The ears are taken in the order of
+//! the corners, and what is known of a corner is kept until something it rests on changes.
+
+use glam::{DVec2, DVec3};
+
+/// Concave polygons of more corners are fanned: their ears would take too long to find.
+const MOST_CORNERS: usize = 4096;
+
+/// Corner tests after which the search for ears gives up.
+const MOST_TESTS: usize = 100_000_000;
+
+/// Whether a polygon could be cut as it should.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cut {
+    /// It was.
+    Sound,
+    /// It was fanned, or fanned from some corner on, because it has too many corners.
+    TooLarge,
+}
+
+/// Cuts a polygon of three or more corners into triangles of corner numbers, in the polygon's sense.
+///
+/// Triangles stay as they are; a quad is cut along corners 0 and 2, unless a corner is reflex
+/// there; a larger polygon is fanned from corner 0 where it is convex seen along its normal, and
+/// else loses its first ear until three corners are left. A polygon of n corners gives n − 2
+/// triangles, but for very large ones, which lose corners that repeat the one before.
+pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> Cut {
+    match *points {
+        [] | [_] | [_, _] => Cut::Sound,
+        [_, _, _] => {
+            triangles.push([0, 1, 2]);
+            Cut::Sound
+        }
+        [a, b, c, d] => {
+            triangles.extend(quad(a, b, c, d));
+            Cut::Sound
+        }
+        _ => polygon(points, triangles),
+    }
+}
+
+/// The two triangles of a quad.
+#[must_use]
+pub fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
+    let (u, v, w) = (b - a, c - a, d - a);
+    // The two halves face opposite ways where the cut 0-2 runs outside.
+    if u.cross(v).dot(v.cross(w)) < 0.0 { [[0, 1, 3], [1, 2, 3]] } else { [[0, 1, 2], [0, 2, 3]] }
+}
+
+fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> Cut {
+    let Some(flat) = flatten(points) else {
+        fan(0..points.len() as u32, triangles);
+        return Cut::Sound;
+    };
+    if is_convex(&flat) {
+        fan(0..points.len() as u32, triangles);
+        return Cut::Sound;
+    }
+    if points.len() <= MOST_CORNERS {
+        return Ears::new(&flat).clip(triangles);
+    }
+    let mut kept: Vec<u32> = Vec::with_capacity(points.len());
+    for (i, point) in points.iter().enumerate() {
+        if i == 0 || points.get(i - 1) != Some(point) {
+            kept.push(i as u32);
+        }
+    }
+    if kept.len() > MOST_CORNERS {
+        fan(kept, triangles);
+        return Cut::TooLarge;
+    }
+    let flat: Vec<DVec2> = kept.iter().filter_map(|&i| flat.get(i as usize).copied()).collect();
+    let first = triangles.len();
+    let cut = Ears::new(&flat).clip(triangles);
+    for corner in triangles.iter_mut().skip(first).flatten() {
+        *corner = kept.get(*corner as usize).copied().unwrap_or_default();
+    }
+    cut
+}
+
+/// Triangles from the first corner to each side.
+fn fan(corners: impl IntoIterator<Item = u32>, triangles: &mut Vec<[u32; 3]>) {
+    let mut corners = corners.into_iter();
+    let (Some(apex), Some(mut last)) = (corners.next(), corners.next()) else { return };
+    for corner in corners {
+        triangles.push([apex, last, corner]);
+        last = corner;
+    }
+}
+
+/// The polygon seen along the axis nearest to its normal, counter-clockwise; none if it has no normal.
+fn flatten(points: &[DVec3]) -> Option<Vec<DVec2>> {
+    let first = *points.first()?;
+    let next = points.iter().cycle().skip(1);
+    // Newell's normal.
+    let normal = points.iter().zip(next).fold(DVec3::ZERO, |n, (p, q)| {
+        n + DVec3::new((p.y - q.y) * (p.z + q.z), (p.z - q.z) * (p.x + q.x), (p.x - q.x) * (p.y + q.y))
+    });
+    if !normal.is_finite() || normal == DVec3::ZERO {
+        return None;
+    }
+    let size = normal.abs();
+    let project = |p: DVec3| {
+        let p = p - first;
+        if size.x >= size.y && size.x >= size.z {
+            DVec2::new(if normal.x < 0.0 { -p.y } else { p.y }, p.z)
+        } else if size.y >= size.z {
+            DVec2::new(if normal.y < 0.0 { -p.z } else { p.z }, p.x)
+        } else {
+            DVec2::new(if normal.z < 0.0 { -p.x } else { p.x }, p.y)
+        }
+    };
+    Some(points.iter().map(|&p| project(p)).collect())
+}
+
+/// Twice the area of a triangle, positive if it runs counter-clockwise.
+#[inline]
+fn cross(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+/// Whether all corners and all triangles of the fan turn left, or not at all.
+fn is_convex(points: &[DVec2]) -> bool {
+    let [first, rest @ ..] = points else { return true };
+    let next = points.iter().cycle().skip(1);
+    let after = points.iter().cycle().skip(2);
+    rest.windows(2).all(|w| matches!(w, [b, c] if cross(*first, *b, *c) >= 0.0))
+        && points.iter().zip(next).zip(after).all(|((a, b), c)| cross(*a, *b, *c) >= 0.0)
+}
+
+/// What is known of a corner.
+#[derive(Clone, Copy, PartialEq)]
+enum Known {
+    Nothing,
+    /// It is reflex, so no ear while its neighbours stay.
+    Reflex,
+    /// That corner lies inside it, so no ear while that one and the neighbours stay.
+    Blocked(u32),
+}
+
+#[derive(Clone, Copy)]
+struct Corner {
+    point: DVec2,
+    before: u32,
+    after: u32,
+    known: Known,
+}
+
+/// The corners left, as a ring in the order of the polygon.
+struct Ears {
+    corners: Vec<Corner>,
+    first: u32,
+    left: usize,
+    tests: usize,
+}
+
+impl Ears {
+    fn new(points: &[DVec2]) -> Self {
+        let n = points.len() as u32;
+        let corners = points
+            .iter()
+            .zip(0_u32..)
+            .map(|(&point, i)| Corner {
+                point,
+                before: if i == 0 { n.saturating_sub(1) } else { i - 1 },
+                after: if i + 1 == n { 0 } else { i + 1 },
+                known: Known::Nothing,
+            })
+            .collect();
+        Self { corners, first: 0, left: points.len(), tests: 0 }
+    }
+
+    fn corner(&self, i: u32) -> Corner {
+        let nowhere = Corner { point: DVec2::ZERO, before: 0, after: 0, known: Known::Reflex };
+        self.corners.get(i as usize).copied().unwrap_or(nowhere)
+    }
+
+    fn ring(&self) -> impl Iterator<Item = u32> + '_ {
+        std::iter::successors(Some(self.first), |&i| Some(self.corner(i).after)).take(self.left)
+    }
+
+    fn clip(mut self, triangles: &mut Vec<[u32; 3]>) -> Cut {
+        while self.left > 3 {
+            if self.tests > MOST_TESTS {
+                let rest: Vec<u32> = self.ring().collect();
+                fan(rest, triangles);
+                return Cut::TooLarge;
+            }
+            // A polygon that crosses itself may have no ear: take anything.
+            let ear = self.first_ear().unwrap_or(self.first);
+            let Corner { before, after, .. } = self.corner(ear);
+            triangles.push([before, ear, after]);
+            self.remove(ear);
+        }
+        if let [a, b, c] = *self.ring().collect::<Vec<_>>() {
+            triangles.push([a, b, c]);
+        }
+        Cut::Sound
+    }
+
+    fn first_ear(&mut self) -> Option<u32> {
+        let mut i = self.first;
+        for _ in 0..self.left {
+            let corner = self.corner(i);
+            if corner.known == Known::Nothing {
+                match self.look(i) {
+                    Known::Nothing => return Some(i),
+                    known => self.learn(i, known),
+                }
+            }
+            i = corner.after;
+        }
+        self.tests += self.left;
+        None
+    }
+
+    /// What stands against an ear at a corner; nothing if it is one.
+    fn look(&mut self, i: u32) -> Known {
+        let ear = self.corner(i);
+        let (a, b, c) = (self.corner(ear.before).point, ear.point, self.corner(ear.after).point);
+        if cross(a, b, c) <= 0.0 {
+            return Known::Reflex;
+        }
+        let mut tests = 0;
+        let blocker = self.ring().find(|&m| {
+            tests += 1;
+            let p = self.corner(m).point;
+            m != i
+                && m != ear.before
+                && m != ear.after
+                && cross(a, b, p) >= 0.0
+                && cross(b, c, p) >= 0.0
+                && cross(c, a, p) >= 0.0
+                && p != a
+                && p != b
+                && p != c
+        });
+        self.tests += tests;
+        blocker.map_or(Known::Nothing, Known::Blocked)
+    }
+
+    fn learn(&mut self, i: u32, known: Known) {
+        if let Some(corner) = self.corners.get_mut(i as usize) {
+            corner.known = known;
+        }
+    }
+
+    fn remove(&mut self, i: u32) {
+        let Corner { before, after, .. } = self.corner(i);
+        if let Some(corner) = self.corners.get_mut(before as usize) {
+            corner.after = after;
+        }
+        if let Some(corner) = self.corners.get_mut(after as usize) {
+            corner.before = before;
+        }
+        if i == self.first {
+            self.first = after;
+        }
+        self.left -= 1;
+        for corner in &mut self.corners {
+            if corner.known == Known::Blocked(i) {
+                corner.known = Known::Nothing;
+            }
+        }
+        self.tests += self.corners.len() / 8;
+        self.learn(before, Known::Nothing);
+        self.learn(after, Known::Nothing);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cut(points: &[DVec3]) -> Vec<[u32; 3]> {
+        let mut triangles = Vec::new();
+        assert_eq!(triangulate(points, &mut triangles), Cut::Sound);
+        triangles
+    }
+
+    fn flat(points: &[(f64, f64)]) -> Vec<DVec3> {
+        points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()
+    }
+
+    /// Sum of the areas and the smallest of them; a cut without overlaps has no negative area.
+    fn areas(points: &[DVec3], triangles: &[[u32; 3]]) -> (f64, f64) {
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|i| points[i as usize]);
+            (b - a).cross(c - a).z / 2.0
+        };
+        (triangles.iter().map(area).sum(), triangles.iter().map(area).fold(f64::MAX, f64::min))
+    }
+
+    #[test]
+    fn quads_are_cut_where_they_are_convex() {
+        let square = flat(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+        assert_eq!(cut(&square), [[0, 1, 2], [0, 2, 3]]);
+        let dart = flat(&[(0.0, 0.0), (2.0, -1.0), (0.5, 0.0), (2.0, 1.0)]);
+        assert_eq!(cut(&dart), [[0, 1, 2], [0, 2, 3]]);
+        let turned = flat(&[(2.0, -1.0), (0.5, 0.0), (2.0, 1.0), (0.0, 0.0)]);
+        assert_eq!(cut(&turned), [[0, 1, 3], [1, 2, 3]]);
+    }
+
+    #[test]
+    fn convex_polygons_are_fanned() {
+        let pentagon = flat(&[(0.0, 0.0), (2.0, 0.0), (3.0, 1.0), (1.0, 2.0), (-1.0, 1.0)]);
+        assert_eq!(cut(&pentagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+    }
+
+    #[test]
+    fn concave_polygons_lose_their_first_ears() {
+        let ell = flat(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)]);
+        assert_eq!(cut(&ell), [[0, 1, 2], [0, 2, 3], [5, 0, 3], [3, 4, 5]]);
+        let (sum, least) = areas(&ell, &cut(&ell));
+        assert!((sum - 3.0).abs() < 1e-12 && least >= 0.0);
+    }
+
+    #[test]
+    fn a_bridged_hole_stays_open() {
+        let outer = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0)];
+        let inner = [(1.0, 1.0), (1.0, 3.0), (3.0, 3.0), (3.0, 1.0), (1.0, 1.0)];
+        let ring = flat(&[outer, inner].concat());
+        let (sum, least) = areas(&ring, &cut(&ring));
+        assert!((sum - 12.0).abs() < 1e-12 && least >= 0.0);
+    }
+
+    #[test]
+    fn any_side_and_any_plane_serve() {
+        let ell = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
+        let wanted = cut(&flat(&ell));
+        for place in [
+            |x: f64, y: f64| DVec3::new(5.0, x, y),
+            |x: f64, y: f64| DVec3::new(y, 5.0, x),
+            |x: f64, y: f64| DVec3::new(-x, y, 5.0),
+            |x: f64, y: f64| DVec3::new(x, y, x + y),
+        ] {
+            let points: Vec<_> = ell.iter().map(|&(x, y)| place(x, y)).collect();
+            assert_eq!(cut(&points), wanted);
+        }
+    }
+
+    /// The rule, word by word.
+    fn slow_ears(p: &[DVec2]) -> Vec<[u32; 3]> {
+        let (mut left, mut out): (Vec<usize>, Vec<[u32; 3]>) = ((0..p.len()).collect(), Vec::new());
+        while left.len() > 3 {
+            let n = left.len();
+            let at = |k: usize| (left[(k + n - 1) % n], left[k], left[(k + 1) % n]);
+            let ear = (0..n).find(|&k| {
+                let (a, b, c) = at(k);
+                cross(p[a], p[b], p[c]) > 0.0
+                    && !left.iter().any(|&m| {
+                        m != a
+                            && m != b
+                            && m != c
+                            && cross(p[a], p[b], p[m]) >= 0.0
+                            && cross(p[b], p[c], p[m]) >= 0.0
+                            && cross(p[c], p[a], p[m]) >= 0.0
+                            && [a, b, c].iter().all(|&o| p[o] != p[m])
+                    })
+            });
+            let (a, b, c) = at(ear.unwrap_or(0));
+            out.push([a as u32, b as u32, c as u32]);
+            left.remove(ear.unwrap_or(0));
+        }
+        out.push([left[0] as u32, left[1] as u32, left[2] as u32]);
+        out
+    }
+
+    #[test]
+    fn the_quick_way_gives_the_ears_of_the_slow_way() {
+        let mut state = 7_u64;
+        for round in 0..300 {
+            let n = 5 + round % 40;
+            // Stars, some of them with corners that coincide, and tangles.
+            let points: Vec<DVec2> = (0..n)
+                .map(|i| {
+                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                    let r = f64::from((state >> 40) as u32 % 8) / 4.0;
+                    let turn = if round % 3 == 0 { 2.0 } else { 1.0 };
+                    let angle = std::f64::consts::TAU * turn * i as f64 / n as f64;
+                    DVec2::new(crate::math::function::cos(angle), crate::math::function::sin(angle)) * r
+                })
+                .collect();
+            let mut quick = Vec::new();
+            Ears::new(&points).clip(&mut quick);
+            assert_eq!(quick, slow_ears(&points), "round {round}");
+        }
+    }
+
+    #[test]
+    fn huge_polygons_take_no_time() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let points: Vec<_> = (0..60_000).map(|i| corners[i % 3]).collect();
+        let mut triangles = Vec::new();
+        assert_eq!(triangulate(&points, &mut triangles), Cut::Sound);
+        triangles.clear();
+        // A corner that juts in makes it concave.
+        let jagged: Vec<_> = points.iter().copied().chain([DVec3::new(0.1, 0.2, 0.0)]).collect();
+        assert_eq!(triangulate(&jagged, &mut triangles), Cut::TooLarge);
+        assert_eq!(triangles.len(), jagged.len() - 2);
+        // Corners that only repeat do not count.
+        let ell = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
+        let repeated: Vec<_> = flat(&ell).into_iter().flat_map(|p| std::iter::repeat_n(p, 9_000)).collect();
+        assert_eq!(cut(&repeated).len(), 4);
+        // A comb has few ears at a time and all of them late.
+        let comb = |n: usize| -> Vec<DVec3> {
+            let teeth = (0..n).map(|i| DVec3::new(i as f64, if i % 2 == 0 { 0.0 } else { 9.0 }, 0.0));
+            teeth.rev().chain([DVec3::new(0.0, -1.0, 0.0), DVec3::new(n as f64, -1.0, 0.0)]).collect()
+        };
+        let points = comb(4000);
+        let triangles = cut(&points);
+        assert_eq!(triangles.len(), points.len() - 2);
+        assert!(areas(&points, &triangles).1 >= 0.0);
+    }
+
+    #[test]
+    fn polygons_without_area_are_fanned() {
+        let line: Vec<_> = (0..5).map(|i| DVec3::splat(f64::from(i))).collect();
+        assert_eq!(cut(&line), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+    }
+}

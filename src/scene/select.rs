@@ -1,0 +1,84 @@
+//! Choosing parts by name.
+
+use super::Scene;
+
+impl Scene {
+    /// Keeps the parts whose names match one of `only` (all, if it is empty) and none of `hide`.
+    ///
+    /// `*` stands for any characters, `?` for any one; case counts.
+    pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
+        let matches = |globs: &[String], name: &str| globs.iter().any(|glob| glob_matches(glob, name));
+        self.parts
+            .retain(|part| (only.is_empty() || matches(only, &part.name)) && !matches(hide, &part.name));
+    }
+}
+
+/// Whether the whole name fits the pattern.
+#[must_use]
+pub fn glob_matches(glob: &str, name: &str) -> bool {
+    let (glob, name): (Vec<char>, Vec<char>) = (glob.chars().collect(), name.chars().collect());
+    let (mut g, mut n) = (0, 0);
+    // After a failure the last star takes one character more: no other choice need be undone.
+    let mut star = None;
+    while n < name.len() {
+        match glob.get(g) {
+            Some('*') => {
+                star = Some((g, n));
+                g += 1;
+            }
+            Some(c) if *c == '?' || name.get(n) == Some(c) => (g, n) = (g + 1, n + 1),
+            _ => match &mut star {
+                Some((at, taken)) => {
+                    *taken += 1;
+                    (g, n) = (*at + 1, *taken);
+                }
+                None => return false,
+            },
+        }
+    }
+    glob.iter().skip(g).all(|c| *c == '*')
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::*;
+    use crate::scene::Part;
+
+    #[test]
+    fn globs() {
+        for (glob, name) in [
+            ("*", ""),
+            ("a", "a"),
+            ("a*", "abc"),
+            ("*c", "abcc"),
+            ("a*b*c", "axbxbc"),
+            ("?é?", "aéb"),
+            ("**a", "a"),
+        ] {
+            assert!(glob_matches(glob, name), "{glob} {name}");
+        }
+        for (glob, name) in [("", "a"), ("a", "A"), ("?", ""), ("a*b", "ac"), ("a?", "a"), ("*a*b", "ba")] {
+            assert!(!glob_matches(glob, name), "{glob} {name}");
+        }
+        assert!(!glob_matches(&"*a".repeat(40), &"a".repeat(39)));
+    }
+
+    #[test]
+    fn parts_are_chosen() {
+        let part = |name: &str| Part { name: name.into(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+        let scene = Scene { parts: ["wheel 1", "wheel 2", "axle"].map(part).into(), ..Scene::default() };
+        let kept = |only: &[&str], hide: &[&str]| {
+            let mut scene = scene.clone();
+            scene.keep_parts(
+                &only.iter().map(|s| s.to_string()).collect::<Vec<_>>(),
+                &hide.iter().map(|s| s.to_string()).collect::<Vec<_>>(),
+            );
+            scene.parts.into_iter().map(|p| p.name).collect::<Vec<_>>()
+        };
+        assert_eq!(kept(&[], &[]).len(), 3);
+        assert_eq!(kept(&["wheel*"], &["*2"]), ["wheel 1"]);
+        assert_eq!(kept(&[], &["wheel ?"]), ["axle"]);
+    }
+}

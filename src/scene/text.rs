@@ -1,0 +1,318 @@
+//! [`Cursor`]: numbers, words and lines out of the bytes of a text format, without copies.
+
+use std::borrow::Cow;
+
+/// Powers of ten that an `f64` holds exactly.
+const EXACT_POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19, 1e20, 1e21, 1e22,
+];
+
+/// Whole numbers below this are exact in an `f64`.
+const EXACT_MANTISSA: u64 = 1 << 53;
+
+/// A place in some text. Beyond the end it reads newlines, so that every line ends.
+#[derive(Clone)]
+pub(crate) struct Cursor<'a> {
+    /// The whole text.
+    pub bytes: &'a [u8],
+    /// Index of the next byte.
+    pub at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    /// The start of the text, after a byte-order mark if there is one.
+    pub fn new(bytes: &'a [u8]) -> Self {
+        let at = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        Self { bytes, at }
+    }
+
+    /// Whether all was read.
+    #[inline]
+    pub fn at_end(&self) -> bool {
+        self.at >= self.bytes.len()
+    }
+
+    /// The next byte.
+    #[inline]
+    pub fn peek(&self) -> u8 {
+        self.peek_on(0)
+    }
+
+    /// The byte `n` after the next.
+    #[inline]
+    pub fn peek_on(&self, n: usize) -> u8 {
+        self.bytes.get(self.at + n).copied().unwrap_or(b'\n')
+    }
+
+    /// Passes blanks and tabs, and a backslash that continues the line.
+    #[inline]
+    pub fn skip_blanks(&mut self) {
+        loop {
+            match self.peek() {
+                b' ' | b'\t' => self.at += 1,
+                b'\\' if !self.skip_continuation() => return,
+                b'\\' => {}
+                _ => return,
+            }
+        }
+    }
+
+    #[cold]
+    fn skip_continuation(&mut self) -> bool {
+        let length = match (self.peek_on(1), self.peek_on(2)) {
+            (b'\r', b'\n') => 3,
+            (b'\n' | b'\r', _) => 2,
+            _ => return false,
+        };
+        self.at += length;
+        true
+    }
+
+    /// Passes blanks, tabs and line ends.
+    #[inline]
+    pub fn skip_space(&mut self) {
+        while !self.at_end() && self.peek().is_ascii_whitespace() {
+            self.at += 1;
+        }
+    }
+
+    /// Whether the line ends here (or a comment begins).
+    #[inline]
+    pub fn at_line_end(&self) -> bool {
+        matches!(self.peek(), b'\n' | b'\r' | b'#')
+    }
+
+    /// Whether a word ends here.
+    #[inline]
+    pub fn at_word_end(&self) -> bool {
+        matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r' | b'#' | b'\\')
+    }
+
+    /// Goes to the end of the line and gives what was left of it, without blanks around.
+    pub fn rest_of_line(&mut self) -> &'a [u8] {
+        let rest = self.bytes.get(self.at..).unwrap_or_default();
+        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        self.at += length;
+        rest.get(..length).unwrap_or_default().trim_ascii()
+    }
+
+    /// The next word of printing characters; empty at the end of a line.
+    pub fn word(&mut self) -> &'a [u8] {
+        let start = self.at;
+        while !self.at_end() && !self.peek().is_ascii_whitespace() {
+            self.at += 1;
+        }
+        self.bytes.get(start..self.at).unwrap_or_default()
+    }
+
+    /// The line that `at` is on, counted from 1. Takes time in proportion to the text before it.
+    pub fn line(&self) -> usize {
+        let before = self.bytes.get(..self.at).unwrap_or(self.bytes);
+        let newlines = memchr::memchr_iter(b'\n', before).count();
+        let lone =
+            memchr::memchr_iter(b'\r', before).filter(|i| self.bytes.get(i + 1) != Some(&b'\n')).count();
+        1 + newlines + lone
+    }
+
+    /// A number, correctly rounded; also `nan` and `inf`. None, and no move, if there is none.
+    #[inline]
+    pub fn number(&mut self) -> Option<f64> {
+        let start = self.at;
+        let negative = self.sign();
+        let mut mantissa = 0_u64;
+        let whole = self.digits(&mut mantissa);
+        let mut fraction = 0;
+        if self.peek() == b'.' {
+            self.at += 1;
+            fraction = self.digits(&mut mantissa);
+        }
+        let digits = whole + fraction;
+        // One multiplication or division of two exact numbers rounds once: the result is right.
+        if digits.wrapping_sub(1) < 19 && mantissa < EXACT_MANTISSA && !matches!(self.peek(), b'e' | b'E') {
+            if let Some(power) = EXACT_POWERS.get(fraction) {
+                let value = mantissa as f64 / power;
+                return Some(if negative { -value } else { value });
+            }
+        }
+        self.number_with_exponent(start, negative, mantissa, digits, fraction)
+    }
+
+    /// The rest of [`Cursor::number`]: exponents, long mantissas and words.
+    fn number_with_exponent(
+        &mut self,
+        start: usize,
+        negative: bool,
+        mantissa: u64,
+        digits: usize,
+        fraction: usize,
+    ) -> Option<f64> {
+        if (1..=19).contains(&digits) && mantissa < EXACT_MANTISSA && matches!(self.peek(), b'e' | b'E') {
+            let e = self.at;
+            self.at += 1;
+            let down = self.sign();
+            let mut exponent = 0_u64;
+            if (1..=4).contains(&self.digits(&mut exponent)) {
+                let exponent = if down { -(exponent as i64) } else { exponent as i64 } - fraction as i64;
+                let power = usize::try_from(exponent.unsigned_abs()).ok().and_then(|p| EXACT_POWERS.get(p));
+                if let Some(power) = power {
+                    let m = mantissa as f64;
+                    let value = if exponent < 0 { m / power } else { m * power };
+                    return Some(if negative { -value } else { value });
+                }
+            }
+            self.at = e;
+        }
+        self.at = start;
+        let signless = start + usize::from(matches!(self.peek(), b'+' | b'-'));
+        let parsed = fast_float2::parse_partial::<f64, _>(self.bytes.get(signless..)?);
+        let (value, length) = parsed.ok().filter(|&(v, n)| n > 0 && !v.is_sign_negative() || v.is_nan())?;
+        self.at = signless + length;
+        Some(if negative { -value } else { value })
+    }
+
+    /// Passes a sign; whether it was a minus.
+    #[inline]
+    fn sign(&mut self) -> bool {
+        let c = self.peek();
+        self.at += usize::from(c == b'-' || c == b'+');
+        c == b'-'
+    }
+
+    /// Passes digits and appends them to `value` (which wraps: count them); how many there were.
+    #[inline]
+    pub fn digits(&mut self, value: &mut u64) -> usize {
+        let start = self.at;
+        loop {
+            let digit = self.peek().wrapping_sub(b'0');
+            if digit > 9 {
+                return self.at - start;
+            }
+            *value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
+            self.at += 1;
+        }
+    }
+
+    /// A whole number; those beyond the range are its ends. None, and no move, if there is none.
+    #[inline]
+    pub fn integer(&mut self) -> Option<i64> {
+        let start = self.at;
+        let negative = self.sign();
+        let mut value = 0;
+        let digits = self.digits(&mut value);
+        if digits == 0 {
+            self.at = start;
+            return None;
+        }
+        let value = if digits > 18 { i64::MAX } else { value as i64 };
+        Some(if negative { -value } else { value })
+    }
+}
+
+/// Text in UTF-8, or else in Latin-1.
+pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(text: &str) -> Option<f64> {
+        let mut cursor = Cursor::new(text.as_bytes());
+        let value = cursor.number();
+        assert!(value.is_none() || cursor.at_word_end(), "{text} read to {}", cursor.at);
+        value
+    }
+
+    #[test]
+    fn numbers_are_those_of_the_standard_library() {
+        for text in [
+            "0",
+            "-0",
+            "1",
+            "-1",
+            "1.",
+            ".5",
+            "-.5",
+            "0.1",
+            "123456789.123456789",
+            "1e5",
+            "1e-5",
+            "-1.5E+3",
+            "1e22",
+            "1e23",
+            "9007199254740993",
+            "9007199254740991e22",
+            "12345678901234567890123",
+            "1e400",
+            "-1e400",
+            "1e-400",
+            "0.000000000000000000000000001",
+            "4.9406564584124654e-324",
+            "1.7976931348623157e308",
+            "inf",
+            "-inf",
+            "0.30000000000000004",
+            "123456.7e-20",
+            "8.5e00000",
+        ] {
+            assert_eq!(
+                number(text).map(f64::to_bits),
+                Some(text.parse::<f64>().unwrap().to_bits()),
+                "{text}"
+            );
+        }
+        assert!(number("nan").unwrap().is_nan());
+        assert_eq!(number("+2.5"), Some(2.5));
+        assert_eq!(number("+-2.5"), None);
+        assert_eq!(number("--2.5"), None);
+    }
+
+    #[test]
+    fn many_random_numbers_are_exact() {
+        let mut state = 1_u64;
+        for i in 0..20_000 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let value = (state >> 11) as f64 / (1_u64 << (i % 60)) as f64;
+            for text in
+                [format!("{value}"), format!("{value:.6}"), format!("{value:e}"), format!("{value:.4e}")]
+            {
+                assert_eq!(number(&text), Some(text.parse().unwrap()), "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn words_are_no_numbers() {
+        for text in ["", "a", "-", ".", "#", "/", "e5", "-e", "\\"] {
+            let mut cursor = Cursor::new(text.as_bytes());
+            assert_eq!((cursor.number(), cursor.at), (None, 0), "{text}");
+        }
+    }
+
+    #[test]
+    fn integers_stop_at_the_ends() {
+        for (text, wanted) in [("12", 12), ("-3", -3), ("99999999999999999999", i64::MAX), ("+7", 7)] {
+            assert_eq!(Cursor::new(text.as_bytes()).integer(), Some(wanted));
+        }
+        assert_eq!(Cursor::new(b"x").integer(), None);
+    }
+
+    #[test]
+    fn lines_are_counted_for_all_systems() {
+        for text in ["a\nb\nc", "a\r\nb\r\nc", "a\rb\rc"] {
+            let cursor = Cursor { bytes: text.as_bytes(), at: text.len() - 1 };
+            assert_eq!(cursor.line(), 3);
+        }
+    }
+
+    #[test]
+    fn text_is_utf8_or_latin1() {
+        assert_eq!(decode("é".as_bytes()), "é");
+        assert_eq!(decode(b"caf\xe9"), "café");
+    }
+}

@@ -1,0 +1,212 @@
+//! Dashes that begin and end well: the pattern is stretched so that every end and every corner of
+//! a path lies on a dash, as ISO 128-2 asks of drawings.
+
+use kurbo::{BezPath, ParamCurveArclen, Point};
+
+use super::is_straight;
+
+/// A path shorter than this many periods is drawn solid: one gap would look like a fault.
+const SHORTEST_PERIODS: f64 = 0.6;
+/// A polyline that turns by more than this (cosine of 20 degrees) has a corner.
+const CORNER_COSINE: f64 = 0.939_692_620_785_908_4;
+/// More dashes than this are written as one repeated pattern, whatever the corners.
+const MOST_ENTRIES: usize = 96;
+/// Accuracy of the length of curves, as a fraction of the period.
+const LENGTH_OF_PERIOD: f64 = 1e-3;
+
+/// The dash array and its offset for a path, from the wished lengths of dashes and gaps in turn;
+/// empty if the path is to be solid. All lengths in user units.
+///
+/// An open path begins and ends with a whole dash; a closed one has a whole number of periods and
+/// the middle of a dash at its start. If all pieces are straight, each corner lies in the middle
+/// of a dash as well, as far as the number of dashes stays small.
+#[must_use]
+pub fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
+    let mut pattern: Vec<f64> = lengths.to_vec();
+    if pattern.len() % 2 == 1 {
+        pattern.extend_from_slice(lengths);
+    }
+    let period: f64 = pattern.iter().sum();
+    let gaps: f64 = pattern.iter().skip(1).step_by(2).sum();
+    if !period.is_finite() || period <= 0.0 || gaps <= 0.0 {
+        return (Vec::new(), 0.0);
+    }
+    let runs = runs(path, closed, period);
+    if runs.len() > 1
+        && let Some(dashes) = across_corners(&runs, closed, &pattern, period)
+    {
+        return dashes;
+    }
+    uniform(runs.iter().sum(), closed, &pattern, period)
+}
+
+/// Lengths between the corners of a path; a single one if it has curves.
+fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
+    let straight = is_straight(path);
+    let mut runs: Vec<f64> = Vec::new();
+    let mut last: Option<kurbo::Vec2> = None;
+    for segment in path.segments() {
+        let length = segment.arclen(period * LENGTH_OF_PERIOD);
+        if length <= 0.0 {
+            continue;
+        }
+        let (start, end): (Point, Point) = match segment {
+            kurbo::PathSeg::Line(line) => (line.p0, line.p1),
+            kurbo::PathSeg::Quad(quad) => (quad.p0, quad.p2),
+            kurbo::PathSeg::Cubic(cubic) => (cubic.p0, cubic.p3),
+        };
+        let direction = (end - start) / length;
+        let corner = straight && last.is_some_and(|before| before.dot(direction) < CORNER_COSINE);
+        match runs.last_mut() {
+            Some(run) if !corner => *run += length,
+            _ => runs.push(length),
+        }
+        last = Some(direction);
+    }
+    // A run that is too short for a gap would be solid; around a circle of many short pieces
+    // that would be the whole circle, so such a path counts as a curve.
+    if closed && runs.len() > 2 && runs.iter().all(|run| *run < period * SHORTEST_PERIODS) {
+        return vec![runs.iter().sum()];
+    }
+    runs
+}
+
+/// One pattern repeated along the whole path.
+fn uniform(length: f64, closed: bool, pattern: &[f64], period: f64) -> (Vec<f64>, f64) {
+    let first = pattern.first().copied().unwrap_or(0.0);
+    let spare = if closed { 0.0 } else { first };
+    let periods = ((length - spare) / period).round();
+    if periods < 1.0 || length < period * SHORTEST_PERIODS {
+        return (Vec::new(), 0.0);
+    }
+    let stretch = length / (periods * period + spare);
+    let dashes = pattern.iter().map(|entry| entry * stretch).collect();
+    (dashes, if closed { first * stretch / 2.0 } else { 0.0 })
+}
+
+/// Every dash written out, each run stretched for itself so that dashes lie across the corners;
+/// `None` if that would be too many.
+fn across_corners(runs: &[f64], closed: bool, pattern: &[f64], period: f64) -> Option<(Vec<f64>, f64)> {
+    let first = pattern.first().copied()?;
+    let mut dashes: Vec<f64> = vec![0.0];
+    for (index, &run) in runs.iter().enumerate() {
+        // A run starts and ends in the middle of a dash, but for the ends of an open path.
+        let before = if index == 0 && !closed { first } else { first / 2.0 };
+        let after = if index + 1 == runs.len() && !closed { first } else { first / 2.0 };
+        let inner = period - first;
+        let periods = ((run - before - after + first) / period).round();
+        if periods < 1.0 || run < period * SHORTEST_PERIODS {
+            *dashes.last_mut()? += run;
+            continue;
+        }
+        if dashes.len() as f64 + periods * pattern.len() as f64 > MOST_ENTRIES as f64 {
+            return None;
+        }
+        let stretch = run / (before + after + periods * inner + (periods - 1.0) * first);
+        *dashes.last_mut()? += before * stretch;
+        for turn in 0..periods as usize {
+            dashes.extend(pattern.iter().skip(1).map(|entry| entry * stretch));
+            let last = turn + 1 == periods as usize;
+            dashes.push(if last { after } else { first } * stretch);
+        }
+    }
+    if dashes.len() < 3 {
+        return Some((Vec::new(), 0.0));
+    }
+    if closed {
+        // The dash that ends the path and the one that begins it are one; the pattern ends with
+        // the gap before it.
+        let tail = dashes.pop()?;
+        let head = dashes.first_mut()?;
+        *head += tail;
+        Some((dashes, tail))
+    } else {
+        // The pattern must be of even length; its last gap lies beyond the end.
+        dashes.push(period - first);
+        Some((dashes, 0.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fit;
+    use kurbo::{BezPath, Shape};
+
+    fn path(text: &str) -> BezPath {
+        BezPath::from_svg(text).unwrap()
+    }
+
+    /// Whether the path is inked at a distance from its start.
+    fn inked(dashes: &[f64], offset: f64, at: f64) -> bool {
+        if dashes.is_empty() {
+            return true;
+        }
+        let mut rest = (at + offset) % dashes.iter().sum::<f64>();
+        for (index, dash) in dashes.iter().enumerate() {
+            if rest < *dash {
+                return index % 2 == 0;
+            }
+            rest -= dash;
+        }
+        true
+    }
+
+    #[test]
+    fn an_open_line_ends_with_a_whole_dash() {
+        for length in [20.0, 33.3, 100.0, 127.0] {
+            let (dashes, offset) = fit(&path(&format!("M0 0L{length} 0")), false, &[6.0, 3.0]);
+            let period: f64 = dashes.iter().sum();
+            let rest = (length - dashes[0]) / period;
+            assert!((rest - rest.round()).abs() < 1e-9, "{length}: {dashes:?}");
+            assert!((offset).abs() < 1e-12);
+            assert!(dashes[0] > 6.0 * 0.6 && dashes[0] < 6.0 * 1.6);
+        }
+    }
+
+    #[test]
+    fn a_short_line_is_solid() {
+        assert_eq!(fit(&path("M0 0L7 0"), false, &[6.0, 3.0]), (vec![], 0.0));
+        assert_eq!(fit(&path("M0 0L700 0"), false, &[]), (vec![], 0.0));
+        assert_eq!(fit(&path("M0 0L700 0"), false, &[5.0, 0.0]), (vec![], 0.0));
+    }
+
+    #[test]
+    fn a_circle_has_whole_periods_and_starts_inside_a_dash() {
+        let circle = kurbo::Circle::new((0.0, 0.0), 50.0).to_path(1e-6);
+        let (dashes, offset) = fit(&circle, true, &[6.0, 3.0]);
+        let turns = std::f64::consts::TAU * 50.0 / dashes.iter().sum::<f64>();
+        assert!((turns - turns.round()).abs() < 1e-3);
+        assert!((offset - dashes[0] / 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn corners_lie_on_dashes() {
+        for (text, closed, corners) in [
+            ("M0 0L100 0L100 47L20 47", false, vec![0.0, 100.0, 147.0, 226.999]),
+            ("M0 0L100 0L100 47L0 47Z", true, vec![0.0, 100.0, 147.0, 247.0, 293.999]),
+            ("M0 0L100 0L100 2L0 2Z", true, vec![0.0, 100.0, 101.0, 102.0, 202.0]),
+        ] {
+            let (dashes, offset) = fit(&path(text), closed, &[12.0, 3.0]);
+            assert_eq!(dashes.len() % 2, 0);
+            assert!(dashes.len() >= 8, "{text}: {dashes:?}");
+            for corner in corners {
+                for near in [corner - 1.0_f64, corner, corner + 1.0] {
+                    let near = near.clamp(0.0, if closed { 1e9 } else { 226.999 });
+                    assert!(inked(&dashes, offset, near), "{text} at {near}: {dashes:?} {offset}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_straight_corner_free_polyline_repeats_one_pattern() {
+        let (dashes, _) = fit(&path("M0 0L50 0L100 1L150 3"), false, &[6.0, 3.0]);
+        assert_eq!(dashes.len(), 2);
+    }
+
+    #[test]
+    fn an_odd_pattern_is_doubled() {
+        assert_eq!(fit(&path("M0 0L100 0"), false, &[5.0]).0.len(), 2);
+        assert_eq!(fit(&path("M0 0L100 0"), false, &[5.0, 2.0, 1.0]).0.len(), 6);
+    }
+}

@@ -1,0 +1,129 @@
+//! [`StrokeOptions`]: the default pen and the rules that change it, by kind, visibility and name.
+//!
+//! In a style sheet these are the tables `[pen]`, `[pen.NAME]`, `[[rule]]` and `[layers]`.
+
+use serde::Deserialize;
+
+use super::InkContext;
+use super::glob::Glob;
+use super::pen::{Pen, PenChange};
+use crate::chain::Chain;
+use crate::lines::LineKind;
+
+/// How chains get their ink.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StrokeOptions {
+    /// The pen that rules start from.
+    pub pen: Pen,
+    /// Applied in order; later ones override single fields of earlier ones.
+    pub rules: Vec<Rule>,
+    /// Which layers there are and how they are ordered.
+    pub layers: LayerOptions,
+}
+
+/// A change of pen for some chains.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rule {
+    /// Which chains; no condition means all.
+    pub when: Condition,
+    /// What changes.
+    pub pen: PenChange,
+}
+
+/// Which chains a rule is for: all that is named must hold.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Condition {
+    /// Kinds of line; empty = every kind.
+    pub kinds: Vec<LineKind>,
+    /// Behind surfaces, or visible.
+    pub hidden: Option<bool>,
+    /// A contour with background behind it, or not.
+    pub silhouette: Option<bool>,
+    /// Whether both surfaces that meet in the line face the eye.
+    pub both_seen: Option<bool>,
+    /// Name of the part.
+    pub part: Option<Glob>,
+    /// Name of the material.
+    pub material: Option<Glob>,
+}
+
+/// What layers hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LayersBy {
+    /// One layer of visible lines, one of hidden ones.
+    #[default]
+    Visibility,
+    /// Those, split to one layer for each pen, named by number, width and colour.
+    Pen,
+}
+
+/// The order of the marks of a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Order {
+    /// Weak kinds first, so that outlines paint over the lines that end at them.
+    #[default]
+    Strength,
+    /// Short ways between the end of a path and the start of the next.
+    Travel,
+}
+
+/// Which layers there are and how they are ordered: the `[layers]` table of a style sheet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LayerOptions {
+    /// What layers hold. Default: visibility.
+    pub by: LayersBy,
+    /// The order inside a layer. Default: strength.
+    pub order: Order,
+}
+
+/// The rules with their name patterns already tried on the names of the scene.
+pub(super) struct Selection<'a> {
+    options: &'a StrokeOptions,
+    /// For each rule, whether each part fits.
+    parts: Vec<Vec<bool>>,
+    /// For each rule, whether each material fits.
+    materials: Vec<Vec<bool>>,
+}
+
+impl StrokeOptions {
+    /// Tries the patterns of all rules once, so that a chain costs only lookups.
+    pub(super) fn selection<'a>(&'a self, context: &InkContext) -> Selection<'a> {
+        let fits = |glob: &Option<Glob>, name: &str| glob.as_ref().is_none_or(|glob| glob.matches(name));
+        let parts = |rule: &Rule| context.parts.iter().map(|name| fits(&rule.when.part, name)).collect();
+        let materials =
+            |rule: &Rule| context.materials.iter().map(|(name, _)| fits(&rule.when.material, name)).collect();
+        Selection {
+            options: self,
+            parts: self.rules.iter().map(parts).collect(),
+            materials: self.rules.iter().map(materials).collect(),
+        }
+    }
+}
+
+impl Selection<'_> {
+    /// The pen of a chain.
+    pub(super) fn pen(&self, chain: &Chain) -> Pen {
+        let mut pen = self.options.pen.clone();
+        let named = |table: &[bool], index: usize, glob: &Option<Glob>| {
+            table.get(index).copied().unwrap_or(glob.is_none())
+        };
+        for ((rule, parts), materials) in self.options.rules.iter().zip(&self.parts).zip(&self.materials) {
+            let when = &rule.when;
+            if (when.kinds.is_empty() || when.kinds.contains(&chain.kind))
+                && when.hidden.is_none_or(|hidden| hidden == (chain.invisibility > 0))
+                && when.silhouette.is_none_or(|silhouette| silhouette == chain.silhouette)
+                && when.both_seen.is_none_or(|both| both == chain.both_seen)
+                && named(parts, chain.part.index(), &when.part)
+                && named(materials, chain.material.index(), &when.material)
+            {
+                rule.pen.apply(&mut pen);
+            }
+        }
+        pen
+    }
+}

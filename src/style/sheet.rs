@@ -1,0 +1,161 @@
+//! The tables and keys of a style sheet, as they are written.
+
+use serde::de::Visitor;
+use serde::{Deserialize, Deserializer};
+
+use super::Style;
+use crate::chain::ChainOptions;
+use crate::drawing::{Cap, Join, Length};
+use crate::lines::{LineKind, LineOptions};
+use crate::math::colour::Colour;
+use crate::stroke::pen::{dash, fraction};
+use crate::stroke::{Condition, Ink, LayerOptions, Pen, PenChange, Rule, StrokeOptions};
+
+/// A whole style sheet; every key may be left out.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Sheet {
+    /// The sheet this one starts from: a built-in name, or a path relative to this sheet.
+    pub extends: Option<String>,
+    seed: u64,
+    page: PageTable,
+    lines: LineOptions,
+    chain: ChainOptions,
+    pen: PenTable,
+    rule: Vec<Rule>,
+    layers: LayerOptions,
+}
+
+/// The table `[page]`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct PageTable {
+    #[serde(deserialize_with = "colour_or_none")]
+    background: Option<Colour>,
+}
+
+impl Default for PageTable {
+    fn default() -> Self {
+        Self { background: Some(Colour::WHITE) }
+    }
+}
+
+/// The table `[pen]`: the fields of the default pen, and a table for each kind of line.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct PenTable {
+    width: Option<Length>,
+    colour: Option<Ink>,
+    cap: Option<Cap>,
+    join: Option<Join>,
+    #[serde(deserialize_with = "dash")]
+    dash: Option<Vec<Length>>,
+    #[serde(deserialize_with = "fraction")]
+    opacity: Option<f64>,
+
+    contour: PenChange,
+    border: PenChange,
+    crease: PenChange,
+    material: PenChange,
+    intersection: PenChange,
+    suggestive: PenChange,
+    ridge: PenChange,
+    valley: PenChange,
+    isophote: PenChange,
+    artist: PenChange,
+    image: PenChange,
+    wire: PenChange,
+    motion: PenChange,
+
+    thin: PenChange,
+    thick: PenChange,
+    silhouette: PenChange,
+    hidden: PenChange,
+}
+
+impl Sheet {
+    /// The options that the sheet stands for.
+    pub fn into_style(self) -> Style {
+        let mut stroke = self.pen.into_options();
+        stroke.rules.extend(self.rule);
+        stroke.layers = self.layers;
+        Style {
+            background: self.page.background,
+            lines: self.lines,
+            chain: self.chain,
+            stroke,
+            seed: self.seed,
+        }
+    }
+}
+
+impl PenTable {
+    /// The default pen and one rule for each named pen, weakest claim first: a line's kind, then
+    /// whether it is thick or thin, then whether it is a silhouette, then whether it is hidden.
+    fn into_options(self) -> StrokeOptions {
+        let mut pen = Pen::default();
+        let Self { width, colour, cap, join, dash, opacity, .. } = self;
+        PenChange { width, colour, cap, join, dash, opacity }.apply(&mut pen);
+
+        let kinds = [
+            (LineKind::Contour, self.contour),
+            (LineKind::Border, self.border),
+            (LineKind::Crease, self.crease),
+            (LineKind::Material, self.material),
+            (LineKind::Intersection, self.intersection),
+            (LineKind::Suggestive, self.suggestive),
+            (LineKind::Ridge, self.ridge),
+            (LineKind::Valley, self.valley),
+            (LineKind::Isophote, self.isophote),
+            (LineKind::Artist, self.artist),
+            (LineKind::Image, self.image),
+            (LineKind::Wire, self.wire),
+            (LineKind::Motion, self.motion),
+        ];
+        let of_kinds = |kinds: Vec<LineKind>| Condition { kinds, ..Condition::default() };
+        let seen = |both: bool| Condition { both_seen: Some(both), ..of_kinds(surface_kinds()) };
+        let silhouette = Condition { silhouette: Some(true), ..Condition::default() };
+        let hidden = || Condition { hidden: Some(true), ..Condition::default() };
+        let default_dash = vec![Length::px(6.0), Length::px(4.0)];
+
+        let mut rules: Vec<Rule> =
+            kinds.into_iter().map(|(kind, pen)| Rule { when: of_kinds(vec![kind]), pen }).collect();
+        rules.push(Rule { when: seen(true), pen: self.thin });
+        rules.push(Rule { when: seen(false), pen: self.thick });
+        rules.push(Rule { when: silhouette, pen: self.silhouette });
+        rules.push(Rule {
+            when: hidden(),
+            pen: PenChange { dash: Some(default_dash), ..PenChange::default() },
+        });
+        rules.push(Rule { when: hidden(), pen: self.hidden });
+        rules.retain(|rule| rule.pen != PenChange::default());
+        StrokeOptions { pen, rules, layers: LayerOptions::default() }
+    }
+}
+
+/// Kinds of line that have surfaces beside them, so that they can be thick or thin.
+fn surface_kinds() -> Vec<LineKind> {
+    LineKind::ALL.into_iter().filter(|kind| !matches!(kind, LineKind::Wire | LineKind::Motion)).collect()
+}
+
+/// A colour, or `"none"`.
+fn colour_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Colour>, D::Error> {
+    struct ColourOrNone;
+
+    impl Visitor<'_> for ColourOrNone {
+        type Value = Option<Colour>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+            f.write_str("a colour such as \"#ffffff\", or \"none\"")
+        }
+
+        fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Self::Value, E> {
+            if text == "none" {
+                return Ok(None);
+            }
+            Colour::try_from(text.to_owned()).map(Some).map_err(E::custom)
+        }
+    }
+
+    deserializer.deserialize_any(ColourOrNone)
+}

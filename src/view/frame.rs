@@ -1,0 +1,122 @@
+//! [`Frame`]: the camera's axes and the map from local space to the image.
+
+use glam::DVec3;
+
+use crate::math::function::tan;
+use crate::math::tolerance;
+use crate::scene::{Camera, Projection};
+
+/// A camera relative to the origin of a mesh, ready to project.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Eye point.
+    pub eye: DVec3,
+    /// Unit vector to the right of the image.
+    pub right: DVec3,
+    /// Unit vector to the top of the image.
+    pub up: DVec3,
+    /// Unit vector along the optical axis, away from the eye.
+    pub forward: DVec3,
+    /// Whether lines of sight meet in the eye.
+    pub perspective: bool,
+    /// User units per unit of tangent (perspective) or of world length (parallel).
+    pub scale: f64,
+    /// Width of the frame in user units.
+    pub width: f64,
+    /// Height of the frame in user units.
+    pub height: f64,
+    /// Depth of the near plane; `None` cuts nothing.
+    pub near: Option<f64>,
+}
+
+impl Frame {
+    /// The camera's frame, with the world point `origin` as zero.
+    ///
+    /// A camera whose eye is its target or whose up is along its axis gets some frame rather than
+    /// none; the readers of camera records refuse such cameras.
+    #[must_use]
+    pub fn new(camera: &Camera, origin: DVec3) -> Self {
+        let forward = (camera.target - camera.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
+        let right =
+            forward.cross(camera.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
+        let up = right.cross(forward);
+        let (perspective, scale) = match camera.projection {
+            Projection::Perspective { fov_y_deg } => {
+                (true, camera.height / 2.0 / tan(fov_y_deg.to_radians() / 2.0))
+            }
+            Projection::Orthographic { height } => (false, camera.height / height),
+        };
+        Self {
+            eye: camera.eye - origin,
+            right,
+            up,
+            forward,
+            perspective,
+            scale,
+            width: camera.width,
+            height: camera.height,
+            near: camera.near,
+        }
+    }
+
+    /// Distance from the eye along the optical axis, of a local point.
+    #[inline]
+    #[must_use]
+    pub fn depth(&self, p: DVec3) -> f64 {
+        (p - self.eye).dot(self.forward)
+    }
+
+    /// A local point in camera axes: right, up, depth.
+    #[inline]
+    #[must_use]
+    pub fn camera_from_local(&self, p: DVec3) -> DVec3 {
+        let d = p - self.eye;
+        DVec3::new(d.dot(self.right), d.dot(self.up), d.dot(self.forward))
+    }
+
+    /// A point in camera axes in image space; its depth must not be nearer than the near plane.
+    #[inline]
+    #[must_use]
+    pub fn image_from_camera(&self, c: DVec3) -> DVec3 {
+        let (q, k) = if self.perspective { (1.0 / c.z, self.scale / c.z) } else { (-c.z, self.scale) };
+        DVec3::new(self.width / 2.0 + k * c.x, self.height / 2.0 - k * c.y, q)
+    }
+
+    /// A local point in image space; q is NaN where the near plane cuts it off.
+    #[inline]
+    #[must_use]
+    pub fn image_from_local(&self, p: DVec3) -> DVec3 {
+        let c = self.camera_from_local(p);
+        match self.near {
+            Some(near) if c.z < near => DVec3::new(0.0, 0.0, f64::NAN),
+            _ => self.image_from_camera(c),
+        }
+    }
+
+    /// Depth of an image-space nearness.
+    #[inline]
+    #[must_use]
+    pub fn depth_of(&self, q: f64) -> f64 {
+        if self.perspective { 1.0 / q } else { -q }
+    }
+
+    /// The difference in nearness that a small difference in depth makes at nearness `q`.
+    #[inline]
+    #[must_use]
+    pub fn nearness_step(&self, q: f64, depth_step: f64) -> f64 {
+        if self.perspective { depth_step * q * q } else { depth_step }
+    }
+
+    /// Whether the triangle a, b, c turns its outside (counter-clockwise) to the eye.
+    ///
+    /// Edge-on faces, within [`tolerance::EDGE_ON_COSINE`], count as averted.
+    #[inline]
+    #[must_use]
+    pub fn faces_eye(&self, a: DVec3, b: DVec3, c: DVec3) -> bool {
+        let normal = (b - a).cross(c - a);
+        let to_eye = if self.perspective { self.eye - a } else { -self.forward };
+        let d = normal.dot(to_eye);
+        let limit = tolerance::EDGE_ON_COSINE * tolerance::EDGE_ON_COSINE;
+        d > 0.0 && d * d > limit * normal.length_squared() * to_eye.length_squared()
+    }
+}

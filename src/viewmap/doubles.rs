@@ -1,0 +1,236 @@
+//! No line twice: where two visible lines run on top of each other, the stronger one stays.
+//!
+//! Edges of parts that touch, coplanar faces and T-vertices make lines that coincide in the image
+//! without being one edge of the mesh. Of two such lines the weaker kind gives way, of equal kinds
+//! the later one. Lines that share a node are left alone: they are a fold of one curve.
+
+use kurbo::{Point, Vec2};
+use rustc_hash::FxHashMap;
+
+use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+
+/// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
+/// edge. `cell` is the side of the tiles in which neighbours are sought.
+pub fn remove(map: &mut ViewMap, within: f64, cell: f64) {
+    let covered = find_covered(map, within, cell);
+    if covered.is_empty() {
+        return;
+    }
+    let mut edges = Vec::with_capacity(map.edges.len());
+    let mut covered = covered.into_iter().peekable();
+    for (id, edge) in map.edges.iter().enumerate() {
+        let mut ranges: Vec<(f64, f64)> = Vec::new();
+        while let Some((_, range)) = covered.next_if(|(of, _)| *of as usize == id) {
+            ranges.push(range);
+        }
+        if ranges.is_empty() {
+            edges.push(*edge);
+        } else {
+            cut(&mut map.vertices, &mut edges, edge, &mut ranges, within);
+        }
+    }
+    map.edges = edges;
+}
+
+/// For each edge that gives way, the range of its parameter that another covers; ascending.
+fn find_covered(map: &ViewMap, within: f64, cell: f64) -> Vec<(u32, (f64, f64))> {
+    let mut tiles: FxHashMap<(i32, i32), Vec<u32>> = FxHashMap::default();
+    let mut covered = Vec::new();
+    let mut near: Vec<u32> = Vec::new();
+    for (id, edge) in map.edges.iter().enumerate().filter(|(_, e)| e.invisibility == 0) {
+        let line = Line::of(map, edge);
+        if line.length <= within {
+            continue;
+        }
+        near.clear();
+        line.tiles(cell, |tile| {
+            let there = tiles.entry(tile).or_default();
+            near.extend_from_slice(there);
+            there.push(id as u32);
+        });
+        near.sort_unstable();
+        near.dedup();
+        for &other_id in &near {
+            let other = &map.edges[other_id as usize];
+            if edge.start == other.start
+                || edge.start == other.end
+                || edge.end == other.start
+                || edge.end == other.end
+            {
+                continue;
+            }
+            let other_line = Line::of(map, other);
+            if !line.runs_along(&other_line, within) {
+                continue;
+            }
+            // The other edge came first: it stays unless it is the weaker kind.
+            let (loser, range) = if edge.kind < other.kind {
+                (other_id, other_line.covered_by(&line, within))
+            } else {
+                (id as u32, line.covered_by(&other_line, within))
+            };
+            covered.extend(range.map(|range| (loser, range)));
+        }
+    }
+    covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
+    covered
+}
+
+struct Line {
+    start: Point,
+    along: Vec2,
+    length: f64,
+}
+
+impl Line {
+    fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
+        let start = map.vertices[edge.start.index()].position;
+        let d = map.vertices[edge.end.index()].position - start;
+        let length = d.hypot();
+        Self { start, along: if length > 0.0 { d / length } else { Vec2::ZERO }, length }
+    }
+
+    fn end(&self) -> Point {
+        self.start + self.along * self.length
+    }
+
+    /// Tiles that the line's box meets, a row or column of them at a time: long lines are walked
+    /// in steps so that they do not fill a whole square.
+    fn tiles(&self, cell: f64, mut visit: impl FnMut((i32, i32))) {
+        let steps = (self.length / cell).ceil().max(1.0) as u32;
+        let mut last = None;
+        for k in 0..steps {
+            let at = |k: u32| self.start + self.along * (self.length * f64::from(k) / f64::from(steps));
+            let (p, q) = (at(k), at(k + 1));
+            let pad = cell * 0.01;
+            let tile = |v: f64| (v / cell).floor() as i32;
+            for y in tile(p.y.min(q.y) - pad)..=tile(p.y.max(q.y) + pad) {
+                for x in tile(p.x.min(q.x) - pad)..=tile(p.x.max(q.x) + pad) {
+                    if last != Some((x, y)) {
+                        visit((x, y));
+                    }
+                    last = Some((x, y));
+                }
+            }
+        }
+    }
+
+    /// A quick test before the exact one.
+    fn runs_along(&self, other: &Self, within: f64) -> bool {
+        let shorter = self.length.min(other.length);
+        self.along.cross(other.along).abs() * shorter <= 4.0 * within
+            && self.along.cross(other.start - self.start).abs() <= other.length.max(self.length)
+    }
+
+    /// The range of this line's parameter (0 to 1) along which the other lies within `within`.
+    fn covered_by(&self, other: &Self, within: f64) -> Option<(f64, f64)> {
+        let project = |p: Point| self.along.dot(p - self.start);
+        let offset = |p: Point| self.along.cross(p - self.start);
+        let (mut a, mut b) =
+            ((project(other.start), offset(other.start)), (project(other.end()), offset(other.end())));
+        if a.0 > b.0 {
+            std::mem::swap(&mut a, &mut b);
+        }
+        let (from, to) = (a.0.max(0.0), b.0.min(self.length));
+        if to - from <= within {
+            return None;
+        }
+        let slope = (b.1 - a.1) / (b.0 - a.0);
+        let off = |s: f64| (a.1 + slope * (s - a.0)).abs();
+        (off(from) <= within && off(to) <= within).then(|| (from / self.length, to / self.length))
+    }
+}
+
+/// Emits what is left of an edge without the ranges.
+fn cut(
+    vertices: &mut Vec<ViewVertex>,
+    edges: &mut Vec<ViewEdge>,
+    edge: &ViewEdge,
+    ranges: &mut [(f64, f64)],
+    within: f64,
+) {
+    let (a, b) = (vertices[edge.start.index()], vertices[edge.end.index()]);
+    let shortest = within / (b.position - a.position).hypot().max(within);
+    let mut node = |t: f64| {
+        let id = ViewVertexId(vertices.len() as u32);
+        vertices.push(ViewVertex {
+            position: a.position.lerp(b.position, t),
+            depth: a.depth + (b.depth - a.depth) * t,
+            kind: ViewVertexKind::TJunction,
+        });
+        id
+    };
+    ranges.sort_by(|p, q| p.0.total_cmp(&q.0));
+    let mut at = 0.0;
+    let mut start = edge.start;
+    for &(from, to) in ranges.iter() {
+        if from - at > shortest {
+            edges.push(ViewEdge { start, end: node(from), ..*edge });
+        }
+        if to > at {
+            at = to;
+            start = if 1.0 - at > shortest { node(at) } else { edge.end };
+        }
+    }
+    if 1.0 - at > shortest {
+        edges.push(ViewEdge { start, end: edge.end, ..*edge });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lines::LineKind;
+    use crate::mesh::{MaterialId, PartId};
+
+    fn map(lines: &[((f64, f64), (f64, f64), LineKind)]) -> ViewMap {
+        let mut map = ViewMap::default();
+        for (i, (a, b, kind)) in lines.iter().enumerate() {
+            for p in [a, b] {
+                let position = Point::new(p.0, p.1);
+                map.vertices.push(ViewVertex { position, depth: 1.0, kind: ViewVertexKind::Vertex });
+            }
+            map.edges.push(ViewEdge {
+                start: ViewVertexId(2 * i as u32),
+                end: ViewVertexId(2 * i as u32 + 1),
+                kind: *kind,
+                invisibility: 0,
+                silhouette: false,
+                both_seen: false,
+                smooth: false,
+                strength: 180.0,
+                part: PartId(0),
+                material: MaterialId(0),
+                segment: i as u32,
+            });
+        }
+        map
+    }
+
+    fn lengths(map: &ViewMap) -> Vec<(LineKind, f64)> {
+        map.edges.iter().map(|e| (e.kind, Line::of(map, e).length.round())).collect()
+    }
+
+    #[test]
+    fn the_weaker_of_two_coinciding_lines_gives_way() {
+        let mut m = map(&[
+            ((0.0, 0.0), (100.0, 0.0), LineKind::Crease),
+            ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
+            ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
+        ]);
+        remove(&mut m, 0.005, 8.0);
+        let (k, c) = (LineKind::Crease, LineKind::Contour);
+        assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
+    }
+
+    #[test]
+    fn of_equal_kinds_the_first_stays_and_crossings_do_not_matter() {
+        let mut m = map(&[
+            ((0.0, 0.0), (50.0, 50.0), LineKind::Crease),
+            ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
+            ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
+        ]);
+        remove(&mut m, 0.005, 8.0);
+        assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
+    }
+}

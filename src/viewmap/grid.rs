@@ -1,0 +1,146 @@
+//! A grid of square tiles over the page, and the walk of a segment through it.
+
+use glam::{DVec2, DVec3};
+
+use crate::view::Frame;
+
+/// Square tiles that cover the page.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Number of tiles from left to right.
+    pub columns: u32,
+    /// Number of tiles from top to bottom.
+    pub rows: u32,
+    /// Side of a tile, user units.
+    pub cell: f64,
+    per_cell: f64,
+}
+
+impl Grid {
+    /// A grid of about `across` tiles along the longer side of the frame.
+    #[must_use]
+    pub fn new(frame: &Frame, across: u32) -> Self {
+        let cell = frame.width.max(frame.height) / f64::from(across.max(1));
+        let count = |length: f64| ((length / cell).ceil() as u32).clamp(1, across.max(1) + 1);
+        Self { columns: count(frame.width), rows: count(frame.height), cell, per_cell: 1.0 / cell }
+    }
+
+    /// Number of tiles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.columns as usize * self.rows as usize
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Index of the tile in a column and row.
+    #[inline]
+    #[must_use]
+    pub fn tile(&self, column: u32, row: u32) -> usize {
+        row as usize * self.columns as usize + column as usize
+    }
+
+    /// The column that x lies in, kept on the page.
+    #[inline]
+    #[must_use]
+    pub fn column(&self, x: f64) -> u32 {
+        ((x * self.per_cell).max(0.0) as u32).min(self.columns - 1)
+    }
+
+    /// The row that y lies in, kept on the page.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, y: f64) -> u32 {
+        ((y * self.per_cell).max(0.0) as u32).min(self.rows - 1)
+    }
+
+    /// Top left corner of a tile.
+    #[inline]
+    #[must_use]
+    pub fn corner(&self, column: u32, row: u32) -> DVec2 {
+        DVec2::new(f64::from(column), f64::from(row)) * self.cell
+    }
+
+    /// Calls `visit(tile, t0, t1)` for the tiles that the image segment a→b passes through, in
+    /// order; the parameter ranges join without gap or overlap.
+    ///
+    /// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987.
+    #[inline]
+    pub fn walk(&self, a: DVec3, b: DVec3, mut visit: impl FnMut(usize, f64, f64)) {
+        let (mut column, mut row) = (self.column(a.x), self.row(a.y));
+        let (last_column, last_row) = (self.column(b.x), self.row(b.y));
+        let d = b - a;
+        let axis = |from: u32, to: u32, start: f64, delta: f64| {
+            if from == to {
+                return (0i64, f64::INFINITY, 0.0);
+            }
+            let step = if to > from { 1i64 } else { -1 };
+            let border = f64::from(from + u32::from(to > from)) * self.cell;
+            (step, (border - start) / delta, (self.cell / delta).abs())
+        };
+        let (step_x, mut next_x, stride_x) = axis(column, last_column, a.x, d.x);
+        let (step_y, mut next_y, stride_y) = axis(row, last_row, a.y, d.y);
+        let mut t = 0.0;
+        while (column, row) != (last_column, last_row) {
+            let along_x = row == last_row || (column != last_column && next_x <= next_y);
+            let end = if along_x { next_x } else { next_y }.clamp(t, 1.0);
+            visit(self.tile(column, row), t, end);
+            t = end;
+            if along_x {
+                column = (i64::from(column) + step_x) as u32;
+                next_x += stride_x;
+            } else {
+                row = (i64::from(row) + step_y) as u32;
+                next_y += stride_y;
+            }
+        }
+        visit(self.tile(column, row), t, 1.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Camera, Projection};
+
+    fn grid() -> Grid {
+        let camera = Camera {
+            eye: DVec3::Z,
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            projection: Projection::Orthographic { height: 1.0 },
+            width: 100.0,
+            height: 60.0,
+            near: None,
+        };
+        Grid::new(&Frame::new(&camera, DVec3::ZERO), 10)
+    }
+
+    #[test]
+    fn a_walk_covers_the_segment_tile_by_tile() {
+        let grid = grid();
+        assert_eq!((grid.columns, grid.rows), (10, 6));
+        for (a, b) in [
+            ((5.0, 5.0), (95.0, 55.0)),
+            ((95.0, 50.0), (3.0, 7.0)),
+            ((20.0, 0.0), (20.0, 60.0)),
+            ((10.0, 10.0), (0.0, 0.0)),
+        ] {
+            let (a, b) = (DVec3::new(a.0, a.1, 0.0), DVec3::new(b.0, b.1, 0.0));
+            let mut at = 0.0;
+            grid.walk(a, b, |tile, t0, t1| {
+                assert_eq!(t0, at);
+                at = t1;
+                let middle = a + (b - a) * ((t0 + t1) / 2.0);
+                if t1 - t0 > 1e-9 {
+                    assert_eq!(tile, grid.tile(grid.column(middle.x), grid.row(middle.y)));
+                }
+            });
+            assert_eq!(at, 1.0);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! What one triangle hides of one segment: an interval of its parameter, found exactly.
+//!
+//! In image space the segment is a straight line and the triangle a piece of a plane, so that
+//! being inside the triangle and being behind its plane are linear in the parameter. The rules at
+//! the limits:
+//!
+//! - A triangle that has both ends of the segment as corners, or is its host, never hides it.
+//! - A point on the projected border of a triangle counts as covered: a back edge exactly behind
+//!   a front one is hidden, and a line exactly behind the common edge of two faces does not leak.
+//! - A surface that touches the line (within a tolerance of depth) does not hide it: lines on
+//!   coplanar and touching faces are seen.
+//! - A triangle that shares one end of the segment may come as near as rounding allows.
+//! - A triangle seen edge-on covers nothing.
+
+use glam::{DVec2, DVec3};
+
+use super::graph::ViewVertexKind;
+use super::project::ImageSegment;
+use crate::math::tolerance;
+use crate::view::Frame;
+
+/// Part of a segment's parameter range, with the reason for each end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Where it starts.
+    pub start: f64,
+    /// Where it ends.
+    pub end: f64,
+    /// What happens at the start: [`ViewVertexKind::TJunction`] or [`ViewVertexKind::Piercing`].
+    pub start_kind: ViewVertexKind,
+    /// What happens at the end.
+    pub end_kind: ViewVertexKind,
+}
+
+/// The tolerances of one view, in its units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Distance from a triangle's border that counts as inside, user units.
+    pub cover: f64,
+    /// Triangles lower than this in the image cover nothing, user units.
+    pub height: f64,
+    /// Depth difference that counts as touching, world units.
+    pub contact: f64,
+    /// The same for triangles that share a vertex with the segment.
+    pub neighbour: f64,
+    /// Pieces shorter than this are rounding, user units.
+    pub piece: f64,
+    /// How far beside a contour background is sought, user units.
+    pub beside: f64,
+    /// Lines nearer to each other than this are one, user units.
+    pub double: f64,
+}
+
+impl Limits {
+    /// The tolerances for a model of the given size in a frame. A px is a thousandth of the
+    /// longer side of the frame here, whatever the user unit.
+    #[must_use]
+    pub fn new(size: f64, frame: &Frame) -> Self {
+        let px = frame.width.max(frame.height) / 1000.0;
+        Self {
+            cover: tolerance::COVER_PX * px,
+            height: tolerance::IMAGE_HEIGHT_PX * px,
+            contact: tolerance::CONTACT_OF_MODEL * size,
+            neighbour: tolerance::NEIGHBOUR_OF_MODEL * size,
+            piece: tolerance::PIECE_PX * px,
+            beside: tolerance::BESIDE_PX * px,
+            double: tolerance::DOUBLE_PX * px,
+        }
+    }
+}
+
+/// The range of parameters over which the projected triangle covers the image segment p→q.
+/// A border met counts as covered.
+#[inline]
+#[must_use]
+pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Option<(f64, f64)> {
+    let [a, b, c] = corners.map(DVec3::truncate);
+    let sides = [(a, b - a), (b, c - b), (c, a - c)];
+    let area = sides[0].1.perp_dot(c - a);
+    let longest = sides.iter().map(|(_, d)| d.length_squared()).fold(0.0, f64::max).sqrt();
+    if area.abs() <= limits.height * longest {
+        return None;
+    }
+    let (mut start, mut end) = (0.0f64, 1.0f64);
+    for (corner, side) in sides {
+        let inward = area.signum() / side.length().max(f64::MIN_POSITIVE);
+        let at_p = side.perp_dot(p - corner) * inward + limits.cover;
+        let at_q = side.perp_dot(q - corner) * inward + limits.cover;
+        if at_p < 0.0 {
+            if at_q < 0.0 {
+                return None;
+            }
+            start = start.max(at_p / (at_p - at_q));
+        } else if at_q < 0.0 {
+            end = end.min(at_p / (at_p - at_q));
+        }
+    }
+    (start <= end).then_some((start, end))
+}
+
+/// What a triangle hides of a segment. `ids` are the triangle's vertex ids.
+#[inline]
+#[must_use]
+pub fn hidden_interval(
+    segment: &ImageSegment,
+    corners: &[DVec3; 3],
+    ids: [u32; 3],
+    frame: &Frame,
+    limits: &Limits,
+) -> Option<Interval> {
+    let shared = segment.ends.map(|end| ids.iter().position(|id| *id == end));
+    if shared[0].is_some() && shared[1].is_some() {
+        return None;
+    }
+    let (start, end) = covered(segment.a.truncate(), segment.b.truncate(), corners, limits)?;
+    // Heights over the plane are measured from the shared corner, where they vanish exactly.
+    let base = corners[shared[0].or(shared[1]).unwrap_or(0)];
+    let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let area = u.truncate().perp_dot(v.truncate());
+    let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
+    let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
+    let farthest = corners[0].z.min(corners[1].z).min(corners[2].z);
+    let is_neighbour = shared[0].is_some() || shared[1].is_some();
+    let step = if is_neighbour { limits.neighbour } else { limits.contact };
+    let lead = |t: f64| {
+        let p = segment.at(t);
+        // Steep triangles extrapolate badly: their plane counts only within their own depths.
+        let plane = (base.z + slope.dot(p.truncate() - base.truncate())).clamp(farthest, nearest);
+        plane - p.z - frame.nearness_step(p.z, step)
+    };
+    let (at_start, at_end) = (lead(start), lead(end));
+    let mut hidden =
+        Interval { start, end, start_kind: ViewVertexKind::TJunction, end_kind: ViewVertexKind::TJunction };
+    if at_start <= 0.0 && at_end <= 0.0 {
+        return None;
+    }
+    let span = end - start;
+    if at_start <= 0.0 {
+        let t = start + span * (at_start / (at_start - at_end));
+        // From a shared corner the surface rises at once.
+        if !(shared[0].is_some() && start == 0.0) {
+            (hidden.start, hidden.start_kind) = (t, ViewVertexKind::Piercing);
+        }
+    } else if at_end <= 0.0 && !(shared[1].is_some() && end == 1.0) {
+        let t = start + span * (at_start / (at_start - at_end));
+        (hidden.end, hidden.end_kind) = (t, ViewVertexKind::Piercing);
+    }
+    Some(hidden)
+}

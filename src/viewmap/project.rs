@@ -1,0 +1,96 @@
+//! Feature segments in image space, cut to the near plane and the page.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::lines::{FeatureLines, FeatureSegment, LineKind};
+use crate::mesh::Mesh;
+use crate::view::View;
+
+/// A feature segment as the image shows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImageSegment {
+    /// Its start in image space (x, y, nearness).
+    pub a: DVec3,
+    /// Its end.
+    pub b: DVec3,
+    /// The ids of its feature ends; they name mesh vertices or points of the feature lines.
+    pub ends: [u32; 2],
+    /// Whether near plane or page cut the ends off.
+    pub cut: [bool; 2],
+    /// Faces that never hide it.
+    pub hosts: [u32; 2],
+    /// Index of the feature segment.
+    pub source: u32,
+    /// Whether it bounds a surface in the image, so that there may be background beside it.
+    pub bounds: bool,
+}
+
+impl ImageSegment {
+    /// The image-space point at parameter `t`, 0 to 1.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, t: f64) -> DVec3 {
+        if t <= 0.0 {
+            self.a
+        } else if t >= 1.0 {
+            self.b
+        } else {
+            self.a + (self.b - self.a) * t
+        }
+    }
+
+    /// Length in the image, user units.
+    #[inline]
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        (self.b - self.a).truncate().length()
+    }
+}
+
+/// All feature segments of which something lies on the page, in order.
+#[must_use]
+pub fn project(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<ImageSegment> {
+    let found: Vec<Vec<ImageSegment>> = lines
+        .segments
+        .par_chunks(1 << 12)
+        .enumerate()
+        .map(|(chunk, segments)| {
+            let first = chunk << 12;
+            let numbered = segments.iter().enumerate();
+            numbered.filter_map(|(i, s)| project_one(mesh, view, lines, s, (first + i) as u32)).collect()
+        })
+        .collect();
+    found.concat()
+}
+
+fn project_one(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    segment: &FeatureSegment,
+    source: u32,
+) -> Option<ImageSegment> {
+    let image = |end: u32| match view.points.get(end as usize) {
+        Some(p) => *p,
+        None => view.frame.image_from_local(lines.position(mesh, end)),
+    };
+    let [mut a, mut b] = segment.ends.map(image);
+    let mut cut = [false; 2];
+    if a.z.is_nan() || b.z.is_nan() {
+        let [p, q] = segment.ends.map(|end| lines.position(mesh, end));
+        ([a, b], cut) = view.frame.clip_segment(p, q)?;
+    }
+    let (start, end) = view.frame.clip_to_page(a, b)?;
+    let d = b - a;
+    if end < 1.0 {
+        b = a + d * end;
+        cut[1] = true;
+    }
+    if start > 0.0 {
+        a += d * start;
+        cut[0] = true;
+    }
+    let bounds = segment.kind == LineKind::Contour || segment.kind == LineKind::Border;
+    Some(ImageSegment { a, b, ends: segment.ends, cut, hosts: segment.hosts, source, bounds })
+}
