@@ -330,3 +330,38 @@ fn sort_by_key(entries: &mut Vec<u64>) {
         std::mem::swap(entries, &mut sorted);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pack([x, y, z]: [u64; 3]) -> u64 {
+        x | y << FIELD_BITS | z << (2 * FIELD_BITS)
+    }
+
+    #[test]
+    fn packed_boxes_overlap_as_their_axes_do() {
+        let cells = [0, 1, 2, u64::from(LAST_CELL) - 1, u64::from(LAST_CELL)];
+        let spans: Vec<[u64; 2]> = cells
+            .iter()
+            .flat_map(|&a| cells.iter().filter(move |&&b| a <= b).map(move |&b| [a, b]))
+            .collect();
+        for &[a0, a1] in &spans {
+            for &[b0, b1] in &spans {
+                for axis in 0..3 {
+                    let place = |cell| {
+                        let mut triple = [5; 3];
+                        triple[axis] = cell;
+                        pack(triple)
+                    };
+                    let a = GridBox::of_cells([place(a0), place(a1), place(a0)]);
+                    let b = GridBox::of_cells([place(b1), place(b0), place(b0)]);
+                    assert_eq!(a.overlaps(b), a0 <= b1 && b0 <= a1);
+                    assert_eq!(a.union(b).low, place(a0.min(b0)));
+                    assert_eq!(a.union(b).high, place(a1.max(b1)) | SPARE);
+                    assert!(!a.overlaps(GridBox::EMPTY));
+                }
+            }
+        }
+    }
+}
