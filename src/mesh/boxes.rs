@@ -149,9 +149,12 @@ impl BoxTree {
             .collect();
         sort_by_key(&mut entries);
 
-        let mut boxes: Vec<GridBox> =
-            entries.par_iter().map(|&entry| box_of(triangles[entry as u32 as usize])).collect();
+        // What is no longer needed goes before the next array comes, so that the peak stays low.
         let faces: Vec<u32> = entries.par_iter().map(|&entry| entry as u32).collect();
+        drop(entries);
+        let mut boxes = vec![GridBox::EMPTY; faces.len().next_multiple_of(WIDTH)];
+        boxes.par_iter_mut().zip(&faces).for_each(|(b, &face)| *b = box_of(triangles[face as usize]));
+        drop(vertex_cells);
         let vertices: Vec<[u32; 3]> = faces.par_iter().map(|&face| triangles[face as usize]).collect();
         let mut levels = Vec::new();
         loop {
@@ -207,17 +210,21 @@ impl BoxTree {
         self.overlapping_groups(group, search);
         for leaf in group * WIDTH..(group + 1) * WIDTH {
             let leaf_box = leaves[leaf];
-            search.leaves.clear();
+            // Whether boxes overlap is as good as chance, so the lists are filled without branches.
+            search.leaves.resize(search.groups.len() * WIDTH + 1, (0, GridBox::EMPTY));
+            let mut count = 0;
             for &other in &search.groups {
                 if !groups[other].overlaps(leaf_box) {
                     continue;
                 }
-                for candidate in (other * WIDTH).max(leaf)..(other + 1) * WIDTH {
-                    if leaves[candidate].overlaps(leaf_box) {
-                        search.leaves.push((candidate as u32, leaves[candidate]));
-                    }
+                let first = other * WIDTH;
+                let Some(boxes) = leaves[first..].first_chunk::<WIDTH>() else { continue };
+                for (place, &candidate) in boxes.iter().enumerate() {
+                    search.leaves[count] = ((first + place) as u32, candidate);
+                    count += usize::from(candidate.overlaps(leaf_box) & (first + place >= leaf));
                 }
             }
+            search.leaves.truncate(count);
             for rank in leaf * WIDTH..((leaf + 1) * WIDTH).min(self.faces.len()) {
                 self.overlapping_strangers(rank, triangles, search);
                 if !search.faces.is_empty() {
@@ -255,7 +262,6 @@ impl BoxTree {
         let own = triangles[rank];
         let vertices = self.vertices[rank];
         faces.clear();
-        // Whether boxes overlap is as good as chance, so the lists are filled without branches.
         near_leaves.resize(leaves.len() + 1, 0);
         let mut near = 0;
         for &(leaf, leaf_box) in leaves.iter() {
@@ -322,5 +328,40 @@ fn sort_by_key(entries: &mut Vec<u64>) {
             *place += 1;
         }
         std::mem::swap(entries, &mut sorted);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pack([x, y, z]: [u64; 3]) -> u64 {
+        x | y << FIELD_BITS | z << (2 * FIELD_BITS)
+    }
+
+    #[test]
+    fn packed_boxes_overlap_as_their_axes_do() {
+        let cells = [0, 1, 2, u64::from(LAST_CELL) - 1, u64::from(LAST_CELL)];
+        let spans: Vec<[u64; 2]> = cells
+            .iter()
+            .flat_map(|&a| cells.iter().filter(move |&&b| a <= b).map(move |&b| [a, b]))
+            .collect();
+        for &[a0, a1] in &spans {
+            for &[b0, b1] in &spans {
+                for axis in 0..3 {
+                    let place = |cell| {
+                        let mut triple = [5; 3];
+                        triple[axis] = cell;
+                        pack(triple)
+                    };
+                    let a = GridBox::of_cells([place(a0), place(a1), place(a0)]);
+                    let b = GridBox::of_cells([place(b1), place(b0), place(b0)]);
+                    assert_eq!(a.overlaps(b), a0 <= b1 && b0 <= a1);
+                    assert_eq!(a.union(b).low, place(a0.min(b0)));
+                    assert_eq!(a.union(b).high, place(a1.max(b1)) | SPARE);
+                    assert!(!a.overlaps(GridBox::EMPTY));
+                }
+            }
+        }
     }
 }

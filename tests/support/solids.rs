@@ -59,12 +59,12 @@ pub fn tube(around: usize, along: usize, radius: f64, half: f64) -> Solid {
     })
 }
 
-/// A sphere of squares pushed outward from a cube, so that no vertex is special.
+/// A sphere of meridians and parallels, with a fan of triangles at each pole.
 #[allow(dead_code)]
 pub fn sphere(around: usize, radius: f64) -> Solid {
     let mut sphere = grid(2 * around, around, false, |u, v| {
         let (cos_u, sin_u) = turn(u);
-        // The caps are left open by a hair's breadth of one row.
+        // The first and the last parallel lie a little off the poles, for the fans.
         let (cos_v, sin_v) = turn((v * 0.98 + 0.01) / 2.0);
         radius * DVec3::new(sin_v * cos_u, sin_v * sin_u, cos_v)
     });
