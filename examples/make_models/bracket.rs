@@ -54,7 +54,14 @@ fn end(far: f64, corner: f64) -> Vec<DVec2> {
 fn notched_foot() -> Vec<DVec2> {
     let [low, high] = RIB;
     let reach = INSIDE + RIB_REACH;
-    vec![at(0.0, INSIDE), at(low, INSIDE), at(low, reach), at(high, reach), at(high, INSIDE), at(WIDTH, INSIDE)]
+    vec![
+        at(0.0, INSIDE),
+        at(low, INSIDE),
+        at(low, reach),
+        at(high, reach),
+        at(high, INSIDE),
+        at(WIDTH, INSIDE),
+    ]
 }
 
 fn base(solid: &mut Solid, tops: &[Vec<u32>], bottoms: &[Vec<u32>]) {
@@ -71,7 +78,8 @@ fn base(solid: &mut Solid, tops: &[Vec<u32>], bottoms: &[Vec<u32>]) {
 
 fn wall(solid: &mut Solid, fronts: &[Vec<u32>], backs: &[Vec<u32>]) {
     let stand = |y: f64| move |point: DVec2| DVec3::new(point.x, y, point.y);
-    let front = solid.ring(plate(&notched_foot(), HEIGHT, WALL_CORNER).into_iter().rev().map(stand(THICKNESS)));
+    let front =
+        solid.ring(plate(&notched_foot(), HEIGHT, WALL_CORNER).into_iter().rev().map(stand(THICKNESS)));
     let foot = [at(0.0, OUTER_BEND), at(WIDTH, OUTER_BEND)];
     let back = solid.ring(plate(&foot, HEIGHT, WALL_CORNER).into_iter().map(stand(0.0)));
     solid.plate(&front, &slices(fronts));
@@ -137,7 +145,9 @@ fn turned(solid: &mut Solid, frame: DAffine3, profile: &[DVec2], count: usize) -
         .iter()
         .map(|place| {
             solid.ring(
-                circle(DVec2::ZERO, place.x, count).into_iter().map(|p| frame.transform_point3(p.extend(place.y))),
+                circle(DVec2::ZERO, place.x, count)
+                    .into_iter()
+                    .map(|p| frame.transform_point3(p.extend(place.y))),
             )
         })
         .collect();

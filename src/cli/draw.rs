@@ -7,7 +7,7 @@ use super::viewpoint::{Viewpoint, viewpoint};
 use super::{number, pipeline, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
-use crate::render::{Report, Stopwatch};
+use crate::render::{Report, Stopwatch, render_reported};
 use crate::scene::Scene;
 
 /// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
@@ -63,8 +63,8 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
 
     progress.step("drawing");
     let Viewpoint { camera, paper, warning } = viewpoint(request, &scene)?;
-    let page = Page { background: pipeline::background(&style), ..paper.page() };
-    let (drawing, mut report) = pipeline::render(&scene, &camera, &style, page, request.stage);
+    let page = Page { background: style.background, ..paper.page() };
+    let (drawing, mut report) = render_reported(&scene, &camera, &style, page, request.stage);
     report.stages_ms.load = load_ms;
     report.counts.triangles = triangles(&scene);
     report.counts.paths = paths(&drawing);

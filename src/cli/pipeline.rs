@@ -1,16 +1,15 @@
 //! The calls of the command line into the rest of the crate.
 
+use super::draw_args::GroupBy;
 use super::request::SvgChoices;
-use crate::drawing::{Drawing, Page};
+use crate::drawing::Drawing;
 use crate::error::Error;
+use crate::export::{Grouping, PngOptions, Resolution, SvgOptions};
 use crate::math::colour::Colour;
-use crate::render::{Report, Stage};
-use crate::scene::{Camera, Scene, Warnings};
-
-/// Stands in for `crate::style::Style` until the rooms are joined.
-pub(super) struct Style {
-    background: Option<Colour>,
-}
+use crate::mesh::Mesh;
+use crate::render::defects;
+use crate::scene::{Scene, Warnings};
+use crate::style::Style;
 
 /// The style by that name or in that file, changed by `sets` (`KEY=VALUE` each) and with the
 /// background that was asked for.
@@ -19,54 +18,45 @@ pub(super) fn load_style(
     sets: &[String],
     background: Option<Option<Colour>>,
 ) -> Result<Style, Error> {
-    let _ = (name_or_path, sets);
-    Ok(Style { background: background.unwrap_or(Some(Colour::WHITE)) })
-}
-
-/// Names of the built-in styles.
-pub(super) fn style_names() -> Vec<&'static str> {
-    Vec::new()
-}
-
-/// Text of a built-in style's sheet.
-pub(super) fn sheet_text(_name: &str) -> Option<&'static str> {
-    None
-}
-
-/// Colour of the style's paper.
-pub(super) fn background(style: &Style) -> Option<Colour> {
-    style.background
+    let mut style = Style::load(name_or_path, sets)?;
+    if let Some(background) = background {
+        style.background = background;
+    }
+    Ok(style)
 }
 
 /// Leaves only the parts whose names match `only` (all, where it is empty) and none of `hide`.
-pub(super) fn keep_parts(_scene: &mut Scene, _only: &[String], _hide: &[String]) -> Result<(), Error> {
+pub(super) fn keep_parts(scene: &mut Scene, only: &[String], hide: &[String]) -> Result<(), Error> {
+    if only.is_empty() && hide.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<String> = scene.parts.iter().map(|p| p.name.clone()).collect();
+    scene.keep_parts(only, hide);
+    if scene.parts.is_empty() {
+        let mut shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
+        shown.dedup();
+        return Err(Error::new("no part is left by --only and --hide")
+            .remedy(format!("the parts are called {}", shown.join(", "))));
+    }
     Ok(())
 }
 
 /// What cleaning the mesh of a scene finds wrong with it.
-pub(super) fn mesh_warnings(_scene: &Scene) -> Warnings {
-    Warnings::default()
-}
-
-/// The drawing, or what one stage made of it. The frame of the camera lies in the middle of the
-/// page.
-pub(super) fn render(
-    _scene: &Scene,
-    _camera: &Camera,
-    _style: &Style,
-    page: Page,
-    _stage: Option<Stage>,
-) -> (Drawing, Report) {
-    (Drawing { title: String::new(), page, layers: Vec::new() }, Report::default())
+pub(super) fn mesh_warnings(scene: &Scene) -> Warnings {
+    defects::of_mesh(&Mesh::build(scene.to_soup()), scene)
 }
 
 /// The drawing as SVG.
-pub(super) fn svg(_drawing: &Drawing, choices: &SvgChoices) -> Vec<u8> {
-    let _ = (choices.precision, choices.id_prefix.as_ref(), choices.group);
-    Vec::new()
+pub(super) fn svg(drawing: &Drawing, choices: &SvgChoices) -> Vec<u8> {
+    let group = match choices.group {
+        GroupBy::Layer => Grouping::Layer,
+        GroupBy::Part => Grouping::Part,
+    };
+    let id_prefix = choices.id_prefix.clone().unwrap_or_default();
+    drawing.to_svg(&SvgOptions { precision: choices.precision, id_prefix, group }).into_bytes()
 }
 
 /// The drawing as PNG, at so many pixels to the inch.
-pub(super) fn png(_drawing: &Drawing, _dpi: f64) -> Result<Vec<u8>, Error> {
-    Err(Error::new("PNG is not joined yet"))
+pub(super) fn png(drawing: &Drawing, dpi: f64) -> Result<Vec<u8>, Error> {
+    drawing.to_png(&PngOptions { resolution: Resolution::Dpi(dpi) })
 }

@@ -2,8 +2,9 @@
 
 use clap::Args;
 
-use super::{pipeline, print};
+use super::print;
 use crate::error::Error;
+use crate::style::Style;
 
 /// What was typed.
 #[derive(Debug, Args)]
@@ -17,18 +18,18 @@ pub(super) struct StylesArgs {
 
 /// Lists the styles with the idea of each, or shows a sheet.
 pub(super) fn run(args: &StylesArgs) -> Result<(), Error> {
-    let names = pipeline::style_names();
+    let names = Style::names().collect::<Vec<_>>();
     let Some(name) = &args.name else {
         let width = names.iter().map(|name| name.len()).max().unwrap_or(0);
         let mut list = String::new();
         for name in names {
-            let idea = pipeline::sheet_text(name).map_or("", idea);
+            let idea = Style::sheet_text(name).map_or("", idea);
             list.push_str(format!("{name:width$}  {idea}").trim_end());
             list.push('\n');
         }
         return print(list.as_bytes());
     };
-    let text = pipeline::sheet_text(name).ok_or_else(|| {
+    let text = Style::sheet_text(name).ok_or_else(|| {
         Error::new(format!("there is no built-in style `{name}`"))
             .remedy(format!("the styles are {}", names.join(", ")))
     })?;

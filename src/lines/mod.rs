@@ -1,6 +1,7 @@
 //! Feature lines: curves on the surface that may be drawn.
 
 pub mod edge_lines;
+pub mod intersections;
 pub mod kind;
 pub mod line;
 pub mod needle;
@@ -21,6 +22,9 @@ pub fn extract(mesh: &Mesh, view: &View, options: &LineOptions) -> FeatureLines 
         return lines;
     }
     lines.segments = edge_lines::find(mesh, view, options);
+    if options.kinds.contains(&LineKind::Intersection) {
+        intersections::find(mesh, view, &mut lines);
+    }
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));
     }

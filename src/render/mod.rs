@@ -1,7 +1,109 @@
 //! The pipeline, on one screen.
 
+pub mod defects;
 pub mod report;
 pub mod stage;
+mod stage_drawing;
+
+use std::sync::Arc;
+
+use kurbo::Vec2;
 
 pub use report::{Report, Stopwatch};
 pub use stage::Stage;
+
+use crate::chain;
+use crate::drawing::{Drawing, Page, Unit};
+use crate::lines;
+use crate::math::colour::Colour;
+use crate::mesh::Mesh;
+use crate::scene::{Camera, Scene};
+use crate::stroke::{self, InkContext};
+use crate::style::Style;
+use crate::view::View;
+use crate::viewmap::{self, ViewMap};
+
+/// Draws a scene on a page in px that is as large as the camera's frame.
+///
+/// ```no_run
+/// use ligne::{render, scene::{Camera, Scene}, style::Style};
+///
+/// let scene = Scene::open("gear.obj")?;
+/// let camera = Camera::three_quarter().fit(&scene);
+/// let style = Style::preset("ink").unwrap_or_default();
+/// let drawing = render::render(&scene, &camera, &style);
+/// println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
+/// # Ok::<(), ligne::Error>(())
+/// ```
+#[must_use]
+pub fn render(scene: &Scene, camera: &Camera, style: &Style) -> Drawing {
+    let page =
+        Page { width: camera.width, height: camera.height, unit: Unit::Px, background: style.background };
+    render_reported(scene, camera, style, page, None).0
+}
+
+/// Draws a scene on a page, with the camera's frame in the page's middle, and reports what it
+/// took. With a stage named, what that stage made is drawn instead.
+///
+/// The report's load and write times and its path counts are left to the caller.
+#[must_use]
+pub fn render_reported(
+    scene: &Scene,
+    camera: &Camera,
+    style: &Style,
+    page: Page,
+    stage: Option<Stage>,
+) -> (Drawing, Report) {
+    let mut report = Report::default();
+    let mut watch = Stopwatch::start();
+
+    let mesh = Mesh::build(scene.to_soup());
+    let view = View::new(&mesh, camera);
+    report.stages_ms.topology = watch.lap_ms();
+
+    let feature_lines = lines::extract(&mesh, &view, &style.lines);
+    report.stages_ms.features = watch.lap_ms();
+
+    let mut map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
+    centre_on_page(&mut map, camera, &page);
+    report.stages_ms.visibility = watch.lap_ms();
+
+    let chains = chain::link(&map, &style.chain, page.unit);
+    report.stages_ms.chains = watch.lap_ms();
+
+    let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
+    let materials: Vec<(Arc<str>, Colour)> =
+        scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
+    let context =
+        InkContext { unit: page.unit, parts: &parts, materials: &materials, hidden: style.lines.hidden };
+    let layers = match stage {
+        None => stroke::ink(&chains, &context, &style.stroke),
+        Some(Stage::Chains) => stage_drawing::of_chains(&chains, page.unit),
+        Some(Stage::ViewMap) => stage_drawing::of_view_map(&map, page.unit),
+        Some(Stage::Lines) => stage_drawing::of_lines(&mesh, &view, &feature_lines, &page),
+    };
+    report.stages_ms.strokes = watch.lap_ms();
+
+    report.counts.vertices = mesh.positions.len() as u64;
+    report.counts.edges = mesh.edges.len() as u64;
+    report.counts.feature_edges = feature_lines.segments.len() as u64;
+    report.counts.chains = chains.len() as u64;
+    report.warnings = defects::of_mesh(&mesh, scene).lines();
+    (Drawing { title: title(scene), page, layers }, report)
+}
+
+/// Moves the picture from the camera's frame to the middle of the page.
+fn centre_on_page(map: &mut ViewMap, camera: &Camera, page: &Page) {
+    let margin = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
+    if margin != Vec2::ZERO {
+        for vertex in &mut map.vertices {
+            vertex.position += margin;
+        }
+    }
+}
+
+/// The model's name: its file without folder and ending.
+fn title(scene: &Scene) -> String {
+    let stem = scene.file.as_ref().and_then(|file| file.file_stem());
+    stem.map_or_else(|| "drawing".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}

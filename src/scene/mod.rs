@@ -1,8 +1,8 @@
 //! [`Scene`]: what a model file holds, whatever its format.
 
 pub mod camera;
-pub mod coordinate;
 pub mod camera_record;
+pub mod coordinate;
 pub mod flatten;
 pub mod framing;
 pub mod geometry;
