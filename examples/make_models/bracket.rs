@@ -54,7 +54,14 @@ fn end(far: f64, corner: f64) -> Vec<DVec2> {
 fn notched_foot() -> Vec<DVec2> {
     let [low, high] = RIB;
     let reach = INSIDE + RIB_REACH;
-    vec![at(0.0, INSIDE), at(low, INSIDE), at(low, reach), at(high, reach), at(high, INSIDE), at(WIDTH, INSIDE)]
+    vec![
+        at(0.0, INSIDE),
+        at(low, INSIDE),
+        at(low, reach),
+        at(high, reach),
+        at(high, INSIDE),
+        at(WIDTH, INSIDE),
+    ]
 }
 
 fn base(solid: &mut Solid, tops: &[Vec<u32>], bottoms: &[Vec<u32>]) {
@@ -71,7 +78,8 @@ fn base(solid: &mut Solid, tops: &[Vec<u32>], bottoms: &[Vec<u32>]) {
 
 fn wall(solid: &mut Solid, fronts: &[Vec<u32>], backs: &[Vec<u32>]) {
     let stand = |y: f64| move |point: DVec2| DVec3::new(point.x, y, point.y);
-    let front = solid.ring(plate(&notched_foot(), HEIGHT, WALL_CORNER).into_iter().rev().map(stand(THICKNESS)));
+    let front =
+        solid.ring(plate(&notched_foot(), HEIGHT, WALL_CORNER).into_iter().rev().map(stand(THICKNESS)));
     let foot = [at(0.0, OUTER_BEND), at(WIDTH, OUTER_BEND)];
     let back = solid.ring(plate(&foot, HEIGHT, WALL_CORNER).into_iter().map(stand(0.0)));
     solid.plate(&front, &slices(fronts));
@@ -137,7 +145,9 @@ fn turned(solid: &mut Solid, frame: DAffine3, profile: &[DVec2], count: usize) -
         .iter()
         .map(|place| {
             solid.ring(
-                circle(DVec2::ZERO, place.x, count).into_iter().map(|p| frame.transform_point3(p.extend(place.y))),
+                circle(DVec2::ZERO, place.x, count)
+                    .into_iter()
+                    .map(|p| frame.transform_point3(p.extend(place.y))),
             )
         })
         .collect();
@@ -161,7 +171,7 @@ fn base_bosses(solid: &mut Solid) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
             let mut profile = foot_fillet(9.0, 1.2);
             profile.extend([at(9.0, 2.4), at(8.4, 3.0), at(6.4, 3.0), at(6.0, 2.6), at(6.0, -2.0)]);
             profile.extend([at(3.6, -2.0), at(3.6, -THICKNESS)]);
-            turned(solid, frame, &profile, 72)
+            turned(solid, frame, &profile, 60)
         })
         .unzip()
 }
@@ -174,7 +184,7 @@ fn wall_boss(solid: &mut Solid) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     let mut profile = foot_fillet(15.0, 2.0);
     profile.extend([at(15.0, 12.8), at(13.8, 14.0), at(11.2, 14.0), at(10.0, 12.8)]);
     profile.extend([at(10.0, 2.0), at(8.0, 2.0), at(8.0, -THICKNESS + 1.0), at(9.0, -THICKNESS)]);
-    let mut rings = vec![turned(solid, DAffine3 { matrix3: axes, translation: centre }, &profile, 72)];
+    let mut rings = vec![turned(solid, DAffine3 { matrix3: axes, translation: centre }, &profile, 60)];
     for (x, z) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
         let translation = centre + DVec3::new(16.0 * x, 0.0, 16.0 * z);
         let frame = DAffine3 { matrix3: axes, translation };

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use crate::castle_parts::{
-    ASH, FLAG, GLASS, GOLD, GRASS, ROOF, SANDSTONE, SLATE, STONE, WOOD, battlement, facing, flag, quoins, round_tower, window,
+    ASH, FLAG, GLASS, GOLD, GRASS, ROOF, SANDSTONE, SLATE, STONE, WOOD, battlement, facing, flag, quoins,
+    round_tower, window,
 };
 use crate::outline::{arc, arch, at, rectangle};
 use crate::part::{Part, together};
@@ -36,11 +37,13 @@ fn ground() -> Solid {
 fn walls(parts: &mut Vec<Part>) {
     let sides = [("back", 0.0, 1.0), ("left", -1.0, 0.0), ("right", 1.0, 0.0)];
     for (name, x, y) in sides {
-        let wall = battlement(2.0 * HALF, 1.1, WALL_TOP, 11).moved(facing(x, y)).shifted(HALF * x, HALF * y, 0.0);
+        let wall =
+            battlement(2.0 * HALF, 1.1, WALL_TOP, 11).moved(facing(x, y)).shifted(HALF * x, HALF * y, 0.0);
         parts.push(Part::new(&format!("wall-{name}"), STONE, wall));
     }
     let piece = battlement(6.4, 1.1, WALL_TOP, 4);
-    let front = [-1.0, 1.0].map(|side| piece.clone().moved(facing(0.0, -1.0)).shifted(5.8 * side, -HALF, 0.0));
+    let front =
+        [-1.0, 1.0].map(|side| piece.clone().moved(facing(0.0, -1.0)).shifted(5.8 * side, -HALF, 0.0));
     parts.push(Part::new("wall-front", STONE, together(front)));
     let slits = [(-1.0, 0.0), (1.0, 0.0)].into_iter().flat_map(|(x, y)| {
         [-3.6, 0.0, 3.6].map(|along| {
@@ -50,7 +53,9 @@ fn walls(parts: &mut Vec<Part>) {
     });
     let front = [-5.4, 5.4].map(|x| slit().moved(facing(0.0, -1.0)).shifted(x, -HALF - 0.56, 2.3));
     parts.push(Part::new("arrow-slits", GLASS, together(slits.chain(front))));
-    let stones = [-5.9, 5.9].map(|x| quoins(5.0, 3.6, if x < 0.0 { 11 } else { 5 }).moved(facing(0.0, -1.0)).shifted(x, -HALF - 0.55, 0.4));
+    let stones = [-5.9, 5.9].map(|x| {
+        quoins(5.0, 3.6, if x < 0.0 { 11 } else { 5 }).moved(facing(0.0, -1.0)).shifted(x, -HALF - 0.55, 0.4)
+    });
     let sides = [(-1.0, 0.0, 7), (1.0, 0.0, 3)]
         .map(|(x, y, seed)| quoins(13.0, 3.6, seed).moved(facing(x, y)).shifted((HALF + 0.55) * x, 0.0, 0.4));
     parts.push(Part::new("wall-stones", SANDSTONE, together(stones.into_iter().chain(sides))));
@@ -71,7 +76,12 @@ fn upright(solid: Solid) -> Solid {
 }
 
 fn towers(parts: &mut Vec<Part>) {
-    let corners = [("south-west", -1.0, -1.0), ("south-east", 1.0, -1.0), ("north-east", 1.0, 1.0), ("north-west", -1.0, 1.0)];
+    let corners = [
+        ("south-west", -1.0, -1.0),
+        ("south-east", 1.0, -1.0),
+        ("north-east", 1.0, 1.0),
+        ("north-west", -1.0, 1.0),
+    ];
     for (name, x, y) in corners {
         let tower = round_tower(2.1, 8.6, 4.6);
         let turn = facing_angle;
@@ -80,11 +90,12 @@ fn towers(parts: &mut Vec<Part>) {
         parts.push(Part::new(&format!("tower-{name}-trim"), SANDSTONE, at_corner(tower.trim)));
         parts.push(Part::new(&format!("tower-{name}-roof"), ROOF, at_corner(tower.roof)));
         let outward = ligne::math::function::atan2(y, x);
-        let windows = [(-0.75, 3.0), (0.75, 3.0), (0.0, 5.6), (-1.5, 5.6), (1.5, 5.6)].map(|(aside, height)| {
-            let way = ligne::math::function::cos(outward + aside);
-            let across = ligne::math::function::sin(outward + aside);
-            window(0.5, 1.1).0.moved(turn(outward + aside)).shifted(2.12 * way, 2.12 * across, height)
-        });
+        let windows =
+            [(-0.75, 3.0), (0.75, 3.0), (0.0, 5.6), (-1.5, 5.6), (1.5, 5.6)].map(|(aside, height)| {
+                let way = ligne::math::function::cos(outward + aside);
+                let across = ligne::math::function::sin(outward + aside);
+                window(0.5, 1.1).0.moved(turn(outward + aside)).shifted(2.12 * way, 2.12 * across, height)
+            });
         parts.push(Part::new(&format!("tower-{name}-windows"), GLASS, at_corner(together(windows))));
         let top = tower.top;
         let (pole, cloth) = flag(1.7, 1.0);
@@ -112,13 +123,16 @@ fn gatehouse(parts: &mut Vec<Part>) {
     let mut ring = arc(at(0.0, 2.6), 1.62, 0.0, PI, 36);
     ring.extend(arc(at(0.0, 2.6), 1.3, PI, 0.0, 36));
     let ring = upright(prism(&ring, &[], 0.0, 0.15)).shifted(0.0, front - 0.4, 0.0);
-    let key = upright(prism(&[at(-0.16, 3.82), at(0.16, 3.82), at(0.24, 4.4), at(-0.24, 4.4)], &[], 0.0, 0.24)).shifted(0.0, front - 0.4, 0.0);
+    let key =
+        upright(prism(&[at(-0.16, 3.82), at(0.16, 3.82), at(0.24, 4.4), at(-0.24, 4.4)], &[], 0.0, 0.24))
+            .shifted(0.0, front - 0.4, 0.0);
     let posts = [-1.46, 1.46].map(|x| pillar(DVec3::new(x, front - 0.45, 1.0), DVec3::new(0.32, 0.3, 1.6)));
     let shield = upright(prism(&shield(), &[], 0.0, 0.14)).shifted(0.0, front - 0.4, 4.55);
     parts.push(Part::new("gate-arch", SANDSTONE, together([ring, key].into_iter().chain(posts))));
     parts.push(Part::new("shield", GOLD, shield));
 
-    let door = upright(prism(&arch(at(0.0, 0.95), 2.7, 2.98, 36), &[], 0.0, 0.2)).shifted(0.0, front + 0.3, 0.0);
+    let door =
+        upright(prism(&arch(at(0.0, 0.95), 2.7, 2.98, 36), &[], 0.0, 0.2)).shifted(0.0, front + 0.3, 0.0);
     parts.push(Part::new("gate", WOOD, door));
     let bars = (0..4).map(|i| {
         let x = -0.9 + 0.6 * f64::from(i);
@@ -152,7 +166,8 @@ fn gatehouse(parts: &mut Vec<Part>) {
     let across = DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X));
     let flight = prism(&side, &[], -1.6, 1.6).moved(across).shifted(0.0, front - 0.4, 0.0);
     let cheeks = [-1.8, 1.8].map(|x| {
-        let slope = [at(-3.3, -0.3), at(0.0, -0.3), at(0.0, 1.35), at(-0.6, 1.35), at(-3.0, 0.45), at(-3.3, 0.45)];
+        let slope =
+            [at(-3.3, -0.3), at(0.0, -0.3), at(0.0, 1.35), at(-0.6, 1.35), at(-3.0, 0.45), at(-3.3, 0.45)];
         prism(&slope, &[], -0.2, 0.2).moved(across).shifted(x, front - 0.4, 0.0)
     });
     parts.push(Part::new("steps", SANDSTONE, together([flight].into_iter().chain(cheeks))));
@@ -174,7 +189,11 @@ fn keep(parts: &mut Vec<Part>) {
     let buttresses = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
         .map(|(x, y)| pillar(DVec3::new(half * x, 1.2 + half * y, 0.0), DVec3::new(1.3, 1.3, top + 1.45)));
     let crown = [(0.0, -1.0), (0.0, 1.0), (-1.0, 0.0), (1.0, 0.0)].map(|(x, y)| {
-        battlement(2.0 * half, 0.5, 1.3, 6).moved(facing(x, y)).shifted((half + 0.1) * x, 1.2 + (half + 0.1) * y, top)
+        battlement(2.0 * half, 0.5, 1.3, 6).moved(facing(x, y)).shifted(
+            (half + 0.1) * x,
+            1.2 + (half + 0.1) * y,
+            top,
+        )
     });
     parts.push(Part::new("keep", ASH, together([body].into_iter().chain(buttresses).chain(crown))));
     let courses = [(3.6, 0.24), (7.2, 0.24), (top - 0.1, 0.35)]
@@ -226,11 +245,19 @@ fn spire(width: f64, height: f64) -> Solid {
 
 /// A few clipped trees on the knoll.
 fn trees() -> Solid {
-    let places = [(-4.6, -12.4, 1.0), (-6.6, -12.0, 0.75), (5.0, -12.5, 0.9), (12.9, -4.0, 0.9), (13.2, -1.6, 0.7), (-13.0, 1.5, 1.0)];
+    let places = [
+        (-4.6, -12.4, 1.0),
+        (-6.6, -12.0, 0.75),
+        (5.0, -12.5, 0.9),
+        (12.9, -4.0, 0.9),
+        (13.2, -1.6, 0.7),
+        (-13.0, 1.5, 1.0),
+    ];
     let tree = |(x, y, size): (f64, f64, f64)| {
-        let profile = [(0.0, 0.0), (0.16, 0.0), (0.16, 0.5), (0.75, 0.5), (0.42, 1.2), (0.6, 1.2), (0.0, 2.6)];
+        let profile =
+            [(0.0, 0.0), (0.16, 0.0), (0.16, 0.5), (0.75, 0.5), (0.42, 1.2), (0.6, 1.2), (0.0, 2.6)];
         let scaled: Vec<(f64, f64)> = profile.iter().map(|&(r, z)| (r * size, z * size)).collect();
-        turned(&scaled, 32).shifted(x, y, -0.05)
+        turned(&scaled, 20).shifted(x, y, -0.05)
     };
     together(places.map(tree))
 }

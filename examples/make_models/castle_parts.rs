@@ -94,9 +94,17 @@ pub fn round_tower(radius: f64, height: f64, cone: f64) -> Tower {
     let pitch = TAU / f64::from(merlons);
     let merlons = (0..merlons).map(|i| {
         let middle = pitch * (f64::from(i) + 0.5);
-        sector([wide * 0.9, wide * 0.985], [middle - 0.29 * pitch, middle + 0.29 * pitch], [height - 0.6, height - 0.1], 4)
+        sector(
+            [wide * 0.9, wide * 0.985],
+            [middle - 0.29 * pitch, middle + 0.29 * pitch],
+            [height - 0.6, height - 0.1],
+            4,
+        )
     });
-    let drum = turned(&[(0.0, height - 1.1), (r * 0.8, height - 1.1), (r * 0.8, height + 0.6), (0.0, height + 0.6)], SIDES);
+    let drum = turned(
+        &[(0.0, height - 1.1), (r * 0.8, height - 1.1), (r * 0.8, height + 0.6), (0.0, height + 0.6)],
+        SIDES,
+    );
     let stone = together([shaft, drum].into_iter().chain(merlons));
 
     let belt = |z: f64| turned(&[(0.0, z), (r + 0.08, z), (r + 0.08, z + 0.18), (0.0, z + 0.18)], SIDES);
@@ -125,11 +133,11 @@ pub fn round_tower(radius: f64, height: f64, cone: f64) -> Tower {
 
 /// A pane and its frame with a sill, in the plane y = 0 and looking along -y, foot at the origin.
 pub fn window(width: f64, height: f64) -> (Solid, Solid) {
-    let inner = arch(DVec2::ZERO, width, height, 18);
+    let inner = arch(DVec2::ZERO, width, height, 10);
     let pane = upright(prism(&inner, &[], -0.1, 0.04));
     let half = width / 2.0;
-    let mut hood = arc(at(0.0, height - half), half + 0.14, 0.0, PI, 18);
-    hood.extend(arc(at(0.0, height - half), half, PI, 0.0, 18));
+    let mut hood = arc(at(0.0, height - half), half + 0.14, 0.0, PI, 10);
+    hood.extend(arc(at(0.0, height - half), half, PI, 0.0, 10));
     let hood = upright(prism(&hood, &[], -0.1, 0.12));
     let sill = block(DVec3::new(-half - 0.16, -0.2, -0.16), DVec3::new(half + 0.16, 0.1, 0.0));
     let bar = block(DVec3::new(-0.04, -0.08, 0.0), DVec3::new(0.04, 0.05, height - 0.02));
@@ -139,7 +147,8 @@ pub fn window(width: f64, height: f64) -> (Solid, Solid) {
 /// A pole with a knob, and a pennant that waves from its top, both from the origin up.
 pub fn flag(height: f64, length: f64) -> (Solid, Solid) {
     let r = 0.05;
-    let knob: Vec<(f64, f64)> = arc(at(0.0, height), 2.2 * r, -0.45 * PI, 0.45 * PI, 8).iter().map(|p| (p.x, p.y)).collect();
+    let knob: Vec<(f64, f64)> =
+        arc(at(0.0, height), 2.2 * r, -0.45 * PI, 0.45 * PI, 8).iter().map(|p| (p.x, p.y)).collect();
     let mut profile = vec![(0.0, 0.0), (r, 0.0), (r, knob[0].1)];
     profile.extend(&knob[1..]);
     profile.push((0.0, height + 2.2 * r));

@@ -59,7 +59,8 @@ fn teeth() -> Vec<DVec2> {
     let mut outline = Vec::new();
     for tooth in 0..TEETH {
         let middle = TAU * tooth as f64 / TEETH as f64;
-        let point = |&(radius, angle): &(f64, f64), side: f64| polar(DVec2::ZERO, radius, middle + side * angle);
+        let point =
+            |&(radius, angle): &(f64, f64), side: f64| polar(DVec2::ZERO, radius, middle + side * angle);
         outline.extend(flank.iter().map(|place| point(place, -1.0)));
         if let Some(&(tip, half)) = flank.last() {
             let along = arc(DVec2::ZERO, tip, middle - half, middle + half, 2);
@@ -89,7 +90,9 @@ fn bore() -> Vec<DVec2> {
 fn rings(solid: &mut Solid, profile: &[(f64, f64)]) -> (Vec<u32>, Vec<u32>) {
     let rings: Vec<Vec<u32>> = profile
         .iter()
-        .map(|&(radius, z)| solid.ring(circle(DVec2::ZERO, radius, CIRCLE_STEPS).into_iter().map(|p| p.extend(z))))
+        .map(|&(radius, z)| {
+            solid.ring(circle(DVec2::ZERO, radius, CIRCLE_STEPS).into_iter().map(|p| p.extend(z)))
+        })
         .collect();
     for pair in rings.windows(2) {
         solid.band(&pair[0], &pair[1]);
@@ -121,9 +124,11 @@ pub fn gear() -> Solid {
         let rim = [(RIM_RADIUS + 0.8, RIM_HALF), (RIM_RADIUS, RIM_HALF - 0.8), (RIM_RADIUS, WEB_HALF)];
         let (rim_top, rim_foot) = rings(&mut half, &rim);
         let hub = quarter((HUB_RADIUS + blend, WEB_HALF + blend), blend, 1.5 * PI, PI);
-        let hub: Vec<_> = hub.into_iter().chain([(HUB_RADIUS, HUB_HALF - 1.0), (HUB_RADIUS - 1.0, HUB_HALF)]).collect();
+        let hub: Vec<_> =
+            hub.into_iter().chain([(HUB_RADIUS, HUB_HALF - 1.0), (HUB_RADIUS - 1.0, HUB_HALF)]).collect();
         let (hub_foot, hub_top) = rings(&mut half, &hub);
-        let through: Vec<Vec<u32>> = holes.iter().map(|hole| half.ring(hole.iter().map(lift(WEB_HALF)))).collect();
+        let through: Vec<Vec<u32>> =
+            holes.iter().map(|hole| half.ring(hole.iter().map(lift(WEB_HALF)))).collect();
         let key = half.ring(bore.iter().map(lift(HUB_HALF)));
         half.plate(&outline, &[&rim_top]);
         let mut in_web: Vec<&[u32]> = through.iter().map(Vec::as_slice).collect();

@@ -63,7 +63,8 @@ impl Buffers {
     fn add(&mut self, bytes: &[u8], target: u32, mut accessor: Value) -> usize {
         accessor["bufferView"] = json!(self.views.len());
         let offset = self.bytes.len();
-        self.views.push(json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len(), "target": target }));
+        self.views
+            .push(json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len(), "target": target }));
         self.bytes.extend(bytes);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         self.accessors.push(accessor);

@@ -41,7 +41,10 @@ fn main() -> std::io::Result<()> {
     };
 
     let (parts, normals) = teapot::teapot();
-    write("teapot.obj", obj::text("The Utah teapot, from its published patches", None, &parts, &normals).as_bytes())?;
+    write(
+        "teapot.obj",
+        obj::text("The Utah teapot, from its published patches", None, &parts, &normals).as_bytes(),
+    )?;
     let gear = Part::new("gear", STEEL, gear::gear());
     write("gear.obj", obj::text("A spur gear of 24 teeth, in mm", None, &[gear], &[]).as_bytes())?;
     write("bracket.stl", &stl::bytes("angle bracket, in mm", &bracket::bracket()))?;

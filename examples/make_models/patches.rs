@@ -44,7 +44,11 @@ pub fn mesh(nets: &[Net], steps: usize) -> (Solid, Vec<DVec3>) {
                 let (c, d) = (rows[i + 1][j + 1], rows[i + 1][j]);
                 // The diagonal leans the other way on the other side of the patch's middle, so that
                 // mirrored halves of the pot have mirrored triangles.
-                let pair = if (2 * j < steps) == (2 * i < steps) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+                let pair = if (2 * j < steps) == (2 * i < steps) {
+                    [[a, b, c], [a, c, d]]
+                } else {
+                    [[a, b, d], [b, c, d]]
+                };
                 soup.faces.extend(pair.map(|triangle| triangle.to_vec()));
             }
         }
@@ -61,7 +65,8 @@ pub fn mesh(nets: &[Net], steps: usize) -> (Solid, Vec<DVec3>) {
         }
     }
     let exact = exact_normals(nets, steps, &solid);
-    let normals = normals.iter().zip(exact).map(|(rough, exact)| exact.unwrap_or(rough.normalize())).collect();
+    let normals =
+        normals.iter().zip(exact).map(|(rough, exact)| exact.unwrap_or(rough.normalize())).collect();
     (solid, normals)
 }
 

@@ -48,7 +48,13 @@ fn signed_area(points: &[DVec2], rim: &[usize]) -> f64 {
 }
 
 /// Where in `polygon` the nearest corner is that sees `corner` of the hole.
-fn bridge(points: &[DVec2], polygon: &[usize], hole: &[usize], others: &[Vec<usize>], corner: usize) -> usize {
+fn bridge(
+    points: &[DVec2],
+    polygon: &[usize],
+    hole: &[usize],
+    others: &[Vec<usize>],
+    corner: usize,
+) -> usize {
     let eye = points[corner];
     let mut places: Vec<usize> = (0..polygon.len()).collect();
     places.sort_by(|&a, &b| {
@@ -85,7 +91,8 @@ fn cut_ears(points: &[DVec2], mut polygon: Vec<usize>) -> Vec<[usize; 3]> {
     while polygon.len() > 3 {
         let count = polygon.len();
         let corners_at = |i: usize| [(i + count - 1) % count, i, (i + 1) % count].map(|k| polygon[k]);
-        let found = (0..count).map(|step| (start + step) % count).find(|&i| is_ear(points, &polygon, corners_at(i)));
+        let found =
+            (0..count).map(|step| (start + step) % count).find(|&i| is_ear(points, &polygon, corners_at(i)));
         // No ear at all: the rims cross. The rest is dropped, and the test of closedness shows it.
         let Some(i) = found else { return triangles };
         triangles.push(corners_at(i));
@@ -100,9 +107,11 @@ fn cut_ears(points: &[DVec2], mut polygon: Vec<usize>) -> Vec<[usize; 3]> {
 fn is_ear(points: &[DVec2], polygon: &[usize], corners: [usize; 3]) -> bool {
     let [a, b, c] = corners.map(|corner| points[corner]);
     turn(a, b, c) > 1e-12
-        && polygon.iter().filter(|corner| !corners.contains(corner)).map(|&corner| points[corner]).all(|p| {
-            turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0
-        })
+        && polygon
+            .iter()
+            .filter(|corner| !corners.contains(corner))
+            .map(|&corner| points[corner])
+            .all(|p| turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0)
 }
 
 /// Turns every diagonal that is not Delaunay, at most one a triangle; false when none was left.

@@ -19,7 +19,8 @@ const BLUE: Material = paint("blue paint", [0.16, 0.38, 0.58]);
 const GREEN: Material = paint("green paint", [0.45, 0.58, 0.50]);
 const DARK: Material = paint("dark paint", [0.25, 0.27, 0.30]);
 const ORANGE: Material = paint("orange rubber", [0.90, 0.45, 0.12]);
-const STEEL: Material = Material { name: "steel", colour: [0.78, 0.79, 0.81], metallic: 1.0, roughness: 0.35 };
+const STEEL: Material =
+    Material { name: "steel", colour: [0.78, 0.79, 0.81], metallic: 1.0, roughness: 0.35 };
 const ZINC: Material = Material { name: "zinc", colour: [0.62, 0.64, 0.66], metallic: 1.0, roughness: 0.5 };
 const BRASS: Material = Material { name: "brass", colour: [0.85, 0.68, 0.33], metallic: 1.0, roughness: 0.3 };
 

@@ -72,7 +72,19 @@ pub fn fan_cover() -> Solid {
 /// The terminal box on top, its lid apart.
 pub fn terminal_box() -> Solid {
     let base = prism(&rounded_rectangle(at(366.0, 0.0), at(88.0, 74.0), 8.0), &[], 70.0, 114.0);
-    let gland = turned(&[(0.0, 0.0), (13.0, 0.0), (13.0, 6.0), (10.0, 8.0), (10.0, 20.0), (6.0, 23.0), (6.0, 14.0), (0.0, 14.0)], 36);
+    let gland = turned(
+        &[
+            (0.0, 0.0),
+            (13.0, 0.0),
+            (13.0, 6.0),
+            (10.0, 8.0),
+            (10.0, 20.0),
+            (6.0, 23.0),
+            (6.0, 14.0),
+            (0.0, 14.0),
+        ],
+        36,
+    );
     let nut = prism(&circle(DVec2::ZERO, 13.5, 6), &[], 8.0, 15.0);
     // The cable comes in from the side of negative y.
     let sideways = DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y));

@@ -17,7 +17,7 @@ pub const FLOOR: f64 = -165.0;
 /// Middle of the discharge nozzle and the height of its flange.
 pub const DISCHARGE: [f64; 2] = [104.0, 150.0];
 
-const ROUND: usize = 60;
+const ROUND: usize = 48;
 
 /// A solid made along z, laid along x.
 pub fn along_x(solid: Solid) -> Solid {
@@ -61,8 +61,11 @@ pub fn volute() -> Solid {
         .collect();
     let [side, top] = DISCHARGE;
     rings.push(ring(DVec3::new(0.0, side, 60.0), DVec3::Y, 34.0));
-    let neck = turned(&[(24.0, 40.0), (36.0, 40.0), (35.0, top - 20.0), (37.5, top - 6.0), (42.0, top), (24.0, top)], ROUND)
-        .shifted(0.0, side, 0.0);
+    let neck = turned(
+        &[(24.0, 40.0), (36.0, 40.0), (35.0, top - 20.0), (37.5, top - 6.0), (42.0, top), (24.0, top)],
+        ROUND,
+    )
+    .shifted(0.0, side, 0.0);
     let barrel = shaft_turned(&[(0.0, -37.0), (80.0, -37.0), (80.0, 37.0), (0.0, 37.0)]);
     let foot = |y: f64| {
         let outline = rounded(&[
@@ -77,7 +80,14 @@ pub fn volute() -> Solid {
         ]);
         prism(&outline, &[], -9.0, 9.0).moved(upright_y()).shifted(0.0, y, 0.0)
     };
-    together([tube(&rings), neck, flange(58.0, 24.0).shifted(0.0, side, top), barrel, foot(-52.0), foot(52.0)])
+    together([
+        tube(&rings),
+        neck,
+        flange(58.0, 24.0).shifted(0.0, side, top),
+        barrel,
+        foot(-52.0),
+        foot(52.0),
+    ])
 }
 
 /// Takes an outline in (x, z) with thickness along -y from the plane of a prism.
@@ -152,7 +162,15 @@ pub fn bearing_frame() -> Solid {
 
 /// The cap that closes the bearing towards the coupling.
 pub fn bearing_cap() -> Solid {
-    shaft_turned(&[(0.0, 168.0), (44.0, 168.0), (44.0, 175.0), (42.0, 177.0), (24.0, 177.0), (20.0, 183.0), (0.0, 183.0)])
+    shaft_turned(&[
+        (0.0, 168.0),
+        (44.0, 168.0),
+        (44.0, 175.0),
+        (42.0, 177.0),
+        (24.0, 177.0),
+        (20.0, 183.0),
+        (0.0, 183.0),
+    ])
 }
 
 /// Shaft of the pump, from the bearing to the coupling.
@@ -215,7 +233,9 @@ pub fn base_rail() -> Solid {
 
 /// A hexagonal prism from z = `low` with a chamfered top.
 fn hexagon(radius: f64, low: f64, height: f64) -> Solid {
-    let ring = |scale: f64, z: f64| circle(DVec2::ZERO, radius * scale, 6).into_iter().map(|p| p.extend(z)).collect();
+    let ring = |scale: f64, z: f64| {
+        circle(DVec2::ZERO, radius * scale, 6).into_iter().map(|p| p.extend(z)).collect()
+    };
     tube(&[ring(1.0, low), ring(1.0, low + 0.82 * height), ring(0.88, low + height)])
 }
 

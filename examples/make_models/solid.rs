@@ -51,7 +51,8 @@ impl Solid {
 
     /// Adds a flat face with holes, cut into triangles; it faces where `outer` runs counter-clockwise.
     pub fn plate(&mut self, outer: &[u32], holes: &[&[u32]]) {
-        let corners: Vec<u32> = outer.iter().chain(holes.iter().flat_map(|hole| hole.iter())).copied().collect();
+        let corners: Vec<u32> =
+            outer.iter().chain(holes.iter().flat_map(|hole| hole.iter())).copied().collect();
         let normal = self.area_vector(outer).normalize();
         let u = normal.any_orthonormal_vector();
         let v = normal.cross(u);
@@ -135,8 +136,8 @@ impl Solid {
 
     /// All faces as triangles, larger ones as fans.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        self.faces.iter().flat_map(|face| {
-            face.windows(2).skip(1).map(move |pair| [face[0], pair[0], pair[1]])
-        })
+        self.faces
+            .iter()
+            .flat_map(|face| face.windows(2).skip(1).map(move |pair| [face[0], pair[0], pair[1]]))
     }
 }

@@ -85,7 +85,8 @@ fn bent(rows: &[HalfRow; 7]) -> Vec<Net> {
 /// Body, lid, handle and spout, z up, with one normal a point.
 pub fn teapot() -> (Vec<Part>, Vec<Vec<DVec3>>) {
     // A net faces outwards when its rows run counter-clockwise from above while they go down.
-    let named = [("body", round(&BODY)), ("lid", round(&LID)), ("handle", bent(&HANDLE)), ("spout", bent(&SPOUT))];
+    let named =
+        [("body", round(&BODY)), ("lid", round(&LID)), ("handle", bent(&HANDLE)), ("spout", bent(&SPOUT))];
     named
         .into_iter()
         .map(|(name, nets)| {
