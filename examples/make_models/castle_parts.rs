@@ -26,7 +26,7 @@ pub const FLAG: Material = plain("flag", [0.18, 0.36, 0.62]);
 pub const GRASS: Material = plain("grass", [0.46, 0.60, 0.34]);
 
 /// Sides of a round tower.
-const SIDES: usize = 40;
+const SIDES: usize = 36;
 
 /// Turns what looks along -y so that it looks along (x, y), a unit vector.
 pub fn facing(x: f64, y: f64) -> DAffine3 {

@@ -36,7 +36,10 @@ fn flange(radius: f64, bore: f64) -> Solid {
         .collect();
     holes.push(circle(DVec2::ZERO, bore, ROUND));
     let disc = prism(&circle(DVec2::ZERO, radius, ROUND), &holes, 0.0, 14.0);
-    let face = turned(&[(bore, 13.0), (radius - 19.0, 13.0), (radius - 19.0, 16.0), (bore, 16.0)], ROUND);
+    let face = turned(
+        &[(bore + 0.6, 13.0), (radius - 19.0, 13.0), (radius - 19.0, 16.0), (bore + 0.6, 16.0)],
+        ROUND,
+    );
     together([disc, face])
 }
 
@@ -62,7 +65,14 @@ pub fn volute() -> Solid {
     let [side, top] = DISCHARGE;
     rings.push(ring(DVec3::new(0.0, side, 60.0), DVec3::Y, 34.0));
     let neck = turned(
-        &[(24.0, 40.0), (36.0, 40.0), (35.0, top - 20.0), (37.5, top - 6.0), (42.0, top), (24.0, top)],
+        &[
+            (23.6, 40.0),
+            (36.0, 40.0),
+            (35.0, top - 20.0),
+            (37.5, top - 6.0),
+            (42.0, top + 1.0),
+            (23.6, top + 1.0),
+        ],
         ROUND,
     )
     .shifted(0.0, side, 0.0);
@@ -99,8 +109,8 @@ fn upright_y() -> DAffine3 {
 pub fn suction_cover() -> Solid {
     let bore = 30.0;
     let cover = shaft_turned(&[
-        (bore, -112.0),
-        (48.0, -112.0),
+        (bore - 0.5, -113.0),
+        (48.0, -113.0),
         (42.0, -104.0),
         (40.0, -92.0),
         (41.0, -76.0),
@@ -110,7 +120,7 @@ pub fn suction_cover() -> Solid {
         (88.0, -50.0),
         (90.0, -48.0),
         (90.0, -37.0),
-        (bore, -37.0),
+        (bore - 0.5, -37.0),
     ]);
     // The flange faces the other way along x.
     let turn = DAffine3::from_mat3(DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X));
