@@ -10,7 +10,7 @@ use ligne::math::function::{cos, sin};
 use crate::outline::{at, circle, polar, rounded, rounded_rectangle};
 use crate::part::together;
 use crate::solid::Solid;
-use crate::sweep::{block, prism, tube, turned};
+use crate::sweep::{prism, tube, turned};
 
 /// Height of the base's top: the shaft's height, downwards.
 pub const FLOOR: f64 = -165.0;
@@ -294,9 +294,4 @@ pub fn eye_bolt() -> Solid {
         })
         .collect();
     together([collar, crate::sweep::torus(&rings)])
-}
-
-/// A plain block, for shims and plates.
-pub fn slab(low: [f64; 3], high: [f64; 3]) -> Solid {
-    block(DVec3::from_array(low), DVec3::from_array(high))
 }
