@@ -16,6 +16,9 @@ const COVERED: f64 = 0.8;
 /// Length, in distances, over which the direction of a jagged line is taken.
 const WINDOW: f64 = 4.0;
 
+/// A line shorter than this many distances doubles another at twice the distance.
+const FLAKE: f64 = 16.0;
+
 /// A piece of a visible line in a bucket of the page.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
@@ -74,6 +77,8 @@ pub(super) fn drop_doubles(
         let own = &pieces[first..end];
         let total: f64 = own.iter().map(|p| length(p.b - p.a)).sum();
         let allowed = (1.0 - COVERED) * total;
+        // The shorter, the more likely a flake.
+        let distance = if total < FLAKE * distance { 2.0 * distance } else { distance };
         let mut bare = 0.0;
         for piece in own {
             if !buckets.beside(&pieces, piece, distance, |other| {
