@@ -50,6 +50,7 @@ pub(super) fn drop_doubles(
     let mut pieces: Vec<Piece> = Vec::new();
     let mut spans: Vec<(usize, usize)> = Vec::with_capacity(routes.len());
     let mut lengths: Vec<f64> = Vec::with_capacity(routes.len());
+    let mut silhouettes: Vec<bool> = Vec::with_capacity(routes.len());
     let mut suspects: Vec<u32> = Vec::new();
     for (route, (steps, _)) in routes.iter().enumerate() {
         let first = pieces.len();
@@ -64,6 +65,7 @@ pub(super) fn drop_doubles(
         spans.push((first, pieces.len()));
         // A silhouette is never the weaker of two.
         let silhouette = steps.first().and_then(|s| classes[s.edge as usize]).is_some_and(|c| c.silhouette);
+        silhouettes.push(silhouette);
         lengths.push(if silhouette { total * 1e3 } else { total });
     }
     if suspects.is_empty() {
@@ -76,9 +78,12 @@ pub(super) fn drop_doubles(
         let (first, end) = spans[route as usize];
         let own = &pieces[first..end];
         let total: f64 = own.iter().map(|p| length(p.b - p.a)).sum();
-        let allowed = (1.0 - COVERED) * total;
-        // The shorter, the more likely a flake.
-        let distance = if total < FLAKE * distance { 2.0 * distance } else { distance };
+        // The shorter, the more likely a flake; but a gap in the outline is worse than a double.
+        let (allowed, distance) = match (silhouettes[route as usize], total < FLAKE * distance) {
+            (true, _) => (0.0, distance),
+            (false, true) => ((1.0 - COVERED) * total, 2.0 * distance),
+            (false, false) => ((1.0 - COVERED) * total, distance),
+        };
         let mut bare = 0.0;
         for piece in own {
             if !buckets.beside(&pieces, piece, distance, |other| {

@@ -14,6 +14,8 @@ mod resample;
 mod simplify;
 mod smooth;
 mod stitch;
+#[cfg(test)]
+mod tests;
 mod tidy;
 mod unfold;
 
@@ -104,7 +106,7 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit) -> Vec<Chain> {
 fn raw(map: &ViewMap, (steps, closed): (&[Step], bool), tidied: &Tidied, ends: &Ends) -> Option<Raw> {
     let (first, last) = (steps.first()?, steps.last()?);
     let class = tidied.classes[first.edge as usize]?;
-    let noisy = class.kind == LineKind::Crease && tidied.is_organic(class.part);
+    let noisy = matches!(class.kind, LineKind::Contour | LineKind::Crease) && tidied.is_organic(class.part);
     let line = Line::of_route(map, steps, closed, noisy);
     // A closed line of two points runs there and back.
     let line = if closed && line.len() == 2 { line.opened_at(0) } else { line };
@@ -118,7 +120,7 @@ fn raw(map: &ViewMap, (steps, closed): (&[Step], bool), tidied: &Tidied, ends: &
         line,
         class,
         invisibility: if class.hidden { hidden } else { 0 },
-        smooth: 2 * edges().filter(|edge| edge.smooth).count() > steps.len(),
+        smooth: noisy || 2 * edges().filter(|edge| edge.smooth).count() > steps.len(),
         free: [free(first.from(map)), free(last.to(map))],
     })
 }
