@@ -5,7 +5,7 @@ use crate::lines::LineKind;
 use crate::viewmap::{ViewMap, ViewVertexId, ViewVertexKind};
 
 /// A noisy crease must be this many times longer than a crumb.
-const NOISE: f64 = 3.0;
+const NOISE: f64 = 5.0;
 
 /// Degrees of a dihedral angle beyond which a crease counts double.
 const PRONOUNCED_DEG: f32 = 75.0;
@@ -51,6 +51,10 @@ fn is_crumb(
         return false;
     }
     let soft = total(&|s| edge(s).smooth) > 0.5 * length;
+    // A gap in the outline is worse than a crumb on it.
+    if total(&|s| edge(s).silhouette) > 0.5 * length {
+        return false;
+    }
     let scanned = organic.get(class.part.index()).copied().unwrap_or(false);
     if closed || first.from(map) == last.to(map) {
         // A loop of two strokes' width is a blot.

@@ -81,6 +81,8 @@ struct Span {
     first: u32,
     end: u32,
     closed: bool,
+    /// The first of the feature segments it has pieces of.
+    segment: u32,
 }
 
 impl Routes {
@@ -170,17 +172,20 @@ pub(super) fn routes(map: &ViewMap, classes: &[Option<Class>], window: f64) -> R
             }
             let steps = &mut routes.steps[first..];
             make_canonical(map, steps, !open);
-            routes.spans.push(Span { first: first as u32, end: routes.steps.len() as u32, closed: !open });
+            let segments = steps.iter().map(|step| map.edges[step.edge as usize].segment);
+            let segment = segments.min().unwrap_or(NONE);
+            routes.spans.push(Span {
+                first: first as u32,
+                end: routes.steps.len() as u32,
+                closed: !open,
+                segment,
+            });
         }
     }
     let steps = &routes.steps;
     routes.spans.sort_by(|a, b| {
-        let key = |s: &Span| {
-            let run = &steps[s.first as usize..s.end as usize];
-            run.iter().map(|step| map.edges[step.edge as usize].segment).min().unwrap_or(NONE)
-        };
         let start = |s: &Span| steps[s.first as usize];
-        key(a).cmp(&key(b)).then_with(|| order(map, start(a), start(b)))
+        a.segment.cmp(&b.segment).then_with(|| order(map, start(a), start(b)))
     });
     routes
 }
