@@ -118,6 +118,16 @@ impl<'a> Cursor<'a> {
     /// A number, correctly rounded; also `nan` and `inf`. None, and no move, if there is none.
     #[inline]
     pub fn number(&mut self) -> Option<f64> {
+        if let Some((value, at)) = plain_number(self.bytes, self.at) {
+            self.at = at;
+            return Some(value);
+        }
+        self.any_number()
+    }
+
+    /// Numbers with exponents, long mantissas and words.
+    #[inline(never)]
+    fn any_number(&mut self) -> Option<f64> {
         let start = self.at;
         let negative = self.sign();
         let mut mantissa = 0_u64;
@@ -127,15 +137,7 @@ impl<'a> Cursor<'a> {
             self.at += 1;
             fraction = self.digits(&mut mantissa);
         }
-        let digits = whole + fraction;
-        // One multiplication or division of two exact numbers rounds once: the result is right.
-        if digits.wrapping_sub(1) < 19 && mantissa < EXACT_MANTISSA && !matches!(self.peek(), b'e' | b'E') {
-            if let Some(power) = EXACT_POWERS.get(fraction) {
-                let value = mantissa as f64 / power;
-                return Some(if negative { -value } else { value });
-            }
-        }
-        self.number_with_exponent(start, negative, mantissa, digits, fraction)
+        self.number_with_exponent(start, negative, mantissa, whole + fraction, fraction)
     }
 
     /// The rest of [`Cursor::number`]: exponents, long mantissas and words.
@@ -183,14 +185,8 @@ impl<'a> Cursor<'a> {
     #[inline]
     pub fn digits(&mut self, value: &mut u64) -> usize {
         let start = self.at;
-        loop {
-            let digit = self.peek().wrapping_sub(b'0');
-            if digit > 9 {
-                return self.at - start;
-            }
-            *value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
-            self.at += 1;
-        }
+        (*value, self.at) = digits(self.bytes, start, *value);
+        self.at - start
     }
 
     /// A whole number; those beyond the range are its ends. None, and no move, if there is none.
@@ -207,6 +203,49 @@ impl<'a> Cursor<'a> {
         let value = if digits > 18 { i64::MAX } else { value as i64 };
         Some(if negative { -value } else { value })
     }
+}
+
+/// The number that the digits at some place append to another (it wraps), and where they end.
+#[inline(always)]
+fn digits(bytes: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
+    while let Some(digit) = bytes.get(at).map(|b| b.wrapping_sub(b'0')).filter(|&d| d <= 9) {
+        value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
+        at += 1;
+    }
+    (value, at)
+}
+
+/// A number without exponent and of few digits, and where it ends; else none.
+#[inline(always)]
+pub(crate) fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
+    let negative = *bytes.get(start)? == b'-';
+    let first = start + usize::from(negative);
+    let (mut mantissa, mut at) = digits(bytes, first, 0);
+    let mut count = at - first;
+    let mut fraction = 0;
+    if bytes.get(at) == Some(&b'.') {
+        let point = at + 1;
+        (mantissa, at) = digits(bytes, point, mantissa);
+        fraction = at - point;
+        count += fraction;
+    }
+    // One division of two exact numbers rounds once: the result is right.
+    let exact = count.wrapping_sub(1) < 19 && mantissa < EXACT_MANTISSA;
+    if !exact || matches!(bytes.get(at), Some(b'e' | b'E')) {
+        return None;
+    }
+    let value = mantissa as f64 / EXACT_POWERS.get(fraction)?;
+    Some((if negative { -value } else { value }, at))
+}
+
+/// A word of some digits, and where it ends, after one blank or several.
+#[inline(always)]
+pub(crate) fn plain_index(bytes: &[u8], mut start: usize) -> Option<(u64, usize)> {
+    while *bytes.get(start)? == b' ' {
+        start += 1;
+    }
+    let (value, at) = digits(bytes, start, 0);
+    ((at - start).wrapping_sub(1) < 18).then_some((value, at))
 }
 
 /// Text in UTF-8, or else in Latin-1.
