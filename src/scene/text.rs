@@ -8,6 +8,9 @@ const EXACT_POWERS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
+/// Powers of ten by which up to eight digits shift a number.
+const SHIFTS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
+
 /// Whole numbers below this are exact in an `f64`.
 const EXACT_MANTISSA: u64 = 1 << 53;
 
@@ -205,9 +208,35 @@ impl<'a> Cursor<'a> {
     }
 }
 
+/// How many of eight bytes are digits before the first that is not, and their number, all at once:
+/// where a number ends cannot be foretold, and a branch on it would cost more than the digits.
+///
+/// Source: Lemire, *Number Parsing at a Gigabyte per Second*, 2021, section 6.
+#[inline(always)]
+fn leading_digits(bytes: [u8; 8]) -> (usize, u64) {
+    let values = u64::from_le_bytes(bytes) ^ 0x3030_3030_3030_3030;
+    // The high bit of each byte above 9; carries only reach bytes behind the first such.
+    let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
+    let count = others.trailing_zeros() / 8;
+    // Zeros take the place before the digits, that of the least byte.
+    let digits = values.checked_shl(64 - 8 * count).unwrap_or(0);
+    let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
+    let high = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
+    let low = ((pairs >> 16) & 0x0000_00ff_0000_00ff).wrapping_mul(0x0000_2710_0000_0001);
+    (count as usize, high.wrapping_add(low) >> 32)
+}
+
 /// The number that the digits at some place append to another (it wraps), and where they end.
 #[inline(always)]
 fn digits(bytes: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
+    while let Some(eight) = bytes.get(at..).and_then(|b| b.first_chunk()) {
+        let (count, number) = leading_digits(*eight);
+        value = value.wrapping_mul(SHIFTS.get(count).copied().unwrap_or(1)).wrapping_add(number);
+        at += count;
+        if count < 8 {
+            return (value, at);
+        }
+    }
     while let Some(digit) = bytes.get(at).map(|b| b.wrapping_sub(b'0')).filter(|&d| d <= 9) {
         value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
         at += 1;
