@@ -3,6 +3,7 @@
 pub mod camera;
 pub mod flatten;
 pub mod geometry;
+pub mod gltf;
 pub mod light;
 pub mod material;
 pub mod warnings;
