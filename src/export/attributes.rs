@@ -120,7 +120,9 @@ impl Attributes {
                 Value::Opacity(a) => {
                     out.extend_from_slice(Decimals::new(3).text(f64::from(*a) / 255.0).as_bytes());
                 }
-                Value::Width(width) => Decimals::new(WIDTH_DECIMALS).write(out, *width),
+                Value::Width(width) => {
+                    Decimals::new(WIDTH_DECIMALS).write(out, *width);
+                }
                 Value::Cap(cap) => out.extend_from_slice(match cap {
                     Cap::Butt => b"butt",
                     Cap::Round => b"round",
