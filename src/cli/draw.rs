@@ -5,14 +5,13 @@ use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{Viewpoint, viewpoint};
 use super::{number, pipeline, print, say};
-use crate::drawing::{Drawing, Page, Unit};
+use crate::drawing::{Drawing, Page};
 use crate::error::Error;
 use crate::render::{Report, Stopwatch};
 use crate::scene::Scene;
 
-/// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
-const SCREEN_DPI: f64 = 96.0;
-const PRINT_DPI: f64 = 300.0;
+/// Parts that an error names.
+const NAMED_PARTS: usize = 12;
 
 /// A drawing in all its formats, not yet written.
 struct Drawn {
@@ -55,7 +54,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
     let mut scene = Scene::open(&request.model)?;
-    pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
+    keep_parts(&mut scene, request)?;
     if let Some(up) = request.up {
         scene.up = up;
     }
@@ -63,10 +62,10 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
 
     progress.step("drawing");
     let Viewpoint { camera, paper, warning } = viewpoint(request, &scene)?;
-    let page = Page { background: pipeline::background(&style), ..paper.page() };
+    let page = Page { background: style.background, ..paper.page() };
     let (drawing, mut report) = pipeline::render(&scene, &camera, &style, page, request.stage);
     report.stages_ms.load = load_ms;
-    report.counts.triangles = triangles(&scene);
+    report.counts.triangles = scene.triangle_count() as u64;
     report.counts.paths = paths(&drawing);
     for warning in scene.warnings.lines().into_iter().chain(warning) {
         if !report.warnings.contains(&warning) {
@@ -81,7 +80,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     watch.lap_ms();
     let encode = |format| match format {
         Format::Svg | Format::SvgToStdout => Ok(pipeline::svg(&drawing, &request.svg)),
-        Format::Png => pipeline::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
+        Format::Png => pipeline::png(&drawing, request.dpi),
     };
     let encoded = request.outputs.iter().map(|output| {
         encode(output.format).map_err(|error| match error.file {
@@ -93,11 +92,18 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     Ok(Drawn { drawing, report, encoded })
 }
 
-fn default_dpi(unit: Unit) -> f64 {
-    match unit {
-        Unit::Px => SCREEN_DPI,
-        Unit::Mm => PRINT_DPI,
+/// Leaves the parts that were asked for.
+fn keep_parts(scene: &mut Scene, request: &DrawRequest) -> Result<(), Error> {
+    let names: Vec<String> = scene.parts.iter().map(|part| part.name.clone()).take(NAMED_PARTS).collect();
+    let before = scene.parts.len();
+    scene.keep_parts(&request.only, &request.hide);
+    if scene.parts.is_empty() && before > 0 {
+        let more = if before > names.len() { ", ..." } else { "" };
+        return Err(Error::new("--only and --hide leave no part to draw")
+            .in_file(&request.model)
+            .remedy(format!("the parts are {}{more}", names.join(", "))));
     }
+    Ok(())
 }
 
 /// Names the warnings; under `--strict` they are errors.
@@ -138,12 +144,6 @@ fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Res
     staging.commit()
 }
 
-/// Triangles that are shown, instances counted each.
-fn triangles(scene: &Scene) -> u64 {
-    let geometries = scene.parts.iter().filter_map(|part| scene.geometries.get(part.geometry));
-    geometries.map(|geometry| geometry.triangles.len() as u64).sum()
-}
-
 fn paths(drawing: &Drawing) -> u64 {
     drawing.layers.iter().map(|layer| layer.marks.len() as u64).sum()
 }
@@ -166,6 +166,7 @@ fn summary(drawn: &Drawn, bytes: usize, seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Unit;
     use crate::render::report::Counts;
 
     #[test]

@@ -2,8 +2,9 @@
 
 use clap::Args;
 
-use super::{pipeline, print};
+use super::print;
 use crate::error::Error;
+use crate::style::Style;
 
 /// What was typed.
 #[derive(Debug, Args)]
@@ -17,34 +18,20 @@ pub(super) struct StylesArgs {
 
 /// Lists the styles with the idea of each, or shows a sheet.
 pub(super) fn run(args: &StylesArgs) -> Result<(), Error> {
-    let names = pipeline::style_names();
+    let names: Vec<&str> = Style::names().collect();
     let Some(name) = &args.name else {
         let width = names.iter().map(|name| name.len()).max().unwrap_or(0);
         let mut list = String::new();
         for name in names {
-            let idea = pipeline::sheet_text(name).map_or("", idea);
+            let idea = Style::idea(name).unwrap_or_default();
             list.push_str(format!("{name:width$}  {idea}").trim_end());
             list.push('\n');
         }
         return print(list.as_bytes());
     };
-    let text = pipeline::sheet_text(name).ok_or_else(|| {
+    let text = Style::sheet_text(name).ok_or_else(|| {
         Error::new(format!("there is no built-in style `{name}`"))
             .remedy(format!("the styles are {}", names.join(", ")))
     })?;
     print(text.as_bytes())
-}
-
-/// The idea of a sheet: its first comment line.
-fn idea(sheet: &str) -> &str {
-    sheet.lines().find_map(|line| line.trim().strip_prefix('#')).map_or("", str::trim)
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_idea_is_the_first_comment() {
-        assert_eq!(super::idea("\n# Black ink.\n# More.\nseed = 1 # no"), "Black ink.");
-        assert_eq!(super::idea("seed = 1"), "");
-    }
 }
