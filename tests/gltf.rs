@@ -297,7 +297,7 @@ fn a_second_reader_agrees() {
 }
 
 /// Two triangles in a GLB with a skin, a morph, sparse values and a strip, built here.
-fn small_glb(json_extra: &str) -> Vec<u8> {
+fn small_glb() -> Vec<u8> {
     let mut bin: Vec<u8> = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.5]
         .into_iter()
         .flat_map(f32::to_le_bytes)
@@ -318,7 +318,7 @@ fn small_glb(json_extra: &str) -> Vec<u8> {
             {{"bufferView":2,"byteOffset":8,"componentType":5121,"normalized":true,"count":4,"type":"VEC4"}}],
         "bufferViews":[{{"buffer":0,"byteLength":48,"byteStride":12}},{{"buffer":0,"byteOffset":48,"byteLength":12}},
             {{"buffer":0,"byteOffset":60,"byteLength":24}}],
-        "buffers":[{{"byteLength":{}}}]{json_extra}}}"#,
+        "buffers":[{{"byteLength":{}}}]}}"#,
         bin.len()
     );
     while json.len() % 4 != 0 {
@@ -339,7 +339,7 @@ fn small_glb(json_extra: &str) -> Vec<u8> {
 #[test]
 fn mutated_files_never_panic() {
     let fetch = |_: &str, _: usize| Err(std::io::ErrorKind::NotFound.into());
-    let glb = small_glb("");
+    let glb = small_glb();
     let scene = gltf::read_bytes(&glb, &fetch).unwrap();
     assert_sound(&scene);
     assert_eq!((scene.parts.len(), triangles(&scene)), (2, 8));
@@ -348,9 +348,9 @@ fn mutated_files_never_panic() {
     }
     let mut seed = 0x2545_f491_4f6c_dd1d_u64;
     let mut drawn = 0;
-    for _ in 0..6000 {
+    for round in 0..6000 {
         let mut mutated = glb.clone();
-        for _ in 0..3 {
+        for _ in 0..1 + round % 3 {
             seed ^= seed << 13;
             seed ^= seed >> 7;
             seed ^= seed << 17;

@@ -150,21 +150,18 @@ mod tests {
         let mut indices: Vec<u32> = (0..60).flat_map(grid).collect();
         indices.extend([500, 3, 77, 12, 500, 4]);
         let mut stream = vec![0; 10_000];
-        {
-            let version = IndexEncodingVersion::V0;
-            let length =
-                meshopt_rs::index::buffer::encode_index_buffer(&mut stream, &indices, version).unwrap();
-            let stream = &stream[..length];
-            let decoded = decode(&packed("TRIANGLES", indices.len(), 4), stream).unwrap();
-            let read: Vec<u32> = decoded.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect();
-            // The codec may turn a triangle round, never over.
-            for (was, is) in indices.as_chunks::<3>().0.iter().zip(read.as_chunks::<3>().0) {
-                assert!((0..3).any(|turn| (0..3).all(|i| was[i] == is[(i + turn) % 3])), "{was:?} {is:?}");
-            }
-            let short = decode(&packed("TRIANGLES", indices.len(), 2), stream).unwrap();
-            assert_eq!(short.len() * 2, decoded.len());
-            assert!(decode(&packed("TRIANGLES", indices.len() + 3, 4), stream).is_err());
+        let version = IndexEncodingVersion::V0;
+        let length = meshopt_rs::index::buffer::encode_index_buffer(&mut stream, &indices, version).unwrap();
+        let stream = &stream[..length];
+        let decoded = decode(&packed("TRIANGLES", indices.len(), 4), stream).unwrap();
+        let read: Vec<u32> = decoded.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect();
+        // The codec may turn a triangle round, never over.
+        for (was, is) in indices.as_chunks::<3>().0.iter().zip(read.as_chunks::<3>().0) {
+            assert!((0..3).any(|turn| (0..3).all(|i| was[i] == is[(i + turn) % 3])), "{was:?} {is:?}");
         }
+        let short = decode(&packed("TRIANGLES", indices.len(), 2), stream).unwrap();
+        assert_eq!(short.len() * 2, decoded.len());
+        assert!(decode(&packed("TRIANGLES", indices.len() + 3, 4), stream).is_err());
     }
 
     #[test]
