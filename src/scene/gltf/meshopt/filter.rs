@@ -102,6 +102,7 @@ fn bytes_of(words: [u16; 4]) -> [u8; 8] {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

@@ -92,6 +92,7 @@ fn unzigzag(value: u32) -> u32 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use base64::Engine as _;
     use meshopt_rs::index::IndexEncodingVersion;
@@ -110,7 +111,7 @@ mod tests {
     fn elements(count: u32) -> Vec<[u32; 4]> {
         let element = |i: u32| {
             let noise = i.wrapping_mul(2_654_435_761) >> (i % 3 * 8);
-            [i * 300 & 0xffff | i * 700 << 16, noise, i % 2, 0x3f80_0000 + i * i * 0x1000]
+            [((i * 300) & 0xffff) | ((i * 700) << 16), noise, i % 2, 0x3f80_0000 + i * i * 0x1000]
         };
         (0..count).map(element).collect()
     }
