@@ -35,6 +35,16 @@ impl Component {
             Self::U32 | Self::F32 => 4,
         }
     }
+
+    /// The largest value of a type of indices, which ends a strip.
+    fn restart(self) -> Result<u32, Error> {
+        match self {
+            Self::U8 => Ok(u32::from(u8::MAX)),
+            Self::U16 => Ok(u32::from(u16::MAX)),
+            Self::U32 => Ok(u32::MAX),
+            other => Err(Error::new(format!("indices must be whole numbers without sign, not {other:?}"))),
+        }
+    }
 }
 
 /// The bytes of `count` elements, `stride` apart; no bytes at all stand for zeros.
@@ -108,11 +118,12 @@ impl Buffers<'_> {
         if accessor.shape != "SCALAR" {
             return Err(place(Error::new(format!("indices must be SCALAR, not {}", accessor.shape))));
         }
-        let elements = self.elements(accessor, 1).map_err(place)?;
+        let restart = Component::new(accessor.component_type).and_then(Component::restart).map_err(place)?;
         if accessor.sparse.is_some() {
             let values = self.read(index, |[value]: [f64; 1]| value as u32)?;
-            return Ok(Indices { values, restart: elements.restart().map_err(place)? });
+            return Ok(Indices { values, restart });
         }
+        let elements = self.elements(accessor, 1).map_err(place)?;
         elements.whole_numbers().map_err(place)
     }
 
@@ -237,17 +248,8 @@ impl<'a> Elements<'a> {
         }
     }
 
-    fn restart(&self) -> Result<u32, Error> {
-        match self.component {
-            Component::U8 => Ok(u32::from(u8::MAX)),
-            Component::U16 => Ok(u32::from(u16::MAX)),
-            Component::U32 => Ok(u32::MAX),
-            other => Err(Error::new(format!("indices must be whole numbers without sign, not {other:?}"))),
-        }
-    }
-
     fn whole_numbers(&self) -> Result<Indices, Error> {
-        let restart = self.restart()?;
+        let restart = self.component.restart()?;
         let Some(bytes) = self.bytes else {
             return Ok(Indices { values: vec![0; self.count], restart });
         };

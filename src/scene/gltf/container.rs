@@ -106,6 +106,7 @@ fn glb<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Er
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

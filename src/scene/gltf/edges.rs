@@ -53,6 +53,7 @@ fn stored(bits: &[u8], triangles: usize) -> Result<Vec<[EdgeMark; 3]>, Error> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use EdgeMark::{Contour, Hard, Hidden};

@@ -54,6 +54,7 @@ pub fn check(required: &[String]) -> Result<(), Error> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

@@ -56,6 +56,9 @@ pub fn geometry(
 /// What tells the vertices of one primitive from those of another.
 type Key<'a> = (&'a BTreeMap<String, usize>, &'a [BTreeMap<String, usize>], Option<usize>);
 
+/// Corners of triangles.
+type Triangles = Vec<[u32; 3]>;
+
 struct Builder<'a> {
     buffers: &'a Buffers<'a>,
     weights: &'a [f64],
@@ -108,7 +111,7 @@ impl<'a> Builder<'a> {
 
     /// The vertices of a primitive, read if no primitive before had the same ones; and the
     /// triangles that come with compressed ones.
-    fn vertices(&mut self, primitive: &'a Primitive) -> Result<(Block, Option<Vec<[u32; 3]>>), Error> {
+    fn vertices(&mut self, primitive: &'a Primitive) -> Result<(Block, Option<Triangles>), Error> {
         let variant = uv_variant(self.buffers, primitive);
         let key: Key = (&primitive.attributes, &primitive.targets, variant);
         let shareable = primitive.extensions.draco.is_none();
@@ -149,7 +152,7 @@ impl<'a> Builder<'a> {
         primitive: &Primitive,
         mode: Mode,
         block: Block,
-        ready: Option<Vec<[u32; 3]>>,
+        ready: Option<Triangles>,
         warnings: &mut Warnings,
     ) -> Result<Shape, Error> {
         let mut shape = Shape::default();

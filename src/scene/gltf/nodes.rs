@@ -145,6 +145,7 @@ pub fn name(root: &Root, index: usize) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

@@ -132,6 +132,7 @@ fn same_length(accessor: usize, found: usize, wanted: usize) -> Result<(), Error
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

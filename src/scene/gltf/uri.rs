@@ -91,6 +91,7 @@ fn percent_decoded(text: &str) -> Cow<'_, [u8]> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

@@ -100,3 +100,41 @@ fn bytes_of(words: [u16; 4]) -> [u8; 8] {
     let [[a, b], [c, d], [e, f], [g, h]] = words.map(u16::to_le_bytes);
     [a, b, c, d, e, f, g, h]
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unit_vectors_of_both_hemispheres() {
+        let mut bytes = [0, 0, 127, 9, 127, 0, 127, 9, 100, 100, 127, 9];
+        octahedral_8(&mut bytes);
+        assert_eq!(bytes, [0, 0, 127, 9, 127, 0, 0, 9, 42, 42, (-113_i8) as u8, 9]);
+        let mut bytes = bytes_of([0, (-32767_i16) as u16, 32767, 5]);
+        octahedral_16(&mut bytes);
+        assert_eq!(words(bytes), [0, (-32767_i16) as u16, 0, 5]);
+    }
+
+    #[test]
+    fn quaternions_get_their_largest_component_back() {
+        // One is 1023 here; x = 0.6 and the largest component, number 2, is 0.8.
+        let x = (0.6 * std::f32::consts::SQRT_2 * 1023.0).round() as u16;
+        let mut bytes = bytes_of([x, 0, 0, 1020 | 2]);
+        quaternion(&mut bytes);
+        let [a, b, c, d] = words(bytes).map(|v| f32::from(v.cast_signed()) / 32767.0);
+        assert!(a == 0.0 && b == 0.0);
+        assert!((c - 0.8).abs() < 1e-3 && (d - 0.6).abs() < 1e-3, "{c} {d}");
+    }
+
+    #[test]
+    fn floats_and_colours() {
+        let mut bytes = (0xff00_0003_u32).to_le_bytes();
+        exponential(&mut bytes);
+        assert_eq!(f32::from_le_bytes(bytes), 1.5);
+        let mut bytes = [80, 20, 246, 127];
+        colour_8(&mut bytes);
+        // Luma 80, orange 20, green -10, of 127.
+        assert_eq!(bytes, [221, 141, 141, 255]);
+    }
+}

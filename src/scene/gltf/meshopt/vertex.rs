@@ -23,7 +23,7 @@ pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let (first, channels) = tail.split_at_checked(stride)?;
     let mut last = first.to_vec();
 
-    let per_block = (8192 / stride & !(GROUP - 1)).min(BLOCK);
+    let per_block = ((8192 / stride) & !(GROUP - 1)).min(BLOCK);
     let mut decoded = Vec::new();
     let mut left = count;
     while left > 0 {
