@@ -107,8 +107,8 @@ const NONE: u32 = u32::MAX;
 /// through the tip of a fan.
 const MOST_ENDS: usize = 48;
 
-/// Cosine of the sharpest turn (60 degrees) a line takes at a junction of its own class.
-const JUNCTION_COSINE: f64 = 0.5;
+/// Cosine of the sharpest turn (50 degrees) a line takes at a junction of its own class.
+const JUNCTION_COSINE: f64 = 0.643;
 
 /// Edge ends around each vertex; end `2e` is the start of edge `e`, `2e + 1` its end.
 pub(super) struct Ends {
