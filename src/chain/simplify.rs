@@ -19,10 +19,11 @@ pub(super) fn straighten(line: &Line) -> Line {
     };
     let mut kept: Vec<usize> = Vec::with_capacity(line.len());
     for c in 0..line.len() {
-        if let &[.., a, b] = &kept[..] {
-            if between(a, b, c) && line.soft[a] == line.soft[b] {
-                kept.pop();
-            }
+        if let &[.., a, b] = &kept[..]
+            && line.soft[a] == line.soft[b]
+            && between(a, b, c)
+        {
+            kept.pop();
         }
         kept.push(c);
     }
