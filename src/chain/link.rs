@@ -107,8 +107,8 @@ const NONE: u32 = u32::MAX;
 /// through the tip of a fan.
 const MOST_ENDS: usize = 48;
 
-/// Cosine of the sharpest turn (60 degrees) a line takes at a junction of its own class.
-const JUNCTION_COSINE: f64 = 0.5;
+/// Cosine of the sharpest turn (50 degrees) a line takes at a junction of its own class.
+const JUNCTION_COSINE: f64 = 0.643;
 
 /// Edge ends around each vertex; end `2e` is the start of edge `e`, `2e + 1` its end.
 pub(super) struct Ends {
@@ -276,7 +276,7 @@ fn straightest(map: &ViewMap, group: &[u32], partner: &[u32], window: f64) -> Ve
 fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
     let position = |end: u32| {
         let edge = &map.edges[(end / 2) as usize];
-        map.vertices[if end % 2 == 0 { edge.start } else { edge.end }.index()].position
+        map.vertices[if end & 1 == 0 { edge.start } else { edge.end }.index()].position
     };
     let from = position(end);
     let mut at = end;
@@ -330,9 +330,9 @@ fn make_canonical(map: &ViewMap, steps: &mut [Step], closed: bool) {
             let last = steps.len() - 1;
             steps.rotate_left(last - start);
         }
-    } else if let (Some(first), Some(last)) = (steps.first(), steps.last()) {
-        if order(map, *first, last.turned()).is_gt() {
-            reverse(steps);
-        }
+    } else if let (Some(first), Some(last)) = (steps.first(), steps.last())
+        && order(map, *first, last.turned()).is_gt()
+    {
+        reverse(steps);
     }
 }
