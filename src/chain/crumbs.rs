@@ -57,8 +57,9 @@ fn is_crumb(
     }
     let scanned = organic.get(class.part.index()).copied().unwrap_or(false);
     if closed || first.from(map) == last.to(map) {
-        // A loop of two strokes' width is a blot.
-        return soft && length < 2.0 * tidy;
+        // A loop of two strokes' width is a blot; a ring of creases on a scan, a grain.
+        let noise = scanned && class.kind == LineKind::Crease;
+        return (soft && length < 2.0 * tidy) || noise;
     }
     let free = |v: ViewVertexId, by_cover: bool| {
         ends.at(v.index()).len() == 1 || by_cover && map.vertices[v.index()].kind == ViewVertexKind::TJunction
