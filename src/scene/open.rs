@@ -19,7 +19,7 @@ pub(super) fn open(path: &Path) -> Result<Scene, Error> {
         "ply" => ply::read(path),
 
         // One arm for both kinds of glTF.
-        "gltf" | "glb" => Err(Error::new("glTF is not read yet")),
+        "gltf" | "glb" => super::gltf::read(path),
 
         "" => Err(Error::new("the file has no ending that tells its format").remedy(FORMATS)),
         _ => Err(Error::new(format!("the format .{ending} is not known")).remedy(FORMATS)),
