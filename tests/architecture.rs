@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
 const ROOMS: [&str; 20] = [
-    "error", "math", "mesh", "scene", "view", "raster", "field", "lines", "viewmap", "drawing", "chain", "export",
-    "region", "diff", "hatch", "stroke", "motion", "style", "render", "cli",
+    "error", "math", "mesh", "scene", "view", "raster", "field", "lines", "viewmap", "drawing", "chain",
+    "export", "region", "diff", "hatch", "stroke", "motion", "style", "render", "cli",
 ];
 
 const LONGEST_FILE: usize = 500;
@@ -77,7 +77,8 @@ impl Source {
 
 /// The rooms that a piece of code names as `crate::room` or `crate::{room, …}`.
 fn rooms_named(code: &str) -> Vec<String> {
-    let word = |text: &str| -> String { text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect() };
+    let word =
+        |text: &str| -> String { text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect() };
     let mut rooms = Vec::new();
     for (at, found) in code.match_indices("crate::") {
         let standing_alone = code[..at].chars().next_back().is_none_or(|c| !c.is_alphanumeric() && c != '_');
@@ -112,7 +113,10 @@ fn rooms_named(code: &str) -> Vec<String> {
 #[test]
 fn names_of_rooms_are_found() {
     assert_eq!(rooms_named("use crate::mesh::{Mesh, Soup};"), ["mesh"]);
-    assert_eq!(rooms_named("use crate::{\n    error::Error,\n    mesh::{Mesh, lines},\n};"), ["error", "mesh"]);
+    assert_eq!(
+        rooms_named("use crate::{\n    error::Error,\n    mesh::{Mesh, lines},\n};"),
+        ["error", "mesh"]
+    );
     assert_eq!(rooms_named("let a = crate::math::function::sin(crate::view::x);"), ["math", "view"]);
     assert!(rooms_named("use othercrate::mesh;").is_empty());
 }
@@ -169,7 +173,12 @@ fn readers_do_not_panic() {
     let mut faults = Vec::new();
     for source in sources().iter().filter(|s| s.room == "scene" && !s.is_test()) {
         for (number, line) in source.code() {
-            if [".unwrap()", ".expect(", "panic!(", "unreachable!(", "todo!("].iter().any(|p| line.contains(p)) {
+            // `self.expect` is a parser's own method, which returns an error.
+            let line = &line.replace("self.expect(", "self.demand(");
+            if [".unwrap()", ".expect(", "panic!(", "unreachable!(", "todo!("]
+                .iter()
+                .any(|p| line.contains(p))
+            {
                 faults.push(format!("{}:{number}: {}", source.path.display(), line.trim()));
             }
         }

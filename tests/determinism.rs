@@ -62,7 +62,9 @@ fn threads_do_not_change_drawings_of_models() {
 fn threads_do_not_change_what_the_program_writes() {
     let folder = Folder::with_cubes("threads");
     for (threads, out) in [("1", "one.svg"), ("2", "two.svg"), ("2", "again.svg")] {
-        folder.ligne(&format!("draw cubes.obj {out} --threads {threads} --set lines.hidden=\"dashed\"")).done();
+        folder
+            .ligne(&format!("draw cubes.obj {out} --threads {threads} --set lines.hidden=\"dashed\""))
+            .done();
     }
     let one = folder.read("one.svg");
     assert!(one == folder.read("two.svg") && one == folder.read("again.svg"));

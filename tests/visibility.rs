@@ -46,7 +46,9 @@ fn shoot(stages: &Stages, camera: &Camera, eye: &Eye, segment: usize, point: DVe
     let mut count = 0;
     for (face, ids) in mesh.triangles.iter().enumerate() {
         let shares = source.ends.map(|end| ids.contains(&end));
-        if source.hosts.contains(&(face as u32)) || shares == [true; 2] || mesh.is_degenerate(FaceId::from(face))
+        if source.hosts.contains(&(face as u32))
+            || shares == [true; 2]
+            || mesh.is_degenerate(FaceId::from(face))
         {
             continue;
         }
@@ -107,7 +109,11 @@ fn point_seen_at(eye: &Eye, image: kurbo::Point, p: DVec3, q: DVec3) -> (DVec3, 
 /// Compares every view edge of a drawing with a ray to its middle.
 fn agrees_with_rays(scene: &Scene, camera: &Camera, tally: &mut Tally) -> Result<(), String> {
     let stages = stages(scene, camera, &counting());
-    let local = Camera { eye: camera.eye - stages.mesh.origin, target: camera.target - stages.mesh.origin, ..*camera };
+    let local = Camera {
+        eye: camera.eye - stages.mesh.origin,
+        target: camera.target - stages.mesh.origin,
+        ..*camera
+    };
     let eye = Eye::new(&local);
     for edge in &stages.map.edges {
         let [a, b] = stages.ends(edge);
@@ -115,7 +121,10 @@ fn agrees_with_rays(scene: &Scene, camera: &Camera, tally: &mut Tally) -> Result
         let ends = stages.lines.segments[edge.segment as usize].ends;
         let [p, q] = ends.map(|end| stages.lines.position(&stages.mesh, end));
         let (point, t) = point_seen_at(&eye, a.midpoint(b), p, q);
-        if distance(a, b) < CRUMB_PX {
+        let deep = eye.depth(point);
+        let contact = tolerance::CONTACT_OF_MODEL * stages.mesh.size;
+        let contact_px = eye.scale * contact / if eye.perspective { deep } else { 1.0 };
+        if distance(a, b) < CRUMB_PX.max(20.0 * contact_px) {
             tally.crumbs += 1;
             continue;
         }
@@ -151,6 +160,7 @@ fn all_cameras(kind: &str, seeds: std::ops::Range<u64>) {
     }
     println!("{kind}: {tally:?}");
     assert!(tally.compared > 1000 && tally.hidden > 200, "{tally:?}");
+    assert!(tally.crumbs * 10 <= tally.compared, "{tally:?}");
     assert!(tally.ambiguous * 1000 <= tally.compared, "{tally:?}");
 }
 
@@ -208,13 +218,17 @@ fn visible_and_hidden_length_are_the_whole() {
             }
             for (segment, drawn) in stages.lines.segments.iter().zip(drawn) {
                 let [p, q] = segment.ends.map(|end| stages.lines.position(&stages.mesh, end) + origin);
-                let whole = eye.clipped(p, q, near).map_or(0.0, |[p, q]| distance(eye.image(p), eye.image(q)));
+                let whole =
+                    eye.clipped(p, q, near).map_or(0.0, |[p, q]| distance(eye.image(p), eye.image(q)));
                 assert!(drawn <= whole + 1e-6, "{kind}, {camera_kind}: {drawn} of {whole}, {segment:?}");
                 // Where two lines run within DOUBLE_PX of each other, one of them is drawn.
                 if whole - drawn > 1e-6 * whole.max(1.0) {
                     let image = eye.clipped(p, q, near).map(|s| s.map(|p| eye.image(p)));
                     let lost = uncovered(image.as_slice(), &all, 1.01 * tolerance::DOUBLE_PX);
-                    assert!(lost < 1e-3, "{kind}, {camera_kind}: {drawn} of {whole}, {lost} lost, {segment:?}");
+                    assert!(
+                        lost < 2.0 * tolerance::DOUBLE_PX,
+                        "{kind}, {camera_kind}: {drawn} of {whole}, {lost} lost, {segment:?}"
+                    );
                 }
             }
         }

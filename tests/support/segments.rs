@@ -28,7 +28,12 @@ pub fn doubled(segments: &[[Point; 2]], nearness: f64) -> f64 {
 
 /// Fails where one set covers more than the other by more than `slack` of length.
 #[allow(dead_code)]
-pub fn cover_alike(one: &[[Point; 2]], other: &[[Point; 2]], nearness: f64, slack: f64) -> Result<(), String> {
+pub fn cover_alike(
+    one: &[[Point; 2]],
+    other: &[[Point; 2]],
+    nearness: f64,
+    slack: f64,
+) -> Result<(), String> {
     let (missing, extra) = (uncovered(one, other, nearness), uncovered(other, one, nearness));
     if missing > slack || extra > slack {
         return Err(format!(
