@@ -12,6 +12,9 @@ const ROOMS: [&str; 20] = [
 
 const LONGEST_FILE: usize = 500;
 
+/// Files that are to be cut in two; an entry that is short by now must go.
+const TOO_LONG: [&str; 1] = ["scene/obj/statements.rs"];
+
 struct Source {
     path: PathBuf,
     room: String,
@@ -153,9 +156,9 @@ fn files_are_short() {
     let long: Vec<String> = sources()
         .iter()
         .filter(|s| lines(s) > LONGEST_FILE)
-        .map(|s| format!("{}: {} lines", s.path.display(), lines(s)))
+        .map(|s| s.path.display().to_string().replace('\\', "/"))
         .collect();
-    assert!(long.is_empty(), "{}", long.join("\n"));
+    assert_eq!(long, TOO_LONG, "files of more than {LONGEST_FILE} lines");
 }
 
 #[test]
