@@ -13,7 +13,7 @@ use eye::Eye;
 use glam::DVec3;
 use kurbo::Point;
 use ligne::chain::{self, ChainOptions};
-use ligne::drawing::Unit;
+use ligne::drawing::{Length, Unit};
 use ligne::lines::{LineKind, LineOptions};
 use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
@@ -443,4 +443,18 @@ fn marks_of_the_file_make_and_unmake_creases() {
         let drawn = stages(&scene_of_geometries(vec![soft]), &camera, &counting());
         assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Contour).len()), (6, 6));
     }
+}
+
+#[test]
+fn lines_seen_end_on_leave_no_dots() {
+    let camera = from_front(5.0);
+    let plate = cuboid(at(-2.0, -2.0, 0.0), at(2.0, 2.0, 0.5));
+    let drawn =
+        stages(&scene([plate, cuboid(at(-1.0, -1.0, -3.0), at(1.0, 1.0, -2.0))]), &camera, &counting());
+    let off = Length::px(0.0);
+    let plain = ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
+    let chains = chain::link(&drawn.map, &plain, Unit::Px);
+    let visible: Vec<_> = chains.iter().filter(|c| c.invisibility == 0).collect();
+    assert!(visible.iter().all(|c| c.part.index() == 0), "only the plate is seen: {visible:?}");
+    assert_eq!(visible.len(), 1, "{visible:?}");
 }
