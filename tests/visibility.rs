@@ -102,7 +102,7 @@ fn point_seen_at(eye: &Eye, image: kurbo::Point, p: DVec3, q: DVec3) -> (DVec3, 
     let (from, to) = (eye.world(image, 0.0), eye.world(image, 1.0));
     let (ray, way) = (to - from, q - p);
     let across = ray.cross(way);
-    let t = (from - p).cross(ray).dot(across) / across.length_squared() * -1.0;
+    let t = (p - from).cross(ray).dot(across) / across.length_squared();
     (p + way * t, t)
 }
 

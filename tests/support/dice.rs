@@ -1,11 +1,11 @@
 //! Seeded chance for random scenes.
+#![allow(dead_code)] // each test uses some of it
 
 use glam::{DMat3, DQuat, DVec3};
 
 /// A small generator (splitmix64): the same numbers for the same seed, everywhere.
 pub struct Dice(u64);
 
-#[allow(dead_code)] // each test uses some of them
 impl Dice {
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d)

@@ -1,4 +1,5 @@
 //! A camera that projects by the textbook, to check the library's view with.
+#![allow(dead_code)] // each test uses some of it
 
 use glam::{DVec3, DVec4};
 use kurbo::Point;
@@ -17,7 +18,6 @@ pub struct Eye {
     height: f64,
 }
 
-#[allow(dead_code)] // each test uses some of them
 impl Eye {
     pub fn new(camera: &Camera) -> Self {
         let forward = (camera.target - camera.eye).normalize();

@@ -1,4 +1,5 @@
 //! The shared models: a folder that is not part of the project and may be absent.
+#![allow(dead_code)] // each test uses some of it
 
 use std::path::PathBuf;
 
@@ -11,7 +12,6 @@ pub fn folder() -> PathBuf {
 }
 
 /// The path of a shared model, or a printed line that it is absent.
-#[allow(dead_code)]
 pub fn find(name: &str) -> Option<PathBuf> {
     let path = folder().join(name);
     if !path.is_file() {

@@ -1,4 +1,5 @@
 //! Scenes from solids, cameras at a glance, and all stages up to the view map at once.
+#![allow(dead_code)] // each test uses some of it
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
@@ -19,7 +20,6 @@ pub struct Stages {
 }
 
 /// Hidden lines kept and counted.
-#[allow(dead_code)]
 pub fn counting() -> LineOptions {
     LineOptions { hidden: HiddenLines::Dashed, ..LineOptions::default() }
 }
@@ -32,7 +32,6 @@ pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
     Stages { mesh, view, lines, map }
 }
 
-#[allow(dead_code)] // each test uses some of them
 impl Stages {
     /// Where a view edge starts and ends in the image.
     pub fn ends(&self, edge: &ViewEdge) -> [Point; 2] {
@@ -72,19 +71,16 @@ pub fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
 }
 
 /// A scene with one part a solid.
-#[allow(dead_code)]
 pub fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
     scene_of_geometries(solids.into_iter().map(geometry).collect())
 }
 
 /// A perspective camera with a frame of 1000 x 1000 px.
-#[allow(dead_code)]
 pub fn perspective(eye: DVec3, target: DVec3, fov_y_deg: f64) -> Camera {
     camera(eye, target, Projection::Perspective { fov_y_deg })
 }
 
 /// A parallel camera with a frame of 1000 x 1000 px.
-#[allow(dead_code)]
 pub fn orthographic(eye: DVec3, target: DVec3, height: f64) -> Camera {
     camera(eye, target, Projection::Orthographic { height })
 }

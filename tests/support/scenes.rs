@@ -1,4 +1,5 @@
 //! Random scenes, and cameras that look at them.
+#![allow(dead_code)] // each test uses some of it
 
 use glam::DVec3;
 use ligne::scene::{Camera, Projection, Scene};

@@ -1,9 +1,9 @@
 //! Sets of segments compared by what they cover, however they are cut.
+#![allow(dead_code)] // each test uses some of it
 
 use kurbo::Point;
 
 /// Total length.
-#[allow(dead_code)]
 pub fn length(segments: &[[Point; 2]]) -> f64 {
     segments.iter().map(|[a, b]| distance(*a, *b)).sum()
 }
@@ -19,7 +19,6 @@ pub fn uncovered(segments: &[[Point; 2]], by: &[[Point; 2]], nearness: f64) -> f
 }
 
 /// The length that is drawn more than once.
-#[allow(dead_code)]
 pub fn doubled(segments: &[[Point; 2]], nearness: f64) -> f64 {
     (0..segments.len())
         .map(|i| covered(segments[i], &segments[..i].iter().collect::<Vec<_>>(), nearness))
@@ -27,7 +26,6 @@ pub fn doubled(segments: &[[Point; 2]], nearness: f64) -> f64 {
 }
 
 /// Fails where one set covers more than the other by more than `slack` of length.
-#[allow(dead_code)]
 pub fn cover_alike(
     one: &[[Point; 2]],
     other: &[[Point; 2]],
