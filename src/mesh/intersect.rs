@@ -82,9 +82,10 @@ pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
 }
 
 /// Two triangles that have something in common.
-struct Pair {
-    faces: [u32; 2],
-    common: Common,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) faces: [u32; 2],
+    pub(super) common: Common,
 }
 
 /// The box around all corners of all triangles.
@@ -115,8 +116,8 @@ struct Naming {
     point: DVec3,
 }
 
-/// Makes ends that share a name one point.
-fn join(pairs: &[Pair]) -> IntersectionCurves {
+/// Makes ends that share a name one point. The pairs are sorted by faces.
+pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
     // Segments have two ends each; a point is one end that only lends its names.
     let mut namings = Vec::new();
     let mut end_count = 0;

@@ -1,0 +1,221 @@
+//! [`Screen`]: a view on a grid of pixels, and which pixels a triangle covers.
+//!
+//! Single precision is enough here, since buffers only propose. Nearness is brought to the range
+//! 0 to 1 first, so that no digits are lost on far-away eyes.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::mesh::Mesh;
+use crate::view::View;
+
+/// Pixels along the longer side of the frame.
+const LONGER_SIDE: f64 = 1024.0;
+/// How far beside a triangle a pixel's centre still counts as covered, pixels: more than rounding,
+/// so that no pixel falls between two triangles.
+const SLACK: f32 = 1e-4;
+/// Triangles whose box holds at most this many pixels are tested pixel by pixel.
+const FEW: usize = 16;
+
+/// A corner on the screen: x to the right and y down in pixels, and nearness.
+pub type ScreenPoint = [f32; 3];
+
+/// A view on a grid of pixels.
+#[derive(Debug, Clone)]
+pub struct Screen<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    /// Pixels in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// Pixels per user unit.
+    scale: f64,
+    /// Nearness of the farthest point, and what brings the rest to the range 0 to 1.
+    farthest: f64,
+    per_nearness: f64,
+    /// Each vertex; x is NaN where the near plane cuts it off.
+    points: Vec<ScreenPoint>,
+}
+
+/// The plane of a triangle over the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ScreenPlane {
+    origin: ScreenPoint,
+    /// Change of nearness per pixel to the right and down; NaN for a triangle without area.
+    pub slope: [f32; 2],
+}
+
+impl ScreenPlane {
+    /// The plane through three corners.
+    #[inline]
+    #[must_use]
+    pub fn new([a, b, c]: [ScreenPoint; 3]) -> Self {
+        let (u, v) = (minus(b, a), minus(c, a));
+        let area = u[0] * v[1] - u[1] * v[0];
+        let per_area = 1.0 / area;
+        let slope = [(u[2] * v[1] - v[2] * u[1]) * per_area, (u[0] * v[2] - v[0] * u[2]) * per_area];
+        Self { origin: a, slope }
+    }
+
+    /// Nearness at a place.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, x: f32, y: f32) -> f32 {
+        self.origin[2] + self.slope[0] * (x - self.origin[0]) + self.slope[1] * (y - self.origin[1])
+    }
+}
+
+#[inline]
+fn minus(a: ScreenPoint, b: ScreenPoint) -> ScreenPoint {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+impl<'a> Screen<'a> {
+    /// The screen of a view, about a thousand pixels along the longer side of the frame.
+    #[must_use]
+    pub fn new(mesh: &'a Mesh, view: &'a View) -> Self {
+        const TASK: usize = 1 << 14;
+        let none = || (f64::INFINITY, f64::NEG_INFINITY);
+        // Comparisons with NaN fail, so that points cut off take no part.
+        let (farthest, nearest) = view
+            .points
+            .par_iter()
+            .with_min_len(TASK)
+            .fold(none, |(low, high), p| {
+                (if p.z < low { p.z } else { low }, if p.z > high { p.z } else { high })
+            })
+            .reduce(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let scale = LONGER_SIDE / view.frame.width.max(view.frame.height);
+        let pixels = |length: f64| (length * scale).ceil().clamp(1.0, LONGER_SIDE) as usize;
+        let mut screen = Self {
+            mesh,
+            view,
+            columns: pixels(view.frame.width),
+            rows: pixels(view.frame.height),
+            scale,
+            farthest,
+            per_nearness: if nearest > farthest { 1.0 / (nearest - farthest) } else { 0.0 },
+            points: Vec::new(),
+        };
+        screen.points = view.points.par_iter().with_min_len(TASK).map(|p| screen.point(*p)).collect();
+        screen
+    }
+
+    fn point(&self, p: DVec3) -> ScreenPoint {
+        let x = if p.z.is_nan() { f64::NAN } else { p.x * self.scale };
+        [x as f32, (p.y * self.scale) as f32, ((p.z - self.farthest) * self.per_nearness) as f32]
+    }
+
+    /// Number of triangles: those of the mesh, then those left of faces that the near plane cuts.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.mesh.triangles.len() + self.view.clipped.len()
+    }
+
+    /// The corners of a triangle and the face that it is (part) of.
+    #[inline]
+    #[must_use]
+    pub fn triangle(&self, id: usize) -> ([ScreenPoint; 3], u32) {
+        match self.mesh.triangles.get(id) {
+            Some(t) => (t.map(|v| self.points[v as usize]), id as u32),
+            None => {
+                let clipped = &self.view.clipped[id - self.mesh.triangles.len()];
+                (clipped.points.map(|p| self.point(p)), clipped.face.0)
+            }
+        }
+    }
+
+    /// The plane of a face.
+    #[inline]
+    #[must_use]
+    pub fn plane(&self, face: u32) -> ScreenPlane {
+        let corners = self.mesh.triangles[face as usize].map(|v| self.points[v as usize]);
+        if corners.iter().any(|c| c[0].is_nan()) {
+            let clipped = &self.view.clipped;
+            if let Ok(piece) = clipped.binary_search_by_key(&face, |c| c.face.0) {
+                return ScreenPlane::new(clipped[piece].points.map(|p| self.point(p)));
+            }
+        }
+        ScreenPlane::new(corners)
+    }
+
+    /// Calls `visit` with each pixel whose centre the triangle covers, and its nearness there.
+    #[inline]
+    pub fn cover(&self, corners: [ScreenPoint; 3], mut visit: impl FnMut(usize, f32)) {
+        let [a, b, c] = corners;
+        let range = |axis: usize, count: usize| {
+            let low = a[axis].min(b[axis]).min(c[axis]) + (0.5 - SLACK);
+            let high = a[axis].max(b[axis]).max(c[axis]) + (0.5 + SLACK);
+            let count = count as f32;
+            (low.max(0.0).min(count) as usize, high.max(0.0).min(count) as usize)
+        };
+        let (left, right) = range(0, self.columns);
+        let (top, bottom) = range(1, self.rows);
+        if left >= right || top >= bottom {
+            return;
+        }
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        let plane = ScreenPlane::new(corners);
+        // Planes of steep triangles reach beyond their corners within a pixel.
+        let (low, high) = (a[2].min(b[2]).min(c[2]).max(0.0), a[2].max(b[2]).max(c[2]));
+        let sides = [(a, b), (b, c), (c, a)];
+        if (right - left) * (bottom - top) <= FEW {
+            let sign = area.signum();
+            let sides = sides.map(|(p, q)| {
+                let (dx, dy) = ((q[0] - p[0]) * sign, (q[1] - p[1]) * sign);
+                (p, dx, dy, -SLACK * (dx.abs() + dy.abs()))
+            });
+            for row in top..bottom {
+                for column in left..right {
+                    let (x, y) = (column as f32 + 0.5, row as f32 + 0.5);
+                    let inside = |(p, dx, dy, least): (ScreenPoint, f32, f32, f32)| {
+                        dx * (y - p[1]) - dy * (x - p[0]) >= least
+                    };
+                    if inside(sides[0]) & inside(sides[1]) & inside(sides[2]) {
+                        visit(row * self.columns + column, plane.at(x, y).min(high).max(low));
+                    }
+                }
+            }
+            return;
+        }
+        for row in top..bottom {
+            let y = row as f32 + 0.5;
+            let (from, to) = span(&sides, area, f64::from(y), left as f64, right as f64);
+            for column in from..to {
+                let q = plane.at(column as f32 + 0.5, y).min(high).max(low);
+                visit(row * self.columns + column, q);
+            }
+        }
+    }
+}
+
+/// The columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
+fn span(
+    sides: &[(ScreenPoint, ScreenPoint); 3],
+    area: f32,
+    y: f64,
+    left: f64,
+    right: f64,
+) -> (usize, usize) {
+    let (mut from, mut to) = (left, right);
+    let sign = f64::from(area.signum());
+    for (p, q) in sides {
+        let [px, py, qx, qy] = [p[0], p[1], q[0], q[1]].map(f64::from);
+        let (dx, dy) = ((qx - px) * sign, (qy - py) * sign);
+        let room = dx * (y - py) + f64::from(SLACK) * (dx.abs() + dy.abs());
+        // Inside is dy · (x − px) ≤ room.
+        let x = px + room / dy;
+        if dy > 0.0 {
+            to = to.min((x + 0.5).max(0.0).floor());
+        } else if dy < 0.0 {
+            from = from.max((x - 0.5).max(0.0).ceil());
+        } else if room < 0.0 {
+            return (0, 0);
+        }
+    }
+    (from as usize, to as usize)
+}
