@@ -141,7 +141,7 @@ fn parts_are_chosen_by_name() {
     assert!(
         folder.text("only.svg").contains("data-part=\"knob\"") && !folder.text("only.svg").contains("base")
     );
-    folder.ligne("draw cubes.obj none.svg --only nothing").refused("nothing");
+    folder.ligne("draw cubes.obj none.svg --only nothing").refused("the parts are base, knob");
 }
 
 #[test]
@@ -225,7 +225,9 @@ fn the_background_is_as_asked() {
     let folder = Folder::with_cubes("background");
     folder.ligne("draw cubes.obj none.svg --background none").done();
     folder.ligne("draw cubes.obj red.svg --background #ff0000").done();
-    assert!(!folder.text("none.svg").contains("id=\"paper\"") && folder.text("red.svg").contains("#ff0000"));
+    assert!(
+        !folder.text("none.svg").contains("id=\"paper\"") && folder.text("red.svg").contains("fill=\"#f00\"")
+    );
 }
 
 #[test]

@@ -233,3 +233,28 @@ fn a_missing_sheet_is_named() {
     let error = Style::load("watercolour", &[]).unwrap_err().to_string();
     assert!(error.contains("built-in styles: ink, plotter, technical"), "{error}");
 }
+
+#[test]
+fn the_sheets_of_the_documentation_load() {
+    let manual = include_str!("../docs/styles.md");
+    let sheets: Vec<&str> =
+        manual.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert!(sheets.len() >= 3);
+    for (index, text) in sheets.iter().enumerate() {
+        let sheets = Sheets::new(&format!("manual-{index}"), &[("manual.toml", text)]);
+        if let Err(error) = Style::load(&sheets.path("manual.toml"), &[]) {
+            panic!("{error}");
+        }
+    }
+}
+
+#[test]
+fn the_defaults_of_the_documentation_are_those_of_the_code() {
+    let sheets = Sheets::new("defaults", &[("empty.toml", "")]);
+    let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
+    assert_eq!(style.stroke.pen, ligne::stroke::Pen::default());
+    assert_eq!(style.background, Some(Colour::WHITE));
+    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncrease_deg = 40\nhidden = \"none\"\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n";
+    let sheets = Sheets::new("documented", &[("all.toml", documented)]);
+    assert_eq!(Style::load(&sheets.path("all.toml"), &[]).unwrap(), style);
+}

@@ -171,7 +171,7 @@ fn base_bosses(solid: &mut Solid) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
             let mut profile = foot_fillet(9.0, 1.2);
             profile.extend([at(9.0, 2.4), at(8.4, 3.0), at(6.4, 3.0), at(6.0, 2.6), at(6.0, -2.0)]);
             profile.extend([at(3.6, -2.0), at(3.6, -THICKNESS)]);
-            turned(solid, frame, &profile, 72)
+            turned(solid, frame, &profile, 60)
         })
         .unzip()
 }
@@ -184,7 +184,7 @@ fn wall_boss(solid: &mut Solid) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     let mut profile = foot_fillet(15.0, 2.0);
     profile.extend([at(15.0, 12.8), at(13.8, 14.0), at(11.2, 14.0), at(10.0, 12.8)]);
     profile.extend([at(10.0, 2.0), at(8.0, 2.0), at(8.0, -THICKNESS + 1.0), at(9.0, -THICKNESS)]);
-    let mut rings = vec![turned(solid, DAffine3 { matrix3: axes, translation: centre }, &profile, 72)];
+    let mut rings = vec![turned(solid, DAffine3 { matrix3: axes, translation: centre }, &profile, 60)];
     for (x, z) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
         let translation = centre + DVec3::new(16.0 * x, 0.0, 16.0 * z);
         let frame = DAffine3 { matrix3: axes, translation };

@@ -13,8 +13,8 @@ const THROUGH: f64 = 3.0;
 const RING_RADIUS: f64 = 2.0;
 const WINDING_RADIUS: f64 = 0.95;
 const TUBE_RADIUS: f64 = 0.46;
-const STEPS: usize = 256;
-const SIDES: usize = 28;
+const STEPS: usize = 240;
+const SIDES: usize = 24;
 
 /// The axis of the tube, for a parameter from 0 to 2π, and the middle of the torus beside it.
 fn axis(t: f64) -> (DVec3, DVec3) {

@@ -3,6 +3,8 @@
 //! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
 
 mod bracket;
+mod castle;
+mod castle_parts;
 mod creased;
 mod gear;
 mod glb;
@@ -47,6 +49,10 @@ fn main() -> std::io::Result<()> {
     write("gear.obj", obj::text("A spur gear of 24 teeth, in mm", None, &[gear], &[]).as_bytes())?;
     write("bracket.stl", &stl::bytes("angle bracket, in mm", &bracket::bracket()))?;
     write("pump.glb", &glb::bytes("ligne make_models", &pump::pump()))?;
+    let castle = castle::castle();
+    let title = "A little castle, in metres";
+    write("castle.obj", obj::text(title, Some("castle.mtl"), &castle, &[]).as_bytes())?;
+    write("castle.mtl", obj::library(title, &castle).as_bytes())?;
     let (knot, normals) = knot::knot();
     write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))
 }

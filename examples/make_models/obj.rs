@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
-use crate::part::{Material, Part};
+use crate::part::{Material, Part, y_up_from_z_up};
 
 /// A number of `places` decimals, without trailing zeros or a negative zero.
 fn number(value: f64, places: usize) -> String {
@@ -13,22 +13,23 @@ fn number(value: f64, places: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// One object a part; with `normals` (one list a part, one a point) the corners refer to them.
+/// One object a part, turned to y up; with `normals` (one list a part, one a point) the corners refer to them.
 pub fn text(title: &str, library: Option<&str>, parts: &[Part], normals: &[Vec<DVec3>]) -> String {
     let mut out = format!("# {title}\n");
     if let Some(library) = library {
         let _ = writeln!(out, "mtllib {library}");
     }
+    let up = y_up_from_z_up();
     let mut base = 1;
     for (place, part) in parts.iter().enumerate() {
         let _ = writeln!(out, "o {}", part.name);
         for point in &part.solid.points {
-            let [x, y, z] = point.to_array().map(|value| number(value, 5));
+            let [x, y, z] = up.transform_point3(*point).to_array().map(|value| number(value, 4));
             let _ = writeln!(out, "v {x} {y} {z}");
         }
         let normals = normals.get(place);
         for normal in normals.into_iter().flatten() {
-            let [x, y, z] = normal.to_array().map(|value| number(value, 4));
+            let [x, y, z] = up.transform_vector3(*normal).to_array().map(|value| number(value, 4));
             let _ = writeln!(out, "vn {x} {y} {z}");
         }
         if library.is_some() {

@@ -1,5 +1,7 @@
 //! A named part with its colour, as the multi-part models are made of.
 
+use glam::{DAffine3, DMat3, DVec3};
+
 use crate::solid::Solid;
 
 /// A colour with a name; the channels are sRGB, 0 to 1.
@@ -33,4 +35,9 @@ pub fn together(solids: impl IntoIterator<Item = Solid>) -> Solid {
         all.append(&solid);
     }
     all
+}
+
+/// From z up, as all models are made, to y up, as OBJ and PLY files are read.
+pub fn y_up_from_z_up() -> DAffine3 {
+    DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y))
 }

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
+use crate::part::y_up_from_z_up;
 use crate::solid::Solid;
 
-/// The triangles of a solid, with one normal a point.
+/// The triangles of a solid, turned to y up, with one normal a point.
 pub fn bytes(title: &str, solid: &Solid, normals: &[DVec3]) -> Vec<u8> {
     let triangles: Vec<[u32; 3]> = solid.triangles().collect();
     let mut out = format!(
@@ -18,7 +19,9 @@ pub fn bytes(title: &str, solid: &Solid, normals: &[DVec3]) -> Vec<u8> {
     out.push_str("property list uchar int vertex_indices\nend_header\n");
     let mut out = out.into_bytes();
     for (point, normal) in solid.points.iter().zip(normals) {
-        for value in [point, normal].into_iter().flat_map(|vector| vector.as_vec3().to_array()) {
+        let up = y_up_from_z_up();
+        let turned = [up.transform_point3(*point), up.transform_vector3(*normal)];
+        for value in turned.into_iter().flat_map(|vector| vector.as_vec3().to_array()) {
             out.extend((value + 0.0).to_le_bytes());
         }
     }

@@ -94,8 +94,8 @@ pub fn pump() -> Assembly {
         meshes: shop.meshes,
         root,
         eye: DVec3::new(-0.95, 0.78, 1.42),
-        target: DVec3::new(0.19, -0.035, 0.0),
-        fov_y: 24.0 * PI / 180.0,
+        target: DVec3::new(0.19, -0.07, 0.0),
+        fov_y: 20.5 * PI / 180.0,
         aspect: 1.3,
     }
 }

@@ -10,14 +10,14 @@ use ligne::math::function::{cos, sin};
 use crate::outline::{at, circle, polar, rounded, rounded_rectangle};
 use crate::part::together;
 use crate::solid::Solid;
-use crate::sweep::{block, prism, tube, turned};
+use crate::sweep::{prism, tube, turned};
 
 /// Height of the base's top: the shaft's height, downwards.
 pub const FLOOR: f64 = -165.0;
 /// Middle of the discharge nozzle and the height of its flange.
 pub const DISCHARGE: [f64; 2] = [104.0, 150.0];
 
-const ROUND: usize = 72;
+const ROUND: usize = 48;
 
 /// A solid made along z, laid along x.
 pub fn along_x(solid: Solid) -> Solid {
@@ -32,21 +32,24 @@ pub fn shaft_turned(profile: &[(f64, f64)]) -> Solid {
 /// A pipe flange from z = 0 up: disc with bore and eight holes, and a raised face.
 fn flange(radius: f64, bore: f64) -> Solid {
     let mut holes: Vec<Vec<DVec2>> = (0..8)
-        .map(|i| circle(polar(DVec2::ZERO, radius - 11.0, TAU * (f64::from(i) + 0.5) / 8.0), 5.0, 32))
+        .map(|i| circle(polar(DVec2::ZERO, radius - 11.0, TAU * (f64::from(i) + 0.5) / 8.0), 5.0, 24))
         .collect();
     holes.push(circle(DVec2::ZERO, bore, ROUND));
     let disc = prism(&circle(DVec2::ZERO, radius, ROUND), &holes, 0.0, 14.0);
-    let face = turned(&[(bore, 13.0), (radius - 19.0, 13.0), (radius - 19.0, 16.0), (bore, 16.0)], ROUND);
+    let face = turned(
+        &[(bore + 0.6, 13.0), (radius - 19.0, 13.0), (radius - 19.0, 16.0), (bore + 0.6, 16.0)],
+        ROUND,
+    );
     together([disc, face])
 }
 
 /// The spiral casing with its upright discharge nozzle and feet.
 pub fn volute() -> Solid {
-    const TURNS: usize = 96;
+    const TURNS: usize = 72;
     let ring = |centre: DVec3, outwards: DVec3, radius: f64| -> Vec<DVec3> {
-        (0..36)
+        (0..30)
             .map(|k| {
-                let angle = TAU * f64::from(k) / 36.0;
+                let angle = TAU * f64::from(k) / 30.0;
                 centre + radius * (cos(angle) * outwards - sin(angle) * DVec3::X)
             })
             .collect()
@@ -62,7 +65,14 @@ pub fn volute() -> Solid {
     let [side, top] = DISCHARGE;
     rings.push(ring(DVec3::new(0.0, side, 60.0), DVec3::Y, 34.0));
     let neck = turned(
-        &[(24.0, 50.0), (34.0, 50.0), (33.0, top - 20.0), (36.0, top - 6.0), (42.0, top), (24.0, top)],
+        &[
+            (23.6, 40.0),
+            (36.0, 40.0),
+            (35.0, top - 20.0),
+            (37.5, top - 6.0),
+            (42.0, top + 1.0),
+            (23.6, top + 1.0),
+        ],
         ROUND,
     )
     .shifted(0.0, side, 0.0);
@@ -99,8 +109,8 @@ fn upright_y() -> DAffine3 {
 pub fn suction_cover() -> Solid {
     let bore = 30.0;
     let cover = shaft_turned(&[
-        (bore, -112.0),
-        (48.0, -112.0),
+        (bore - 0.5, -113.0),
+        (48.0, -113.0),
         (42.0, -104.0),
         (40.0, -92.0),
         (41.0, -76.0),
@@ -110,7 +120,7 @@ pub fn suction_cover() -> Solid {
         (88.0, -50.0),
         (90.0, -48.0),
         (90.0, -37.0),
-        (bore, -37.0),
+        (bore - 0.5, -37.0),
     ]);
     // The flange faces the other way along x.
     let turn = DAffine3::from_mat3(DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X));
@@ -272,21 +282,16 @@ pub fn sight_glass() -> Solid {
 /// A lifting eye, seat at z = 0.
 pub fn eye_bolt() -> Solid {
     let collar = turned(&[(0.0, 0.0), (11.0, 0.0), (11.0, 3.0), (6.0, 6.0), (0.0, 6.0)], 36);
-    let rings: Vec<Vec<DVec3>> = (0..48)
+    let rings: Vec<Vec<DVec3>> = (0..36)
         .map(|i| {
-            let angle = TAU * f64::from(i) / 48.0;
+            let angle = TAU * f64::from(i) / 36.0;
             let outwards = DVec3::new(0.0, cos(angle), sin(angle));
             let centre = DVec3::Z * 20.0 + 14.0 * outwards;
-            (0..20)
-                .map(|k| PI * f64::from(k) / 10.0)
+            (0..16)
+                .map(|k| PI * f64::from(k) / 8.0)
                 .map(|around| centre + 4.2 * (cos(around) * outwards - sin(around) * DVec3::X))
                 .collect()
         })
         .collect();
     together([collar, crate::sweep::torus(&rings)])
-}
-
-/// A plain block, for shims and plates.
-pub fn slab(low: [f64; 3], high: [f64; 3]) -> Solid {
-    block(DVec3::from_array(low), DVec3::from_array(high))
 }

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 use crate::part::{Material, Part};
 use crate::patches::{self, Net};
 
-const STEPS: usize = 12;
+const STEPS: usize = 10;
 
 const PORCELAIN: Material =
     Material { name: "porcelain", colour: [0.93, 0.91, 0.86], metallic: 0.0, roughness: 0.3 };
@@ -94,7 +94,7 @@ pub fn teapot() -> (Vec<Part>, Vec<Vec<DVec3>>) {
             let outwards: f64 = solid
                 .triangles()
                 .map(|corners| corners.map(|corner| solid.points[corner as usize]))
-                .map(|[a, b, c]| (b - a).cross(c - a).dot(a - DVec3::new(0.0, 0.0, 0.0)))
+                .map(|[a, b, c]| (b - a).cross(c - a).dot(a))
                 .sum();
             if outwards < 0.0 {
                 solid.faces.iter_mut().for_each(|face| face.reverse());

@@ -5,7 +5,7 @@ use crate::lines::LineKind;
 use crate::viewmap::{ViewMap, ViewVertexId, ViewVertexKind};
 
 /// A noisy crease must be this many times longer than a crumb.
-const NOISE: f64 = 3.0;
+const NOISE: f64 = 5.0;
 
 /// Degrees of a dihedral angle beyond which a crease counts double.
 const PRONOUNCED_DEG: f32 = 75.0;
@@ -51,10 +51,15 @@ fn is_crumb(
         return false;
     }
     let soft = total(&|s| edge(s).smooth) > 0.5 * length;
+    // A gap in the outline is worse than a crumb on it.
+    if total(&|s| edge(s).silhouette) > 0.5 * length {
+        return false;
+    }
     let scanned = organic.get(class.part.index()).copied().unwrap_or(false);
     if closed || first.from(map) == last.to(map) {
-        // A loop of two strokes' width is a blot.
-        return soft && length < 2.0 * tidy;
+        // A loop of two strokes' width is a blot; a ring of creases on a scan, a grain.
+        let noise = scanned && class.kind == LineKind::Crease;
+        return (soft && length < 2.0 * tidy) || noise;
     }
     let free = |v: ViewVertexId, by_cover: bool| {
         ends.at(v.index()).len() == 1 || by_cover && map.vertices[v.index()].kind == ViewVertexKind::TJunction

@@ -16,6 +16,9 @@ const COVERED: f64 = 0.8;
 /// Length, in distances, over which the direction of a jagged line is taken.
 const WINDOW: f64 = 4.0;
 
+/// A line shorter than this many distances doubles another at twice the distance.
+const FLAKE: f64 = 16.0;
+
 /// A piece of a visible line in a bucket of the page.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
@@ -47,6 +50,7 @@ pub(super) fn drop_doubles(
     let mut pieces: Vec<Piece> = Vec::new();
     let mut spans: Vec<(usize, usize)> = Vec::with_capacity(routes.len());
     let mut lengths: Vec<f64> = Vec::with_capacity(routes.len());
+    let mut silhouettes: Vec<bool> = Vec::with_capacity(routes.len());
     let mut suspects: Vec<u32> = Vec::new();
     for (route, (steps, _)) in routes.iter().enumerate() {
         let first = pieces.len();
@@ -61,6 +65,7 @@ pub(super) fn drop_doubles(
         spans.push((first, pieces.len()));
         // A silhouette is never the weaker of two.
         let silhouette = steps.first().and_then(|s| classes[s.edge as usize]).is_some_and(|c| c.silhouette);
+        silhouettes.push(silhouette);
         lengths.push(if silhouette { total * 1e3 } else { total });
     }
     if suspects.is_empty() {
@@ -73,7 +78,12 @@ pub(super) fn drop_doubles(
         let (first, end) = spans[route as usize];
         let own = &pieces[first..end];
         let total: f64 = own.iter().map(|p| length(p.b - p.a)).sum();
-        let allowed = (1.0 - COVERED) * total;
+        // The shorter, the more likely a flake; but a gap in the outline is worse than a double.
+        let (allowed, distance) = match (silhouettes[route as usize], total < FLAKE * distance) {
+            (true, _) => (0.0, distance),
+            (false, true) => ((1.0 - COVERED) * total, 2.0 * distance),
+            (false, false) => ((1.0 - COVERED) * total, distance),
+        };
         let mut bare = 0.0;
         for piece in own {
             if !buckets.beside(&pieces, piece, distance, |other| {

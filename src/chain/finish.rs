@@ -6,7 +6,7 @@ use super::corners::corners;
 use super::curve::{add_exact, add_smooth, closed_exact, closed_smooth, polyline};
 use super::line::Line;
 use super::resample::resample;
-use super::simplify::{COLLINEAR, simplify};
+use super::simplify::{simplify, straighten};
 use super::smooth::smooth;
 use super::unfold::unfold;
 
@@ -58,7 +58,7 @@ fn close(line: &mut Line) {
 
 /// A line nothing of which is smoothed.
 fn exact(raw: &Line, t: Tolerances) -> (Line, BezPath) {
-    let straightened = simplify(raw, COLLINEAR);
+    let straightened = straighten(raw);
     let line = if t.simplify > 0.0 { simplify(&straightened, t.simplify) } else { straightened.clone() };
     if t.fit <= 0.0 {
         let path = polyline(&line);

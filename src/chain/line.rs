@@ -18,8 +18,9 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The points of a route, points that coincide once.
-    pub fn of_route(map: &ViewMap, steps: &[Step], closed: bool) -> Self {
+    /// The points of a route, points that coincide once; if `noisy`, all of it counts as lying on a
+    /// smooth surface.
+    pub fn of_route(map: &ViewMap, steps: &[Step], closed: bool, noisy: bool) -> Self {
         let mut line = Self {
             points: Vec::with_capacity(steps.len() + 1),
             depths: Vec::with_capacity(steps.len() + 1),
@@ -28,12 +29,13 @@ impl Line {
         };
         for step in steps {
             let vertex = &map.vertices[step.from(map).index()];
-            let soft = map.edges[step.edge as usize].smooth;
+            let soft = noisy || map.edges[step.edge as usize].smooth;
             line.push(vertex.position, vertex.depth, soft);
         }
         if let (false, Some(last)) = (closed, steps.last()) {
             let vertex = &map.vertices[last.to(map).index()];
-            line.push(vertex.position, vertex.depth, map.edges[last.edge as usize].smooth);
+            let soft = noisy || map.edges[last.edge as usize].smooth;
+            line.push(vertex.position, vertex.depth, soft);
         }
         if closed {
             while line.points.len() > 1 && line.points.first() == line.points.last() {

@@ -81,6 +81,8 @@ struct Span {
     first: u32,
     end: u32,
     closed: bool,
+    /// The first of the feature segments it has pieces of.
+    segment: u32,
 }
 
 impl Routes {
@@ -105,8 +107,8 @@ const NONE: u32 = u32::MAX;
 /// through the tip of a fan.
 const MOST_ENDS: usize = 48;
 
-/// Cosine of the sharpest turn (60 degrees) a line takes at a junction of its own class.
-const JUNCTION_COSINE: f64 = 0.5;
+/// Cosine of the sharpest turn (50 degrees) a line takes at a junction of its own class.
+const JUNCTION_COSINE: f64 = 0.643;
 
 /// Edge ends around each vertex; end `2e` is the start of edge `e`, `2e + 1` its end.
 pub(super) struct Ends {
@@ -170,17 +172,20 @@ pub(super) fn routes(map: &ViewMap, classes: &[Option<Class>], window: f64) -> R
             }
             let steps = &mut routes.steps[first..];
             make_canonical(map, steps, !open);
-            routes.spans.push(Span { first: first as u32, end: routes.steps.len() as u32, closed: !open });
+            let segments = steps.iter().map(|step| map.edges[step.edge as usize].segment);
+            let segment = segments.min().unwrap_or(NONE);
+            routes.spans.push(Span {
+                first: first as u32,
+                end: routes.steps.len() as u32,
+                closed: !open,
+                segment,
+            });
         }
     }
     let steps = &routes.steps;
     routes.spans.sort_by(|a, b| {
-        let key = |s: &Span| {
-            let run = &steps[s.first as usize..s.end as usize];
-            run.iter().map(|step| map.edges[step.edge as usize].segment).min().unwrap_or(NONE)
-        };
         let start = |s: &Span| steps[s.first as usize];
-        key(a).cmp(&key(b)).then_with(|| order(map, start(a), start(b)))
+        a.segment.cmp(&b.segment).then_with(|| order(map, start(a), start(b)))
     });
     routes
 }
@@ -271,7 +276,7 @@ fn straightest(map: &ViewMap, group: &[u32], partner: &[u32], window: f64) -> Ve
 fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
     let position = |end: u32| {
         let edge = &map.edges[(end / 2) as usize];
-        map.vertices[if end % 2 == 0 { edge.start } else { edge.end }.index()].position
+        map.vertices[if end & 1 == 0 { edge.start } else { edge.end }.index()].position
     };
     let from = position(end);
     let mut at = end;
@@ -325,9 +330,9 @@ fn make_canonical(map: &ViewMap, steps: &mut [Step], closed: bool) {
             let last = steps.len() - 1;
             steps.rotate_left(last - start);
         }
-    } else if let (Some(first), Some(last)) = (steps.first(), steps.last()) {
-        if order(map, *first, last.turned()).is_gt() {
-            reverse(steps);
-        }
+    } else if let (Some(first), Some(last)) = (steps.first(), steps.last())
+        && order(map, *first, last.turned()).is_gt()
+    {
+        reverse(steps);
     }
 }

@@ -13,6 +13,9 @@ pub mod options;
 mod resample;
 mod simplify;
 mod smooth;
+mod stitch;
+#[cfg(test)]
+mod tests;
 mod tidy;
 mod unfold;
 
@@ -24,10 +27,12 @@ use rayon::prelude::*;
 use crate::drawing::{Length, Unit};
 use crate::lines::LineKind;
 use crate::mesh::{MaterialId, PartId};
-use crate::viewmap::ViewMap;
+use crate::viewmap::{ViewMap, ViewVertexId};
 use finish::{Tolerances, finish};
 use line::Line;
-use link::{Class, Step, routes};
+use link::{Ends, Step, routes};
+use stitch::{Raw, stitch};
+use tidy::Tidied;
 
 /// What a chain knows of the world at one of its points; travels with the chain so that strokes
 /// never look back into the scene.
@@ -86,45 +91,53 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit) -> Vec<Chain> {
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
     };
     let window = DIRECTION_PX * px;
-    let classes = tidy::tidy(map, t, window);
-    let routes = routes(map, &classes, window);
-    (0..routes.len())
+    let tidied = tidy::tidy(map, t, window);
+    let routes = routes(map, &tidied.classes, window);
+    let ends = Ends::new(map, |e| tidied.classes[e].is_some_and(|class| !class.hidden));
+    let raws: Vec<Raw> = (0..routes.len())
         .into_par_iter()
-        .with_min_len(16)
-        .filter_map(|route| {
-            let (steps, closed) = routes.get(route);
-            let class = steps.first().and_then(|step| classes[step.edge as usize])?;
-            chain(map, steps, closed, class, t)
-        })
-        .collect()
+        .with_min_len(64)
+        .filter_map(|route| raw(map, routes.get(route), &tidied, &ends))
+        .collect();
+    stitch(raws, t).into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
 }
 
-/// The chain of a route, or nothing for one seen end-on as a point.
-fn chain(map: &ViewMap, steps: &[Step], closed: bool, class: Class, t: Tolerances) -> Option<Chain> {
-    let raw = Line::of_route(map, steps, closed);
+/// The line of a route, or nothing for one seen end-on as a point.
+fn raw(map: &ViewMap, (steps, closed): (&[Step], bool), tidied: &Tidied, ends: &Ends) -> Option<Raw> {
+    let (first, last) = (steps.first()?, steps.last()?);
+    let class = tidied.classes[first.edge as usize]?;
+    let noisy = matches!(class.kind, LineKind::Contour | LineKind::Crease) && tidied.is_organic(class.part);
+    let line = Line::of_route(map, steps, closed, noisy);
     // A closed line of two points runs there and back.
-    let raw = if closed && raw.len() == 2 { raw.opened_at(0) } else { raw };
-    if raw.len() < 2 {
+    let line = if closed && line.len() == 2 { line.opened_at(0) } else { line };
+    if line.len() < 2 {
         return None;
     }
     let edges = || steps.iter().map(|step| &map.edges[step.edge as usize]);
-    let smooth: usize = edges().filter(|edge| edge.smooth).count();
-    let (line, path) = finish(&raw, t);
-    Some(Chain {
+    let hidden = edges().map(|edge| edge.invisibility).filter(|i| *i > 0).min().unwrap_or(0);
+    let free = |vertex: ViewVertexId| ends.at(vertex.index()).len() <= 1;
+    Some(Raw {
+        line,
+        class,
+        invisibility: if class.hidden { hidden } else { 0 },
+        smooth: noisy || 2 * edges().filter(|edge| edge.smooth).count() > steps.len(),
+        free: [free(first.from(map)), free(last.to(map))],
+    })
+}
+
+fn chain(raw: Raw, t: Tolerances) -> Chain {
+    let (line, path) = finish(&raw.line, t);
+    Chain {
         samples: line.depths.iter().map(|depth| Sample { depth: *depth }).collect(),
         points: line.points,
         closed: line.closed,
-        kind: class.kind,
-        silhouette: class.silhouette,
-        invisibility: if class.hidden {
-            edges().map(|e| e.invisibility).filter(|i| *i > 0).min()?
-        } else {
-            0
-        },
-        both_seen: class.both_seen,
-        part: class.part,
-        material: class.material,
-        smooth: 2 * smooth > steps.len(),
+        kind: raw.class.kind,
+        silhouette: raw.class.silhouette,
+        invisibility: raw.invisibility,
+        both_seen: raw.class.both_seen,
+        part: raw.class.part,
+        material: raw.class.material,
+        smooth: raw.smooth,
         path,
-    })
+    }
 }

@@ -6,8 +6,37 @@
 
 use super::line::{Line, distance2};
 
-/// Deviation below which points of a straight line are one straight line even with simplifying off.
-pub(super) const COLLINEAR: f64 = 1e-9;
+/// Points this near to the straight line between their neighbours, in user units, are rounding.
+const COLLINEAR: f64 = 1e-9;
+
+/// Leaves out the points that lie in line between their neighbours, and no others: a line that
+/// turns back stays as long as it is.
+pub(super) fn straighten(line: &Line) -> Line {
+    let between = |a: usize, b: usize, c: usize| {
+        let (to, on) = (line.points[b] - line.points[a], line.points[c] - line.points[b]);
+        let whole = line.points[c] - line.points[a];
+        to.dot(on) > 0.0 && to.cross(whole).powi(2) <= COLLINEAR * COLLINEAR * whole.hypot2()
+    };
+    let mut kept: Vec<usize> = Vec::with_capacity(line.len());
+    for c in 0..line.len() {
+        if let &[.., a, b] = &kept[..]
+            && line.soft[a] == line.soft[b]
+            && between(a, b, c)
+        {
+            kept.pop();
+        }
+        kept.push(c);
+    }
+    if line.closed && kept.len() > 3 {
+        if between(kept[kept.len() - 2], kept[kept.len() - 1], kept[0]) {
+            kept.pop();
+        }
+        if kept.len() > 3 && between(kept[kept.len() - 1], kept[0], kept[1]) {
+            kept.remove(0);
+        }
+    }
+    line.pick(&kept)
+}
 
 /// Keeps the ends and every point without which the line would move by more than `tolerance`. A
 /// closed line keeps its first point and the one farthest from it.
@@ -16,7 +45,7 @@ pub(super) fn simplify(line: &Line, tolerance: f64) -> Line {
     if n < 3 {
         return line.clone();
     }
-    let tolerance2 = tolerance.max(COLLINEAR) * tolerance.max(COLLINEAR);
+    let tolerance2 = tolerance * tolerance;
     if !line.closed {
         let kept = keep(line, tolerance2);
         return line.pick(&kept);

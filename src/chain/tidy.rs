@@ -10,6 +10,7 @@ use super::finish::Tolerances;
 use super::flips::{bridge, even_out};
 use super::link::{Class, routes};
 use crate::lines::LineKind;
+use crate::mesh::PartId;
 use crate::viewmap::ViewMap;
 
 /// Hidden gaps are bridged up to this part of the tidy length.
@@ -21,11 +22,26 @@ const DOUBLE: f64 = 0.3;
 /// Rounds of dropping; each may free the ends of others.
 const ROUNDS: usize = 4;
 
-/// The class of every edge, `None` for those left out.
-pub(super) fn tidy(map: &ViewMap, t: Tolerances, window: f64) -> Vec<Option<Class>> {
+/// What tidying found.
+pub(super) struct Tidied {
+    /// The class of every edge, `None` for those left out.
+    pub classes: Vec<Option<Class>>,
+    /// For each part, whether it is a scan or another rounded shape, whose creases may be noise;
+    /// empty when nothing is tidied.
+    organic: Vec<bool>,
+}
+
+impl Tidied {
+    pub fn is_organic(&self, part: PartId) -> bool {
+        self.organic.get(part.index()).copied().unwrap_or(false)
+    }
+}
+
+/// Tidies the edges of a view map.
+pub(super) fn tidy(map: &ViewMap, t: Tolerances, window: f64) -> Tidied {
     let mut classes: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of(e))).collect();
     if t.tidy <= 0.0 {
-        return classes;
+        return Tidied { classes, organic: Vec::new() };
     }
     if map.edges.iter().any(|e| e.invisibility > 0) {
         let sources: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of_source(e))).collect();
@@ -46,7 +62,7 @@ pub(super) fn tidy(map: &ViewMap, t: Tolerances, window: f64) -> Vec<Option<Clas
             break;
         }
     }
-    classes
+    Tidied { classes, organic }
 }
 
 /// For each part, whether most of its contour runs over smooth surface: a scan or another rounded

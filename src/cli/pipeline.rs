@@ -36,7 +36,7 @@ pub(super) fn keep_parts(scene: &mut Scene, only: &[String], hide: &[String]) ->
         let mut shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
         shown.dedup();
         return Err(Error::new("no part is left by --only and --hide")
-            .remedy(format!("the parts are called {}", shown.join(", "))));
+            .remedy(format!("the parts are {}", shown.join(", "))));
     }
     Ok(())
 }

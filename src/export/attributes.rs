@@ -73,20 +73,26 @@ impl Attributes {
     /// What is best written on a group: of each attribute the value of the most marks, the first
     /// of equally frequent ones.
     pub fn common(marks: &[&Mark]) -> Self {
-        let needed: Vec<Self> = marks.iter().map(|mark| Self::of(mark)).collect();
+        let runs: Vec<(Self, usize)> = marks
+            .chunk_by(|a, b| alike(a, b))
+            .filter_map(|run| Some((Self::of(run.first()?), run.len())))
+            .collect();
         let mut common = INITIAL;
-        for (index, value) in common.0.iter_mut().enumerate() {
+        for (index, best) in common.0.iter_mut().enumerate() {
             let mut counts: FxHashMap<Value, usize> = FxHashMap::default();
-            let mut best = 0;
-            let values = || needed.iter().filter_map(|set| set.0.get(index)).filter(|v| **v != Value::Any);
-            for needed in values() {
-                *counts.entry(*needed).or_default() += 1;
+            let values = || {
+                let of_run = |(set, count): &(Self, usize)| Some((*set.0.get(index)?, *count));
+                runs.iter().filter_map(of_run).filter(|(value, _)| *value != Value::Any)
+            };
+            for (value, count) in values() {
+                *counts.entry(value).or_default() += count;
             }
-            for needed in values() {
-                let count = counts.get(needed).copied().unwrap_or_default();
-                if count > best {
-                    best = count;
-                    *value = *needed;
+            let mut most = 0;
+            for (value, _) in values() {
+                let count = counts.get(&value).copied().unwrap_or_default();
+                if count > most {
+                    most = count;
+                    *best = value;
                 }
             }
         }
@@ -114,7 +120,9 @@ impl Attributes {
                 Value::Opacity(a) => {
                     out.extend_from_slice(Decimals::new(3).text(f64::from(*a) / 255.0).as_bytes());
                 }
-                Value::Width(width) => Decimals::new(WIDTH_DECIMALS).write(out, *width),
+                Value::Width(width) => {
+                    Decimals::new(WIDTH_DECIMALS).write(out, *width);
+                }
                 Value::Cap(cap) => out.extend_from_slice(match cap {
                     Cap::Butt => b"butt",
                     Cap::Round => b"round",
@@ -133,6 +141,18 @@ impl Attributes {
     /// Whether nothing needs to be written inside a group that says `outer`.
     pub fn fits(&self, outer: &Self) -> bool {
         self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == Value::Any)
+    }
+}
+
+/// Whether two marks are painted alike but for their dashes: they need the same attributes.
+#[inline]
+pub(super) fn alike(a: &Mark, b: &Mark) -> bool {
+    match (&a.paint, &b.paint) {
+        (Paint::Stroke(a), Paint::Stroke(b)) => {
+            a.width == b.width && a.colour == b.colour && a.cap == b.cap && a.join == b.join
+        }
+        (Paint::Fill(a), Paint::Fill(b)) => a == b,
+        _ => false,
     }
 }
 

@@ -11,13 +11,16 @@ pub(super) const MOST_DECIMALS: u8 = 8;
 pub(super) struct Decimals {
     count: usize,
     scale: f64,
+    /// 1 as a multiple of the step.
+    one: i64,
 }
 
 impl Decimals {
     /// Numbers of at most so many decimals.
     pub fn new(count: u8) -> Self {
         let count = count.min(MOST_DECIMALS);
-        Self { count: usize::from(count), scale: 10f64.powi(i32::from(count)) }
+        let one = 10i64.pow(u32::from(count));
+        Self { count: usize::from(count), scale: one as f64, one }
     }
 
     /// The nearest number of the grid, as a multiple of its step; 0 for what is not a number.
@@ -28,9 +31,10 @@ impl Decimals {
         (scaled + 0.5f64.copysign(scaled)).clamp(-1e18, 1e18) as i64
     }
 
-    /// Writes a multiple of the step without needless zeros: `.5`, `-12`, `3.25`.
+    /// Writes a multiple of the step without needless zeros, such as `.5`, `-12`, `3.25`; whether
+    /// it has a point.
     #[inline]
-    pub fn write(self, out: &mut Vec<u8>, number: i64) {
+    pub fn write(self, out: &mut Vec<u8>, number: i64) -> bool {
         let mut text = [0u8; 24];
         let mut at = text.len();
         let mut rest = number.unsigned_abs();
@@ -65,18 +69,13 @@ impl Decimals {
             text[at] = b'-';
         }
         out.extend_from_slice(&text[at..]);
-    }
-
-    /// Whether a multiple of the step has a fraction, so that a point is written.
-    #[inline]
-    pub fn has_point(self, number: i64) -> bool {
-        number % (self.scale as i64) != 0
+        started
     }
 
     /// Whether a multiple of the step is written with its point first.
     #[inline]
     pub fn starts_with_point(self, number: i64) -> bool {
-        number > 0 && number < self.scale as i64
+        number > 0 && number < self.one
     }
 
     /// A value rounded and written.

@@ -190,8 +190,7 @@ impl Writer<'_> {
         } else if number >= 0 && !(self.point_before && decimals.starts_with_point(number)) {
             self.out.push(b' ');
         }
-        decimals.write(self.out, number);
-        self.point_before = decimals.has_point(number);
+        self.point_before = decimals.write(self.out, number);
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::attributes::{Attributes, hex};
+use super::attributes::{Attributes, alike, hex};
 use super::number::Decimals;
 use super::path_data;
 use super::xml::{Ids, escape};
@@ -196,7 +196,7 @@ fn group(out: &mut Vec<u8>, marks: &[&Mark], decimals: Decimals, head: &[u8]) {
 /// of their own.
 fn write_chunk(marks: &[&Mark], outer: &Attributes, decimals: Decimals) -> Vec<u8> {
     let mut out = Vec::with_capacity(marks.len() * 96);
-    for run in marks.chunk_by(|a, b| Attributes::of(a) == Attributes::of(b)) {
+    for run in marks.chunk_by(|a, b| alike(a, b)) {
         let Some(first) = run.first() else { continue };
         let attributes = Attributes::of(first);
         let shared = run.len() > 1 && !attributes.fits(outer);

@@ -96,7 +96,7 @@ impl Finder<'_> {
             both_seen: !contour,
             smooth: turn <= self.crease_deg && mark != EdgeMark::Hard,
             strength: turn,
-            ..self.segment(edge, kind, nearer)
+            ..self.segment(edge, kind, nearer, [first, second])
         })
     }
 
@@ -107,8 +107,10 @@ impl Finder<'_> {
     }
 
     fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
-        (self.wants(LineKind::Border) && !self.degenerate(face))
-            .then(|| FeatureSegment { both_seen: false, ..self.segment(edge, LineKind::Border, face) })
+        (self.wants(LineKind::Border) && !self.degenerate(face)).then(|| FeatureSegment {
+            both_seen: false,
+            ..self.segment(edge, LineKind::Border, face, [face, NO_FACE])
+        })
     }
 
     fn classify_beside_needle(&self, edge: usize, faces: &[u32; 2]) -> Option<FeatureSegment> {
@@ -153,7 +155,11 @@ impl Finder<'_> {
             return None;
         };
         let nearer = real.iter().copied().find(|f| self.view.facing[*f as usize]).unwrap_or(real[0]);
-        Some(FeatureSegment { both_seen: !contour, strength: turn, ..self.segment(edge, kind, nearer) })
+        Some(FeatureSegment {
+            both_seen: !contour,
+            strength: turn,
+            ..self.segment(edge, kind, nearer, [real[0], real[1]])
+        })
     }
 
     /// Degrees by which the surface turns in the corner between two faces into which the eye
@@ -240,10 +246,10 @@ impl Finder<'_> {
         strongest
     }
 
-    fn segment(&self, edge: usize, kind: LineKind, nearer: u32) -> FeatureSegment {
+    fn segment(&self, edge: usize, kind: LineKind, nearer: u32, hosts: [u32; 2]) -> FeatureSegment {
         FeatureSegment {
             ends: self.mesh.edges.vertices[edge],
-            hosts: [NO_FACE; 2],
+            hosts,
             kind,
             both_seen: true,
             smooth: false,

@@ -13,8 +13,8 @@ pub const NO_FACE: u32 = u32::MAX;
 pub struct FeatureSegment {
     /// Its ends: vertices of the mesh, or beyond those, points of [`FeatureLines::points`].
     pub ends: [u32; 2],
-    /// Faces that the line lies on and that therefore never hide it ([`NO_FACE`] = none). Faces
-    /// that contain both ends as corners need not be named.
+    /// Two of the faces that meet in the line, which therefore never hide it ([`NO_FACE`] = none).
+    /// Other faces that have both ends as corners never hide it either.
     pub hosts: [u32; 2],
     /// What line it is.
     pub kind: LineKind,

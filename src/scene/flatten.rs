@@ -60,7 +60,7 @@ impl Scene {
     }
 
     /// The geometry of a part that can be placed.
-    fn geometry_of(&self, part: &Part) -> Option<&Geometry> {
+    pub(super) fn geometry_of(&self, part: &Part) -> Option<&Geometry> {
         let determinant = part.world_from_part.matrix3.determinant();
         let can_be_placed = determinant != 0.0 && determinant.is_finite() && part.world_from_part.is_finite();
         self.geometries.get(part.geometry).filter(|_| can_be_placed)
@@ -68,7 +68,7 @@ impl Scene {
 }
 
 /// The positions that triangles or wires use, each once.
-fn used_points(geometry: &Geometry) -> Vec<DVec3> {
+pub(super) fn used_points(geometry: &Geometry) -> Vec<DVec3> {
     let mut used = vec![false; geometry.positions.len()];
     let corners = geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened());
     for &corner in corners {

@@ -10,7 +10,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Camera, Geometry, Projection, Scene};
+use super::coordinate::is_drawable;
+use super::flatten::used_points;
+use super::{Camera, Projection, Scene};
 use crate::math::function::tan;
 
 /// Share of the frame (of its shorter side) that a fitted model leaves free on each side.
@@ -171,28 +173,21 @@ pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
     (low.is_finite() && high.is_finite()).then_some((low, high))
 }
 
-/// World positions of all vertices that triangles and wires use, part by part.
+/// World positions of all vertices that triangles and wires use, part by part; what
+/// [`Scene::to_soup`] leaves out is left out here.
 #[must_use]
 pub fn world_points(scene: &Scene) -> Vec<DVec3> {
-    let used: Vec<Vec<DVec3>> = scene.geometries.par_iter().map(used_positions).collect();
+    let used: Vec<Vec<DVec3>> = scene.geometries.par_iter().map(used_points).collect();
     let mut points = Vec::new();
-    for part in &scene.parts {
+    for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
         let Some(positions) = used.get(part.geometry) else { continue };
+        let first = points.len();
         points.extend(positions.iter().map(|&p| part.world_from_part.transform_point3(p)));
-    }
-    points
-}
-
-/// Positions of a geometry that some triangle or wire uses, each once.
-fn used_positions(geometry: &Geometry) -> Vec<DVec3> {
-    let mut used = vec![false; geometry.positions.len()];
-    let corners = geometry.triangles.iter().flatten().chain(geometry.wires.iter().flatten());
-    for &vertex in corners {
-        if let Some(mark) = used.get_mut(vertex as usize) {
-            *mark = true;
+        if !points.iter().skip(first).all(|&p| is_drawable(p)) {
+            points.truncate(first);
         }
     }
-    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.then_some(p)).collect()
+    points
 }
 
 #[cfg(test)]
@@ -200,7 +195,7 @@ mod tests {
     use glam::DAffine3;
 
     use super::*;
-    use crate::scene::{NamedView, Part, UpAxis};
+    use crate::scene::{Geometry, NamedView, Part, UpAxis};
 
     /// Where a point is in the frame: 0 to 1 from left to right and from top to bottom.
     fn place(camera: &Camera, p: DVec3) -> (f64, f64) {

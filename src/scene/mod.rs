@@ -6,6 +6,7 @@ pub mod coordinate;
 pub mod flatten;
 pub mod framing;
 pub mod geometry;
+pub mod gltf;
 pub mod light;
 pub mod material;
 pub mod obj;

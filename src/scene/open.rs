@@ -1,6 +1,7 @@
 //! Opening model files: which reader, and what all readers share.
 
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 use super::text::decode;
@@ -12,17 +13,17 @@ const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
 /// Reads a model with the reader for its ending, whatever its case.
 pub(super) fn open(path: &Path) -> Result<Scene, Error> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    let scene = match ending.as_str() {
+    let scene = refuse_strangers(path).and_then(|()| match ending.as_str() {
         "obj" => obj::read(path),
         "stl" => stl::read(path),
         "ply" => ply::read(path),
 
         // One arm for both kinds of glTF.
-        "gltf" | "glb" => Err(Error::new("glTF is not read yet")),
+        "gltf" | "glb" => super::gltf::read(path),
 
         "" => Err(Error::new("the file has no ending that tells its format").remedy(FORMATS)),
         _ => Err(Error::new(format!("the format .{ending} is not known")).remedy(FORMATS)),
-    };
+    });
     scene.map_err(|error| if error.file.is_none() { error.in_file(path) } else { error })
 }
 
@@ -31,25 +32,27 @@ pub(super) fn read_with(
     path: &Path,
     reader: impl FnOnce(&[u8], &str) -> Result<Scene, Error>,
 ) -> Result<Scene, Error> {
-    let bytes = bytes(path)?;
+    let bytes = fs::read(path).map_err(|e| cannot_be_read(&e).in_file(path))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut scene = reader(&bytes, &stem).map_err(|error| error.in_file(path))?;
     scene.file = Some(path.to_path_buf());
     Ok(scene)
 }
 
-/// The bytes of a model file, unless they are surely not a model.
-///
-/// # Errors
-/// If the file cannot be read, is empty, or holds a git-lfs pointer or a web page.
-pub fn bytes(path: &Path) -> Result<Vec<u8>, Error> {
-    let bytes = fs::read(path).map_err(|e| Error::new(format!("cannot be read: {e}")).in_file(path))?;
-    refuse_strangers(&bytes).map_err(|error| error.in_file(path))?;
-    Ok(bytes)
+fn cannot_be_read(error: &std::io::Error) -> Error {
+    Error::new(format!("cannot be read: {error}"))
+}
+
+/// Refuses a file that surely is no model, by its beginning.
+fn refuse_strangers(path: &Path) -> Result<(), Error> {
+    let mut head = Vec::new();
+    let file = fs::File::open(path).map_err(|e| cannot_be_read(&e))?;
+    file.take(256).read_to_end(&mut head).map_err(|e| cannot_be_read(&e))?;
+    refuse_strange_bytes(&head)
 }
 
 /// Refuses what stands in the place of a model when a download went wrong.
-fn refuse_strangers(bytes: &[u8]) -> Result<(), Error> {
+fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
     let start = bytes.trim_ascii_start();
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
     let begins =
@@ -136,16 +139,17 @@ mod tests {
             ("\u{feff}<HTML>", "web page"),
             ("", "nothing to draw"),
         ] {
-            let error = refuse_strangers(bytes.as_bytes()).unwrap_err().to_string();
+            let error = refuse_strange_bytes(bytes.as_bytes()).unwrap_err().to_string();
             assert!(error.contains(wanted), "{error}");
         }
-        assert!(refuse_strangers(b"v 0 0 0").is_ok());
+        assert!(refuse_strange_bytes(b"v 0 0 0").is_ok());
     }
 
     #[test]
     fn unknown_endings_list_the_formats() {
-        for name in ["a.xyz", "a"] {
-            let error = open(Path::new(name)).unwrap_err().to_string();
+        for name in ["Cargo.toml", ".gitignore"] {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+            let error = open(&path).unwrap_err().to_string();
             assert!(error.contains(".obj, .gltf, .glb, .stl and .ply"), "{error}");
         }
         let error = open(Path::new("missing.OBJ")).unwrap_err().to_string();

@@ -9,6 +9,7 @@ pub mod travel;
 use std::sync::Arc;
 
 use kurbo::BezPath;
+use rayon::prelude::*;
 
 pub use glob::Glob;
 pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
@@ -52,7 +53,7 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     for (kind, mut chains) in [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)] {
         chains.sort_by_key(|chain| (std::cmp::Reverse(chain.kind), chain.silhouette));
         let marks: Vec<Mark> =
-            chains.iter().filter_map(|chain| mark(chain, context, &selection.pen(chain))).collect();
+            chains.par_iter().filter_map(|chain| mark(chain, context, &selection.pen(chain))).collect();
         let parted = match options.layers.by {
             LayersBy::Visibility => vec![Layer { kind, pen: None, marks }],
             LayersBy::Pen => by_pen(kind, marks, context.unit),

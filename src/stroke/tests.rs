@@ -25,17 +25,11 @@ fn chain(kind: LineKind, x: f64) -> Chain {
     }
 }
 
-fn names() -> (Vec<Arc<str>>, Vec<(Arc<str>, Colour)>) {
-    (
-        vec!["body".into(), "bolt-1".into(), "".into()],
-        vec![("steel".into(), Colour::rgb(100, 200, 50)), ("brass".into(), Colour::WHITE)],
-    )
-}
-
 fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     let style = Style::load(style, &sets).unwrap();
-    let (parts, materials) = names();
+    let parts: Vec<Arc<str>> = vec!["body".into(), "bolt-1".into(), "".into()];
+    let materials = [("steel".into(), Colour::rgb(100, 200, 50)), ("brass".into(), Colour::WHITE)];
     let context =
         InkContext { unit: Unit::Px, parts: &parts, materials: &materials, hidden: style.lines.hidden };
     ink(chains, &context, &style.stroke)

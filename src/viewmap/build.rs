@@ -4,9 +4,10 @@ use kurbo::Point;
 
 use super::doubles;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
-use super::occlude::Limits;
+use super::layers::Layer;
+use super::occlude::{Interval, Limits};
 use super::project::{ImageSegment, project};
-use super::visibility::{Seen, decide};
+use super::visibility::{Visibility, decide};
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions};
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -37,8 +38,8 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
         vertex_of_end: vec![UNSET; mesh.positions.len() + lines.points.len()],
         hidden,
     };
-    for (segment, seen) in segments.iter().zip(&seen) {
-        builder.add(segment, seen, limits.piece);
+    for (i, segment) in segments.iter().enumerate() {
+        builder.add(segment, Seen::of(&seen, i), limits.piece);
     }
     let mut map = builder.map;
     doubles::remove(&mut map, limits.double, view.frame.width.max(view.frame.height) / 128.0);
@@ -53,6 +54,19 @@ struct Builder<'a> {
     hidden: HiddenPieces,
 }
 
+/// What visibility says of one segment.
+#[derive(Clone, Copy)]
+struct Seen<'a> {
+    hidden: &'a [Layer],
+    backed: &'a [Interval],
+}
+
+impl<'a> Seen<'a> {
+    fn of(visibility: &'a Visibility, segment: usize) -> Self {
+        Self { hidden: visibility.hidden(segment), backed: visibility.backed(segment) }
+    }
+}
+
 /// A piece of a segment between two parameters.
 struct Piece {
     start: f64,
@@ -63,7 +77,7 @@ struct Piece {
 }
 
 impl Builder<'_> {
-    fn add(&mut self, segment: &ImageSegment, seen: &Seen, shortest: f64) {
+    fn add(&mut self, segment: &ImageSegment, seen: Seen, shortest: f64) {
         let source = &self.lines.segments[segment.source as usize];
         let keeps_hidden = self.hidden == HiddenPieces::All || source.kind == LineKind::Contour;
         let pieces = pieces(segment, seen, source.kind == LineKind::Contour, shortest);
@@ -141,11 +155,11 @@ fn view_edge(
 
 /// Cuts a segment where its invisibility changes, and visible contours also where background
 /// begins or ends behind them.
-fn pieces(segment: &ImageSegment, seen: &Seen, contour: bool, shortest: f64) -> Vec<Piece> {
+fn pieces(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64) -> Vec<Piece> {
     let shortest = shortest / segment.length().max(shortest);
     let mut out = Vec::with_capacity(1);
     let mut at = 0.0;
-    for layer in &seen.hidden {
+    for layer in seen.hidden {
         let interval = &layer.interval;
         let start = if interval.start - at <= shortest { at } else { interval.start };
         if start > at {
@@ -169,7 +183,7 @@ fn pieces(segment: &ImageSegment, seen: &Seen, contour: bool, shortest: f64) -> 
 
 fn visible(
     out: &mut Vec<Piece>,
-    seen: &Seen,
+    seen: Seen,
     contour: bool,
     start: f64,
     end: f64,
@@ -181,7 +195,7 @@ fn visible(
     };
     let mut at = start;
     if contour {
-        for backed in &seen.backed {
+        for backed in seen.backed {
             let (from, to) = (backed.start.max(at), backed.end.min(end));
             if to - from <= shortest {
                 continue;

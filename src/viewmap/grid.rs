@@ -16,7 +16,77 @@ pub struct Grid {
     per_cell: f64,
 }
 
+/// A block of tiles: first and last column, first and last row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TileBox {
+    /// First column.
+    pub left: u16,
+    /// Last column.
+    pub right: u16,
+    /// First row.
+    pub top: u16,
+    /// Last row.
+    pub bottom: u16,
+}
+
+impl TileBox {
+    /// No tile at all.
+    pub const EMPTY: Self = Self { left: 1, right: 0, top: 1, bottom: 0 };
+
+    /// Whether it holds no tile.
+    #[inline]
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.left > self.right
+    }
+
+    /// Number of tiles.
+    #[inline]
+    #[must_use]
+    pub fn area(self) -> u32 {
+        if self.is_empty() {
+            return 0;
+        }
+        (u32::from(self.right - self.left) + 1) * (u32::from(self.bottom - self.top) + 1)
+    }
+
+    /// Whether it touches the edge of the page, beyond which it may go on.
+    #[inline]
+    #[must_use]
+    pub fn meets_page_edge(self, grid: &Grid) -> bool {
+        self.left == 0
+            || self.top == 0
+            || u32::from(self.right) + 1 == grid.columns
+            || u32::from(self.bottom) + 1 == grid.rows
+    }
+}
+
 impl Grid {
+    /// The tiles that the box from `low` to `high` meets.
+    #[inline]
+    #[must_use]
+    pub fn tile_box(&self, low: DVec3, high: DVec3) -> TileBox {
+        let (width, height) = (f64::from(self.columns) * self.cell, f64::from(self.rows) * self.cell);
+        if high.x < 0.0 || low.x > width || high.y < 0.0 || low.y > height {
+            return TileBox::EMPTY;
+        }
+        TileBox {
+            left: self.column(low.x) as u16,
+            right: self.column(high.x) as u16,
+            top: self.row(low.y) as u16,
+            bottom: self.row(high.y) as u16,
+        }
+    }
+
+    /// The tiles of a block, row by row, with their top left corners.
+    #[inline]
+    pub fn tiles_of(&self, tiles: TileBox) -> impl Iterator<Item = (usize, DVec2)> + '_ {
+        (u32::from(tiles.top)..=u32::from(tiles.bottom)).flat_map(move |row| {
+            (u32::from(tiles.left)..=u32::from(tiles.right))
+                .map(move |column| (self.tile(column, row), self.corner(column, row)))
+        })
+    }
+
     /// A grid of about `across` tiles along the longer side of the frame.
     #[must_use]
     pub fn new(frame: &Frame, across: u32) -> Self {

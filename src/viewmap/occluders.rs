@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::grid::Grid;
+use super::grid::{Grid, TileBox};
 use super::occlude::Limits;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
@@ -21,6 +21,19 @@ pub struct Occluder {
     pub nearest: f32,
     /// A face, or beyond those, an entry of [`View::clipped`].
     pub id: u32,
+}
+
+/// The triangles of a view over a grid of tiles.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangles<'a> {
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// The view of it.
+    pub view: &'a View,
+    /// The tiles.
+    pub grid: &'a Grid,
+    /// The tolerances of the view.
+    pub limits: &'a Limits,
 }
 
 /// The occluders of every tile, tile after tile.
@@ -52,22 +65,159 @@ pub fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
     }
 }
 
-/// The triangle with this id if it can hide anything: it has area and is not cut.
-#[inline]
-fn sound_corners(mesh: &Mesh, view: &View, id: u32) -> Option<[DVec3; 3]> {
-    let (points, face) = corners(mesh, view, id);
-    let whole = !(points[0].z.is_nan() || points[1].z.is_nan() || points[2].z.is_nan());
-    (whole && !mesh.is_degenerate(FaceId(face))).then_some(points)
-}
+impl Triangles<'_> {
+    /// Faces and, after them, what the near plane left of faces it cuts.
+    fn count(&self) -> usize {
+        self.mesh.triangles.len() + self.view.clipped.len()
+    }
 
-/// The tiles that a triangle's box meets: first and last column, first and last row.
-#[inline]
-fn tile_box(grid: &Grid, points: &[DVec3; 3], slack: f64) -> Option<[u32; 4]> {
-    let low = points[0].min(points[1]).min(points[2]) - slack;
-    let high = points[0].max(points[1]).max(points[2]) + slack;
-    let (width, height) = (f64::from(grid.columns) * grid.cell, f64::from(grid.rows) * grid.cell);
-    (high.x >= 0.0 && low.x <= width && high.y >= 0.0 && low.y <= height)
-        .then(|| [grid.column(low.x), grid.column(high.x), grid.row(low.y), grid.row(high.y)])
+    /// Triangles a task takes: a share of all that depends on nothing but their number.
+    fn chunk(&self) -> usize {
+        self.count().div_ceil(16).max(1 << 13)
+    }
+
+    /// The tiles that each triangle's box meets; an empty box for triangles that hide nothing or
+    /// lie off the page.
+    #[must_use]
+    pub fn tile_boxes(&self) -> Vec<TileBox> {
+        (0..self.count()).into_par_iter().with_min_len(1 << 12).map(|id| self.tile_box(id as u32)).collect()
+    }
+
+    #[inline]
+    fn tile_box(&self, id: u32) -> TileBox {
+        let (points, face) = corners(self.mesh, self.view, id);
+        let cut = points[0].z.is_nan() || points[1].z.is_nan() || points[2].z.is_nan();
+        if cut || self.mesh.is_degenerate(FaceId(face)) {
+            return TileBox::EMPTY;
+        }
+        let slack = self.grid.cell * 1e-6;
+        let low = points[0].min(points[1]).min(points[2]) - slack;
+        let high = points[0].max(points[1]).max(points[2]) + slack;
+        self.grid.tile_box(low, high)
+    }
+
+    /// For each tile the nearness behind which everything is hidden by one triangle, or −∞.
+    #[must_use]
+    pub fn covers(&self, boxes: &[TileBox], wanted: &[bool]) -> Vec<f64> {
+        // A triangle that covers a tile reaches into its neighbours, or there are none.
+        let may_cover = |b: &TileBox| {
+            let spans =
+                |first: u16, last: u16, count: u32| last >= first && (last - first >= 2 || count <= 2);
+            spans(b.left, b.right, self.grid.columns) && spans(b.top, b.bottom, self.grid.rows)
+                || b.meets_page_edge(self.grid) && !b.is_empty()
+        };
+        let large: Vec<u32> = boxes
+            .par_iter()
+            .enumerate()
+            .with_min_len(1 << 14)
+            .filter(|(_, b)| may_cover(b))
+            .map(|(id, _)| id as u32)
+            .collect();
+        let nothing = || vec![f64::NEG_INFINITY; self.grid.len()];
+        let share = large.len().div_ceil(rayon::current_num_threads()).max(1 << 10);
+        // The largest of all covers is taken, so the shares do not matter.
+        large
+            .par_chunks(share)
+            .map(|ids| {
+                let mut cover = nothing();
+                for id in ids {
+                    self.add_cover(*id, boxes[*id as usize], wanted, &mut cover);
+                }
+                cover
+            })
+            .reduce_with(|mut a, b| {
+                a.iter_mut().zip(b).for_each(|(a, b)| *a = a.max(b));
+                a
+            })
+            .unwrap_or_else(nothing)
+    }
+
+    fn add_cover(&self, id: u32, tiles: TileBox, wanted: &[bool], cover: &mut [f64]) {
+        let (points, _) = corners(self.mesh, self.view, id);
+        let (u, v) = (points[1] - points[0], points[2] - points[0]);
+        let area = u.truncate().perp_dot(v.truncate());
+        if area.abs() <= self.limits.height * u.truncate().length().max(v.truncate().length()) {
+            return;
+        }
+        let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
+        let farthest = points[0].z.min(points[1].z).min(points[2].z);
+        let sides = Sides::new(&points);
+        let half = self.grid.cell / 2.0;
+        for (tile, corner) in self.grid.tiles_of(tiles) {
+            let centre = corner + half;
+            if wanted[tile] && sides.contains(centre, half) {
+                let middle = points[0].z + slope.dot(centre - points[0].truncate());
+                let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(farthest);
+                let least = least - self.view.frame.nearness_step(least, 2.0 * self.limits.contact);
+                cover[tile] = cover[tile].max(least);
+            }
+        }
+    }
+
+    /// Fills the wanted tiles with the triangles that reach before their covers.
+    #[must_use]
+    pub fn fill(&self, boxes: &[TileBox], wanted: &[bool], cover: &[f64]) -> Occluders {
+        let chunk = self.chunk();
+        let found: Vec<Vec<(u32, Occluder)>> = boxes
+            .par_chunks(chunk)
+            .enumerate()
+            .map(|(k, boxes)| {
+                let mut entries = Vec::new();
+                for (i, tiles) in boxes.iter().enumerate() {
+                    self.add_entries((k * chunk + i) as u32, *tiles, wanted, cover, &mut entries);
+                }
+                entries
+            })
+            .collect();
+        // Counting sort by tile; chunks follow the order of the triangles, so tiles do too.
+        let mut starts = vec![0u32; self.grid.len() + 1];
+        for (tile, _) in found.iter().flatten() {
+            starts[*tile as usize + 1] += 1;
+        }
+        for tile in 0..self.grid.len() {
+            starts[tile + 1] += starts[tile];
+        }
+        let mut next = starts.clone();
+        let blank = Occluder { bounds: [0.0; 4], nearest: 0.0, id: 0 };
+        let mut entries = vec![blank; starts[self.grid.len()] as usize];
+        for chunk in found {
+            for (tile, occluder) in chunk {
+                let at = &mut next[tile as usize];
+                entries[*at as usize] = occluder;
+                *at += 1;
+            }
+        }
+        Occluders { starts, entries }
+    }
+
+    #[inline]
+    fn add_entries(
+        &self,
+        id: u32,
+        tiles: TileBox,
+        wanted: &[bool],
+        cover: &[f64],
+        entries: &mut Vec<(u32, Occluder)>,
+    ) {
+        if tiles.is_empty() || !self.grid.tiles_of(tiles).any(|(tile, _)| wanted[tile]) {
+            return;
+        }
+        let (points, _) = corners(self.mesh, self.view, id);
+        let nearest = points[0].z.max(points[1].z).max(points[2].z);
+        let occluder = Occluder { bounds: outward_box(&points), nearest: (nearest as f32).next_up(), id };
+        // For boxes of few tiles the exact test costs more than it saves.
+        let sides = (tiles.area() > 4).then(|| Sides::new(&points));
+        let half = self.grid.cell / 2.0;
+        for (tile, corner) in self.grid.tiles_of(tiles) {
+            if !wanted[tile] || nearest < cover[tile] {
+                continue;
+            }
+            if sides.as_ref().is_some_and(|s| s.misses(corner + half, half * (1.0 + 1e-5))) {
+                continue;
+            }
+            entries.push((tile as u32, occluder));
+        }
+    }
 }
 
 /// The three sides of a projected triangle as inward half planes: positive inside.
@@ -99,143 +249,6 @@ impl Sides {
             let n = self.normals[i];
             n.dot(centre) + self.offsets[i] - (n.x.abs() + n.y.abs()) * half > 0.0
         })
-    }
-}
-
-/// For each tile the nearness behind which everything is hidden by one triangle, or −∞.
-///
-/// The result does not depend on the number of threads: the largest of all covers is taken.
-#[must_use]
-pub fn covers(mesh: &Mesh, view: &View, grid: &Grid, wanted: &[bool], limits: &Limits) -> Vec<f64> {
-    let nothing = || vec![f64::NEG_INFINITY; grid.len()];
-    let count = mesh.triangles.len() + view.clipped.len();
-    let chunk = count.div_ceil(rayon::current_num_threads()).max(1 << 14);
-    (0..count.div_ceil(chunk))
-        .into_par_iter()
-        .map(|k| {
-            let mut cover = nothing();
-            for id in k * chunk..((k + 1) * chunk).min(count) {
-                add_cover(mesh, view, grid, wanted, limits, id as u32, &mut cover);
-            }
-            cover
-        })
-        .reduce_with(|mut a, b| {
-            a.iter_mut().zip(b).for_each(|(a, b)| *a = a.max(b));
-            a
-        })
-        .unwrap_or_else(nothing)
-}
-
-fn add_cover(
-    mesh: &Mesh,
-    view: &View,
-    grid: &Grid,
-    wanted: &[bool],
-    limits: &Limits,
-    id: u32,
-    cover: &mut [f64],
-) {
-    let Some(points) = sound_corners(mesh, view, id) else { return };
-    let Some([left, right, top, bottom]) = tile_box(grid, &points, 0.0) else { return };
-    let farthest = points[0].z.min(points[1].z).min(points[2].z);
-    // A triangle that covers a tile reaches beyond it on all sides, or ends at the page's edge.
-    if right - left < 1 || bottom - top < 1 {
-        return;
-    }
-    let sides = Sides::new(&points);
-    let half = grid.cell / 2.0;
-    let (u, v) = (points[1] - points[0], points[2] - points[0]);
-    let area = u.truncate().perp_dot(v.truncate());
-    if area.abs() <= limits.height * u.length().max(v.length()) {
-        return;
-    }
-    let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
-    for row in top..=bottom {
-        for column in left..=right {
-            let tile = grid.tile(column, row);
-            let centre = grid.corner(column, row) + half;
-            if wanted[tile] && sides.contains(centre, half) {
-                let middle = points[0].z + slope.dot(centre - points[0].truncate());
-                let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(farthest);
-                let least = least - view.frame.nearness_step(least, 2.0 * limits.contact);
-                cover[tile] = cover[tile].max(least);
-            }
-        }
-    }
-}
-
-/// Fills the wanted tiles with the triangles that reach before their covers.
-#[must_use]
-pub fn fill(mesh: &Mesh, view: &View, grid: &Grid, wanted: &[bool], cover: &[f64]) -> Occluders {
-    let count = mesh.triangles.len() + view.clipped.len();
-    let chunk = count.div_ceil(rayon::current_num_threads()).max(1 << 14);
-    let found: Vec<Vec<(u32, Occluder)>> = (0..count.div_ceil(chunk))
-        .into_par_iter()
-        .map(|k| {
-            let mut entries = Vec::new();
-            for id in k * chunk..((k + 1) * chunk).min(count) {
-                add_entries(mesh, view, grid, wanted, cover, id as u32, &mut entries);
-            }
-            entries
-        })
-        .collect();
-    // Counting sort by tile; chunks follow the order of the triangles, so tiles do too.
-    let mut starts = vec![0u32; grid.len() + 1];
-    for (tile, _) in found.iter().flatten() {
-        starts[*tile as usize + 1] += 1;
-    }
-    for tile in 0..grid.len() {
-        starts[tile + 1] += starts[tile];
-    }
-    let mut next = starts.clone();
-    let blank = Occluder { bounds: [0.0; 4], nearest: 0.0, id: 0 };
-    let mut entries = vec![blank; starts[grid.len()] as usize];
-    for chunk in found {
-        for (tile, occluder) in chunk {
-            let at = &mut next[tile as usize];
-            entries[*at as usize] = occluder;
-            *at += 1;
-        }
-    }
-    Occluders { starts, entries }
-}
-
-fn add_entries(
-    mesh: &Mesh,
-    view: &View,
-    grid: &Grid,
-    wanted: &[bool],
-    cover: &[f64],
-    id: u32,
-    entries: &mut Vec<(u32, Occluder)>,
-) {
-    let Some(points) = sound_corners(mesh, view, id) else { return };
-    let slack = grid.cell * 1e-6;
-    let Some([left, right, top, bottom]) = tile_box(grid, &points, slack) else { return };
-    let nearest = points[0].z.max(points[1].z).max(points[2].z);
-    let few = right - left <= 1 && bottom - top <= 1;
-    let mut occluder = None;
-    let mut sides = None;
-    for row in top..=bottom {
-        for column in left..=right {
-            let tile = grid.tile(column, row);
-            if !wanted[tile] || nearest < cover[tile] {
-                continue;
-            }
-            if !few {
-                let sides = sides.get_or_insert_with(|| Sides::new(&points));
-                let half = grid.cell / 2.0;
-                if sides.misses(grid.corner(column, row) + half, half + slack) {
-                    continue;
-                }
-            }
-            let occluder = occluder.get_or_insert_with(|| Occluder {
-                bounds: outward_box(&points),
-                nearest: (nearest as f32).next_up(),
-                id,
-            });
-            entries.push((tile as u32, *occluder));
-        }
     }
 }
 

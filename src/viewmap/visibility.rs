@@ -20,19 +20,78 @@ use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::occlude::{Interval, Limits, covered, hidden_interval};
-use super::occluders::{self, Occluder, Occluders};
+use super::occluders::{self, Occluder, Occluders, Triangles};
 use super::project::ImageSegment;
+use crate::lines::NO_FACE;
 use crate::mesh::Mesh;
 use crate::view::View;
 
-/// What is known of one segment; both lists ascending.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Seen {
-    /// Hidden pieces with their counts.
-    pub hidden: Vec<Layer>,
-    /// Ranges that have a surface beside them on the outer side; only for segments that bound a
-    /// surface.
-    pub backed: Vec<Interval>,
+/// What is known of all segments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Visibility {
+    hidden: Grouped<Layer>,
+    backed: Grouped<Interval>,
+}
+
+impl Visibility {
+    /// The hidden pieces of a segment with their counts, ascending.
+    #[must_use]
+    pub fn hidden(&self, segment: usize) -> &[Layer] {
+        self.hidden.of(segment)
+    }
+
+    /// The ranges of a segment that have a surface beside them on the outer side, ascending; only
+    /// for segments that bound a surface.
+    #[must_use]
+    pub fn backed(&self, segment: usize) -> &[Interval] {
+        self.backed.of(segment)
+    }
+}
+
+/// Findings in the order of their segments.
+#[derive(Debug, Clone, PartialEq)]
+struct Grouped<T> {
+    starts: Vec<u32>,
+    findings: Vec<T>,
+}
+
+impl<T: Copy> Grouped<T> {
+    fn of(&self, segment: usize) -> &[T] {
+        &self.findings[self.starts[segment] as usize..self.starts[segment + 1] as usize]
+    }
+
+    /// Sorts findings by segment (a counting sort, stable) and lets `tidy` order and join those
+    /// of each.
+    fn new(segments: usize, found: &[&[(u32, T)]], tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
+        let mut starts = vec![0u32; segments + 1];
+        for (segment, _) in found.iter().copied().flatten() {
+            starts[*segment as usize + 1] += 1;
+        }
+        for segment in 0..segments {
+            starts[segment + 1] += starts[segment];
+        }
+        let mut order = vec![(0u32, 0u32); starts[segments] as usize];
+        let mut next = starts.clone();
+        for (list, findings) in found.iter().enumerate() {
+            for (i, (segment, _)) in findings.iter().enumerate() {
+                order[next[*segment as usize] as usize] = (list as u32, i as u32);
+                next[*segment as usize] += 1;
+            }
+        }
+        let mut grouped = Self { starts: vec![0; segments + 1], findings: Vec::with_capacity(order.len()) };
+        let mut own: Vec<T> = Vec::new();
+        for segment in 0..segments {
+            let places = &order[starts[segment] as usize..starts[segment + 1] as usize];
+            if !places.is_empty() {
+                own.clear();
+                own.extend(places.iter().map(|(list, i)| found[*list as usize][*i as usize].1));
+                tidy(segment, &mut own);
+                grouped.findings.extend_from_slice(&own);
+            }
+            grouped.starts[segment + 1] = grouped.findings.len() as u32;
+        }
+        grouped
+    }
 }
 
 /// The part of a segment in one tile.
@@ -43,15 +102,9 @@ struct Item {
     end: f64,
 }
 
-/// What one tile found out about one of its items.
-struct Finding {
-    segment: u32,
-    hidden: Layer,
-}
-
 #[derive(Default)]
 struct TileResult {
-    hidden: Vec<Finding>,
+    hidden: Vec<(u32, Layer)>,
     backed: Vec<(u32, Interval)>,
 }
 
@@ -64,18 +117,21 @@ pub fn decide(
     segments: &[ImageSegment],
     limits: &Limits,
     counting: bool,
-) -> Vec<Seen> {
+) -> Visibility {
     let grid = Grid::new(&view.frame, tiles_across(mesh.triangles.len()));
     let (starts, mut items) = items_of_tiles(&grid, segments);
     let mut wanted: Vec<bool> = (0..grid.len()).map(|t| starts[t] < starts[t + 1]).collect();
 
+    let triangles = Triangles { mesh, view, grid: &grid, limits };
+    let boxes = triangles.tile_boxes();
     let mut cover = vec![f64::NEG_INFINITY; grid.len()];
-    let mut buried: Vec<Finding> = Vec::new();
+    let mut buried: Vec<(u32, Layer)> = Vec::new();
     if !counting {
-        cover = occluders::covers(mesh, view, &grid, &wanted, limits);
+        cover = triangles.covers(&boxes, &wanted);
         buried = bury(segments, &starts, &mut items, &cover, &mut wanted);
     }
-    let occluders = occluders::fill(mesh, view, &grid, &wanted, &cover);
+    let occluders = triangles.fill(&boxes, &wanted, &cover);
+    drop(boxes);
 
     let context = Context { mesh, view, segments, limits, counting };
     const TILES: usize = 64;
@@ -90,7 +146,7 @@ pub fn decide(
             result
         })
         .collect();
-    gather(segments, limits, buried, results)
+    gather(segments, limits, &buried, &results)
 }
 
 /// Denser meshes want smaller tiles; a tile should hold some tens of triangles.
@@ -130,14 +186,14 @@ fn bury(
     items: &mut [Item],
     cover: &[f64],
     wanted: &mut [bool],
-) -> Vec<Finding> {
+) -> Vec<(u32, Layer)> {
     let mut buried = Vec::new();
     for (tile, cover) in cover.iter().enumerate().filter(|(_, c)| **c > f64::NEG_INFINITY) {
         let mut left = false;
         for item in &mut items[starts[tile] as usize..starts[tile + 1] as usize] {
             let s = &segments[item.segment as usize];
             if s.at(item.start).z.max(s.at(item.end).z) < *cover {
-                buried.push(Finding { segment: item.segment, hidden: whole(item) });
+                buried.push((item.segment, whole(item)));
                 item.end = f64::NEG_INFINITY;
             } else {
                 left = true;
@@ -183,13 +239,13 @@ impl Context<'_> {
             let segment = &self.segments[item.segment as usize];
             hidden.clear();
             if self.gather_hidden(segment, item, entries, ordered, &mut hidden) {
-                result.hidden.push(Finding { segment: item.segment, hidden: whole(item) });
+                result.hidden.push((item.segment, whole(item)));
                 continue;
             }
             layers.clear();
             let shortest = self.limits.piece / segment.length().max(self.limits.piece);
             sweep(&mut hidden, shortest * 1e-3, self.counting, &mut layers);
-            result.hidden.extend(layers.iter().map(|l| Finding { segment: item.segment, hidden: *l }));
+            result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
             let buried = layers.iter().any(|l| l.interval.start <= item.start && l.interval.end >= item.end);
             if segment.bounds && !buried {
                 self.gather_backed(segment, item, entries, result);
@@ -289,27 +345,12 @@ impl Context<'_> {
     fn outward(&self, segment: &ImageSegment) -> Option<DVec2> {
         let along = (segment.b - segment.a).truncate();
         let across = along.perp().try_normalize()?;
-        let [u, v] = segment.ends;
-        let (lo, hi) = (u.min(v), u.max(v));
-        let edge = self.mesh.edges.vertices.binary_search(&[lo, hi]).ok()?;
-        let face = match self.mesh.edges.faces(edge) {
-            crate::mesh::EdgeFaces::One(face) => face,
-            crate::mesh::EdgeFaces::Two { faces, .. } => self.tallest(segment, across, &faces),
-            crate::mesh::EdgeFaces::Many(faces) => self.tallest(segment, across, faces),
-        };
+        let face = *segment.hosts.iter().filter(|f| **f != NO_FACE).max_by(|a, b| {
+            let height = |f: u32| self.height(segment, across, f).abs();
+            height(**a).total_cmp(&height(**b))
+        })?;
         let height = self.height(segment, across, face);
         Some(if height > 0.0 { -across } else { across })
-    }
-
-    fn tallest(&self, segment: &ImageSegment, across: DVec2, faces: &[u32]) -> u32 {
-        let height = |f: &u32| self.height(segment, across, *f).abs();
-        let mut best = faces[0];
-        for face in faces {
-            if height(face) > height(&best) {
-                best = *face;
-            }
-        }
-        best
     }
 
     /// How far the third corner of a face lies to the side of a segment; 0 where it is cut off.
@@ -325,50 +366,43 @@ impl Context<'_> {
 fn gather(
     segments: &[ImageSegment],
     limits: &Limits,
-    buried: Vec<Finding>,
-    results: Vec<TileResult>,
-) -> Vec<Seen> {
-    let mut seen: Vec<Seen> = vec![Seen::default(); segments.len()];
-    for finding in buried {
-        seen[finding.segment as usize].hidden.push(finding.hidden);
-    }
-    for result in results {
-        for finding in result.hidden {
-            seen[finding.segment as usize].hidden.push(finding.hidden);
-        }
-        for (segment, interval) in result.backed {
-            seen[segment as usize].backed.push(interval);
-        }
-    }
-    seen.par_iter_mut().zip(segments).for_each(|(seen, segment)| {
-        let shortest = limits.piece / segment.length().max(limits.piece);
-        join_layers(&mut seen.hidden, shortest);
-        if !seen.backed.is_empty() {
+    buried: &[(u32, Layer)],
+    results: &[TileResult],
+) -> Visibility {
+    let shortest = |segment: usize| limits.piece / segments[segment].length().max(limits.piece);
+    let hidden: Vec<&[(u32, Layer)]> =
+        std::iter::once(buried).chain(results.iter().map(|r| &r.hidden[..])).collect();
+    let backed: Vec<&[(u32, Interval)]> = results.iter().map(|r| &r.backed[..]).collect();
+    Visibility {
+        hidden: Grouped::new(segments.len(), &hidden, |segment, layers| {
+            join_layers(layers, shortest(segment));
+        }),
+        backed: Grouped::new(segments.len(), &backed, |segment, intervals| {
             let mut joined = Vec::new();
-            sweep(&mut seen.backed, shortest, false, &mut joined);
-            seen.backed = joined.iter().map(|l| l.interval).collect();
-        }
-    });
-    seen
+            sweep(intervals, shortest(segment), false, &mut joined);
+            intervals.clear();
+            intervals.extend(joined.iter().map(|l| l.interval));
+        }),
+    }
 }
 
 /// Joins pieces of equal count that touch, and drops what is shorter than rounding.
 fn join_layers(layers: &mut Vec<Layer>, shortest: f64) {
     layers.sort_by(|a, b| a.interval.start.total_cmp(&b.interval.start));
-    let mut joined: Vec<Layer> = Vec::with_capacity(layers.len());
-    for layer in layers.iter() {
-        match joined.last_mut() {
-            Some(last)
-                if last.count == layer.count && layer.interval.start - last.interval.end <= shortest =>
-            {
-                if layer.interval.end > last.interval.end {
-                    last.interval.end = layer.interval.end;
-                    last.interval.end_kind = layer.interval.end_kind;
-                }
+    let mut last = 0;
+    for i in 1..layers.len() {
+        let layer = layers[i];
+        let joined = &mut layers[last];
+        if joined.count == layer.count && layer.interval.start - joined.interval.end <= shortest {
+            if layer.interval.end > joined.interval.end {
+                joined.interval.end = layer.interval.end;
+                joined.interval.end_kind = layer.interval.end_kind;
             }
-            _ => joined.push(*layer),
+        } else {
+            last += 1;
+            layers[last] = layer;
         }
     }
-    joined.retain(|l| l.interval.end - l.interval.start > shortest);
-    *layers = joined;
+    layers.truncate(last + 1);
+    layers.retain(|l| l.interval.end - l.interval.start > shortest);
 }

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
 use crate::scene::open::shown;
 use crate::scene::polygon::{self, Cut};
-use crate::scene::text::Cursor;
+use crate::scene::text::{Cursor, plain_index, plain_number};
 use crate::scene::warnings::Warnings;
 
 /// No index.
@@ -286,13 +286,28 @@ impl<'a> Parser<'a> {
     /// `v x y z`, with a weight or a colour after it.
     #[inline]
     fn position(&mut self) -> Result<(), Stop> {
-        let point = DVec3::new(self.number()?, self.number()?, self.number()?);
-        let id = self.position_count;
+        if let Some((point, at)) = plain_position(self.cursor.bytes, self.cursor.at) {
+            self.cursor.at = at;
+            self.add_position(point);
+            return Ok(());
+        }
+        self.any_position()
+    }
+
+    #[inline]
+    fn add_position(&mut self, point: DVec3) {
         self.position_count += 1;
         if !self.second_pass {
             self.out.has_bad_positions |= !is_drawable(point);
             self.out.positions.push(point);
         }
+    }
+
+    #[inline(never)]
+    fn any_position(&mut self) -> Result<(), Stop> {
+        let point = DVec3::new(self.number()?, self.number()?, self.number()?);
+        let id = self.position_count;
+        self.add_position(point);
         self.cursor.skip_blanks();
         if !self.cursor.at_line_end() {
             self.colour(id)?;
@@ -393,6 +408,19 @@ impl<'a> Parser<'a> {
 
     #[inline]
     fn face(&mut self) -> Result<(), Stop> {
+        if let Some((triangle, at)) = plain_triangle(self.cursor.bytes, self.cursor.at) {
+            let exists = triangle.iter().all(|i| i.wrapping_sub(1) < self.position_count as u64);
+            if exists && !self.out.has_bad_positions {
+                self.cursor.at = at;
+                self.out.triangles.push(triangle.map(|i| (i - 1) as u32));
+                return Ok(());
+            }
+        }
+        self.any_face()
+    }
+
+    #[inline(never)]
+    fn any_face(&mut self) -> Result<(), Stop> {
         self.corners.clear();
         while let Some(corner) = self.corner()? {
             self.corners.push(corner);
@@ -491,6 +519,31 @@ impl<'a> Parser<'a> {
         let word = shown(self.cursor.clone().word());
         Error::new(format!("`{word}` is not {wanted}")).at(format!("line {}", self.cursor.line()))
     }
+}
+
+/// Three usual numbers and the end of the line.
+#[inline(always)]
+fn plain_position(bytes: &[u8], mut at: usize) -> Option<(DVec3, usize)> {
+    let mut axes = [0.0; 3];
+    for axis in &mut axes {
+        while *bytes.get(at)? == b' ' {
+            at += 1;
+        }
+        (*axis, at) = plain_number(bytes, at)?;
+        if !matches!(bytes.get(at)?, b' ' | b'\n' | b'\r') {
+            return None;
+        }
+    }
+    matches!(bytes.get(at)?, b'\n' | b'\r').then_some((DVec3::from_array(axes), at))
+}
+
+/// Three bare indices and the end of the line.
+#[inline(always)]
+fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize)> {
+    let (a, at) = plain_index(bytes, at)?;
+    let (b, at) = plain_index(bytes, at)?;
+    let (c, at) = plain_index(bytes, at)?;
+    matches!(bytes.get(at)?, b'\n' | b'\r').then_some(([a, b, c], at))
 }
 
 /// How many vertices there are from here on.

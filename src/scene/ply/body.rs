@@ -105,7 +105,7 @@ impl<'a> Body<'a> {
             if property.list.is_some() {
                 let stated = self.number()?;
                 length = stated as usize;
-                if !(stated >= 0.0) || stated.fract() != 0.0 || length > self.rest().len() {
+                if stated < 0.0 || stated.fract() != 0.0 || length > self.rest().len() {
                     return Err(self.at_line(format!("a list of {stated} does not fit into the file")));
                 }
             }

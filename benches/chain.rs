@@ -1,0 +1,85 @@
+//! Times linking, tidying, smoothing and fitting of chains on made view maps.
+
+use divan::{Bencher, black_box};
+use kurbo::Point;
+use ligne::chain::{ChainOptions, link};
+use ligne::drawing::Unit;
+use ligne::lines::LineKind;
+use ligne::math::function::{cos, sin};
+use ligne::mesh::{MaterialId, PartId};
+use ligne::viewmap::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+
+fn main() {
+    divan::main();
+}
+
+/// Adds a line through points, all of one kind.
+fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
+    let first = map.vertices.len() as u32;
+    map.vertices.extend(points.iter().map(|position| ViewVertex {
+        position: *position,
+        depth: 1.0,
+        kind: ViewVertexKind::Vertex,
+    }));
+    let count = points.len() as u32;
+    for k in 0..if closed { count } else { count - 1 } {
+        map.edges.push(ViewEdge {
+            start: ViewVertexId(first + k),
+            end: ViewVertexId(first + (k + 1) % count),
+            kind,
+            invisibility: 0,
+            silhouette: false,
+            both_seen: kind == LineKind::Crease,
+            smooth: kind == LineKind::Contour,
+            strength: 90.0,
+            part: PartId(0),
+            material: MaterialId(0),
+            segment: map.edges.len() as u32,
+        });
+    }
+}
+
+/// Wavy loops of tiny zigzag pieces, like the contours of a scan.
+fn scan(pieces: usize) -> ViewMap {
+    let mut map = ViewMap::default();
+    let each = 300;
+    for ring in 0..pieces / each {
+        let centre = Point::new(50.0 + 20.0 * (ring % 45) as f64, 50.0 + 60.0 * (ring / 45) as f64);
+        let points: Vec<Point> = (0..each)
+            .map(|k| {
+                let angle = std::f64::consts::TAU * k as f64 / each as f64;
+                let radius = 40.0 + 6.0 * sin(5.0 * angle) + if k % 2 == 0 { 0.2 } else { -0.2 };
+                Point::new(centre.x + radius * cos(angle), centre.y + radius * sin(angle))
+            })
+            .collect();
+        add(&mut map, &points, true, LineKind::Contour);
+    }
+    map
+}
+
+/// Boxes of nine visible edges each.
+fn city(edges: usize) -> ViewMap {
+    let mut map = ViewMap::default();
+    for house in 0..edges / 9 {
+        let corner = Point::new(7.0 * (house % 140) as f64, 7.0 * (house / 140) as f64);
+        let at = |x: f64, y: f64| Point::new(corner.x + x, corner.y + y);
+        let hexagon = [at(0.0, 2.0), at(3.0, 1.0), at(6.0, 2.0), at(6.0, 5.0), at(3.0, 6.0), at(0.0, 5.0)];
+        add(&mut map, &hexagon, true, LineKind::Border);
+        for spoke in [0, 2, 4] {
+            add(&mut map, &[at(3.0, 3.0), hexagon[spoke]], false, LineKind::Crease);
+        }
+    }
+    map
+}
+
+#[divan::bench(args = [3_000, 60_000])]
+fn chains_of_a_scan(bencher: Bencher, pieces: usize) {
+    let map = scan(pieces);
+    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px));
+}
+
+#[divan::bench(args = [160_000])]
+fn chains_of_a_city(bencher: Bencher, edges: usize) {
+    let map = city(edges);
+    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px));
+}

@@ -1,0 +1,296 @@
+//! Sews contours on smooth surfaces together where one ends on, or just short of, the beginning of
+//! the next.
+//!
+//! The outline of a mesh is woven of many contours, each running out behind the next at a
+//! T-junction a px from where that one begins. In the drawing they are one line, and the stub
+//! before the junction is a spur.
+
+use kurbo::{Point, Vec2};
+
+use super::finish::Tolerances;
+use super::line::{Line, distance2, length};
+use super::link::Class;
+
+/// A line before it is smoothed.
+#[derive(Debug, Clone)]
+pub(super) struct Raw {
+    pub line: Line,
+    pub class: Class,
+    /// Smallest number of surfaces that hide any of it.
+    pub invisibility: u16,
+    /// Whether most of it lies on smooth surfaces.
+    pub smooth: bool,
+    /// Whether the first and the last point are free: nothing else visible begins there.
+    pub free: [bool; 2],
+}
+
+/// Part of the tidy length that a stitch may jump when nothing is trimmed, and when a stub is.
+const JUMP: f64 = 0.6;
+const JUMP_TRIMMED: f64 = 0.35;
+
+/// Tidy lengths that a stub may have, and that directions are taken over.
+const STUB: f64 = 2.0;
+const WINDOW: f64 = 1.5;
+
+/// Cosine of the sharpest turn (45 degrees) at a stitch.
+const STITCH_COSINE: f64 = 0.707;
+
+/// A possible stitch between two ends (`2 * line + side`), the parts cut off either line.
+#[derive(Debug, Clone, Copy)]
+struct Stitch {
+    cost: f64,
+    a: usize,
+    b: usize,
+    cut_a: Cut,
+    cut_b: Cut,
+}
+
+/// What is left of a line at one end: it begins at `point` and goes on with point `next`, counted
+/// from that end.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    point: Point,
+    depth: f64,
+    next: usize,
+    trimmed: f64,
+}
+
+/// Sews what can be sewn; lines keep the order and sense of the first of those they are made of.
+pub(super) fn stitch(raws: Vec<Raw>, t: Tolerances) -> Vec<Raw> {
+    if t.tidy <= 0.0 {
+        return raws;
+    }
+    let stitches = choose(&raws, t.tidy);
+    if stitches.is_empty() {
+        return raws;
+    }
+    let mut link: Vec<Option<(usize, Cut)>> = vec![None; 2 * raws.len()];
+    for s in stitches {
+        link[s.a] = Some((s.b, s.cut_a));
+        link[s.b] = Some((s.a, s.cut_b));
+    }
+    let mut used = vec![false; raws.len()];
+    let mut sewn = Vec::with_capacity(raws.len());
+    for i in 0..raws.len() {
+        if used[i] {
+            continue;
+        }
+        // Back to where the sewn line begins, then forth along all of it.
+        let mut start = 2 * i;
+        while let Some((other, _)) = link[start] {
+            start = other ^ 1;
+            if start / 2 == i {
+                break;
+            }
+        }
+        let closed = link[start].is_some();
+        let mut whole = Raw { line: Line::default(), ..raws[i].clone() };
+        if link[start].is_none() && link[start ^ 1].is_none() {
+            whole.line = raws[i].line.clone();
+            used[i] = true;
+            sewn.push(whole);
+            continue;
+        }
+        let mut at = start;
+        loop {
+            used[at / 2] = true;
+            let raw = &raws[at / 2];
+            add(&mut whole.line, &raw.line, at % 2 == 1, link[at].map(|l| l.1), link[at ^ 1].map(|l| l.1));
+            whole.free[1] = raw.free[(at ^ 1) % 2];
+            match link[at ^ 1] {
+                Some((next, _)) if !used[next / 2] => at = next,
+                _ => break,
+            }
+        }
+        whole.free[0] = raws[start / 2].free[start % 2];
+        if closed && whole.line.points.first() == whole.line.points.last() {
+            whole.line.points.pop();
+            whole.line.depths.pop();
+            whole.line.soft.pop();
+        }
+        whole.line.closed = closed && whole.line.len() > 2;
+        sewn.push(whole);
+    }
+    sewn
+}
+
+/// The cheapest stitches, each end in at most one.
+fn choose(raws: &[Raw], tidy: f64) -> Vec<Stitch> {
+    let mut ends: Vec<(Point, usize)> = Vec::new();
+    for (i, raw) in raws.iter().enumerate() {
+        if raw.smooth && !raw.class.hidden && !raw.line.closed && raw.line.len() > 1 {
+            let points = &raw.line.points;
+            for (side, point) in [points.first(), points.last()].into_iter().enumerate() {
+                if let (true, Some(p)) = (raw.free[side], point) {
+                    ends.push((*p, 2 * i + side));
+                }
+            }
+        }
+    }
+    ends.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)).then(a.1.cmp(&b.1)));
+    let reach = STUB * tidy;
+    let mut found = Vec::new();
+    for (k, (p, a)) in ends.iter().enumerate() {
+        for (q, b) in ends[k + 1..].iter().take_while(|(q, _)| q.x - p.x <= reach) {
+            if (q.y - p.y).abs() <= reach && raws[a / 2].class == raws[b / 2].class {
+                found.extend(best(raws, *a, *b, tidy));
+            }
+        }
+    }
+    found.sort_by(|s, u| s.cost.total_cmp(&u.cost).then((s.a, s.b).cmp(&(u.a, u.b))));
+    let mut taken = vec![false; 2 * raws.len()];
+    found.retain(|s| {
+        let free = !taken[s.a] && !taken[s.b];
+        if free {
+            taken[s.a] = true;
+            taken[s.b] = true;
+        }
+        free
+    });
+    found
+}
+
+/// The better of the ways to sew two ends: as they are, or with the stub of either cut off.
+fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
+    let (from, to) = (Walk::new(&raws[a / 2].line, a), Walk::new(&raws[b / 2].line, b));
+    let same = a / 2 == b / 2;
+    let total = |walk: &Walk| walk.arc(6.0 * tidy);
+    if same && total(&from) < 6.0 * tidy {
+        return None;
+    }
+    let whole = |walk: &Walk| walk.cut(0, 0.0, 0.0);
+    let ways = [
+        Some((whole(&from), whole(&to))),
+        to.nearest(from.point(0), STUB * tidy).map(|cut| (whole(&from), cut)),
+        from.nearest(to.point(0), STUB * tidy).map(|cut| (cut, whole(&to))),
+    ];
+    let stitches = ways.into_iter().flatten().filter_map(|(cut_a, cut_b)| {
+        let jump = cut_b.point - cut_a.point;
+        let trimmed = cut_a.trimmed + cut_b.trimmed;
+        let most = if trimmed > 0.0 { JUMP_TRIMMED } else { JUMP };
+        if length(jump) > most * tidy {
+            return None;
+        }
+        let back = from.direction(&cut_a, WINDOW * tidy);
+        let ahead = to.direction(&cut_b, WINDOW * tidy);
+        let bent = -back.dot(ahead) < STITCH_COSINE;
+        let aside = length(jump) > JUMP_TRIMMED * tidy
+            && super::fit::unit(jump).dot(ahead - back) < 2.0 * STITCH_COSINE;
+        // A stub is cut off only where it runs beside the other line.
+        let apart = from.strays(&cut_a, &to, tidy) || to.strays(&cut_b, &from, tidy);
+        (!bent && !aside && !apart).then(|| Stitch {
+            cost: length(jump) + 0.25 * trimmed,
+            a,
+            b,
+            cut_a,
+            cut_b,
+        })
+    });
+    stitches.min_by(|s, u| s.cost.total_cmp(&u.cost))
+}
+
+/// A line walked from one of its ends.
+struct Walk<'a> {
+    line: &'a Line,
+    backwards: bool,
+}
+
+impl<'a> Walk<'a> {
+    fn new(line: &'a Line, end: usize) -> Self {
+        Self { line, backwards: end % 2 == 1 }
+    }
+
+    fn index(&self, k: usize) -> usize {
+        if self.backwards { self.line.len() - 1 - k } else { k }
+    }
+
+    fn point(&self, k: usize) -> Point {
+        self.line.points[self.index(k)]
+    }
+
+    /// Arc length, counted up to `most`.
+    fn arc(&self, most: f64) -> f64 {
+        let mut arc = 0.0;
+        for k in 1..self.line.len() {
+            arc += length(self.point(k) - self.point(k - 1));
+            if arc >= most {
+                return most;
+            }
+        }
+        arc
+    }
+
+    /// The cut at part `t` of the side after point `k`.
+    fn cut(&self, k: usize, t: f64, trimmed: f64) -> Cut {
+        let depth = |k: usize| self.line.depths[self.index(k)];
+        let point = if t > 0.0 { self.point(k).lerp(self.point(k + 1), t) } else { self.point(k) };
+        let depth = if t > 0.0 { depth(k) + (depth(k + 1) - depth(k)) * t } else { depth(k) };
+        Cut { point, depth, next: k + 1, trimmed }
+    }
+
+    /// The cut nearest to `p` within the first `reach` of the line, but for its very end.
+    fn nearest(&self, p: Point, reach: f64) -> Option<Cut> {
+        let mut arc = 0.0;
+        let mut least: Option<(f64, Cut)> = None;
+        for k in 0..self.line.len() - 1 {
+            let (a, b) = (self.point(k), self.point(k + 1));
+            let side = length(b - a);
+            if arc > reach {
+                break;
+            }
+            let t = if side > 0.0 { ((p - a).dot(b - a) / (side * side)).clamp(0.0, 1.0) } else { 0.0 };
+            let away = (a.lerp(b, t) - p).hypot2();
+            let trimmed = arc + t * side;
+            let last = k + 2 == self.line.len() && t >= 1.0;
+            if trimmed > 0.0 && trimmed <= reach && !last && least.as_ref().is_none_or(|l| away < l.0) {
+                least = Some((away, self.cut(k, t, trimmed)));
+            }
+            arc += side;
+        }
+        least.map(|l| l.1)
+    }
+
+    /// Unit direction in which the line leaves a cut.
+    fn direction(&self, cut: &Cut, window: f64) -> Vec2 {
+        let far = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
+        super::fit::unit(self.point(far.unwrap_or(self.line.len() - 1)) - cut.point)
+    }
+
+    /// Whether what is cut off lies away from the beginning of the other line.
+    fn strays(&self, cut: &Cut, other: &Walk, tidy: f64) -> bool {
+        if cut.trimmed <= 0.0 {
+            return false;
+        }
+        let near = 0.4 * tidy * (0.4 * tidy);
+        (0..cut.next).any(|k| {
+            let p = self.point(k);
+            let mut arc = 0.0;
+            (1..other.line.len())
+                .take_while(|j| {
+                    let before = arc;
+                    arc += length(other.point(*j) - other.point(j - 1));
+                    before < 4.0 * tidy
+                })
+                .all(|j| distance2(p, other.point(j - 1), other.point(j)) > near)
+        })
+    }
+}
+
+/// Adds a line, walked backwards or not, without what is cut off at its beginning and end.
+fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<Cut>, end: Option<Cut>) {
+    let n = line.len();
+    let index = |k: usize| if backwards { n - 1 - k } else { k };
+    let first = begin.map_or(0, |cut| cut.next);
+    let last = n - end.map_or(0, |cut| cut.next);
+    if let Some(cut) = begin {
+        whole.push(cut.point, cut.depth, true);
+    }
+    for k in first..last.max(first) {
+        // Walked backwards, the side after a point is the one before it.
+        let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
+        whole.push(line.points[index(k)], line.depths[index(k)], line.soft[side]);
+    }
+    if let Some(cut) = end {
+        whole.push(cut.point, cut.depth, true);
+    }
+}

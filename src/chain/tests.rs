@@ -1,0 +1,254 @@
+//! Laws of the whole stage on small view maps.
+
+use kurbo::{ParamCurve, PathEl, PathSeg};
+use proptest::prelude::*;
+
+use super::*;
+use crate::math::function::{cos, sin};
+use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexKind};
+
+/// A view map of polylines: each a list of points and whether it closes; points of equal
+/// coordinates are one vertex.
+fn map_of(lines: &[(Vec<(f64, f64)>, LineKind, bool)]) -> ViewMap {
+    let mut map = ViewMap::default();
+    for (points, kind, smooth) in lines {
+        let ids: Vec<ViewVertexId> = points
+            .iter()
+            .map(|(x, y)| {
+                let position = Point::new(*x, *y);
+                let found = map.vertices.iter().position(|v| v.position == position);
+                let id = found.unwrap_or_else(|| {
+                    map.vertices.push(ViewVertex { position, depth: 1.0, kind: ViewVertexKind::Vertex });
+                    map.vertices.len() - 1
+                });
+                ViewVertexId(id as u32)
+            })
+            .collect();
+        for pair in ids.windows(2) {
+            map.edges.push(ViewEdge {
+                start: pair[0],
+                end: pair[1],
+                kind: *kind,
+                invisibility: 0,
+                silhouette: false,
+                both_seen: false,
+                smooth: *smooth,
+                strength: 90.0,
+                part: PartId(0),
+                material: MaterialId(0),
+                segment: map.edges.len() as u32,
+            });
+        }
+    }
+    map
+}
+
+fn off() -> ChainOptions {
+    let none = Length::px(0.0);
+    ChainOptions { smooth: none, simplify: none, tidy: none, fit: false, ..ChainOptions::default() }
+}
+
+/// A circle with the zigzag that the edges of a mesh would give it.
+fn jagged_circle(radius: f64, count: usize, zigzag: f64) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = (0..count)
+        .map(|k| {
+            let angle = std::f64::consts::TAU * k as f64 / count as f64;
+            let r = radius + if k % 2 == 0 { zigzag } else { -zigzag };
+            (300.0 + r * cos(angle), 300.0 + r * sin(angle))
+        })
+        .collect();
+    points.push(points[0]);
+    points
+}
+
+fn length_of(points: &[Point], closed: bool) -> f64 {
+    let ring = points.iter().chain(points.first().filter(|_| closed));
+    ring.clone().zip(ring.skip(1)).map(|(a, b)| a.distance(*b)).sum()
+}
+
+fn samples(path: &BezPath) -> Vec<Point> {
+    path.segments()
+        .flat_map(|s: PathSeg| (0..=32).map(move |k| s.eval(f64::from(k) / 32.0)).collect::<Vec<_>>())
+        .collect()
+}
+
+#[test]
+fn a_hexagon_with_a_star_inside_is_one_ring_and_three_spokes() {
+    let corner = |k: usize| {
+        let angle = std::f64::consts::TAU * k as f64 / 6.0;
+        (100.0 + 80.0 * cos(angle), 100.0 + 80.0 * sin(angle))
+    };
+    let ring: Vec<(f64, f64)> = (0..6).chain([0]).map(corner).collect();
+    let mut lines = vec![(ring, LineKind::Contour, false)];
+    lines.extend([0, 2, 4].map(|k| (vec![(100.0, 100.0), corner(k)], LineKind::Crease, false)));
+    let chains = link(&map_of(&lines), &ChainOptions::default(), Unit::Px);
+    assert_eq!(chains.len(), 4);
+    assert!(chains[0].closed);
+    assert_eq!(chains[0].points.len(), 6);
+    assert!(chains.iter().flat_map(|c| c.path.elements()).all(|e| !matches!(e, PathEl::CurveTo(..))));
+}
+
+#[test]
+fn pieces_of_a_straight_edge_become_one_segment() {
+    let line: Vec<(f64, f64)> = (0..10).map(|k| (10.0 + f64::from(k), 20.0 + 2.0 * f64::from(k))).collect();
+    for options in [off(), ChainOptions::default()] {
+        let chains = link(&map_of(&[(line.clone(), LineKind::Border, false)]), &options, Unit::Px);
+        assert_eq!(chains.len(), 1);
+        assert_eq!(chains[0].path.elements().len(), 2);
+        assert_eq!(chains[0].points, [Point::new(10.0, 20.0), Point::new(19.0, 38.0)]);
+    }
+}
+
+#[test]
+fn a_crossing_is_passed_straight_on() {
+    let lines = [
+        (vec![(0.0, 0.0), (10.0, 11.0), (21.0, 20.0)], LineKind::Crease, false),
+        (vec![(0.0, 20.0), (10.0, 11.0), (20.0, 0.0)], LineKind::Crease, false),
+    ];
+    let chains = link(&map_of(&lines), &off(), Unit::Px);
+    assert_eq!(chains.len(), 2);
+    assert_eq!(chains[0].points.len(), 3);
+    assert_eq!((chains[0].points[0], chains[0].points[2]), (Point::new(0.0, 0.0), Point::new(21.0, 20.0)));
+}
+
+#[test]
+fn a_jagged_circle_becomes_a_round_one_of_few_cubics() {
+    let map = map_of(&[(jagged_circle(120.0, 300, 0.35), LineKind::Contour, true)]);
+    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    assert_eq!(chains.len(), 1);
+    assert!(chains[0].closed);
+    let cubics = chains[0].path.elements().iter().filter(|e| matches!(e, PathEl::CurveTo(..))).count();
+    assert!((3..=12).contains(&cubics), "{cubics} cubics");
+    for p in samples(&chains[0].path) {
+        let r = p.distance(Point::new(300.0, 300.0));
+        assert!((r - 120.0).abs() < 0.25, "radius {r}");
+    }
+    // No corner anywhere, the seam included.
+    let segments: Vec<PathSeg> = chains[0].path.segments().collect();
+    for (a, b) in segments.iter().zip(segments.iter().cycle().skip(1)) {
+        let (a, b) = (a.to_cubic(), b.to_cubic());
+        let (u, v) = (fit::unit(a.p3 - a.p2), fit::unit(b.p1 - b.p0));
+        assert!(u.dot(v) > 0.9999, "kink of cosine {}", u.dot(v));
+    }
+}
+
+#[test]
+fn a_tessellated_rim_becomes_a_curve_and_an_octagon_stays_one() {
+    let fine = link(
+        &map_of(&[(jagged_circle(50.0, 64, 0.0), LineKind::Crease, false)]),
+        &ChainOptions::default(),
+        Unit::Px,
+    );
+    assert!(fine[0].path.elements().iter().all(|e| !matches!(e, PathEl::LineTo(_))));
+    let coarse = link(
+        &map_of(&[(jagged_circle(50.0, 8, 0.0), LineKind::Crease, false)]),
+        &ChainOptions::default(),
+        Unit::Px,
+    );
+    assert!(coarse[0].path.elements().iter().all(|e| !matches!(e, PathEl::CurveTo(..))));
+    assert_eq!(coarse[0].path.segments().count(), 8);
+}
+
+#[test]
+fn a_hidden_dip_is_bridged_and_hidden_lines_stay_apart() {
+    let line: Vec<(f64, f64)> = (0..60).map(|k| (f64::from(k), 50.0)).collect();
+    let mut map = map_of(&[(line, LineKind::Contour, true)]);
+    map.edges[20].invisibility = 1;
+    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    assert_eq!(chains.len(), 1);
+    assert_eq!(chains[0].invisibility, 0);
+    for edge in &mut map.edges[20..40] {
+        edge.invisibility = 2;
+    }
+    map.edges[30].invisibility = 1;
+    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    let hidden: Vec<u16> = chains.iter().map(|c| c.invisibility).collect();
+    assert_eq!(hidden, [0, 1, 0]);
+}
+
+#[test]
+fn crumbs_and_spurs_go_and_the_outline_stays() {
+    let outline = jagged_circle(120.0, 300, 0.1);
+    let spur = vec![outline[10], (outline[10].0 - 2.0, outline[10].1 + 1.0)];
+    let crumb = vec![(300.0, 300.0), (302.0, 300.5)];
+    let map = map_of(&[
+        (outline, LineKind::Contour, true),
+        (spur, LineKind::Contour, true),
+        (crumb, LineKind::Crease, false),
+    ]);
+    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    assert_eq!(chains.len(), 1);
+    assert!(chains[0].closed);
+}
+
+#[test]
+fn a_corner_of_a_smooth_line_is_kept() {
+    let mut line: Vec<(f64, f64)> = (0..80).map(|k| (f64::from(k), 0.2 * f64::from(k % 2))).collect();
+    line.extend((0..80).map(|k| (80.0 + 0.2 * f64::from(k % 2), f64::from(k))));
+    let chains = link(&map_of(&[(line, LineKind::Contour, true)]), &ChainOptions::default(), Unit::Px);
+    assert_eq!(chains.len(), 1);
+    let near = samples(&chains[0].path)
+        .into_iter()
+        .map(|p| p.distance(Point::new(80.0, 0.0)))
+        .fold(f64::MAX, f64::min);
+    assert!(near < 0.4, "corner cut by {near}");
+}
+
+/// Random walks on a coarse grid: crossings, junctions, doubled edges and loops of every sort.
+fn walks() -> impl Strategy<Value = Vec<(Vec<(f64, f64)>, LineKind, bool)>> {
+    let step = (-2_i32..=2, -2_i32..=2);
+    let walk = (0_i32..8, 0_i32..8, prop::collection::vec(step, 1..30), 0_usize..3);
+    prop::collection::vec(walk, 1..8).prop_map(|walks| {
+        walks
+            .into_iter()
+            .map(|(x, y, steps, kind)| {
+                let mut at = (x, y);
+                let mut points = vec![(f64::from(x) * 7.0, f64::from(y) * 7.1)];
+                for (dx, dy) in steps {
+                    at = ((at.0 + dx).rem_euclid(8), (at.1 + dy).rem_euclid(8));
+                    points.push((f64::from(at.0) * 7.0, f64::from(at.1) * 7.1));
+                }
+                points.dedup();
+                (points, LineKind::ALL[kind], kind == 0)
+            })
+            .collect()
+    })
+}
+
+proptest! {
+    #[test]
+    fn with_all_off_no_length_is_lost(lines in walks()) {
+        let map = map_of(&lines);
+        let whole: f64 = map
+            .edges
+            .iter()
+            .map(|e| map.vertices[e.start.index()].position.distance(map.vertices[e.end.index()].position))
+            .sum();
+        let chains = link(&map, &off(), Unit::Px);
+        let drawn: f64 = chains.iter().map(|c| length_of(&c.points, c.closed)).sum();
+        prop_assert!((whole - drawn).abs() < 1e-6 * (1.0 + whole), "{whole} drawn as {drawn}");
+        for c in &chains {
+            prop_assert_eq!(c.points.len(), c.samples.len());
+        }
+    }
+
+    #[test]
+    fn the_sense_of_edges_changes_nothing(lines in walks(), turns in prop::collection::vec(any::<bool>(), 300)) {
+        let map = map_of(&lines);
+        let mut turned = map.clone();
+        for (edge, turn) in turned.edges.iter_mut().zip(turns) {
+            if turn {
+                std::mem::swap(&mut edge.start, &mut edge.end);
+            }
+        }
+        prop_assert_eq!(link(&map, &off(), Unit::Px), link(&turned, &off(), Unit::Px));
+    }
+
+    #[test]
+    fn any_graph_gives_finite_chains(lines in walks()) {
+        for chain in link(&map_of(&lines), &ChainOptions::default(), Unit::Px) {
+            prop_assert!(chain.points.len() > 1);
+            prop_assert!(chain.path.is_finite());
+        }
+    }
+}

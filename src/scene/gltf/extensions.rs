@@ -1,0 +1,68 @@
+//! Which extensions a file may require.
+
+use crate::error::Error;
+
+/// Extensions that are read.
+const READ: [&str; 11] = [
+    "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "KHR_draco_mesh_compression",
+    "EXT_mesh_primitive_edge_visibility",
+    "EXT_mesh_primitive_restart",
+    "KHR_mesh_primitive_restart",
+    "KHR_lights_punctual",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+];
+
+/// Extensions that change no shape and no place; a trailing `*` stands for any ending.
+const HARMLESS: [&str; 14] = [
+    "KHR_materials_*",
+    "KHR_texture_*",
+    "EXT_texture_*",
+    "MSFT_texture_dds",
+    "KHR_animation_pointer",
+    "KHR_node_selectability",
+    "KHR_node_hoverability",
+    "KHR_xmp*",
+    "KHR_audio*",
+    "EXT_lights_*",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
+    "ADOBE_materials_*",
+    "BENTLEY_materials_*",
+];
+
+/// Refuses a file that requires what ligne cannot do, naming it.
+pub fn check(required: &[String]) -> Result<(), Error> {
+    let harmless = |name: &str| {
+        HARMLESS.iter().any(|known| match known.strip_suffix('*') {
+            Some(start) => name.starts_with(start),
+            None => name == *known,
+        })
+    };
+    match required.iter().find(|name| !READ.contains(&name.as_str()) && !harmless(name)) {
+        Some(name) => {
+            Err(Error::new(format!("the file requires the extension {name}, which ligne cannot read"))
+                .at("extensionsRequired")
+                .remedy("export the model again without it"))
+        }
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_unknown_is_refused() {
+        let names = |list: &[&str]| list.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        assert!(check(&names(&["KHR_mesh_quantization", "KHR_materials_unlit"])).is_ok());
+        let error = check(&names(&["KHR_texture_basisu", "ACME_nurbs"])).unwrap_err();
+        assert!(error.to_string().contains("ACME_nurbs"));
+    }
+}

@@ -1,0 +1,154 @@
+//! Materials: base colour, own light, and the file of the base-colour texture.
+
+use super::buffers::{Buffers, Fetch};
+use super::json;
+use super::uri;
+use crate::math::colour::Colour;
+use crate::scene::{Material, Warnings};
+
+/// Bytes of an image that are looked at to tell whether it is one.
+const HEAD: usize = 32;
+
+/// All materials of a file; whatever is wrong with their textures is only a warning.
+pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> Vec<Material> {
+    let read = |material: &json::Material| {
+        let base = base_colour(material);
+        let [r, g, b] = material.emissive_factor;
+        Material {
+            name: material.name.clone().unwrap_or_default(),
+            colour: Colour::from_linear(with_alpha_mode(base, material)),
+            emissive: Colour::from_linear([r, g, b, 1.0]),
+            double_sided: material.double_sided,
+            texture: base_texture(material).and_then(|texture| image(texture, buffers, fetch, warnings)),
+        }
+    };
+    buffers.root.materials.iter().map(read).collect()
+}
+
+/// The texture that gives a material its colour.
+pub fn base_texture(material: &json::Material) -> Option<&json::TextureUse> {
+    let glossy = material.extensions.specular_glossiness.as_ref();
+    let metallic = material.pbr_metallic_roughness.base_color_texture.as_ref();
+    metallic.or_else(|| glossy.and_then(|glossy| glossy.diffuse_texture.as_ref()))
+}
+
+fn base_colour(material: &json::Material) -> [f32; 4] {
+    let glossy = material.extensions.specular_glossiness.as_ref();
+    let metallic = material.pbr_metallic_roughness.base_color_factor;
+    metallic.or_else(|| glossy.and_then(|glossy| glossy.diffuse_factor)).unwrap_or([1.0; 4])
+}
+
+fn with_alpha_mode([r, g, b, a]: [f32; 4], material: &json::Material) -> [f32; 4] {
+    let alpha = match material.alpha_mode.as_deref() {
+        Some("BLEND") => a,
+        Some("MASK") if a < material.alpha_cutoff.unwrap_or(0.5) => 0.0,
+        _ => 1.0,
+    };
+    [r, g, b, alpha]
+}
+
+/// The path of a texture that is a file; looks whether it is there and begins as images do.
+fn image(
+    texture: &json::TextureUse,
+    buffers: &Buffers,
+    fetch: &Fetch,
+    warnings: &mut Warnings,
+) -> Option<String> {
+    let root = buffers.root;
+    let mut broken = |number: usize, what: String| {
+        warnings.note(format!("texture {number}: {what}; the plain colour is drawn instead"));
+        None
+    };
+    let number = texture.index;
+    let Some(entry) = root.textures.get(number) else {
+        return broken(number, format!("it is pointed to, but the file has {}", root.textures.len()));
+    };
+    let other = &entry.extensions;
+    let other =
+        [&other.basisu, &other.webp, &other.avif].into_iter().flatten().find_map(|other| other.source);
+    let source = entry.source.or(other)?;
+    let Some(image) = root.images.get(source) else {
+        return broken(number, format!("it shows image {source}, but the file has {}", root.images.len()));
+    };
+    let (bytes, path) = match (&image.uri, image.buffer_view) {
+        (Some(text), _) => match uri::data(text) {
+            Some(Ok(bytes)) => (bytes, None),
+            Some(Err(message)) => return broken(number, message),
+            None => match uri::inside_folder(text) {
+                Err(message) => return broken(number, message),
+                Ok(path) => match fetch(&path, HEAD) {
+                    Err(error) => return broken(number, format!("`{path}` cannot be read ({error})")),
+                    Ok(bytes) => (bytes, Some(path)),
+                },
+            },
+        },
+        (None, Some(view)) => match buffers.view(view) {
+            Ok((bytes, _)) => (bytes.iter().take(HEAD).copied().collect(), None),
+            Err(error) => return broken(number, error.to_string()),
+        },
+        (None, None) => return None,
+    };
+    if !is_image(&bytes) {
+        return broken(number, format!("image {source} is damaged or of an unknown format"));
+    }
+    path
+}
+
+/// Whether bytes begin as PNG, JPEG, WebP, KTX2, DDS or AVIF images do.
+fn is_image(bytes: &[u8]) -> bool {
+    let at = |start: usize, magic: &[u8]| bytes.get(start..).is_some_and(|rest| rest.starts_with(magic));
+    (at(0, b"\x89PNG\r\n\x1a\n") && at(12, b"IHDR"))
+        || at(0, b"\xff\xd8\xff")
+        || (at(0, b"RIFF") && at(8, b"WEBP"))
+        || at(0, b"\xabKTX 20")
+        || at(0, b"DDS ")
+        || at(4, b"ftyp")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn read(json: &str) -> (Vec<Material>, Warnings) {
+        let root: json::Root = serde_json::from_str(json).unwrap();
+        let fetch = |path: &str, _: usize| match path {
+            "here.png" => Ok(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec()),
+            _ => Err(std::io::ErrorKind::NotFound.into()),
+        };
+        let buffers = Buffers::gather(&root, None, &fetch).unwrap();
+        let mut warnings = Warnings::default();
+        (materials(&buffers, &fetch, &mut warnings), warnings)
+    }
+
+    #[test]
+    fn colours_of_both_workflows() {
+        let (materials, _) = read(
+            r#"{"materials":[{},
+            {"pbrMetallicRoughness":{"baseColorFactor":[1,0,0.2158605,0.5]},"doubleSided":true},
+            {"alphaMode":"BLEND","emissiveFactor":[0,1,0],
+             "extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,0,1,0.5]}}}]}"#,
+        );
+        assert_eq!(materials[0].colour, Colour::WHITE);
+        assert_eq!(materials[1].colour, Colour::rgb(255, 0, 128));
+        assert!(materials[1].double_sided);
+        assert_eq!(materials[2].colour, Colour { r: 0, g: 0, b: 255, a: 128 });
+        assert_eq!(materials[2].emissive, Colour::rgb(0, 255, 0));
+    }
+
+    #[test]
+    fn textures_are_only_looked_for() {
+        let texture = |uri: &str| {
+            read(&format!(
+                r#"{{"materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],
+                "textures":[{{"source":0}}],"images":[{{"uri":"{uri}"}}]}}"#
+            ))
+        };
+        let (materials, warnings) = texture("./here.png");
+        assert_eq!((materials[0].texture.as_deref(), warnings.is_empty()), (Some("here.png"), true));
+        for bad in ["lost.png", "../here.png", "data:image/png;base64,iVBORw0KGgpub3QgcmVhbGx5"] {
+            let (materials, warnings) = texture(bad);
+            assert_eq!((&materials[0].texture, warnings.lines().len()), (&None, 1), "{bad}");
+        }
+    }
+}

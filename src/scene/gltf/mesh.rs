@@ -1,0 +1,278 @@
+//! Makes one [`Geometry`] of all primitives of a mesh, in the pose it is stored in.
+
+use std::collections::BTreeMap;
+
+use glam::{DAffine3, DVec3};
+
+use super::buffers::Buffers;
+use super::json::Primitive;
+use super::primitive::{Mode, Shape};
+use super::streams::{Streams, uv_variant};
+use super::{edges, pose};
+use crate::error::Error;
+use crate::mesh::EdgeMark;
+use crate::scene::{Geometry, Warnings};
+
+/// No normal, no texture coordinate.
+const NONE: [u32; 3] = [u32::MAX; 3];
+
+/// Reads mesh `number`; `joints` carry its vertices to world space if its node has a skin.
+///
+/// Triangles without a material get the index one past the last material of the file if others of
+/// the mesh have one.
+pub fn geometry(
+    buffers: &Buffers,
+    number: usize,
+    weights: &[f64],
+    joints: Option<&[DAffine3]>,
+    warnings: &mut Warnings,
+) -> Result<Geometry, Error> {
+    let Some(mesh) = buffers.root.meshes.get(number) else {
+        let message = format!("is pointed to, but the file has {}", buffers.root.meshes.len());
+        return Err(Error::new(message).at(format!("mesh {number}")));
+    };
+    let mut builder = Builder {
+        buffers,
+        weights,
+        joints,
+        geometry: Geometry::default(),
+        blocks: Vec::new(),
+        painted: Vec::new(),
+        wire_material: None,
+    };
+    for (index, primitive) in mesh.primitives.iter().enumerate() {
+        builder.add(primitive, warnings).map_err(|error| {
+            let here = format!("mesh {number} primitive {index}");
+            let place = match &error.place {
+                Some(place) => format!("{here}: {place}"),
+                None => here,
+            };
+            error.at(place)
+        })?;
+    }
+    Ok(builder.finish())
+}
+
+/// What tells the vertices of one primitive from those of another.
+type Key<'a> = (&'a BTreeMap<String, usize>, &'a [BTreeMap<String, usize>], Option<usize>);
+
+/// Corners of triangles.
+type Triangles = Vec<[u32; 3]>;
+
+struct Builder<'a> {
+    buffers: &'a Buffers<'a>,
+    weights: &'a [f64],
+    joints: Option<&'a [DAffine3]>,
+    geometry: Geometry,
+    /// Vertices that were read already: exporters like to share them among primitives.
+    blocks: Vec<(Key<'a>, Block)>,
+    /// Material of each primitive and how many triangles it has.
+    painted: Vec<(Option<usize>, usize)>,
+    wire_material: Option<usize>,
+}
+
+/// Where the vertices of a primitive stand in the geometry, and what they have.
+#[derive(Debug, Clone, Copy)]
+struct Block {
+    start: u32,
+    count: u32,
+    normals: bool,
+    uvs: bool,
+}
+
+impl<'a> Builder<'a> {
+    fn add(&mut self, primitive: &'a Primitive, warnings: &mut Warnings) -> Result<(), Error> {
+        let materials = self.buffers.root.materials.len();
+        if let Some(material) = primitive.material.filter(|material| *material >= materials) {
+            return Err(Error::new(format!("has material {material}, but the file has {materials}")));
+        }
+        let mode = Mode::new(primitive.mode)?;
+        if mode == Mode::Points {
+            warnings.note("points are not drawn");
+            return Ok(());
+        }
+        let (block, ready) = self.vertices(primitive)?;
+        let mut shape = self.shape(primitive, mode, block, ready, warnings)?;
+        let mut marks = match &primitive.extensions.edges {
+            Some(edges) => edges::marks(self.buffers, edges, &shape.triangles)?,
+            None => Vec::new(),
+        };
+        for index in shape.triangles.as_flattened_mut().iter_mut().chain(shape.wires.as_flattened_mut()) {
+            *index += block.start;
+        }
+        self.drop_unsound(block, &mut shape, &mut marks, warnings);
+        if !shape.wires.is_empty() {
+            self.wire_material = self.wire_material.or(primitive.material);
+        }
+        self.painted.push((primitive.material, shape.triangles.len()));
+        self.append(block, shape, marks);
+        Ok(())
+    }
+
+    /// The vertices of a primitive, read if no primitive before had the same ones; and the
+    /// triangles that come with compressed ones.
+    fn vertices(&mut self, primitive: &'a Primitive) -> Result<(Block, Option<Triangles>), Error> {
+        let variant = uv_variant(self.buffers, primitive);
+        let key: Key = (&primitive.attributes, &primitive.targets, variant);
+        let shareable = primitive.extensions.draco.is_none();
+        if let Some((_, block)) = self.blocks.iter().find(|(known, _)| shareable && *known == key) {
+            return Ok((*block, None));
+        }
+        let mut streams = Streams::read(self.buffers, primitive)?;
+        pose::morph(&mut streams, self.buffers, primitive, self.weights)?;
+        if let Some(joints) = self.joints {
+            pose::skin(&mut streams, self.buffers, primitive, joints)?;
+        }
+        let (start, count) = (self.geometry.positions.len(), streams.positions.len());
+        if start.saturating_add(count) >= u32::MAX as usize {
+            return Err(Error::new("the mesh has more vertices than can be numbered"));
+        }
+        let block = Block {
+            start: start as u32,
+            count: count as u32,
+            normals: !streams.normals.is_empty(),
+            uvs: !streams.uvs.is_empty(),
+        };
+        let geometry = &mut self.geometry;
+        // Every file of this format stores single precision or less, except where a pose moved it.
+        geometry.single_precision = true;
+        append_or_take(&mut geometry.normals, start, streams.normals, [0.0; 3]);
+        append_or_take(&mut geometry.uvs, start, streams.uvs, [0.0; 2]);
+        append_or_take(&mut geometry.colours, start, streams.colours, [1.0; 4]);
+        append_or_take(&mut geometry.positions, start, streams.positions, DVec3::ZERO);
+        if shareable {
+            self.blocks.push((key, block));
+        }
+        Ok((block, streams.triangles))
+    }
+
+    /// Triangles and wires, whose indices count from the block's first vertex.
+    fn shape(
+        &self,
+        primitive: &Primitive,
+        mode: Mode,
+        block: Block,
+        ready: Option<Triangles>,
+        warnings: &mut Warnings,
+    ) -> Result<Shape, Error> {
+        let mut shape = Shape::default();
+        if let Some(triangles) = ready {
+            let wrong = triangles.as_flattened().iter().find(|index| **index >= block.count);
+            if let Some(index) = wrong {
+                return Err(Error::new(format!("index {index}, but there are {} vertices", block.count)));
+            }
+            shape.triangles = triangles;
+            return Ok(shape);
+        }
+        let Some(accessor) = primitive.indices else {
+            let run: Vec<u32> = (0..block.count).collect();
+            shape.add(mode, &run, warnings);
+            return Ok(shape);
+        };
+        let indices = self.buffers.indices(accessor)?;
+        let check = |run: &[u32]| match run.iter().copied().max() {
+            Some(most) if most >= block.count => {
+                let at = indices.values.iter().position(|index| *index == most).unwrap_or_default();
+                let message = format!("index {most} (number {at}), but there are {} vertices", block.count);
+                Err(Error::new(message).at(format!("accessor {accessor}")))
+            }
+            _ => Ok(()),
+        };
+        if mode.runs() {
+            for run in indices.values.split(|index| *index == indices.restart) {
+                check(run)?;
+                shape.add(mode, run, warnings);
+            }
+        } else {
+            check(&indices.values)?;
+            shape.add(mode, &indices.values, warnings);
+        }
+        Ok(shape)
+    }
+
+    /// Drops what has a corner that is no number.
+    fn drop_unsound(
+        &mut self,
+        block: Block,
+        shape: &mut Shape,
+        marks: &mut Vec<[EdgeMark; 3]>,
+        warnings: &mut Warnings,
+    ) {
+        let positions = &self.geometry.positions;
+        let own =
+            positions.get(block.start as usize..(block.start + block.count) as usize).unwrap_or_default();
+        if own.iter().all(|position| position.is_finite()) {
+            return;
+        }
+        let sound = |index: &u32| positions.get(*index as usize).is_some_and(|position| position.is_finite());
+        let keep: Vec<bool> = shape.triangles.iter().map(|corners| corners.iter().all(sound)).collect();
+        let before = (shape.triangles.len(), shape.wires.len());
+        let mut kept = keep.iter();
+        shape.triangles.retain(|_| kept.next().copied().unwrap_or(true));
+        let mut kept = keep.iter();
+        marks.retain(|_| kept.next().copied().unwrap_or(true));
+        shape.wires.retain(|ends| ends.iter().all(sound));
+        let dropped = |before: usize, after: usize| (before - after) as u64;
+        warnings
+            .count("triangles with a corner that is not a number", dropped(before.0, shape.triangles.len()));
+        warnings.count("lines with an end that is not a number", dropped(before.1, shape.wires.len()));
+    }
+
+    fn append(&mut self, block: Block, shape: Shape, marks: Vec<[EdgeMark; 3]>) {
+        let geometry = &mut self.geometry;
+        let start = geometry.triangles.len();
+        let corners = |has: bool| if has { shape.triangles.clone() } else { Vec::new() };
+        let (normals, uvs) = (corners(block.normals), corners(block.uvs));
+        pad_after(&mut geometry.corner_normals, start, normals, shape.triangles.len(), NONE);
+        pad_after(&mut geometry.corner_uvs, start, uvs, shape.triangles.len(), NONE);
+        pad_after(&mut geometry.edge_marks, start, marks, shape.triangles.len(), [EdgeMark::Unmarked; 3]);
+        append_or_take(&mut geometry.triangles, start, shape.triangles, NONE);
+        geometry.wires.extend(shape.wires);
+    }
+
+    fn finish(self) -> Geometry {
+        let mut geometry = self.geometry;
+        // Nothing points to these any more; they must not widen the bounds either.
+        let sound = geometry.positions.iter().copied().find(|position| position.is_finite());
+        for position in geometry.positions.iter_mut().filter(|position| !position.is_finite()) {
+            *position = sound.unwrap_or_default();
+        }
+        let plain = self.buffers.root.materials.len();
+        let mut used =
+            self.painted.iter().filter(|(_, triangles)| *triangles > 0).map(|(material, _)| *material);
+        let first = used.next().unwrap_or(self.wire_material);
+        geometry.material = self.wire_material.or(first).map(|material| material as u32);
+        if used.any(|material| material != first)
+            || (first != self.wire_material && !geometry.wires.is_empty())
+        {
+            for (material, triangles) in self.painted {
+                let length = geometry.triangle_material.len() + triangles;
+                geometry.triangle_material.resize(length, material.unwrap_or(plain) as u32);
+            }
+        }
+        geometry
+    }
+}
+
+/// Puts `more` behind the `start` elements that `all` should have by now, filling up what is
+/// missing. Nothing is copied where `all` is still empty.
+fn append_or_take<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, filler: T) {
+    if more.is_empty() {
+        return;
+    }
+    if start == 0 {
+        *all = more;
+    } else {
+        all.resize(start, filler);
+        all.extend(more);
+    }
+}
+
+/// The same for arrays that are empty as long as nothing is known, and else must stay as long as
+/// there are triangles.
+fn pad_after<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, count: usize, filler: T) {
+    append_or_take(all, start, more, filler);
+    if !all.is_empty() {
+        all.resize(start + count, filler);
+    }
+}

@@ -1,0 +1,108 @@
+//! Reads glTF 2.0 and GLB into a [`Scene`], in the pose the file stores.
+//!
+//! Source: Khronos Group, glTF 2.0 specification, and the extensions that [`extensions`] lists.
+
+mod accessor;
+mod buffers;
+mod container;
+mod draco;
+mod edges;
+mod extensions;
+mod instancing;
+mod json;
+mod materials;
+mod mesh;
+mod meshopt;
+mod nodes;
+mod parts;
+mod pose;
+mod primitive;
+mod streams;
+mod uri;
+mod views;
+
+use std::borrow::Cow;
+use std::fs::{self, File};
+use std::io::{self, Read as _};
+use std::path::Path;
+
+use self::buffers::{Buffers, Fetch};
+use self::json::Root;
+use super::{Scene, UpAxis, Warnings};
+use crate::error::Error;
+
+/// Reads a `.gltf` or `.glb` file; buffers beside it are read too, if they lie in its folder.
+///
+/// # Errors
+/// Names the file, the place in it (chunk, accessor, mesh, node ...) and what is wrong.
+pub fn read(path: &Path) -> Result<Scene, Error> {
+    let bytes =
+        fs::read(path).map_err(|error| Error::new(format!("it cannot be read ({error})")).in_file(path))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let fetch = |name: &str, most: usize| head_of(&folder.join(name), most);
+    let mut scene = read_bytes(&bytes, &fetch).map_err(|error| error.in_file(path))?;
+    scene.file = Some(path.to_path_buf());
+    Ok(scene)
+}
+
+/// Reads the bytes of a `.gltf` or `.glb` file; `fetch` gives the first so many bytes of a file
+/// named by a path relative to the model, which never leads out of its folder.
+///
+/// # Errors
+/// As [`read`], without the name of the file.
+pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
+    let mut warnings = Warnings::default();
+    let container = container::split(bytes, &mut warnings)?;
+    let root = root(container.json, &mut warnings)?;
+    extensions::check(&root.extensions_required)?;
+    let buffers = Buffers::gather(&root, container.bin, fetch)?;
+    let nodes = nodes::Hierarchy::new(&root, &mut warnings)?;
+    let mut scene = Scene {
+        format: "glTF",
+        up: UpAxis::Y,
+        materials: materials::materials(&buffers, fetch, &mut warnings),
+        cameras: views::cameras(&root, &nodes, &mut warnings)?,
+        lights: views::lights(&root, &nodes, &mut warnings)?,
+        animations: animation_names(&root),
+        warnings,
+        ..Scene::default()
+    };
+    parts::add(&mut scene, &buffers, &nodes)?;
+    Ok(scene)
+}
+
+fn head_of(path: &Path, most: usize) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most as u64).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn root(json: &[u8], warnings: &mut Warnings) -> Result<Root, Error> {
+    let text = String::from_utf8_lossy(json);
+    if let Cow::Owned(_) = text {
+        warnings.note("the file is not UTF-8; some names are shown with replacement characters");
+    }
+    // GLB pads its JSON with spaces; some exporters pad with zeros.
+    let root: Root = serde_json::from_str(text.trim_end_matches('\0')).map_err(|error| {
+        let place = format!("JSON line {} column {}", error.line(), error.column());
+        Error::new(error.to_string()).at(place).remedy("the file may be cut off or damaged; export it again")
+    })?;
+    let version = root.asset.min_version.as_ref().or(root.asset.version.as_ref());
+    match version.map(|version| version.split('.').next().unwrap_or_default()) {
+        Some("2") => Ok(root),
+        Some(_) => {
+            let version = version.map_or("", String::as_str);
+            Err(Error::new(format!("glTF version {}; only 2.0 can be read", uri::shown(version)))
+                .at("asset")
+                .remedy("export the model again as glTF 2.0"))
+        }
+        None => Err(Error::new("no `asset.version`: this is JSON, but no glTF 2.0").at("asset")),
+    }
+}
+
+fn animation_names(root: &Root) -> Vec<String> {
+    let name = |(number, animation): (usize, &json::Named)| {
+        animation.name.clone().unwrap_or_else(|| format!("animation {number}"))
+    };
+    root.animations.iter().enumerate().map(name).collect()
+}

@@ -1,0 +1,198 @@
+//! [`Hierarchy`]: which nodes are shown, in which order, and where each stands in the world.
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use super::json::{Node, Root};
+use crate::error::Error;
+use crate::scene::Warnings;
+
+/// The nodes of a file, worked out without recursion, so that a chain of any depth is fine.
+#[derive(Debug)]
+pub struct Hierarchy {
+    /// World transform of every node, shown or not: joints of skins may lie outside the scene.
+    pub world: Vec<DAffine3>,
+    /// The nodes of the scene that is drawn, each once, depth first.
+    pub shown: Vec<usize>,
+}
+
+impl Hierarchy {
+    /// Works out the nodes of the default scene; of the first one if none is the default; of all
+    /// nodes without a parent if the file has no scene.
+    pub fn new(root: &Root, warnings: &mut Warnings) -> Result<Self, Error> {
+        let parents = parents(&root.nodes, warnings)?;
+        let world = world_transforms(&root.nodes, &parents, warnings)?;
+        let number = root.scene.unwrap_or(0);
+        let tops = match root.scenes.get(number) {
+            Some(scene) => scene.nodes.clone(),
+            None if root.scene.is_some() => {
+                let message = format!("is the default scene, but the file has {}", root.scenes.len());
+                return Err(Error::new(message).at(format!("scene {number}")));
+            }
+            None => (0..root.nodes.len()).filter(|node| matches!(parents.get(*node), Some(None))).collect(),
+        };
+        if root.scenes.len() > 1 {
+            warnings.note(format!("scene {number} of {} is drawn", root.scenes.len()));
+        }
+
+        let mut shown = Vec::new();
+        let mut met = vec![false; root.nodes.len()];
+        let mut waiting: Vec<usize> = tops.into_iter().rev().collect();
+        while let Some(index) = waiting.pop() {
+            let Some((node, met)) = root.nodes.get(index).zip(met.get_mut(index)) else {
+                let message = format!("points to node {index}, but the file has {}", root.nodes.len());
+                return Err(Error::new(message).at(format!("scene {number}")));
+            };
+            let visible = node.extensions.visibility.as_ref().and_then(|v| v.visible).unwrap_or(true);
+            if !std::mem::replace(met, true) && visible {
+                shown.push(index);
+                waiting.extend(node.children.iter().rev());
+            }
+        }
+        Ok(Self { world, shown })
+    }
+}
+
+/// The parent of each node.
+fn parents(nodes: &[Node], warnings: &mut Warnings) -> Result<Vec<Option<usize>>, Error> {
+    let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        for &child in &node.children {
+            let Some(parent) = parents.get_mut(child) else {
+                let message = format!("has node {child} as a child, but the file has {}", nodes.len());
+                return Err(Error::new(message).at(format!("node {index}")));
+            };
+            match parent {
+                None => *parent = Some(index),
+                Some(_) => warnings.count("nodes with more than one parent, drawn under the first", 1),
+            }
+        }
+    }
+    Ok(parents)
+}
+
+/// World transforms, each worked out once its parent's is known; what is never reached lies in a
+/// cycle.
+fn world_transforms(
+    nodes: &[Node],
+    parents: &[Option<usize>],
+    warnings: &mut Warnings,
+) -> Result<Vec<DAffine3>, Error> {
+    let mut world = vec![None; nodes.len()];
+    let mut ready: Vec<usize> = (0..nodes.len()).filter(|n| matches!(parents.get(*n), Some(None))).collect();
+    while let Some(index) = ready.pop() {
+        // A child that is listed twice by its parent comes here twice.
+        let Some(node) = nodes.get(index).filter(|_| matches!(world.get(index), Some(None))) else {
+            continue;
+        };
+        let above =
+            parents.get(index).copied().flatten().and_then(|parent| world.get(parent).copied().flatten());
+        let place = above.unwrap_or(DAffine3::IDENTITY) * local_transform(node, index, warnings);
+        if !place.is_finite() {
+            return Err(Error::new("its transform is beyond all numbers").at(format!("node {index}")));
+        }
+        if let Some(slot) = world.get_mut(index) {
+            *slot = Some(place);
+        }
+        ready.extend(node.children.iter().filter(|child| parents.get(**child) == Some(&Some(index))));
+    }
+    let placed: Vec<DAffine3> = world.iter().copied().flatten().collect();
+    if placed.len() < nodes.len() {
+        let lost = world.iter().position(Option::is_none).unwrap_or_default();
+        return Err(Error::new("it is its own ancestor; the nodes form a cycle")
+            .at(format!("node {lost}"))
+            .remedy("export the model again"));
+    }
+    Ok(placed)
+}
+
+fn local_transform(node: &Node, index: usize, warnings: &mut Warnings) -> DAffine3 {
+    if let Some(m) = node.matrix {
+        let [a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _] = m;
+        return DAffine3::from_mat3_translation(
+            DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]),
+            DVec3::new(x, y, z),
+        );
+    }
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, |quaternion| {
+        unit_quaternion(quaternion).unwrap_or_else(|| {
+            warnings.note(format!("node {index}: its rotation is no quaternion of unit length; not turned"));
+            DQuat::IDENTITY
+        })
+    });
+    DAffine3::from_scale_rotation_translation(
+        node.scale.map_or(DVec3::ONE, DVec3::from_array),
+        rotation,
+        node.translation.map_or(DVec3::ZERO, DVec3::from_array),
+    )
+}
+
+/// The rotation a quaternion near unit length stands for.
+pub fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
+    let length = xyzw.iter().map(|v| v * v).sum::<f64>().sqrt();
+    // Files round their components; a length far from 1 is a mistake all the same, but turning
+    // by its direction is what every viewer does.
+    (length.is_finite() && length > 1e-6).then(|| DQuat::from_array(xyzw.map(|v| v / length)))
+}
+
+/// The name a node is known by: its own, its mesh's, or its number.
+pub fn name(root: &Root, index: usize) -> String {
+    let node = root.nodes.get(index);
+    let mesh = node.and_then(|node| node.mesh).and_then(|mesh| root.meshes.get(mesh));
+    let named = |name: &Option<String>| name.clone().filter(|name| !name.is_empty());
+    node.and_then(|node| named(&node.name))
+        .or_else(|| mesh.and_then(|mesh| named(&mesh.name)))
+        .unwrap_or_else(|| format!("node {index}"))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn hierarchy(json: &str) -> Result<(Hierarchy, Warnings), Error> {
+        let root: Root = serde_json::from_str(json).unwrap();
+        let mut warnings = Warnings::default();
+        Hierarchy::new(&root, &mut warnings).map(|hierarchy| (hierarchy, warnings))
+    }
+
+    #[test]
+    fn transforms_multiply_down_the_tree() {
+        let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[
+            {"children":[1],"scale":[2,2,2],"translation":[1,0,0]},
+            {"matrix":[0,1,0,0, -1,0,0,0, 0,0,1,0, 0,3,0,1]}, {}]}"#;
+        let (hierarchy, warnings) = hierarchy(json).unwrap();
+        assert_eq!(hierarchy.shown, [0, 1]);
+        assert_eq!(hierarchy.world[1].transform_point3(DVec3::X), DVec3::new(1.0, 8.0, 0.0));
+        assert!(warnings.is_empty());
+    }
+
+    #[test]
+    fn cycles_are_refused_wherever_they_are() {
+        let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[{},{"children":[2]},{"children":[1]}]}"#;
+        assert!(hierarchy(json).unwrap_err().to_string().contains("cycle"));
+        let json = r#"{"nodes":[{"children":[0]}]}"#;
+        assert!(hierarchy(json).unwrap_err().to_string().contains("node 0"));
+    }
+
+    #[test]
+    fn scenes_are_chosen() {
+        let nodes = r#""nodes":[{"children":[2]},{},{}]"#;
+        let shown = |head: &str| hierarchy(&format!("{{{head}{nodes}}}")).unwrap().0.shown;
+        assert_eq!(shown(""), [0, 2, 1]);
+        assert_eq!(shown(r#""scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}],"#), [1]);
+        assert_eq!(shown(r#""scenes":[{"nodes":[0]},{"nodes":[1]}],"#), [0, 2]);
+        assert!(hierarchy(r#"{"scene":3,"scenes":[{}]}"#).is_err());
+        assert!(hierarchy(r#"{"scenes":[{"nodes":[7]}]}"#).is_err());
+    }
+
+    #[test]
+    fn odd_nodes_are_drawn_with_a_warning() {
+        let json = r#"{"nodes":[{"rotation":[0,0,0,0]},{"children":[3]},{"children":[3,3]},{}]}"#;
+        let (hierarchy, warnings) = hierarchy(json).unwrap();
+        assert_eq!(hierarchy.shown, [0, 1, 3, 2]);
+        assert_eq!(warnings.lines().len(), 2);
+        let json =
+            r#"{"nodes":[{"extensions":{"KHR_node_visibility":{"visible":false}},"children":[1]},{}]}"#;
+        assert!(super::tests::hierarchy(json).unwrap().0.shown.is_empty());
+    }
+}

@@ -1,0 +1,123 @@
+//! Assembles triangles and wires from indices, for each of the modes a primitive may have.
+
+use crate::error::Error;
+use crate::scene::Warnings;
+
+/// How indices make triangles or lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    Points,
+    Lines,
+    LineLoop,
+    LineStrip,
+    Triangles,
+    TriangleStrip,
+    TriangleFan,
+}
+
+impl Mode {
+    /// The mode of a number in the file; triangles if there is none.
+    pub fn new(code: Option<u32>) -> Result<Self, Error> {
+        Ok(match code {
+            Some(0) => Self::Points,
+            Some(1) => Self::Lines,
+            Some(2) => Self::LineLoop,
+            Some(3) => Self::LineStrip,
+            None | Some(4) => Self::Triangles,
+            Some(5) => Self::TriangleStrip,
+            Some(6) => Self::TriangleFan,
+            Some(other) => return Err(Error::new(format!("mode {other} is none of glTF's 0 to 6"))),
+        })
+    }
+
+    /// Whether a run of indices goes on until its type's largest value ends it.
+    pub fn runs(self) -> bool {
+        !matches!(self, Self::Points | Self::Lines | Self::Triangles)
+    }
+}
+
+/// The triangles and wires that a run of indices makes.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Shape {
+    pub triangles: Vec<[u32; 3]>,
+    pub wires: Vec<[u32; 2]>,
+}
+
+impl Shape {
+    /// Adds one run; left-over indices are counted.
+    pub fn add(&mut self, mode: Mode, run: &[u32], warnings: &mut Warnings) {
+        let mut left_over = |rest: &[u32]| {
+            if !rest.is_empty() {
+                warnings.count("indices left over at the end of a primitive", rest.len() as u64);
+            }
+        };
+        match mode {
+            Mode::Points => {}
+            Mode::Lines => {
+                let (pairs, rest) = run.as_chunks::<2>();
+                left_over(rest);
+                self.wires.extend_from_slice(pairs);
+            }
+            Mode::LineLoop | Mode::LineStrip => {
+                self.wires.extend(run.array_windows().map(|[a, b]| [*a, *b]));
+                if let (Mode::LineLoop, [first, .., last]) = (mode, run) {
+                    self.wires.push([*last, *first]);
+                }
+            }
+            Mode::Triangles => {
+                let (triples, rest) = run.as_chunks::<3>();
+                left_over(rest);
+                if self.triangles.is_empty() {
+                    self.triangles = triples.to_vec();
+                } else {
+                    self.triangles.extend_from_slice(triples);
+                }
+            }
+            Mode::TriangleStrip => {
+                // Every other triangle of a strip lies the other way round.
+                let turned =
+                    |(i, [a, b, c]): (usize, &[u32; 3])| if i % 2 == 0 { [*a, *b, *c] } else { [*a, *c, *b] };
+                self.triangles.extend(run.array_windows().enumerate().map(turned));
+            }
+            Mode::TriangleFan => {
+                if let [hub, rim @ ..] = run {
+                    self.triangles.extend(rim.array_windows().map(|[a, b]| [*a, *b, *hub]));
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn shape(mode: u32, run: &[u32]) -> (Shape, Warnings) {
+        let (mut shape, mut warnings) = (Shape::default(), Warnings::default());
+        shape.add(Mode::new(Some(mode)).unwrap(), run, &mut warnings);
+        (shape, warnings)
+    }
+
+    #[test]
+    fn all_modes() {
+        assert_eq!(shape(0, &[0, 1]).0, Shape::default());
+        assert_eq!(shape(1, &[0, 1, 2, 3]).0.wires, [[0, 1], [2, 3]]);
+        assert_eq!(shape(2, &[0, 1, 2]).0.wires, [[0, 1], [1, 2], [2, 0]]);
+        assert_eq!(shape(3, &[0, 1, 2]).0.wires, [[0, 1], [1, 2]]);
+        assert_eq!(shape(4, &[0, 1, 2]).0.triangles, [[0, 1, 2]]);
+        assert_eq!(shape(5, &[0, 1, 2, 3]).0.triangles, [[0, 1, 2], [1, 3, 2]]);
+        assert_eq!(shape(6, &[0, 1, 2, 3]).0.triangles, [[1, 2, 0], [2, 3, 0]]);
+        assert!(Mode::new(Some(7)).is_err());
+    }
+
+    #[test]
+    fn left_overs_are_counted() {
+        assert_eq!(shape(4, &[0, 1, 2, 3, 4]).1.lines(), ["2 indices left over at the end of a primitive"]);
+        assert_eq!(shape(1, &[0]).1.lines(), ["1 indices left over at the end of a primitive"]);
+        for mode in [2, 3, 5, 6] {
+            assert_eq!(shape(mode, &[0]).0, Shape::default());
+            assert_eq!(shape(mode, &[]).0, Shape::default());
+        }
+    }
+}

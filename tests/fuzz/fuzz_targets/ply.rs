@@ -1,0 +1,13 @@
+//! The PLY reader.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(scene) = ligne::scene::ply::read_bytes(bytes, "stem") {
+        let soup = scene.to_soup();
+        let count = soup.positions.len() as u32;
+        assert!(soup.triangles.as_flattened().iter().all(|&i| i < count));
+        assert!(soup.positions.iter().all(|p| p.is_finite()));
+    }
+});
