@@ -7,7 +7,8 @@
 use rayon::prelude::*;
 
 use super::FaceBuffer;
-use super::screen::{Screen, ScreenPlane};
+use super::face_buffer::{Cell, Fragment};
+use super::screen::{Screen, ScreenPlane, is_small};
 use crate::mesh::Mesh;
 
 /// How far from a pixel's centre two planes may meet, pixels: farther ones meet nearer to others.
@@ -26,33 +27,29 @@ pub fn find(
     accept: impl Fn([u32; 2]) -> bool + Sync,
 ) -> Vec<[u32; 2]> {
     let count = screen.triangle_count();
-    let behind = (0..count.div_ceil(TRIANGLES)).into_par_iter().flat_map_iter(|task| {
+    let small = buffer.fragments().par_iter().flat_map_iter(|fragments| {
+        let mut pairs = Pairs::new(mesh, &accept);
+        for fragment in fragments {
+            look_in_front_of_fragment(screen, buffer, fragment, &mut pairs);
+        }
+        pairs.found
+    });
+    let large = (0..count.div_ceil(TRIANGLES)).into_par_iter().flat_map_iter(|task| {
         let mut pairs = Pairs::new(mesh, &accept);
         for id in task * TRIANGLES..((task + 1) * TRIANGLES).min(count) {
-            look_in_front(screen, buffer, id, &mut pairs);
+            look_in_front_of_large(screen, buffer, id, &mut pairs);
         }
         pairs.found
     });
-    let rows = screen.rows;
+    let rows = buffer.rows;
     let beside = (0..rows.div_ceil(ROWS)).into_par_iter().flat_map_iter(|task| {
         let mut pairs = Pairs::new(mesh, &accept);
-        let (first, end) = (task * ROWS, ((task + 1) * ROWS).min(rows));
-        let mut row = shown(screen, buffer, first);
-        for y in first..end {
-            for two in row.windows(2) {
-                look_beside(&two[0], &two[1], &mut pairs);
-            }
-            if y + 1 < rows {
-                let below = shown(screen, buffer, y + 1);
-                for (upper, lower) in row.iter().zip(&below) {
-                    look_beside(upper, lower, &mut pairs);
-                }
-                row = below;
-            }
+        for row in task * ROWS..((task + 1) * ROWS).min(rows) {
+            look_beside(buffer, row, &mut pairs);
         }
         pairs.found
     });
-    let mut found: Vec<[u32; 2]> = behind.chain(beside).collect();
+    let mut found: Vec<[u32; 2]> = small.chain(large).chain(beside).collect();
     found.par_sort_unstable();
     found.dedup();
     found
@@ -89,76 +86,86 @@ impl<'a, F: Fn([u32; 2]) -> bool> Pairs<'a, F> {
     }
 }
 
-/// Proposes a triangle with the faces that show where it is hidden just behind them.
-fn look_in_front<F: Fn([u32; 2]) -> bool>(
+/// Proposes a small triangle with the face that hides it at a pixel, if that is just before it.
+#[inline]
+fn look_in_front_of_fragment<F: Fn([u32; 2]) -> bool>(
+    screen: &Screen,
+    buffer: &FaceBuffer,
+    fragment: &Fragment,
+    pairs: &mut Pairs<F>,
+) {
+    let &Fragment { pixel, face, nearness } = fragment;
+    let front = buffer.front(pixel as usize);
+    if front.face() == face || is_fold(front, screen.is_facing(face)) {
+        return;
+    }
+    let own = screen.plane(face).slope;
+    if planes_meet(front.nearness() - nearness, own, buffer.slope(pixel as usize)) {
+        pairs.propose(face, front.face());
+    }
+}
+
+/// Proposes a large triangle with all faces that hide it just before it.
+fn look_in_front_of_large<F: Fn([u32; 2]) -> bool>(
     screen: &Screen,
     buffer: &FaceBuffer,
     id: usize,
     pairs: &mut Pairs<F>,
 ) {
     let (corners, face) = screen.triangle(id);
-    let mut own = None;
-    let mut front = (face, ScreenPlane::default());
-    screen.cover(corners, |pixel, q| {
-        let Some((shown, nearness)) = buffer.front(pixel) else { return };
-        if shown == face {
-            return;
-        }
-        if shown != front.0 {
-            front = (shown, screen.plane(shown));
-        }
-        let own = *own.get_or_insert_with(|| ScreenPlane::new(corners));
-        if planes_meet_within(REACH, nearness - q, own, front.1) {
-            pairs.propose(face, shown);
+    let Some(pixel_box) = screen.pixel_box(&corners).filter(|b| !is_small(*b)) else { return };
+    let facing = screen.is_facing(face);
+    let own = ScreenPlane::new(corners).slope;
+    screen.cover(&corners, pixel_box, |pixel, nearness| {
+        let front = buffer.front(pixel);
+        if front.face() != face
+            && !is_fold(front, facing)
+            && planes_meet(front.nearness() - nearness, own, buffer.slope(pixel))
+        {
+            pairs.propose(face, front.face());
         }
     });
 }
 
-/// Whether two planes meet within `reach` pixels of a place where their nearness differs by `gap`.
+/// Whether an averted face lies behind a facing one: at folds of the surface such faces come near
+/// each other, but where they pass through each other in sight, the facing one is also seen to
+/// hide itself behind the averted one.
 #[inline]
-fn planes_meet_within(reach: f32, gap: f32, a: ScreenPlane, b: ScreenPlane) -> bool {
-    let (x, y) = (a.slope[0] - b.slope[0], a.slope[1] - b.slope[1]);
-    gap * gap <= reach * reach * (x * x + y * y)
+fn is_fold(front: Cell, facing: bool) -> bool {
+    front.is_facing() && !facing
 }
 
-/// The face in a pixel.
-#[derive(Debug, Clone, Copy)]
-struct Shown {
-    face: Option<u32>,
-    plane: ScreenPlane,
-    place: [f32; 2],
-    nearness: f32,
+/// Whether two planes meet near a place where their nearness differs by `gap`.
+#[inline]
+fn planes_meet(gap: f32, a: [f32; 2], b: [f32; 2]) -> bool {
+    let (x, y) = (a[0] - b[0], a[1] - b[1]);
+    gap * gap <= REACH * REACH * (x * x + y * y)
 }
 
-/// The faces in a row.
-fn shown(screen: &Screen, buffer: &FaceBuffer, row: usize) -> Vec<Shown> {
-    let mut last = (u32::MAX, ScreenPlane::default());
-    let pixels = row * screen.columns..(row + 1) * screen.columns;
-    let y = row as f32 + 0.5;
-    pixels
-        .enumerate()
-        .map(|(column, pixel)| {
-            let place = [column as f32 + 0.5, y];
-            let Some((face, nearness)) = buffer.front(pixel) else {
-                return Shown { face: None, plane: last.1, place, nearness: 0.0 };
-            };
-            if last.0 != face {
-                last = (face, screen.plane(face));
+/// Proposes the faces of neighbouring pixels, to the right and down, where each lies in front of
+/// the plane of the other.
+fn look_beside<F: Fn([u32; 2]) -> bool>(buffer: &FaceBuffer, row: usize, pairs: &mut Pairs<F>) {
+    for column in 0..buffer.columns {
+        let pixel = row * buffer.columns + column;
+        let own = buffer.front(pixel);
+        if !own.is_filled() {
+            continue;
+        }
+        let mut look = |axis: usize, pixel_beside: usize| {
+            let other = buffer.front(pixel_beside);
+            if !other.is_filled() || other.face() == own.face() {
+                return;
             }
-            Shown { face: Some(face), plane: last.1, place, nearness }
-        })
-        .collect()
-}
-
-/// Proposes the faces of two pixels where each lies in front of the plane of the other.
-#[inline]
-fn look_beside<F: Fn([u32; 2]) -> bool>(a: &Shown, b: &Shown, pairs: &mut Pairs<F>) {
-    let (Some(face_a), Some(face_b)) = (a.face, b.face) else { return };
-    if face_a == face_b {
-        return;
-    }
-    let in_front = |a: &Shown, b: &Shown| a.nearness >= b.plane.at(a.place[0], a.place[1]);
-    if in_front(a, b) && in_front(b, a) {
-        pairs.propose(face_a, face_b);
+            let rise = other.nearness() - own.nearness();
+            if rise >= buffer.slope(pixel)[axis] && rise <= buffer.slope(pixel_beside)[axis] {
+                pairs.propose(own.face(), other.face());
+            }
+        };
+        if column + 1 < buffer.columns {
+            look(0, pixel + 1);
+        }
+        if row + 1 < buffer.rows {
+            look(1, pixel + buffer.columns);
+        }
     }
 }

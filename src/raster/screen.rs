@@ -15,7 +15,7 @@ const LONGER_SIDE: f64 = 1024.0;
 /// so that no pixel falls between two triangles.
 const SLACK: f32 = 1e-4;
 /// Triangles whose box holds at most this many pixels are tested pixel by pixel.
-const FEW: usize = 16;
+const FEW: i32 = 16;
 
 /// A corner on the screen: x to the right and y down in pixels, and nearness.
 pub type ScreenPoint = [f32; 3];
@@ -41,7 +41,8 @@ pub struct Screen<'a> {
 /// The plane of a triangle over the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ScreenPlane {
-    origin: ScreenPoint,
+    /// A point of the plane.
+    pub origin: ScreenPoint,
     /// Change of nearness per pixel to the right and down; NaN for a triangle without area.
     pub slope: [f32; 2],
 }
@@ -140,57 +141,134 @@ impl<'a> Screen<'a> {
         ScreenPlane::new(corners)
     }
 
-    /// Calls `visit` with each pixel whose centre the triangle covers, and its nearness there.
+    /// Whether a face turns its outside to the eye.
     #[inline]
-    pub fn cover(&self, corners: [ScreenPoint; 3], mut visit: impl FnMut(usize, f32)) {
-        let [a, b, c] = corners;
-        let range = |axis: usize, count: usize| {
-            let low = a[axis].min(b[axis]).min(c[axis]) + (0.5 - SLACK);
-            let high = a[axis].max(b[axis]).max(c[axis]) + (0.5 + SLACK);
-            let count = count as f32;
-            (low.max(0.0).min(count) as usize, high.max(0.0).min(count) as usize)
-        };
-        let (left, right) = range(0, self.columns);
-        let (top, bottom) = range(1, self.rows);
-        if left >= right || top >= bottom {
-            return;
+    #[must_use]
+    pub fn is_facing(&self, face: u32) -> bool {
+        self.view.facing[face as usize]
+    }
+
+    /// The pixels whose centres lie in the box around a triangle: the first column and the one
+    /// after the last, and so for the rows. None if there are none.
+    #[inline]
+    #[must_use]
+    pub fn pixel_box(&self, [a, b, c]: &[ScreenPoint; 3]) -> Option<[i32; 4]> {
+        let place = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
+        let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - SLACK);
+        let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + SLACK);
+        let (left, right) = (place(low(0), self.columns), place(high(0), self.columns));
+        let (top, bottom) = (place(low(1), self.rows), place(high(1), self.rows));
+        ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
+    }
+
+    /// Calls `visit` with each pixel whose centre a triangle covers, and its nearness there;
+    /// `pixel_box` is the triangle's own.
+    #[inline]
+    pub fn cover(&self, corners: &[ScreenPoint; 3], pixel_box: [i32; 4], visit: impl FnMut(usize, f32)) {
+        if is_small(pixel_box) {
+            self.cover_few(corners, pixel_box, visit);
+        } else {
+            self.cover_rows(corners, pixel_box, visit);
         }
+    }
+
+    /// Four pixels at a time: nearly all triangles of a scan lie between two rows and columns.
+    #[inline]
+    pub fn cover_few(
+        &self,
+        &[a, b, c]: &[ScreenPoint; 3],
+        [left, right, top, bottom]: [i32; 4],
+        mut visit: impl FnMut(usize, f32),
+    ) {
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area == 0.0 || !area.is_finite() {
             return;
         }
-        let plane = ScreenPlane::new(corners);
-        // Planes of steep triangles reach beyond their corners within a pixel.
-        let (low, high) = (a[2].min(b[2]).min(c[2]).max(0.0), a[2].max(b[2]).max(c[2]));
-        let sides = [(a, b), (b, c), (c, a)];
-        if (right - left) * (bottom - top) <= FEW {
-            let sign = area.signum();
-            let sides = sides.map(|(p, q)| {
-                let (dx, dy) = ((q[0] - p[0]) * sign, (q[1] - p[1]) * sign);
-                (p, dx, dy, -SLACK * (dx.abs() + dy.abs()))
-            });
-            for row in top..bottom {
-                for column in left..right {
-                    let (x, y) = (column as f32 + 0.5, row as f32 + 0.5);
-                    let inside = |(p, dx, dy, least): (ScreenPoint, f32, f32, f32)| {
-                        dx * (y - p[1]) - dy * (x - p[0]) >= least
-                    };
-                    if inside(sides[0]) & inside(sides[1]) & inside(sides[2]) {
-                        visit(row * self.columns + column, plane.at(x, y).min(high).max(low));
+        // The corners in turn, so that inside is positive.
+        let (b, c) = if area > 0.0 { (b, c) } else { (c, b) };
+        for row in (top..bottom).step_by(2) {
+            for column in (left..right).step_by(2) {
+                let (x, y) = (column as f32 + 0.5, row as f32 + 0.5);
+                let quad = Quad { x: [x, x + 1.0, x, x + 1.0], y: [y, y, y + 1.0, y + 1.0] };
+                let (at_a, by_a) = quad.side(b, c);
+                let (at_b, by_b) = quad.side(c, a);
+                let (at_c, by_c) = quad.side(a, b);
+                let first = row as usize * self.columns + column as usize;
+                let (right_too, below_too) = (column + 1 < right, row + 1 < bottom);
+                let places = [
+                    (true, first),
+                    (right_too, first + 1),
+                    (below_too, first + self.columns),
+                    (right_too & below_too, first + self.columns + 1),
+                ];
+                for (i, (in_box, pixel)) in places.into_iter().enumerate() {
+                    if in_box & by_a[i] & by_b[i] & by_c[i] {
+                        let q = (at_a[i] * a[2] + at_b[i] * b[2] + at_c[i] * c[2]) / area.abs();
+                        visit(pixel, within_corners(q, a, b, c));
                     }
                 }
             }
+        }
+    }
+
+    /// Row by row.
+    fn cover_rows(
+        &self,
+        &[a, b, c]: &[ScreenPoint; 3],
+        [left, right, top, bottom]: [i32; 4],
+        mut visit: impl FnMut(usize, f32),
+    ) {
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if area == 0.0 || !area.is_finite() {
             return;
         }
+        let plane = ScreenPlane::new([a, b, c]);
+        let sides = [(a, b), (b, c), (c, a)];
         for row in top..bottom {
             let y = row as f32 + 0.5;
-            let (from, to) = span(&sides, area, f64::from(y), left as f64, right as f64);
+            let (from, to) = span(&sides, area, f64::from(y), f64::from(left), f64::from(right));
             for column in from..to {
-                let q = plane.at(column as f32 + 0.5, y).min(high).max(low);
-                visit(row * self.columns + column, q);
+                let q = plane.at(column as f32 + 0.5, y);
+                visit(row as usize * self.columns + column, within_corners(q, a, b, c));
             }
         }
     }
+}
+
+/// The centres of four pixels.
+struct Quad {
+    x: [f32; 4],
+    y: [f32; 4],
+}
+
+impl Quad {
+    /// Twice the areas between a side and the centres, and whether they are on its inner side.
+    #[inline]
+    fn side(&self, p: ScreenPoint, q: ScreenPoint) -> ([f32; 4], [bool; 4]) {
+        let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+        let least = -SLACK * (dx.abs() + dy.abs());
+        let mut areas = [0.0; 4];
+        let mut inside = [false; 4];
+        for i in 0..4 {
+            areas[i] = dx * (self.y[i] - p[1]) - dy * (self.x[i] - p[0]);
+            inside[i] = areas[i] >= least;
+        }
+        (areas, inside)
+    }
+}
+
+/// Whether the pixels of a box are few.
+#[inline]
+#[must_use]
+pub fn is_small([left, right, top, bottom]: [i32; 4]) -> bool {
+    (right - left) * (bottom - top) <= FEW
+}
+
+/// A nearness no farther than the farthest and no nearer than the nearest corner: the planes of
+/// steep triangles reach beyond them within a pixel.
+#[inline]
+fn within_corners(q: f32, a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f32 {
+    q.min(a[2].max(b[2]).max(c[2])).max(a[2].min(b[2]).min(c[2])).max(0.0)
 }
 
 /// The columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
