@@ -1,16 +1,16 @@
 //! Feature lines where surfaces pass through each other.
 //!
 //! All intersections of a large mesh take long to find, and most are out of sight. Where only
-//! visible lines are drawn, a buffer of the faces in sight proposes places where two of them may
-//! meet; from those that exact tests confirm the curves are followed over the mesh, so that every
-//! visible curve is whole, its hidden parts included. Small meshes, and drawings with hidden
+//! visible lines are drawn, a buffer of the faces in sight proposes those that may meet others;
+//! from the pairs found among them the curves are followed over the mesh, so that every visible
+//! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
 //! lines, get the full search.
 
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind};
 use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections};
 use crate::mesh::trace::Tracer;
 use crate::mesh::{FaceId, Mesh};
-use crate::raster::{FaceBuffer, Screen, meetings};
+use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::view::View;
 
 /// Meshes with at most this many triangles are searched in full, which takes no longer.
@@ -60,9 +60,8 @@ pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
 /// The curves of which something shows in a view, whole, and perhaps others.
 #[must_use]
 pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
-    let screen = Screen::new(mesh, view);
-    let buffer = FaceBuffer::new(&screen);
+    let buffer = FaceBuffer::new(&Screen::new(mesh, view));
+    let active = strangers::find(mesh, &buffer);
     let tracer = Tracer::new(mesh);
-    let seeds = meetings::find(mesh, &screen, &buffer, |pair| tracer.pass_through(pair));
-    tracer.curves(&seeds)
+    tracer.curves(&tracer.pairs_among(&active))
 }

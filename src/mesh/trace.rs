@@ -4,9 +4,10 @@
 //! the curve goes on in the face beyond that edge; where a vertex lies in the other plane, in one
 //! of the faces around it.
 
+use glam::DVec3;
 use rustc_hash::FxHashSet;
 
-use super::intersect::{IntersectionCurves, Pair, join};
+use super::intersect::{IntersectionCurves, IntersectionInput, Pair, find_pairs, join};
 use super::triangle_pair::{Common, End, Feature, PairTolerance, Triangle, cross};
 use super::{EdgeFaces, FaceId, Mesh};
 
@@ -24,10 +25,14 @@ impl<'a> Tracer<'a> {
         Self { mesh, tolerance: PairTolerance::of_model(mesh.size) }
     }
 
-    /// Whether two faces without common vertices pass through each other.
+    /// The pairs among the active faces that pass through each other, the lesser face first.
     #[must_use]
-    pub fn pass_through(&self, faces: [u32; 2]) -> bool {
-        !faces.iter().any(|face| self.mesh.is_degenerate(FaceId(*face))) && self.common(faces).is_some()
+    pub fn pairs_among(&self, active: &[bool]) -> Vec<[u32; 2]> {
+        let Mesh { positions, triangles, .. } = self.mesh;
+        // The mesh is centred, so that its diagonal spans a box around it.
+        let high = DVec3::splat(self.mesh.size / 2.0);
+        let input = IntersectionInput { positions, triangles, active };
+        find_pairs(&input, -high, high, self.tolerance).iter().map(|pair| pair.faces).collect()
     }
 
     /// The whole curves to which the given pairs of faces belong, as far as triangles without

@@ -5,73 +5,20 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use super::Screen;
-use super::screen::is_small;
 
 /// Triangles handled by one task.
 const TASK: usize = 1 << 13;
 
 /// The face nearest to the eye at the centre of each pixel, row after row from the top.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FaceBuffer {
     /// Pixels in a row.
     pub columns: usize,
     /// Number of rows.
     pub rows: usize,
-    cells: Vec<Cell>,
-    /// Slope of the front face in each pixel, [`ScreenPlane::slope`](super::screen::ScreenPlane).
-    slopes: Vec<[f32; 2]>,
-    fragments: Vec<Vec<Fragment>>,
-}
-
-/// What is in front at a pixel. The bits of its nearness, which order positive numbers, stand
-/// above those of the face, inverted, and of whether that is averted; all zero if there is none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cell(u64);
-
-impl Cell {
-    #[inline]
-    fn new(nearness: f32, face: u32, facing: bool) -> Self {
-        Self(u64::from(nearness.to_bits()) << 32 | u64::from(!(face << 1 | u32::from(!facing))))
-    }
-
-    /// Whether there is a face at all.
-    #[inline]
-    #[must_use]
-    pub fn is_filled(self) -> bool {
-        self.0 != 0
-    }
-
-    /// The face.
-    #[inline]
-    #[must_use]
-    pub fn face(self) -> u32 {
-        !(self.0 as u32) >> 1
-    }
-
-    /// Whether the face turns its outside to the eye.
-    #[inline]
-    #[must_use]
-    pub fn is_facing(self) -> bool {
-        self.0 & 1 == 1
-    }
-
-    /// How near the face is at the pixel, on the screen's scale from 0 to 1.
-    #[inline]
-    #[must_use]
-    pub fn nearness(self) -> f32 {
-        f32::from_bits((self.0 >> 32) as u32)
-    }
-}
-
-/// A small triangle at one pixel, in front or not.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fragment {
-    /// The pixel.
-    pub pixel: u32,
-    /// The face.
-    pub face: u32,
-    /// How near it is there.
-    pub nearness: f32,
+    /// The bits of the nearness, which order positive numbers, above those of the face, inverted;
+    /// zero where there is no face.
+    cells: Vec<u64>,
 }
 
 impl FaceBuffer {
@@ -83,78 +30,111 @@ impl FaceBuffer {
     pub fn new(screen: &Screen) -> Self {
         let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
         let count = screen.triangle_count();
-        let fragments = (0..count.div_ceil(TASK))
-            .into_par_iter()
-            .map(|task| {
-                let mut fragments = Vec::with_capacity(TASK);
-                for id in task * TASK..((task + 1) * TASK).min(count) {
-                    draw(screen, id, &cells, &mut fragments);
-                }
-                fragments
-            })
-            .collect();
-        let cells: Vec<Cell> = cells.into_iter().map(|cell| Cell(cell.into_inner())).collect();
-        let slopes = slopes(screen, &cells);
-        Self { columns: screen.columns, rows: screen.rows, cells, slopes, fragments }
-    }
-
-    /// What is in front at a pixel.
-    #[inline]
-    #[must_use]
-    pub fn front(&self, pixel: usize) -> Cell {
-        self.cells[pixel]
-    }
-
-    /// How the nearness of the face in front changes per pixel to the right and down.
-    #[inline]
-    #[must_use]
-    pub fn slope(&self, pixel: usize) -> [f32; 2] {
-        self.slopes[pixel]
-    }
-
-    /// All small triangles at all pixels, in lists that follow each other in mesh order.
-    #[must_use]
-    pub fn fragments(&self) -> &[Vec<Fragment>] {
-        &self.fragments
-    }
-}
-
-/// Draws one triangle.
-#[inline]
-fn draw(screen: &Screen, id: usize, cells: &[AtomicU64], fragments: &mut Vec<Fragment>) {
-    let (corners, face) = screen.triangle(id);
-    let Some(pixel_box) = screen.pixel_box(&corners) else { return };
-    let facing = screen.is_facing(face);
-    let put = |pixel: usize, q: f32| {
-        let Cell(cell) = Cell::new(q, face, facing);
-        // Most triangles lose, and looking is cheaper than writing.
-        if cell > cells[pixel].load(Ordering::Relaxed) {
-            cells[pixel].fetch_max(cell, Ordering::Relaxed);
-        }
-    };
-    if is_small(pixel_box) {
-        screen.cover_few(&corners, pixel_box, |pixel, nearness| {
-            put(pixel, nearness);
-            fragments.push(Fragment { pixel: pixel as u32, face, nearness });
+        (0..count.div_ceil(TASK)).into_par_iter().for_each(|task| {
+            for id in task * TASK..((task + 1) * TASK).min(count) {
+                let (corners, face) = screen.triangle(id);
+                screen.cover(&corners, |pixel, nearness| {
+                    let cell = u64::from(nearness.to_bits()) << 32 | u64::from(!face);
+                    // Most triangles lose, and looking is cheaper than writing.
+                    if cell > cells[pixel].load(Ordering::Relaxed) {
+                        cells[pixel].fetch_max(cell, Ordering::Relaxed);
+                    }
+                });
+            }
         });
-    } else {
-        screen.cover(&corners, pixel_box, put);
+        let cells = cells.into_iter().map(AtomicU64::into_inner).collect();
+        Self { columns: screen.columns, rows: screen.rows, cells }
+    }
+
+    /// The face in front at a pixel.
+    #[inline]
+    #[must_use]
+    pub fn front(&self, pixel: usize) -> Option<u32> {
+        let cell = self.cells[pixel];
+        (cell != 0).then_some(!(cell as u32))
+    }
+
+    /// How near the face in front is at a pixel, on the screen's scale from 0 to 1.
+    #[inline]
+    #[must_use]
+    pub fn nearness(&self, pixel: usize) -> Option<f32> {
+        let cell = self.cells[pixel];
+        (cell != 0).then_some(f32::from_bits((cell >> 32) as u32))
     }
 }
 
-/// The slope of the face in front at each pixel.
-fn slopes(screen: &Screen, cells: &[Cell]) -> Vec<[f32; 2]> {
-    let mut slopes = vec![[0.0; 2]; cells.len()];
-    slopes.par_chunks_mut(screen.columns).zip(cells.par_chunks(screen.columns)).for_each(|(slopes, cells)| {
-        let mut last = (u32::MAX, [0.0; 2]);
-        for (slope, cell) in slopes.iter_mut().zip(cells) {
-            if cell.is_filled() {
-                if cell.face() != last.0 {
-                    last = (cell.face(), screen.plane(cell.face()).slope);
-                }
-                *slope = last.1;
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::{Mesh, Soup};
+    use crate::scene::{Camera, UpAxis};
+    use crate::view::View;
+
+    /// Seen from above in a parallel view of 10 × 10 world units.
+    fn from_above(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> (Mesh, View) {
+        let positions: Vec<DVec3> = positions.iter().map(|p| DVec3::from(*p)).collect();
+        let soup = Soup { positions: positions.clone(), triangles: triangles.to_vec(), ..Soup::default() };
+        let mesh = Mesh::build(soup);
+        let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.0);
+        let view = View::new(&mesh, &camera);
+        (mesh, view)
+    }
+
+    fn faces(buffer: &FaceBuffer) -> Vec<Option<u32>> {
+        (0..buffer.columns * buffer.rows).map(|pixel| buffer.front(pixel)).collect()
+    }
+
+    #[test]
+    fn a_quad_of_two_triangles_has_no_hole() {
+        let corners = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+        let (mesh, view) = from_above(&corners, &[[0, 1, 2], [0, 2, 3]]);
+        let screen = Screen::new(&mesh, &view);
+        let buffer = FaceBuffer::new(&screen);
+        let (left, right) = (view.points[0].x, view.points[1].x);
+        let (top, bottom) = (view.points[2].y, view.points[0].y);
+        let per_unit = 1024.0 / view.frame.width.max(view.frame.height);
+        for row in 0..buffer.rows {
+            for column in 0..buffer.columns {
+                let (x, y) = ((column as f64 + 0.5) / per_unit, (row as f64 + 0.5) / per_unit);
+                let inside = x > left && x < right && y > top && y < bottom;
+                assert_eq!(buffer.front(row * buffer.columns + column).is_some(), inside, "{column} {row}");
             }
         }
-    });
-    slopes
+        assert!(faces(&buffer).contains(&Some(0)) && faces(&buffer).contains(&Some(1)));
+    }
+
+    #[test]
+    fn the_nearer_triangle_wins_whatever_the_order() {
+        let corners = [[0., 0., 0.], [9., 0., 0.], [0., 9., 0.], [0., 0., 1.], [9., 0., 1.], [0., 9., 1.]];
+        for (triangles, nearer) in [([[0, 1, 2], [3, 4, 5]], 1), ([[3, 4, 5], [0, 1, 2]], 0)] {
+            let (mesh, view) = from_above(&corners, &triangles);
+            let buffer = FaceBuffer::new(&Screen::new(&mesh, &view));
+            let shown = faces(&buffer);
+            let count = |face: u32| shown.iter().filter(|f| **f == Some(face)).count();
+            assert!(count(nearer) > 1000);
+            assert!(count(1 - nearer) * 20 < count(nearer), "but for what perspective leaves of it");
+        }
+    }
+
+    #[test]
+    fn threads_do_not_change_the_result() {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for i in 0..30_000_u32 {
+            let x = |k: u32| f64::from((i * 7919 + k * 104_729) % 1000);
+            let (a, b, c) = (x(0), x(1), x(2) / 100.0);
+            let first = positions.len() as u32;
+            positions.extend([[a, b, c], [a + 9.0, b, c], [a, b + 7.0, 0.5 * c]]);
+            triangles.push([first, first + 1, first + 2]);
+        }
+        let (mesh, view) = from_above(&positions, &triangles);
+        let screen = Screen::new(&mesh, &view);
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| FaceBuffer::new(&screen))
+        };
+        assert_eq!(with(1), with(3));
+    }
 }

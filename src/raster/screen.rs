@@ -39,19 +39,15 @@ pub struct Screen<'a> {
 }
 
 /// The plane of a triangle over the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ScreenPlane {
-    /// A point of the plane.
-    pub origin: ScreenPoint,
-    /// Change of nearness per pixel to the right and down; NaN for a triangle without area.
-    pub slope: [f32; 2],
+#[derive(Debug, Clone, Copy)]
+struct ScreenPlane {
+    origin: ScreenPoint,
+    /// Change of nearness per pixel to the right and down.
+    slope: [f32; 2],
 }
 
 impl ScreenPlane {
-    /// The plane through three corners.
-    #[inline]
-    #[must_use]
-    pub fn new([a, b, c]: [ScreenPoint; 3]) -> Self {
+    fn new([a, b, c]: [ScreenPoint; 3]) -> Self {
         let (u, v) = (minus(b, a), minus(c, a));
         let area = u[0] * v[1] - u[1] * v[0];
         let per_area = 1.0 / area;
@@ -59,10 +55,8 @@ impl ScreenPlane {
         Self { origin: a, slope }
     }
 
-    /// Nearness at a place.
     #[inline]
-    #[must_use]
-    pub fn at(&self, x: f32, y: f32) -> f32 {
+    fn at(&self, x: f32, y: f32) -> f32 {
         self.origin[2] + self.slope[0] * (x - self.origin[0]) + self.slope[1] * (y - self.origin[1])
     }
 }
@@ -127,32 +121,10 @@ impl<'a> Screen<'a> {
         }
     }
 
-    /// The plane of a face.
-    #[inline]
-    #[must_use]
-    pub fn plane(&self, face: u32) -> ScreenPlane {
-        let corners = self.mesh.triangles[face as usize].map(|v| self.points[v as usize]);
-        if corners.iter().any(|c| c[0].is_nan()) {
-            let clipped = &self.view.clipped;
-            if let Ok(piece) = clipped.binary_search_by_key(&face, |c| c.face.0) {
-                return ScreenPlane::new(clipped[piece].points.map(|p| self.point(p)));
-            }
-        }
-        ScreenPlane::new(corners)
-    }
-
-    /// Whether a face turns its outside to the eye.
-    #[inline]
-    #[must_use]
-    pub fn is_facing(&self, face: u32) -> bool {
-        self.view.facing[face as usize]
-    }
-
     /// The pixels whose centres lie in the box around a triangle: the first column and the one
     /// after the last, and so for the rows. None if there are none.
     #[inline]
-    #[must_use]
-    pub fn pixel_box(&self, [a, b, c]: &[ScreenPoint; 3]) -> Option<[i32; 4]> {
+    fn pixel_box(&self, [a, b, c]: &[ScreenPoint; 3]) -> Option<[i32; 4]> {
         let place = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
         let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - SLACK);
         let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + SLACK);
@@ -161,11 +133,12 @@ impl<'a> Screen<'a> {
         ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
     }
 
-    /// Calls `visit` with each pixel whose centre a triangle covers, and its nearness there;
-    /// `pixel_box` is the triangle's own.
+    /// Calls `visit` with each pixel whose centre a triangle covers, and its nearness there.
     #[inline]
-    pub fn cover(&self, corners: &[ScreenPoint; 3], pixel_box: [i32; 4], visit: impl FnMut(usize, f32)) {
-        if is_small(pixel_box) {
+    pub fn cover(&self, corners: &[ScreenPoint; 3], visit: impl FnMut(usize, f32)) {
+        let Some(pixel_box) = self.pixel_box(corners) else { return };
+        let [left, right, top, bottom] = pixel_box;
+        if (right - left) * (bottom - top) <= FEW {
             self.cover_few(corners, pixel_box, visit);
         } else {
             self.cover_rows(corners, pixel_box, visit);
@@ -174,7 +147,7 @@ impl<'a> Screen<'a> {
 
     /// Four pixels at a time: nearly all triangles of a scan lie between two rows and columns.
     #[inline]
-    pub fn cover_few(
+    fn cover_few(
         &self,
         &[a, b, c]: &[ScreenPoint; 3],
         [left, right, top, bottom]: [i32; 4],
@@ -255,13 +228,6 @@ impl Quad {
         }
         (areas, inside)
     }
-}
-
-/// Whether the pixels of a box are few.
-#[inline]
-#[must_use]
-pub fn is_small([left, right, top, bottom]: [i32; 4]) -> bool {
-    (right - left) * (bottom - top) <= FEW
 }
 
 /// A nearness no farther than the farthest and no nearer than the nearest corner: the planes of
