@@ -111,7 +111,9 @@ impl<'a> Tracer<'a> {
             };
             match self.mesh.edges.faces(edge) {
                 EdgeFaces::One(_) => {}
-                EdgeFaces::Two { faces: [first, second], .. } => add(if first == face { second } else { first }),
+                EdgeFaces::Two { faces: [first, second], .. } => {
+                    add(if first == face { second } else { first })
+                }
                 EdgeFaces::Many(others) => others.iter().for_each(|other| add(*other)),
             }
         }

@@ -238,13 +238,7 @@ fn within_corners(q: f32, a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f32
 }
 
 /// The columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
-fn span(
-    sides: &[(ScreenPoint, ScreenPoint); 3],
-    area: f32,
-    y: f64,
-    left: f64,
-    right: f64,
-) -> (usize, usize) {
+fn span(sides: &[(ScreenPoint, ScreenPoint); 3], area: f32, y: f64, left: f64, right: f64) -> (usize, usize) {
     let (mut from, mut to) = (left, right);
     let sign = f64::from(area.signum());
     for (p, q) in sides {

@@ -14,6 +14,11 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Rows handled by one task.
 const ROWS: usize = 16;
+/// Up to this many active faces, more faces around them are taken in as well, which costs little
+/// and finds curves beside strips of several faces thinner than a pixel.
+const FEW_FACES: usize = 60_000;
+/// How often that is done at most.
+const RINGS: usize = 3;
 /// Edges handled by one task.
 const EDGES: usize = 1 << 15;
 
@@ -50,8 +55,26 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
             }
         }
     });
-    let active = near.into_iter().enumerate();
-    active.map(|(f, near)| near.into_inner() && !mesh.is_degenerate(FaceId::from(f))).collect()
+    let mut active: Vec<bool> = near.into_iter().map(AtomicBool::into_inner).collect();
+    for _ in 0..RINGS {
+        if active.iter().filter(|a| **a).count() > FEW_FACES {
+            break;
+        }
+        add_ring(mesh, &mut active);
+    }
+    active.par_iter_mut().enumerate().for_each(|(f, active)| *active &= !mesh.is_degenerate(FaceId::from(f)));
+    active
+}
+
+/// Adds all faces that share a vertex with an active one.
+fn add_ring(mesh: &Mesh, active: &mut [bool]) {
+    let mut reached = vec![false; mesh.positions.len()];
+    for (corners, _) in mesh.triangles.iter().zip(&*active).filter(|(_, active)| **active) {
+        corners.iter().for_each(|v| reached[*v as usize] = true);
+    }
+    active.par_iter_mut().zip(&mesh.triangles).for_each(|(active, corners)| {
+        *active |= corners.iter().any(|v| reached[*v as usize]);
+    });
 }
 
 /// Calls `visit` for the faces of neighbouring pixels of a row and with the next row that have no
