@@ -91,7 +91,7 @@ fn boxes_and_balls_show_all_their_seams() {
 
 #[test]
 fn fine_triangles_show_all_their_seams() {
-    let upright = |p: DVec3| DVec3::new(p.x + 0.7, p.z, p.y);
+    let upright = |p: DVec3| DVec3::new(p.x + 0.3, p.z, p.y);
     let tori = [torus(400, 150, 1.0, 0.3), torus(300, 150, 1.0, 0.3).moved(upright)];
     assert!(compare_solids("tori", tori) > 100.0);
 }
