@@ -367,7 +367,8 @@ fn pdf_has_the_page_the_layers_and_the_ink_of_the_drawing() {
          /OC /L1 BDC /A255 gs 2 w 1 J 1 j 0 0 0 RG [] 0 d 10 20 m 30.25 40 l S \
          /A51 gs 0 0 0 RG 1 2 m 3 4 l S EMC Q "
     );
-    for wanted in ["/MediaBox [0 0 75 60]", "(paper)", "(1 0.5 mm #000000)", "/CA 0.2", "/OCGs [5 0 R 6 0 R]"] {
+    for wanted in ["/MediaBox [0 0 75 60]", "(paper)", "(1 0.5 mm #000000)", "/CA 0.2", "/OCGs [5 0 R 6 0 R]"]
+    {
         assert!(rest.contains(wanted), "no {wanted} in {rest}");
     }
     assert!(!rest.contains("Date"), "{rest}");

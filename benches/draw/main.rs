@@ -43,9 +43,8 @@ const PATIENCE: Duration = Duration::from_secs(6);
 /// What was measured of one model.
 struct Row {
     name: String,
-    triangles: f64,
-    /// Seconds of a drawing on one thread.
-    alone: f64,
+    /// Seconds a triangle on one thread, CPU where it is known.
+    per_triangle: f64,
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -55,10 +54,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::create_dir_all(&folder)?;
 
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    println!("Least times in ms; `all` is {cores} threads. Load of the machine: {}", load());
     println!(
-        "{:<15} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>6} {:>8} {:>7} {:>7}",
-        "model", "triangles", "floor", "all", "one", "all/fl", "one/fl", "limit", "cpu all", "B/tri", "ns/tri"
+        "Least times in ms. `all` is a drawing on {cores} threads, `one` on one; `fl` the floor; `cpu` the CPU of"
+    );
+    println!("`one`, over that of the floor, which a busy machine disturbs least. Load: {}", load());
+    println!(
+        "{:<15} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}",
+        "model", "triangles", "floor", "all", "one", "all/fl", "one/fl", "cpu/fl", "limit", "B/tri", "ns/tri"
     );
     let mut rows = Vec::new();
     for (path, limit) in MODELS {
@@ -100,23 +102,27 @@ fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<d
         all = all.min(process::draw(model, &drawing, Threads::All)?);
         alone = alone.min(process::draw(model, &drawing, Threads::One)?);
     }
-    let resources = process::resources(model, &drawing, Threads::All)?;
+    let cpu = (0..LEAST_ROUNDS).filter_map(|_| process::cpu(model, &drawing, Threads::One));
+    let cpu = cpu.reduce(f64::min);
+    let memory = process::memory(model, &drawing, Threads::All);
 
     let name = model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let triangles = floor.triangles() as f64;
     let total = least_floor.total();
     let ms = |seconds: f64| format!("{:.1}", seconds * 1e3);
+    let known = |number: Option<f64>, decimals| number.map_or("-".to_owned(), |n| format!("{n:.decimals$}"));
+    let per_triangle = cpu.unwrap_or(alone) / triangles;
     println!(
-        "{name:<15} {triangles:>9} {:>8} {:>8} {:>8} {:>7.2} {:>7.2} {:>6} {:>8} {:>7} {:>7.0}",
+        "{name:<15} {triangles:>9} {:>8} {:>8} {:>8} {:>7.2} {:>7.2} {:>7} {:>6} {:>6} {:>7.0}",
         ms(total),
         ms(all),
         ms(alone),
         all / total,
         alone / total,
-        limit.map_or("-".to_owned(), |limit| limit.to_string()),
-        resources.map_or("-".to_owned(), |r| ms(r.cpu)),
-        resources.map_or("-".to_owned(), |r| format!("{:.0}", r.memory / triangles)),
-        alone / triangles * 1e9,
+        known(cpu.map(|cpu| cpu / least_floor.cpu), 2),
+        known(limit, 0),
+        known(memory.map(|bytes| bytes / triangles), 0),
+        per_triangle * 1e9,
     );
     let stages = process::stages(model, &drawing)?;
     let shares: Vec<String> = stages.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
@@ -128,16 +134,17 @@ fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<d
         ms(least_floor.raster),
         shares.join(", ")
     );
-    Ok(Row { name, triangles, alone })
+    Ok(Row { name, per_triangle })
 }
 
 /// How the time a triangle grows along models of one kind; 1 or less is linear or better.
 fn print_growth(rows: &[Row]) {
     let names = ["knot_1k", "knot_10k", "knot_50k", "knot_100k", "dragon-871k"];
-    let chosen: Vec<&Row> = names.iter().filter_map(|name| rows.iter().find(|row| row.name == *name)).collect();
+    let chosen: Vec<&Row> =
+        names.iter().filter_map(|name| rows.iter().find(|row| row.name == *name)).collect();
     for pair in chosen.windows(2) {
         let [from, to] = pair else { continue };
-        let growth = (to.alone / to.triangles) / (from.alone / from.triangles);
+        let growth = to.per_triangle / from.per_triangle;
         println!("time a triangle, {} to {}: times {growth:.2}", from.name, to.name);
     }
 }
@@ -161,5 +168,6 @@ fn write_obj(path: &Path, scene: &Triangles) -> std::io::Result<()> {
 
 /// Load averages of the machine, where it tells them: a busy one spoils all times.
 fn load() -> String {
-    std::fs::read_to_string("/proc/loadavg").map_or_else(|_| "unknown".to_owned(), |text| text.trim().to_owned())
+    std::fs::read_to_string("/proc/loadavg")
+        .map_or_else(|_| "unknown".to_owned(), |text| text.trim().to_owned())
 }

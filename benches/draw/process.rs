@@ -10,20 +10,14 @@ const LIGNE: &str = env!("CARGO_BIN_EXE_ligne");
 /// GNU time, which tells the memory of a process that has ended.
 const GNU_TIME: &str = "/usr/bin/time";
 
+/// What has Bash tell CPU time in milliseconds, where GNU time tells it in hundredths of seconds.
+const BASH_TIME: &str = "TIMEFORMAT='%3U %3S'; time \"$0\" \"$@\"";
+
 /// How many threads a drawing may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Threads {
     One,
     All,
-}
-
-/// What GNU time tells of a process.
-#[derive(Debug, Clone, Copy)]
-pub struct Resources {
-    /// User and system CPU, seconds.
-    pub cpu: f64,
-    /// Largest resident memory, bytes.
-    pub memory: f64,
 }
 
 /// Seconds that drawing the model takes from start to end of the process.
@@ -36,22 +30,26 @@ pub fn draw(model: &Path, drawing: &Path, threads: Threads) -> Result<f64, Error
     succeeded(&output).map(|()| seconds)
 }
 
-/// What drawing the model takes; `None` where GNU time is not installed.
-pub fn resources(model: &Path, drawing: &Path, threads: Threads) -> Result<Option<Resources>, Error> {
-    if !Path::new(GNU_TIME).exists() {
-        return Ok(None);
-    }
+/// CPU seconds, of the user and of the system, that drawing the model takes; `None` without Bash.
+pub fn cpu(model: &Path, drawing: &Path, threads: Threads) -> Option<f64> {
+    let mut command = Command::new("bash");
+    command.args(["-c", BASH_TIME, LIGNE]);
+    Some(told(command, model, drawing, threads)?.iter().sum())
+}
+
+/// Bytes of memory that drawing the model takes; `None` without GNU time.
+pub fn memory(model: &Path, drawing: &Path, threads: Threads) -> Option<f64> {
     let mut command = Command::new(GNU_TIME);
-    command.args(["-f", "%U %S %M", LIGNE]);
+    command.args(["-f", "%M", LIGNE]);
+    Some(told(command, model, drawing, threads)?.first()? * 1024.0)
+}
+
+/// The numbers that a command around the drawing tells.
+fn told(mut command: Command, model: &Path, drawing: &Path, threads: Threads) -> Option<Vec<f64>> {
     add_arguments(&mut command, model, drawing, threads);
-    let output = command.stdin(Stdio::null()).output()?;
-    succeeded(&output)?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    let numbers: Vec<f64> = said.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-    Ok(match numbers.as_slice() {
-        [user, system, kilobytes] => Some(Resources { cpu: user + system, memory: kilobytes * 1024.0 }),
-        _ => None,
-    })
+    let output = command.stdin(Stdio::null()).output().ok()?;
+    let said = String::from_utf8(output.stderr).ok()?;
+    said.split_whitespace().map(|word| word.parse().ok()).collect()
 }
 
 /// The stages of a drawing and their milliseconds, in the order of the report.

@@ -117,8 +117,10 @@ impl Drawing {
 
     /// The layers of the document, back to front, the paper first.
     fn groups(&self) -> Vec<Group<'_>> {
-        let paper = self.page.background.map(|_| Group { label: LayerKind::Paper.id().to_owned(), marks: &[] });
-        let layers = self.layers.iter().map(|layer| Group { label: self.names(layer).1, marks: &layer.marks });
+        let paper =
+            self.page.background.map(|_| Group { label: LayerKind::Paper.id().to_owned(), marks: &[] });
+        let layers =
+            self.layers.iter().map(|layer| Group { label: self.names(layer).1, marks: &layer.marks });
         paper.into_iter().chain(layers).collect()
     }
 

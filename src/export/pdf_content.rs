@@ -51,9 +51,8 @@ impl Writer {
 
     fn set_stroke(&mut self, stroke: &StrokePaint) {
         let old = self.stroke.take();
-        let differs = |same: fn(&StrokePaint, &StrokePaint) -> bool| {
-            !old.as_ref().is_some_and(|old| same(old, stroke))
-        };
+        let differs =
+            |same: fn(&StrokePaint, &StrokePaint) -> bool| !old.as_ref().is_some_and(|old| same(old, stroke));
         let fine = Decimals::new(WIDTH_DECIMALS);
         if differs(|a, b| a.width == b.width) {
             self.value(fine, stroke.width);
@@ -201,7 +200,8 @@ mod tests {
 
     #[test]
     fn ink_is_set_where_it_changes() {
-        let lines = [("M0 0L1 2.5", pen(1.5, &[])), ("M3 3H4", pen(1.5, &[])), ("M5 5H6", pen(2.0, &[4.0, 2.0]))];
+        let lines =
+            [("M0 0L1 2.5", pen(1.5, &[])), ("M3 3H4", pen(1.5, &[])), ("M5 5H6", pen(2.0, &[4.0, 2.0]))];
         assert_eq!(
             content(&lines),
             "/A255 gs 1.5 w 1 J 2 j 1 0 .2 RG [] 0 d 0 0 m 1 2.5 l S 3 3 m 4 3 l S 2 w [4 2 ] 0 d 5 5 m 6 5 l S "

@@ -7,6 +7,8 @@
 //! one maximum over all points, `max(p.x - t p.z)`, and the nearest eye from which everything is
 //! seen follows from two opposite planes: exact, from the vertices and not from their box.
 
+use std::borrow::Cow;
+
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -95,7 +97,10 @@ struct Cloud {
 impl Cloud {
     /// All finite points, placed in the camera's axes.
     fn new(points: &[DVec3], place: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
-        let placed = points.par_iter().with_min_len(CHUNK).filter(|p| p.is_finite()).map(|&p| place(p));
+        // A point that stands twice changes nothing.
+        let finite = points.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
+        let placed =
+            points.par_iter().with_min_len(CHUNK).map(|&p| place(if p.is_finite() { p } else { finite }));
         let points: Vec<DVec3> = placed.collect();
         let boxes = points.par_chunks(BLOCK).with_min_len(CHUNK / BLOCK).map(box_round).collect();
         Self { points, boxes }
@@ -199,7 +204,7 @@ pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
 /// [`Scene::to_soup`] leaves out is left out here.
 #[must_use]
 pub fn world_points(scene: &Scene) -> Vec<DVec3> {
-    let used: Vec<Vec<DVec3>> = scene.geometries.par_iter().map(used_points).collect();
+    let used: Vec<Cow<[DVec3]>> = scene.geometries.par_iter().map(used_points).collect();
     let mut points = Vec::new();
     for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
         let Some(positions) = used.get(part.geometry) else { continue };
