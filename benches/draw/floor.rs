@@ -128,13 +128,13 @@ fn raster(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f32> {
         let (left, right) = (left as usize, right as usize);
         for y in top as usize..=bottom as usize {
             let (dx, dy) = (left as f32 + 0.5 - a[0], y as f32 + 0.5 - a[1]);
-            let (mut wb, mut wc) = (bx * dx + by * dy, cx * dx + cy * dy);
-            for depth in &mut depths[y * SIDE + left..=y * SIDE + right] {
-                if wb >= 0.0 && wc >= 0.0 && wb + wc <= 1.0 {
-                    *depth = depth.max(a[2] + wb * qb + wc * qc);
-                }
-                wb += bx;
-                wc += cx;
+            let (wb, wc) = (bx * dx + by * dy, cx * dx + cy * dy);
+            for (step, depth) in depths[y * SIDE + left..=y * SIDE + right].iter_mut().enumerate() {
+                let (wb, wc) = (wb + step as f32 * bx, wc + step as f32 * cx);
+                let q = a[2] + wb * qb + wc * qc;
+                // Without branches: nobody can guess where small triangles end.
+                let shows = (wb >= 0.0) & (wc >= 0.0) & (wb + wc <= 1.0) & (q > *depth);
+                *depth = if shows { q } else { *depth };
             }
         }
     }
