@@ -215,7 +215,7 @@ mod tests {
         for (data, operators) in [
             ("M0 0C1 2 3 4 5 6Z", "0 0 m 1 2 3 4 5 6 c h f "),
             ("M0 0Q3 0 3 3", "0 0 m 2 0 3 1 3 3 c f "),
-            ("M0 0H3ZQ0 3 3 3", "0 0 m 3 0 l h 0 2 1 3 3 3 c f "),
+            ("M0 0H3ZQ0 3 3 3", "0 0 m 3 0 l h 0 0 m 0 2 1 3 3 3 c f "),
             ("M1 1M2 2", "1 1 m 1 1 l 2 2 m 2 2 l f "),
         ] {
             assert_eq!(content(&[(data, fill.clone())]), format!("{ink}{operators}"), "{data}");
