@@ -4,10 +4,13 @@
 //! without being one edge of the mesh. Of two such lines the weaker kind gives way, of equal kinds
 //! the later one. Lines that share a node may be a fold of one curve, and must coincide to rounding.
 
+use glam::DVec3;
 use kurbo::{Point, Vec2};
-use rustc_hash::FxHashMap;
+use rayon::prelude::*;
 
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+use super::grid::Grid;
+use super::grouped::{Grouped, bucket};
 
 /// Lines shorter than this many times the distance have no direction to speak of, and are left
 /// alone.
@@ -18,10 +21,9 @@ const SHORTEST_SHARE: f64 = 8.0;
 const JOINED_SHARE: f64 = 1e-3;
 
 /// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
-/// edge. `cell` is the side of the tiles in which neighbours are sought; `perspective` tells how
-/// depth runs along a line.
-pub fn remove(map: &mut ViewMap, within: f64, cell: f64, perspective: bool) {
-    let covered = find_covered(map, within, cell);
+/// edge. `perspective` tells how depth runs along a line.
+pub fn remove(map: &mut ViewMap, within: f64, perspective: bool) {
+    let covered = find_covered(map, within);
     if covered.is_empty() {
         return;
     }
@@ -42,49 +44,85 @@ pub fn remove(map: &mut ViewMap, within: f64, cell: f64, perspective: bool) {
 }
 
 /// For each edge that gives way, the range of its parameter that another covers; ascending.
-fn find_covered(map: &ViewMap, within: f64, cell: f64) -> Vec<(u32, (f64, f64))> {
-    let mut tiles: FxHashMap<(i32, i32), Vec<u32>> = FxHashMap::default();
-    let mut covered = Vec::new();
-    let mut near: Vec<u32> = Vec::new();
-    for (id, edge) in map.edges.iter().enumerate().filter(|(_, e)| e.invisibility == 0) {
-        let line = Line::of(map, edge);
-        if line.length <= SHORTEST_SHARE * within {
-            continue;
-        }
-        near.clear();
-        line.tiles(cell, |tile| {
-            let there = tiles.entry(tile).or_default();
-            near.extend_from_slice(there);
-            there.push(id as u32);
-        });
-        near.sort_unstable();
-        near.dedup();
-        for &other_id in &near {
-            let other = &map.edges[other_id as usize];
-            // A long line may come back to a tile where it is known already.
-            if other_id as usize == id {
-                continue;
-            }
-            let joined = edge.start == other.start
-                || edge.start == other.end
-                || edge.end == other.start
-                || edge.end == other.end;
-            let within = if joined { within * JOINED_SHARE } else { within };
-            let other_line = Line::of(map, other);
-            if !line.runs_along(&other_line, within) {
-                continue;
-            }
-            // The other edge came first: it stays unless it is the weaker kind.
-            let (loser, range) = if edge.kind < other.kind {
-                (other_id, other_line.covered_by(&line, within))
-            } else {
-                (id as u32, line.covered_by(&other_line, within))
-            };
-            covered.extend(range.map(|range| (loser, range)));
-        }
+fn find_covered(map: &ViewMap, within: f64) -> Vec<(u32, (f64, f64))> {
+    let long_enough = |e: &ViewEdge| e.invisibility == 0 && Line::of(map, e).length > SHORTEST_SHARE * within;
+    let ids: Vec<u32> =
+        (0..map.edges.len() as u32).filter(|id| long_enough(&map.edges[*id as usize])).collect();
+    let ends = |id: u32| {
+        let line = Line::of(map, &map.edges[id as usize]);
+        (vector(line.start), vector(line.end()))
+    };
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = ids
+        .iter()
+        .map(|id| ends(*id))
+        .fold(nothing, |(low, high), (p, q)| (low.min(p).min(q), high.max(p).max(q)));
+    if ids.is_empty() {
+        return Vec::new();
     }
+    let across = ((ids.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
+    let grid = Grid::new(low.truncate(), high.truncate(), across);
+    let lines_of = bucket(grid.len(), |put| {
+        for id in &ids {
+            let (p, q) = ends(*id);
+            grid.walk(p, q, |tile, _, _| put(tile, *id));
+        }
+    });
+    let mut covered: Vec<(u32, (f64, f64))> = ids
+        .par_iter()
+        .with_min_len(256)
+        .flat_map_iter(|id| covered_with(map, *id, within, &grid, &lines_of))
+        .collect();
     covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
     covered
+}
+
+/// What one edge and those before it cover of each other.
+fn covered_with(
+    map: &ViewMap,
+    id: u32,
+    within: f64,
+    grid: &Grid,
+    lines_of: &Grouped<u32>,
+) -> Vec<(u32, (f64, f64))> {
+    let edge = &map.edges[id as usize];
+    let line = Line::of(map, edge);
+    // What lies within reach of the line lies in a tile of the line or of one of its neighbours
+    // at that distance, since tiles are convex.
+    let across = Vec2::new(-line.along.y, line.along.x) * within;
+    let mut near: Vec<u32> = Vec::new();
+    for shift in [Vec2::ZERO, across, -across] {
+        grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
+            near.extend(lines_of.of(tile).iter().filter(|other| **other < id));
+        });
+    }
+    near.sort_unstable();
+    near.dedup();
+    let mut covered = Vec::new();
+    for other_id in near {
+        let other = &map.edges[other_id as usize];
+        let joined = edge.start == other.start
+            || edge.start == other.end
+            || edge.end == other.start
+            || edge.end == other.end;
+        let within = if joined { within * JOINED_SHARE } else { within };
+        let other_line = Line::of(map, other);
+        if !line.runs_along(&other_line, within) {
+            continue;
+        }
+        // The other edge came first: it stays unless it is the weaker kind.
+        let (loser, range) = if edge.kind < other.kind {
+            (other_id, other_line.covered_by(&line, within))
+        } else {
+            (id, line.covered_by(&other_line, within))
+        };
+        covered.extend(range.map(|range| (loser, range)));
+    }
+    covered
+}
+
+fn vector(p: Point) -> DVec3 {
+    DVec3::new(p.x, p.y, 0.0)
 }
 
 struct Line {
@@ -103,27 +141,6 @@ impl Line {
 
     fn end(&self) -> Point {
         self.start + self.along * self.length
-    }
-
-    /// Tiles that the line's box meets, a row or column of them at a time: long lines are walked
-    /// in steps so that they do not fill a whole square.
-    fn tiles(&self, cell: f64, mut visit: impl FnMut((i32, i32))) {
-        let steps = (self.length / cell).ceil().max(1.0) as u32;
-        let mut last = None;
-        for k in 0..steps {
-            let at = |k: u32| self.start + self.along * (self.length * f64::from(k) / f64::from(steps));
-            let (p, q) = (at(k), at(k + 1));
-            let pad = cell * 0.01;
-            let tile = |v: f64| (v / cell).floor() as i32;
-            for y in tile(p.y.min(q.y) - pad)..=tile(p.y.max(q.y) + pad) {
-                for x in tile(p.x.min(q.x) - pad)..=tile(p.x.max(q.x) + pad) {
-                    if last != Some((x, y)) {
-                        visit((x, y));
-                    }
-                    last = Some((x, y));
-                }
-            }
-        }
     }
 
     /// A quick test before the exact one.
@@ -234,7 +251,7 @@ mod tests {
             ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
             ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, 8.0, false);
+        remove(&mut m, 0.005, false);
         let (k, c) = (LineKind::Crease, LineKind::Contour);
         assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
     }
@@ -246,7 +263,7 @@ mod tests {
             ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
             ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, 8.0, false);
+        remove(&mut m, 0.005, false);
         assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
     }
 }

@@ -49,16 +49,6 @@ impl TileBox {
         }
         (u32::from(self.right - self.left) + 1) * (u32::from(self.bottom - self.top) + 1)
     }
-
-    /// Whether it touches the edge of the grid, beyond which it may go on.
-    #[inline]
-    #[must_use]
-    pub fn meets_edge(self, grid: &Grid) -> bool {
-        self.left == 0
-            || self.top == 0
-            || u32::from(self.right) + 1 == grid.columns
-            || u32::from(self.bottom) + 1 == grid.rows
-    }
 }
 
 impl Grid {
@@ -94,6 +84,22 @@ impl Grid {
         let cell = (size.max_element() / f64::from(across.max(1))).max(f64::MIN_POSITIVE);
         let count = |length: f64| ((length / cell).ceil() as u32).clamp(1, across.max(1));
         Self { columns: count(size.x), rows: count(size.y), cell, origin: low, per_cell: 1.0 / cell }
+    }
+
+    /// The same grid with `across` finer tiles along each side of every tile.
+    #[must_use]
+    pub fn refined(&self, across: u32) -> Self {
+        let cell = self.cell / f64::from(across);
+        let (columns, rows) = (self.columns * across, self.rows * across);
+        Self { columns, rows, cell, origin: self.origin, per_cell: 1.0 / cell }
+    }
+
+    /// The tile of `coarse` that a tile of this refinement of it lies in.
+    #[inline]
+    #[must_use]
+    pub fn tile_of_square(&self, square: usize, coarse: &Self, across: u32) -> usize {
+        let square = square as u32;
+        coarse.tile(square % self.columns / across, square / self.columns / across)
     }
 
     /// A grid over one tile of this one, with `across` tiles along its sides.

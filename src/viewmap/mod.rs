@@ -1,6 +1,7 @@
 //! [`ViewMap`]: the planar graph of the projected feature lines, cut where visibility changes.
 
 pub mod build;
+pub mod cover;
 pub mod doubles;
 pub mod graph;
 pub mod grid;

@@ -1,12 +1,12 @@
 //! Which triangles may hide something in which tile.
 //!
-//! Only tiles that hold a segment not yet decided are filled. Where one triangle covers a whole
-//! tile, everything behind it there is hidden by it alone, so neither segments nor triangles
-//! behind such a *cover* need to be looked at.
+//! Only tiles that hold a segment not yet decided are filled, and only with triangles that reach
+//! before their cover (see [`super::cover`]).
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
+use super::cover::Sides;
 use super::grid::{Grid, TileBox};
 use super::occlude::Limits;
 use crate::mesh::{FaceId, Mesh};
@@ -67,7 +67,7 @@ pub fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
 
 impl Triangles<'_> {
     /// Faces and, after them, what the near plane left of faces it cuts.
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.mesh.triangles.len() + self.view.clipped.len()
     }
 
@@ -95,64 +95,6 @@ impl Triangles<'_> {
         let low = points[0].min(points[1]).min(points[2]) - slack;
         let high = points[0].max(points[1]).max(points[2]) + slack;
         self.grid.tile_box(low, high)
-    }
-
-    /// For each tile the nearness behind which everything is hidden by one triangle, or −∞.
-    #[must_use]
-    pub fn covers(&self, boxes: &[TileBox], wanted: &[bool]) -> Vec<f64> {
-        // A triangle that covers a tile reaches into its neighbours, or there are none.
-        let may_cover = |b: &TileBox| {
-            let spans =
-                |first: u16, last: u16, count: u32| last >= first && (last - first >= 2 || count <= 2);
-            spans(b.left, b.right, self.grid.columns) && spans(b.top, b.bottom, self.grid.rows)
-                || b.meets_edge(self.grid) && !b.is_empty()
-        };
-        let large: Vec<u32> = boxes
-            .par_iter()
-            .enumerate()
-            .with_min_len(1 << 14)
-            .filter(|(_, b)| may_cover(b))
-            .map(|(id, _)| id as u32)
-            .collect();
-        let nothing = || vec![f64::NEG_INFINITY; self.grid.len()];
-        let share = large.len().div_ceil(rayon::current_num_threads()).max(1 << 10);
-        // The largest of all covers is taken, so the shares do not matter.
-        large
-            .par_chunks(share)
-            .map(|ids| {
-                let mut cover = nothing();
-                for id in ids {
-                    self.add_cover(*id, boxes[*id as usize], wanted, &mut cover);
-                }
-                cover
-            })
-            .reduce_with(|mut a, b| {
-                a.iter_mut().zip(b).for_each(|(a, b)| *a = a.max(b));
-                a
-            })
-            .unwrap_or_else(nothing)
-    }
-
-    fn add_cover(&self, id: u32, tiles: TileBox, wanted: &[bool], cover: &mut [f64]) {
-        let (points, _) = corners(self.mesh, self.view, id);
-        let (u, v) = (points[1] - points[0], points[2] - points[0]);
-        let area = u.truncate().perp_dot(v.truncate());
-        if area.abs() <= self.limits.height * u.truncate().length().max(v.truncate().length()) {
-            return;
-        }
-        let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
-        let farthest = points[0].z.min(points[1].z).min(points[2].z);
-        let sides = Sides::new(&points);
-        let half = self.grid.cell / 2.0;
-        for (tile, corner) in self.grid.tiles_of(tiles) {
-            let centre = corner + half;
-            if wanted[tile] && sides.contains(centre, half) {
-                let middle = points[0].z + slope.dot(centre - points[0].truncate());
-                let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(farthest);
-                let least = least - self.view.frame.nearness_step(least, 2.0 * self.limits.contact);
-                cover[tile] = cover[tile].max(least);
-            }
-        }
     }
 
     /// Fills the wanted tiles with the triangles that reach before their covers.
@@ -235,38 +177,6 @@ impl Triangles<'_> {
     fn nearest(&self, id: u32) -> f64 {
         let (points, _) = corners(self.mesh, self.view, id);
         points[0].z.max(points[1].z).max(points[2].z)
-    }
-}
-
-/// The three sides of a projected triangle as inward half planes: positive inside.
-struct Sides {
-    normals: [DVec2; 3],
-    offsets: [f64; 3],
-}
-
-impl Sides {
-    fn new(points: &[DVec3; 3]) -> Self {
-        let [a, b, c] = points.map(DVec3::truncate);
-        let sign = (b - a).perp_dot(c - a).signum();
-        let normal = |p: DVec2, q: DVec2| (q - p).perp() * sign;
-        let normals = [normal(a, b), normal(b, c), normal(c, a)];
-        Self { normals, offsets: [-normals[0].dot(a), -normals[1].dot(b), -normals[2].dot(c)] }
-    }
-
-    /// Whether the square lies wholly outside one side.
-    fn misses(&self, centre: DVec2, half: f64) -> bool {
-        (0..3).any(|i| {
-            let n = self.normals[i];
-            n.dot(centre) + self.offsets[i] + (n.x.abs() + n.y.abs()) * half < 0.0
-        })
-    }
-
-    /// Whether the square lies wholly inside all sides.
-    fn contains(&self, centre: DVec2, half: f64) -> bool {
-        (0..3).all(|i| {
-            let n = self.normals[i];
-            n.dot(centre) + self.offsets[i] - (n.x.abs() + n.y.abs()) * half > 0.0
-        })
     }
 }
 

@@ -16,6 +16,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::cover::Covers;
 use super::grid::Grid;
 use super::grouped::{Grouped, bucket};
 use super::layers::{Layer, sweep};
@@ -70,13 +71,13 @@ pub fn decide(
 
     let triangles = Triangles { mesh, view, grid: &grid, limits };
     let boxes = triangles.tile_boxes();
-    let mut cover = vec![f64::NEG_INFINITY; grid.len()];
+    let mut covers = Covers::none(&grid);
     let mut buried: Vec<(u32, Layer)> = Vec::new();
     if !counting {
-        cover = triangles.covers(&boxes, &wanted);
-        buried = bury(segments, &mut items, &cover, &mut wanted);
+        covers = Covers::find(&triangles, &wanted);
+        buried = bury(segments, &mut items, &covers, &mut wanted);
     }
-    let occluders = triangles.fill(&boxes, &wanted, &cover);
+    let occluders = triangles.fill(&boxes, &wanted, &covers.of_tile);
     drop(boxes);
 
     let context = Context { mesh, view, segments, limits, counting };
@@ -112,27 +113,25 @@ fn tiles_across(triangles: usize) -> u32 {
     }
 }
 
-/// Marks items that lie behind the cover of their tile as hidden by emptying their range, and
-/// forgets tiles all of whose items are.
+/// Marks items that lie behind covers as hidden by emptying their range, and forgets tiles all of
+/// whose items do.
 fn bury(
     segments: &[ImageSegment],
     items: &mut Grouped<Item>,
-    cover: &[f64],
+    covers: &Covers,
     wanted: &mut [bool],
 ) -> Vec<(u32, Layer)> {
     let mut buried = Vec::new();
-    for (tile, cover) in cover.iter().enumerate().filter(|(_, c)| **c > f64::NEG_INFINITY) {
-        let mut left = false;
+    for (tile, wanted) in wanted.iter_mut().enumerate().filter(|(_, wanted)| **wanted) {
+        *wanted = false;
         for item in items.of_mut(tile) {
-            let s = &segments[item.segment as usize];
-            if s.at(item.start).z.max(s.at(item.end).z) < *cover {
+            if covers.bury(&segments[item.segment as usize], item.start, item.end) {
                 buried.push((item.segment, whole(item)));
                 item.end = f64::NEG_INFINITY;
             } else {
-                left = true;
+                *wanted = true;
             }
         }
-        wanted[tile] = left;
     }
     buried
 }

@@ -1,0 +1,160 @@
+//! Covers: where one triangle fills a whole small square of the image, everything behind it there
+//! is hidden by it alone.
+//!
+//! The squares are finer than the tiles. A segment that lies behind the covers of all squares it
+//! passes is hidden without a further look; a triangle that lies behind all covers of a tile hides
+//! nothing there that is not hidden anyway. In a city of boxes that settles most lines. A line that
+//! lies on a triangle is one of its borders, or in contact with it, and so never strictly behind a
+//! square that the triangle fills.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::grid::Grid;
+use super::occluders::{Triangles, corners};
+use super::project::ImageSegment;
+
+/// Squares along each side of a tile.
+const SQUARES: u32 = 4;
+const OPEN: f64 = f64::NEG_INFINITY;
+
+/// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
+#[derive(Debug, Clone)]
+pub struct Covers {
+    squares: Grid,
+    of_square: Vec<f64>,
+    /// One a tile: the farthest of the covers of its squares.
+    pub of_tile: Vec<f64>,
+}
+
+impl Covers {
+    /// Finds the covers of the wanted tiles.
+    ///
+    /// The result does not depend on the number of threads: the nearest of all covers is taken.
+    #[must_use]
+    pub fn find(triangles: &Triangles, wanted: &[bool]) -> Self {
+        let squares = triangles.grid.refined(SQUARES);
+        let large: Vec<u32> = (0..triangles.count() as u32)
+            .into_par_iter()
+            .with_min_len(1 << 13)
+            .filter(|id| is_large(triangles, *id, squares.cell))
+            .collect();
+        let share = large.len().div_ceil(rayon::current_num_threads()).max(1 << 10);
+        let of_square = large
+            .par_chunks(share)
+            .map(|ids| {
+                let mut cover = vec![OPEN; squares.len()];
+                for id in ids {
+                    add(triangles, &squares, wanted, *id, &mut cover);
+                }
+                cover
+            })
+            .reduce_with(|mut a, b| {
+                a.iter_mut().zip(b).for_each(|(a, b)| *a = a.max(b));
+                a
+            });
+        let Some(of_square) = of_square else { return Self::none(triangles.grid) };
+        let mut of_tile = vec![f64::INFINITY; triangles.grid.len()];
+        for row in 0..squares.rows {
+            for column in 0..squares.columns {
+                let tile = &mut of_tile[triangles.grid.tile(column / SQUARES, row / SQUARES)];
+                *tile = tile.min(of_square[squares.tile(column, row)]);
+            }
+        }
+        Self { squares, of_square, of_tile }
+    }
+
+    /// No covers at all: every layer has to be counted.
+    #[must_use]
+    pub fn none(grid: &Grid) -> Self {
+        Self { squares: *grid, of_square: Vec::new(), of_tile: vec![OPEN; grid.len()] }
+    }
+
+    /// Whether the part of a segment between two parameters lies behind the covers of all squares
+    /// it passes.
+    #[must_use]
+    pub fn bury(&self, segment: &ImageSegment, start: f64, end: f64) -> bool {
+        if self.of_square.is_empty() {
+            return false;
+        }
+        let (a, b) = (segment.at(start), segment.at(end));
+        let mut buried = true;
+        self.squares.walk(a, b, |square, t0, t1| {
+            let nearest = (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1);
+            buried &= nearest < self.of_square[square];
+        });
+        buried
+    }
+}
+
+/// Whether a triangle is large enough in the image to fill a square, and whole.
+#[inline]
+fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
+    let (p, face) = corners(triangles.mesh, triangles.view, id);
+    let low = p[0].min(p[1]).min(p[2]);
+    let high = p[0].max(p[1]).max(p[2]);
+    // NaN, where the near plane cuts the triangle, is no number of cells.
+    let extent = high - low;
+    extent.x >= cell
+        && extent.y >= cell
+        && !(p[0].z.is_nan() || p[1].z.is_nan() || p[2].z.is_nan())
+        && !triangles.mesh.is_degenerate(crate::mesh::FaceId(face))
+}
+
+fn add(triangles: &Triangles, squares: &Grid, wanted: &[bool], id: u32, cover: &mut [f64]) {
+    let (points, _) = corners(triangles.mesh, triangles.view, id);
+    let (u, v) = (points[1] - points[0], points[2] - points[0]);
+    let area = u.truncate().perp_dot(v.truncate());
+    if area.abs() <= triangles.limits.height * u.truncate().length().max(v.truncate().length()) {
+        return;
+    }
+    let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
+    let low = points[0].min(points[1]).min(points[2]);
+    let high = points[0].max(points[1]).max(points[2]);
+    let sides = Sides::new(&points);
+    let half = squares.cell / 2.0;
+    for (square, corner) in squares.tiles_of(squares.tile_box(low, high)) {
+        let tile = squares.tile_of_square(square, triangles.grid, SQUARES);
+        let centre = corner + half;
+        if !wanted[tile] || !sides.contains(centre, half) {
+            continue;
+        }
+        let middle = points[0].z + slope.dot(centre - points[0].truncate());
+        let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(low.z);
+        let least = least - triangles.view.frame.nearness_step(least, 2.0 * triangles.limits.contact);
+        cover[square] = cover[square].max(least);
+    }
+}
+
+/// The three sides of a projected triangle as inward half planes: positive inside.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sides {
+    normals: [DVec2; 3],
+    offsets: [f64; 3],
+}
+
+impl Sides {
+    pub(super) fn new(points: &[DVec3; 3]) -> Self {
+        let [a, b, c] = points.map(DVec3::truncate);
+        let sign = (b - a).perp_dot(c - a).signum();
+        let normal = |p: DVec2, q: DVec2| (q - p).perp() * sign;
+        let normals = [normal(a, b), normal(b, c), normal(c, a)];
+        Self { normals, offsets: [-normals[0].dot(a), -normals[1].dot(b), -normals[2].dot(c)] }
+    }
+
+    /// Whether the square lies wholly outside one side.
+    pub(super) fn misses(&self, centre: DVec2, half: f64) -> bool {
+        (0..3).any(|i| {
+            let n = self.normals[i];
+            n.dot(centre) + self.offsets[i] + (n.x.abs() + n.y.abs()) * half < 0.0
+        })
+    }
+
+    /// Whether the square lies wholly inside all sides.
+    pub(super) fn contains(&self, centre: DVec2, half: f64) -> bool {
+        (0..3).all(|i| {
+            let n = self.normals[i];
+            n.dot(centre) + self.offsets[i] - (n.x.abs() + n.y.abs()) * half > 0.0
+        })
+    }
+}
