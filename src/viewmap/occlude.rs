@@ -77,13 +77,22 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     let [a, b, c] = corners.map(DVec3::truncate);
     let sides = [(a, b - a), (b, c - b), (c, a - c)];
     let area = sides[0].1.perp_dot(c - a);
+    let sign = area.signum();
+    // Most triangles that are asked lie wholly on the far side of one of their sides; that much is
+    // seen without a square root, since the sum of its coordinates is no shorter than a vector.
+    for (corner, side) in sides {
+        let slack = -limits.cover * (side.x.abs() + side.y.abs());
+        if side.perp_dot(p - corner) * sign < slack && side.perp_dot(q - corner) * sign < slack {
+            return None;
+        }
+    }
     let longest = sides.iter().map(|(_, d)| d.length_squared()).fold(0.0, f64::max).sqrt();
     if area.abs() <= limits.height * longest {
         return None;
     }
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for (corner, side) in sides {
-        let inward = area.signum() / side.length().max(f64::MIN_POSITIVE);
+        let inward = sign / side.length().max(f64::MIN_POSITIVE);
         let at_p = side.perp_dot(p - corner) * inward + limits.cover;
         let at_q = side.perp_dot(q - corner) * inward + limits.cover;
         if at_p < 0.0 {

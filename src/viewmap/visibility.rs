@@ -31,6 +31,8 @@ use crate::view::View;
 pub struct Visibility {
     hidden: Grouped<Layer>,
     backed: Grouped<Interval>,
+    /// How many times a segment was compared with a triangle.
+    pub tests: u64,
 }
 
 impl Visibility {
@@ -106,6 +108,7 @@ struct Item {
 struct TileResult {
     hidden: Vec<(u32, Layer)>,
     backed: Vec<(u32, Interval)>,
+    tests: u64,
 }
 
 /// Decides the visibility of all segments. With `counting` false, counts are not told apart and
@@ -221,6 +224,7 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
+    #[inline(never)]
     fn decide_tile(&self, items: &[Item], occluders: &Occluders, tile: usize, result: &mut TileResult) {
         let entries = occluders.of_tile(tile);
         let mut sorted = Vec::new();
@@ -238,7 +242,7 @@ impl Context<'_> {
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &self.segments[item.segment as usize];
             hidden.clear();
-            if self.gather_hidden(segment, item, entries, ordered, &mut hidden) {
+            if self.gather_hidden(segment, item, entries, ordered, &mut hidden, &mut result.tests) {
                 result.hidden.push((item.segment, whole(item)));
                 continue;
             }
@@ -255,6 +259,7 @@ impl Context<'_> {
 
     /// Collects what the triangles of a tile hide of an item. True if one of them, or a run of
     /// them, hides all of it and counts are not asked for.
+    #[inline(never)]
     fn gather_hidden(
         &self,
         segment: &ImageSegment,
@@ -262,6 +267,7 @@ impl Context<'_> {
         entries: &[Occluder],
         ordered: bool,
         hidden: &mut Vec<Interval>,
+        tests: &mut u64,
     ) -> bool {
         let (p, q) = (segment.at(item.start), segment.at(item.end));
         let (low, high) = (p.min(q), p.max(q));
@@ -283,6 +289,7 @@ impl Context<'_> {
             if segment.hosts.contains(&face) {
                 continue;
             }
+            *tests += 1;
             let ids = self.mesh.triangles[face as usize];
             let Some(mut found) = hidden_interval(segment, &corners, ids, &self.view.frame, self.limits)
             else {
@@ -309,6 +316,7 @@ impl Context<'_> {
     }
 
     /// Collects where a surface lies just beside a bounding segment, on its outer side.
+    #[inline(never)]
     fn gather_backed(
         &self,
         segment: &ImageSegment,
@@ -374,6 +382,7 @@ fn gather(
         std::iter::once(buried).chain(results.iter().map(|r| &r.hidden[..])).collect();
     let backed: Vec<&[(u32, Interval)]> = results.iter().map(|r| &r.backed[..]).collect();
     Visibility {
+        tests: results.iter().map(|r| r.tests).sum(),
         hidden: Grouped::new(segments.len(), &hidden, |segment, layers| {
             join_layers(layers, shortest(segment));
         }),
