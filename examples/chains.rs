@@ -36,7 +36,9 @@ fn main() -> Result<(), Error> {
         ("as by default", ChainOptions::default()),
     ];
     for (name, options) in ways {
-        let chains = chain::link(&map, &options, Unit::Px);
+        // Hidden contours are linked as well, but not drawn.
+        let mut chains = chain::link(&map, &options, Unit::Px);
+        chains.retain(|chain| chain.invisibility == 0);
         let closed = chains.iter().filter(|chain| chain.closed).count();
         // The path is what is drawn: one element moves the pen, each further one is a line or a curve.
         let pieces: usize = chains.iter().map(|chain| chain.path.elements().len() - 1).sum();

@@ -14,4 +14,4 @@ pictures=docs/pictures
 "$ligne" draw $models/gear.obj $pictures/gear.svg --size 480x360 --elevation 35 --precision 1
 "$ligne" draw $models/teapot.obj $pictures/teapot.svg --size 480x360 --azimuth 20 --precision 1
 "$ligne" draw $models/knot.ply $pictures/knot.svg --size 480x360 --azimuth 0 --elevation 65 --precision 1
-"$ligne" draw $models/bracket.stl $pictures/bracket.svg --size 480x480 --azimuth 60 --style technical --precision 1
+"$ligne" draw $models/bracket.stl $pictures/bracket.svg --size 480x480 --azimuth 140 --style technical --precision 1
