@@ -129,6 +129,7 @@ pub fn hidden_interval(
     let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
     let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
     let farthest = corners[0].z.min(corners[1].z).min(corners[2].z);
+    let at_corner = |end: usize| shared[end].is_some() && !segment.cut[end];
     let is_neighbour = shared[0].is_some() || shared[1].is_some();
     let step = if is_neighbour { limits.neighbour } else { limits.contact };
     let lead = |t: f64| {
@@ -147,10 +148,10 @@ pub fn hidden_interval(
     if at_start <= 0.0 {
         let t = start + span * (at_start / (at_start - at_end));
         // From a shared corner the surface rises at once.
-        if !(shared[0].is_some() && start == 0.0) {
+        if !(at_corner(0) && start == 0.0) {
             (hidden.start, hidden.start_kind) = (t, ViewVertexKind::Piercing);
         }
-    } else if at_end <= 0.0 && !(shared[1].is_some() && end == 1.0) {
+    } else if at_end <= 0.0 && !(at_corner(1) && end == 1.0) {
         let t = start + span * (at_start / (at_start - at_end));
         (hidden.end, hidden.end_kind) = (t, ViewVertexKind::Piercing);
     }

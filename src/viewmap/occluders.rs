@@ -77,7 +77,7 @@ impl Triangles<'_> {
     }
 
     /// The tiles that each triangle's box meets; an empty box for triangles that hide nothing or
-    /// lie off the page.
+    /// lie off the grid.
     #[must_use]
     pub fn tile_boxes(&self) -> Vec<TileBox> {
         (0..self.count()).into_par_iter().with_min_len(1 << 12).map(|id| self.tile_box(id as u32)).collect()
@@ -90,7 +90,8 @@ impl Triangles<'_> {
         if cut || self.mesh.is_degenerate(FaceId(face)) {
             return TileBox::EMPTY;
         }
-        let slack = self.grid.cell * 1e-6;
+        // Lines are also asked about a little beside themselves.
+        let slack = (self.grid.cell * 1e-6).max(2.0 * self.limits.beside);
         let low = points[0].min(points[1]).min(points[2]) - slack;
         let high = points[0].max(points[1]).max(points[2]) + slack;
         self.grid.tile_box(low, high)
@@ -104,7 +105,7 @@ impl Triangles<'_> {
             let spans =
                 |first: u16, last: u16, count: u32| last >= first && (last - first >= 2 || count <= 2);
             spans(b.left, b.right, self.grid.columns) && spans(b.top, b.bottom, self.grid.rows)
-                || b.meets_page_edge(self.grid) && !b.is_empty()
+                || b.meets_edge(self.grid) && !b.is_empty()
         };
         let large: Vec<u32> = boxes
             .par_iter()
@@ -222,7 +223,10 @@ impl Triangles<'_> {
         let sides = Sides::new(&points);
         let half = self.grid.cell / 2.0;
         for (tile, corner) in self.grid.tiles_of(tiles) {
-            if wanted[tile] && nearest >= cover[tile] && !sides.misses(corner + half, half * (1.0 + 1e-5)) {
+            if wanted[tile]
+                && nearest >= cover[tile]
+                && !sides.misses(corner + half, half * (1.0 + 1e-5) + 2.0 * self.limits.beside)
+            {
                 pairs.push((tile as u32, id));
             }
         }
