@@ -2,12 +2,16 @@
 //!
 //! Edges of parts that touch, coplanar faces and T-vertices make lines that coincide in the image
 //! without being one edge of the mesh. Of two such lines the weaker kind gives way, of equal kinds
-//! the later one. Lines that share a node are left alone: they are a fold of one curve.
+//! the later one. Lines that share a node may be a fold of one curve, and must coincide to rounding.
 
 use kurbo::{Point, Vec2};
 use rustc_hash::FxHashMap;
 
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+
+/// Lines that share a node count as coinciding within this share of the distance of others: the
+/// two sides of a T-vertex do, the folds of a contour hardly ever.
+const JOINED_SHARE: f64 = 1e-3;
 
 /// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
 /// edge. `cell` is the side of the tiles in which neighbours are sought.
@@ -52,13 +56,15 @@ fn find_covered(map: &ViewMap, within: f64, cell: f64) -> Vec<(u32, (f64, f64))>
         near.dedup();
         for &other_id in &near {
             let other = &map.edges[other_id as usize];
-            if edge.start == other.start
-                || edge.start == other.end
-                || edge.end == other.start
-                || edge.end == other.end
-            {
+            // A long line may come back to a tile where it is known already.
+            if other_id as usize == id {
                 continue;
             }
+            let joined = edge.start == other.start
+                || edge.start == other.end
+                || edge.end == other.start
+                || edge.end == other.end;
+            let within = if joined { within * JOINED_SHARE } else { within };
             let other_line = Line::of(map, other);
             if !line.runs_along(&other_line, within) {
                 continue;

@@ -165,11 +165,20 @@ fn gather(
 /// Joins pieces of equal count that touch, and drops what is shorter than rounding.
 fn join_layers(layers: &mut Vec<Layer>, shortest: f64) {
     layers.sort_by(|a, b| a.interval.start.total_cmp(&b.interval.start));
+    join_touching(layers, shortest);
+    layers.retain(|l| l.interval.end - l.interval.start > shortest);
+    // Both faces beside an edge cover it, so that behind every edge lies a sliver of one layer
+    // more: what it parted is one again.
+    join_touching(layers, 2.0 * shortest);
+}
+
+/// Joins neighbours of equal count with a gap of at most `gap` between them.
+fn join_touching(layers: &mut Vec<Layer>, gap: f64) {
     let mut last = 0;
     for i in 1..layers.len() {
         let layer = layers[i];
         let joined = &mut layers[last];
-        if joined.count == layer.count && layer.interval.start - joined.interval.end <= shortest {
+        if joined.count == layer.count && layer.interval.start - joined.interval.end <= gap {
             if layer.interval.end > joined.interval.end {
                 joined.interval.end = layer.interval.end;
                 joined.interval.end_kind = layer.interval.end_kind;
@@ -180,5 +189,4 @@ fn join_layers(layers: &mut Vec<Layer>, shortest: f64) {
         }
     }
     layers.truncate(last + 1);
-    layers.retain(|l| l.interval.end - l.interval.start > shortest);
 }
