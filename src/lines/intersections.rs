@@ -14,7 +14,7 @@ use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::view::View;
 
 /// Meshes with at most this many triangles are searched in full, which takes no longer.
-pub const FULL_SEARCH_TRIANGLES: usize = 50_000;
+pub const FULL_SEARCH_TRIANGLES: usize = 300_000;
 
 /// Adds the intersection curves of all faces that have area; without hidden lines, at least those
 /// that show in the view.

@@ -43,7 +43,12 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     }
     let mut map = builder.map;
     map.tests = seen.tests;
-    doubles::remove(&mut map, limits.double, view.frame.width.max(view.frame.height) / 128.0);
+    doubles::remove(
+        &mut map,
+        limits.double,
+        view.frame.width.max(view.frame.height) / 128.0,
+        view.frame.perspective,
+    );
     map
 }
 

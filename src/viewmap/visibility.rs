@@ -155,7 +155,9 @@ fn gather(
         }),
         backed: Grouped::new(segments.len(), &backed, |segment, intervals| {
             let mut joined = Vec::new();
-            sweep(intervals, shortest(segment), false, &mut joined);
+            // Beside a corner the outer side may graze a face that only shares the vertex.
+            let grazing = 4.0 * limits.beside / segments[segment].length().max(4.0 * limits.beside);
+            sweep(intervals, grazing, false, &mut joined);
             intervals.clear();
             intervals.extend(joined.iter().map(|l| l.interval));
         }),
