@@ -13,5 +13,5 @@ pictures=docs/pictures
 "$ligne" draw $models/pump.glb $pictures/pump.svg --size 800x560 --precision 1
 "$ligne" draw $models/gear.obj $pictures/gear.svg --size 480x360 --elevation 35 --precision 1
 "$ligne" draw $models/teapot.obj $pictures/teapot.svg --size 480x360 --azimuth 20 --precision 1
-"$ligne" draw $models/knot.ply $pictures/knot.svg --size 480x360 --azimuth 0 --elevation 65 --precision 1
+"$ligne" draw $models/knot.ply $pictures/knot.svg --size 480x360 --azimuth 0 --elevation 30 --precision 1
 "$ligne" draw $models/bracket.stl $pictures/bracket.svg --size 480x480 --azimuth 140 --style technical --precision 1
