@@ -247,6 +247,15 @@ fn png_has_the_pixels_asked_for() {
 }
 
 #[test]
+fn pdf_is_a_format_like_the_others() {
+    let folder = Folder::with_cubes("pdf");
+    let run = folder.ligne("draw cubes.obj sheet.PDF --page A5 --style technical");
+    assert!(run.done().err.starts_with("sheet.PDF: 148 x 210 mm, "), "{run:?}");
+    let pdf = folder.read("sheet.PDF");
+    assert!(pdf.starts_with(b"%PDF-1.7") && pdf.trim_ascii_end().ends_with(b"%%EOF"));
+}
+
+#[test]
 fn info_says_what_is_in_the_file() {
     let folder = Folder::with_cubes("info");
     let text = folder.ligne("info cubes.obj").done().out.clone();

@@ -331,3 +331,78 @@ fn pictures_without_pixels_or_with_too_many_are_refused() {
         assert!(drawing.to_png(&PngOptions { resolution }).is_err(), "{resolution:?}");
     }
 }
+
+/// The streams of a PDF file, inflated, and everything else in it.
+fn take_apart(pdf: &[u8]) -> (String, String) {
+    let find = |text: &[u8], word: &[u8]| text.windows(word.len()).position(|part| part == word);
+    let (mut content, mut rest) = (String::new(), String::new());
+    let mut left = pdf;
+    while let Some(start) = find(left, b"\nstream\n") {
+        rest.push_str(&String::from_utf8_lossy(&left[..start]));
+        left = &left[start + 8..];
+        let end = find(left, b"\nendstream").unwrap();
+        let inflated = miniz_oxide::inflate::decompress_to_vec_zlib(&left[..end]).unwrap();
+        content.push_str(std::str::from_utf8(&inflated).unwrap());
+        left = &left[end..];
+    }
+    rest.push_str(&String::from_utf8_lossy(left));
+    (content, rest)
+}
+
+#[test]
+fn pdf_has_the_page_the_layers_and_the_ink_of_the_drawing() {
+    let mut drawing = drawing(vec![
+        mark("M10 20L30.25 40", stroke(2.0, Colour::BLACK), &["contour"], None),
+        mark("M1 2L3 4", stroke(2.0, Colour { a: 51, ..Colour::BLACK }), &["contour"], None),
+    ]);
+    drawing.title = "Büro (a)".to_owned();
+    drawing.page.background = Some(Colour::WHITE);
+    drawing.layers[0].pen = Some("1 0.5 mm #000000".to_owned());
+    let pdf = drawing.to_pdf();
+    assert_eq!(pdf, drawing.to_pdf());
+    let (content, rest) = take_apart(&pdf);
+    assert_eq!(
+        content.replace('\n', " "),
+        "q .75 0 0 -.75 0 60 cm 4 M /OC /L0 BDC /A255 gs 1 1 1 rg 0 0 100 80 re f EMC \
+         /OC /L1 BDC /A255 gs 2 w 1 J 1 j 0 0 0 RG [] 0 d 10 20 m 30.25 40 l S \
+         /A51 gs 0 0 0 RG 1 2 m 3 4 l S EMC Q "
+    );
+    for wanted in ["/MediaBox [0 0 75 60]", "(paper)", "(1 0.5 mm #000000)", "/CA 0.2", "/OCGs [5 0 R 6 0 R]"]
+    {
+        assert!(rest.contains(wanted), "no {wanted} in {rest}");
+    }
+    assert!(!rest.contains("Date"), "{rest}");
+}
+
+#[test]
+fn pdf_pages_are_as_large_as_the_paper() {
+    let mut drawing = drawing(Vec::new());
+    drawing.layers.clear();
+    drawing.page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
+    assert!(take_apart(&drawing.to_pdf()).1.contains("/MediaBox [0 0 595.2756 841.88975]"));
+    drawing.page = Page { width: 38_400.0, height: 100.0, unit: Unit::Px, background: None };
+    let (_, rest) = take_apart(&drawing.to_pdf());
+    assert!(rest.contains("/MediaBox [0 0 14400 37.5]") && rest.contains("/UserUnit 2"), "{rest}");
+}
+
+#[test]
+fn pdf_of_many_marks_is_the_same_on_any_number_of_threads() {
+    let mut random = Random(5);
+    let marks: Vec<Mark> = (0..5000)
+        .map(|i| Mark {
+            path: random.path(),
+            paint: stroke(f64::from(i % 3), Colour::BLACK),
+            provenance: Provenance::default(),
+        })
+        .collect();
+    let drawing = drawing(marks);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| drawing.to_pdf())
+    };
+    let pdf = on(1);
+    assert_eq!(pdf, on(3));
+    let (content, _) = take_apart(&pdf);
+    assert_eq!(content.lines().filter(|line| *line == "S").count(), 5000);
+    assert_eq!((content.matches("BDC").count(), content.matches("EMC").count()), (1, 1));
+}

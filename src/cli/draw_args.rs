@@ -23,7 +23,7 @@ pub(super) struct DrawArgs {
     /// The model: .obj, .gltf, .glb, .stl or .ply
     pub(super) model: PathBuf,
 
-    /// The drawing: .svg or .png, or - for SVG on standard output [default: the model's name with
+    /// The drawing: .svg, .png or .pdf, or - for SVG on standard output [default: the model's name with
     /// .svg, in the current folder]
     pub(super) out: Option<PathBuf>,
 

@@ -11,6 +11,7 @@ use crate::error::Error;
 pub(super) enum Format {
     Svg,
     Png,
+    Pdf,
     SvgToStdout,
 }
 
@@ -32,15 +33,16 @@ impl Output {
         let format = match ending.as_deref() {
             Some("svg") => Format::Svg,
             Some("png") => Format::Png,
+            Some("pdf") => Format::Pdf,
             Some(other) => {
                 return Err(Error::new(format!("drawings are not written as .{other}"))
                     .in_file(path)
-                    .remedy("end the name with .svg or .png, or write - for SVG on standard output"));
+                    .remedy("end the name with .svg, .png or .pdf, or write - for SVG on standard output"));
             }
             None => {
                 return Err(Error::new("the name of the drawing does not tell its format")
                     .in_file(path)
-                    .remedy("end it with .svg or .png, or write - for SVG on standard output"));
+                    .remedy("end it with .svg, .png or .pdf, or write - for SVG on standard output"));
             }
         };
         Ok(Self { path, format })
@@ -50,7 +52,7 @@ impl Output {
     pub(super) fn name(&self) -> String {
         match self.format {
             Format::SvgToStdout => "standard output".to_owned(),
-            Format::Svg | Format::Png => self.path.display().to_string(),
+            Format::Svg | Format::Png | Format::Pdf => self.path.display().to_string(),
         }
     }
 }

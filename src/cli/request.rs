@@ -185,7 +185,7 @@ mod tests {
         let wrong = [
             "",
             "m.stl a.gif",
-            "m.stl a.pdf",
+            "m.stl a.eps",
             "m.stl a",
             "m.stl a.svg -o a.svg",
             "m.stl - -o -",

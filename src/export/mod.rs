@@ -1,8 +1,10 @@
-//! Bytes: a [`crate::drawing::Drawing`] as SVG or PNG.
+//! Bytes: a [`crate::drawing::Drawing`] as SVG, PDF or PNG.
 
 mod attributes;
 mod number;
 mod path_data;
+pub mod pdf;
+mod pdf_content;
 pub mod png;
 pub mod svg;
 mod xml;

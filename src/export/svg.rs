@@ -136,7 +136,7 @@ impl Drawing {
     }
 
     /// Id and label of a layer. Layers of several pens are numbered, and labelled by their pen.
-    fn names(&self, layer: &Layer) -> (String, String) {
+    pub(super) fn names(&self, layer: &Layer) -> (String, String) {
         let id = layer.kind.id();
         let mut same = self.layers.iter().filter(|other| other.kind == layer.kind);
         let id = match (&layer.pen, same.nth(1)) {

@@ -1,5 +1,7 @@
 //! Flattening: all instances of a scene into one [`Soup`] in world space, and what can be known of it before.
 
+use std::borrow::Cow;
+
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::coordinate::is_drawable;
@@ -30,7 +32,7 @@ impl Scene {
     /// where nothing can be drawn.
     #[must_use]
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let mut used: Vec<Option<Vec<DVec3>>> = vec![None; self.geometries.len()];
+        let mut used: Vec<Option<Cow<[DVec3]>>> = vec![None; self.geometries.len()];
         let mut bounds: Option<(DVec3, DVec3)> = None;
         for part in &self.parts {
             let Some(geometry) = self.geometry_of(part) else { continue };
@@ -67,14 +69,17 @@ impl Scene {
     }
 }
 
-/// The positions that triangles or wires use, each once.
-pub(super) fn used_points(geometry: &Geometry) -> Vec<DVec3> {
+/// The positions that triangles or wires use, each once; usually all.
+pub(super) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
     let mut used = vec![false; geometry.positions.len()];
     let corners = geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened());
     for &corner in corners {
         if let Some(used) = used.get_mut(corner as usize) {
             *used = true;
         }
+    }
+    if used.iter().all(|used| *used) {
+        return Cow::Borrowed(&geometry.positions);
     }
     geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.then_some(p)).collect()
 }

@@ -7,7 +7,9 @@
 //! one maximum over all points, `max(p.x - t p.z)`, and the nearest eye from which everything is
 //! seen follows from two opposite planes: exact, from the vertices and not from their box.
 
-use glam::DVec3;
+use std::borrow::Cow;
+
+use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use super::coordinate::is_drawable;
@@ -27,6 +29,9 @@ const LEAST_SPAN: f64 = 1e-6;
 
 /// Points handled at once by one thread.
 const CHUNK: usize = 1 << 14;
+
+/// Points in one box.
+const BLOCK: usize = 1 << 8;
 
 /// Newton steps of the centring; each but the last passes a vertex of a convex polyline, and three
 /// or four are usual.
@@ -54,13 +59,10 @@ impl Camera {
         let centre = low / 2.0 + high / 2.0;
         let [right, up, forward] = self.axes();
         // Relative to the centre, so that a model far from the origin loses nothing.
-        let local: Vec<DVec3> = points
-            .par_iter()
-            .with_min_len(CHUNK)
-            .filter(|p| p.is_finite())
-            .map(|&p| p - centre)
-            .map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(forward)))
-            .collect();
+        let local = Cloud::new(points, |p| {
+            let p = p - centre;
+            DVec3::new(p.dot(right), p.dot(up), p.dot(forward))
+        });
         let diagonal = match (high - low).length() {
             0.0 => 2.0,
             diagonal => diagonal,
@@ -83,27 +85,86 @@ impl Camera {
     }
 }
 
-/// Eye, in the camera's axes, that sees all points within the given half angles.
-fn perspective_eye(points: &[DVec3], (tx, ty): (f64, f64), diagonal: f64) -> DVec3 {
-    // Positions of the four planes: right, left, top, bottom; and of the nearest point.
-    let [r, l, t, b, near] =
-        maxima(points, |p| [p.x - tx * p.z, -p.x - tx * p.z, p.y - ty * p.z, -p.y - ty * p.z, -p.z]);
-    let z = (-(r + l) / (2.0 * tx)).min(-(t + b) / (2.0 * ty)).min(-near - NEAREST_EYE * diagonal);
-    let x = centred(points, tx, z, |p| p.x);
-    let y = centred(points, ty, z, |p| p.y);
-    DVec3::new(x, y, z)
+/// Points in the camera's axes, with a box round every few of them: whatever lies farthest in some
+/// direction is found without looking at most of them. Each maximum is exact, and the same
+/// whatever the order of the points.
+struct Cloud {
+    points: Vec<DVec3>,
+    /// Least and greatest coordinates of each [`BLOCK`] of points.
+    boxes: Vec<(DVec3, DVec3)>,
 }
 
-/// Where the eye must be sideways, at the depth `eye_z`, for the picture of the points to leave
-/// as much free on the one side as on the other.
+impl Cloud {
+    /// All finite points, placed in the camera's axes.
+    fn new(points: &[DVec3], place: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
+        // A point that stands twice changes nothing.
+        let finite = points.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
+        let placed =
+            points.par_iter().with_min_len(CHUNK).map(|&p| place(if p.is_finite() { p } else { finite }));
+        let points: Vec<DVec3> = placed.collect();
+        let boxes = points.par_chunks(BLOCK).with_min_len(CHUNK / BLOCK).map(box_round).collect();
+        Self { points, boxes }
+    }
+
+    /// The greatest product of a point with `direction`, and the depth of a point that attains it;
+    /// of several such points the farthest.
+    fn farthest(&self, direction: DVec3) -> (f64, f64) {
+        let mut best = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for ((low, high), points) in self.boxes.iter().zip(self.points.chunks(BLOCK)) {
+            // Rounding keeps the order of products and sums, so no point is beyond this.
+            let corner = DVec3::select(direction.cmpge(DVec3::ZERO), *high, *low);
+            if product(corner, direction) < best.0 {
+                continue;
+            }
+            for p in points {
+                let found = (product(*p, direction), p.z);
+                if found > best {
+                    best = found;
+                }
+            }
+        }
+        best
+    }
+
+    /// The greatest product of any point with `direction`.
+    fn reach(&self, direction: DVec3) -> f64 {
+        self.farthest(direction).0
+    }
+}
+
+/// Always summed in this order.
+#[inline]
+fn product(p: DVec3, direction: DVec3) -> f64 {
+    p.x * direction.x + p.y * direction.y + p.z * direction.z
+}
+
+fn box_round(points: &[DVec3]) -> (DVec3, DVec3) {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points.iter().fold(nothing, |(low, high), p| (low.min(*p), high.max(*p)))
+}
+
+/// Eye, in the camera's axes, that sees all points within the given half angles.
+fn perspective_eye(points: &Cloud, (tx, ty): (f64, f64), diagonal: f64) -> DVec3 {
+    // Positions of the four planes: right, left, top, bottom; and of the nearest point.
+    let reach = |x, y, z| points.reach(DVec3::new(x, y, z));
+    let (r, l) = (reach(1.0, 0.0, -tx), reach(-1.0, 0.0, -tx));
+    let (t, b) = (reach(0.0, 1.0, -ty), reach(0.0, -1.0, -ty));
+    let near = reach(0.0, 0.0, -1.0);
+    let z = (-(r + l) / (2.0 * tx)).min(-(t + b) / (2.0 * ty)).min(-near - NEAREST_EYE * diagonal);
+    DVec3::new(centred(points, tx, z, DVec3::X), centred(points, ty, z, DVec3::Y), z)
+}
+
+/// Where the eye must be along the axis `side`, at the depth `eye_z`, for the picture of the points
+/// to leave as much free on the one side as on the other.
 ///
 /// The narrowest angle that holds the points is the zero of a convex, falling function of its
 /// tangent, `max(x - t z) + max(-x - t z) + 2 t eye_z`; Newton's method from 0 never oversteps it.
-fn centred(points: &[DVec3], widest: f64, eye_z: f64, side: impl Fn(&DVec3) -> f64 + Sync) -> f64 {
+fn centred(points: &Cloud, widest: f64, eye_z: f64, side: DVec3) -> f64 {
     let mut t = 0.0;
     let mut x = 0.0;
     for _ in 0..CENTRING_STEPS {
-        let (plus, minus) = supports(points, |p| (side(p) - t * p.z, -side(p) - t * p.z), |p| p.z);
+        let plus = points.farthest(side - t * DVec3::Z);
+        let minus = points.farthest(-side - t * DVec3::Z);
         let excess = plus.0 + minus.0 + 2.0 * t * eye_z;
         x = (plus.0 - minus.0) / 2.0;
         let fall = plus.1 + minus.1 - 2.0 * eye_z;
@@ -117,59 +178,25 @@ fn centred(points: &[DVec3], widest: f64, eye_z: f64, side: impl Fn(&DVec3) -> f
 }
 
 /// Eye and picture height, in the camera's axes, of a parallel view of all points.
-fn parallel_eye(points: &[DVec3], frame: (f64, f64), height: f64, diagonal: f64) -> (DVec3, f64) {
-    let [r, l, t, b, near] = maxima(points, |p| [p.x, -p.x, p.y, -p.y, -p.z]);
+fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -> (DVec3, f64) {
+    let [r, l, t, b, near] =
+        [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::NEG_Z].map(|axis| points.reach(axis));
     let span = ((r + l) * height / frame.0).max((t + b) * height / frame.1);
     let span = if span < LEAST_SPAN * diagonal { diagonal * height / frame.0.min(frame.1) } else { span };
     (DVec3::new((r - l) / 2.0, (t - b) / 2.0, -near - diagonal), span)
 }
 
-/// The largest value of each of `N` functions over all points. A maximum is the same in whatever
-/// order it is taken, so threads may share the work.
-fn maxima<const N: usize>(points: &[DVec3], values: impl Fn(&DVec3) -> [f64; N] + Sync) -> [f64; N] {
-    let larger = |mut a: [f64; N], b: [f64; N]| {
-        for (a, b) in a.iter_mut().zip(b) {
-            *a = a.max(b);
-        }
-        a
-    };
-    let nothing = || [f64::NEG_INFINITY; N];
-    points
-        .par_chunks(CHUNK)
-        .map(|chunk| chunk.iter().map(&values).fold(nothing(), larger))
-        .reduce(nothing, larger)
-}
-
-/// The largest of two values over all points, each with the depth of a point that attains it; of
-/// several such points the farthest, so that the order of the points does not matter.
-fn supports(
-    points: &[DVec3],
-    values: impl Fn(&DVec3) -> (f64, f64) + Sync,
-    depth: impl Fn(&DVec3) -> f64 + Sync,
-) -> ((f64, f64), (f64, f64)) {
-    let larger = |a: (f64, f64), b: (f64, f64)| if b > a { b } else { a };
-    let both =
-        |a: ((f64, f64), (f64, f64)), b: ((f64, f64), (f64, f64))| (larger(a.0, b.0), larger(a.1, b.1));
-    let least = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let nothing = || (least, least);
-    points
-        .par_chunks(CHUNK)
-        .map(|chunk| {
-            chunk.iter().fold(nothing(), |found, p| {
-                let ((plus, minus), z) = (values(p), depth(p));
-                both(found, ((plus, z), (minus, z)))
-            })
-        })
-        .reduce(nothing, both)
-}
-
 /// Corners of the box round all finite points, or `None` if there are none.
 #[must_use]
 pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
-    let [x, y, z, left, down, back] = maxima(points, |p| {
-        if p.is_finite() { [p.x, p.y, p.z, -p.x, -p.y, -p.z] } else { [f64::NEG_INFINITY; 6] }
-    });
-    let (low, high) = (DVec3::new(-left, -down, -back), DVec3::new(x, y, z));
+    let of_chunk = |chunk: &[DVec3]| {
+        let finite = chunk.iter().filter(|p| p.is_finite());
+        finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
+    };
+    let (low, high) = points
+        .par_chunks(CHUNK)
+        .map(of_chunk)
+        .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
     (low.is_finite() && high.is_finite()).then_some((low, high))
 }
 
@@ -177,12 +204,16 @@ pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
 /// [`Scene::to_soup`] leaves out is left out here.
 #[must_use]
 pub fn world_points(scene: &Scene) -> Vec<DVec3> {
-    let used: Vec<Vec<DVec3>> = scene.geometries.par_iter().map(used_points).collect();
+    let used: Vec<Cow<[DVec3]>> = scene.geometries.par_iter().map(used_points).collect();
     let mut points = Vec::new();
     for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
         let Some(positions) = used.get(part.geometry) else { continue };
         let first = points.len();
-        points.extend(positions.iter().map(|&p| part.world_from_part.transform_point3(p)));
+        if part.world_from_part == DAffine3::IDENTITY {
+            points.extend_from_slice(positions);
+        } else {
+            points.extend(positions.iter().map(|&p| part.world_from_part.transform_point3(p)));
+        }
         if !points.iter().skip(first).all(|&p| is_drawable(p)) {
             points.truncate(first);
         }
@@ -192,8 +223,6 @@ pub fn world_points(scene: &Scene) -> Vec<DVec3> {
 
 #[cfg(test)]
 mod tests {
-    use glam::DAffine3;
-
     use super::*;
     use crate::scene::{Geometry, NamedView, Part, UpAxis};
 

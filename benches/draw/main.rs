@@ -1,0 +1,173 @@
+//! Compares the whole process `ligne draw` with the floor under it: reading the file, edge adjacency,
+//! projection and one depth raster, on one thread. Ratios can be compared between machines, times
+//! cannot.
+//!
+//! `cargo bench --bench draw [-- NAME…]` draws the models whose names contain one of the words, or
+//! all. Models that are not there are passed over; `LIGNE_MODELS` names their folder.
+
+mod floor;
+mod process;
+#[allow(dead_code)]
+#[path = "../../examples/make_stress/scenes.rs"]
+mod scenes;
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use floor::Floor;
+use process::Threads;
+use scenes::Triangles;
+
+/// Models, and how many times their floor a drawing may take where that is laid down.
+const MODELS: [(&str, Option<f64>); 8] = [
+    ("organic/stanford-bunny.obj", Some(4.0)),
+    ("organic/dragon-202k.ply", None),
+    ("organic/dragon-871k.ply", Some(3.0)),
+    ("cad/knot_1k.glb", None),
+    ("cad/knot_10k.glb", None),
+    ("cad/knot_50k.glb", None),
+    ("cad/knot_100k.glb", None),
+    ("cad/drive.obj", None),
+];
+
+/// The same for the models that are made here.
+const MADE_LIMIT: Option<f64> = Some(8.0);
+
+/// A model is measured at least so often, and again until so much time has passed.
+const LEAST_ROUNDS: usize = 3;
+const MOST_ROUNDS: usize = 25;
+const PATIENCE: Duration = Duration::from_secs(6);
+
+/// What was measured of one model.
+struct Row {
+    name: String,
+    /// Seconds a triangle on one thread, CPU where it is known.
+    per_triangle: f64,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|word| name.contains(word.as_str()));
+    let folder = std::env::temp_dir().join(format!("ligne-bench-{}", std::process::id()));
+    std::fs::create_dir_all(&folder)?;
+
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    println!(
+        "Least times in ms. `all` is a drawing on {cores} threads, `one` on one; `fl` the floor; `cpu` the CPU of"
+    );
+    println!("`one`, over that of the floor, which a busy machine disturbs least. Load: {}", load());
+    println!(
+        "{:<15} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}",
+        "model", "triangles", "floor", "all", "one", "all/fl", "one/fl", "cpu/fl", "limit", "B/tri", "ns/tri"
+    );
+    let mut rows = Vec::new();
+    for (path, limit) in MODELS {
+        let model = models().join(path);
+        if !is_wanted(path) {
+            continue;
+        }
+        if model.exists() {
+            rows.push(measure(&model, limit, &folder)?);
+        } else {
+            println!("{path}: not there, passed over");
+        }
+    }
+    for (name, make) in [("city", scenes::city as fn(u32) -> Triangles), ("menger", scenes::menger)] {
+        if is_wanted(name) {
+            let model = folder.join(name).with_extension("obj");
+            write_obj(&model, &make(if name == "city" { 300 } else { 4 }))?;
+            rows.push(measure(&model, MADE_LIMIT, &folder)?);
+        }
+    }
+    print_growth(&rows);
+    println!("Load of the machine: {}", load());
+    std::fs::remove_dir_all(folder)?;
+    Ok(())
+}
+
+/// Measures one model, floor and drawings in turn, and prints its row.
+fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<dyn std::error::Error>> {
+    let floor = Floor::new(model)?;
+    let drawing = folder.join("drawing.svg");
+    let mut least_floor = floor.run(model);
+    let (mut all, mut alone) = (f64::INFINITY, f64::INFINITY);
+    let start = Instant::now();
+    for round in 0..MOST_ROUNDS {
+        if round >= LEAST_ROUNDS && start.elapsed() > PATIENCE {
+            break;
+        }
+        least_floor = least_floor.least(floor.run(model));
+        all = all.min(process::draw(model, &drawing, Threads::All)?);
+        alone = alone.min(process::draw(model, &drawing, Threads::One)?);
+    }
+    let cpu = (0..LEAST_ROUNDS).filter_map(|_| process::cpu(model, &drawing, Threads::One));
+    let cpu = cpu.reduce(f64::min);
+    let memory = process::memory(model, &drawing, Threads::All);
+
+    let name = model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let triangles = floor.triangles() as f64;
+    let total = least_floor.total();
+    let ms = |seconds: f64| format!("{:.1}", seconds * 1e3);
+    let known = |number: Option<f64>, decimals| number.map_or("-".to_owned(), |n| format!("{n:.decimals$}"));
+    let per_triangle = cpu.unwrap_or(alone) / triangles;
+    println!(
+        "{name:<15} {triangles:>9} {:>8} {:>8} {:>8} {:>7.2} {:>7.2} {:>7} {:>6} {:>6} {:>7.0}",
+        ms(total),
+        ms(all),
+        ms(alone),
+        all / total,
+        alone / total,
+        known(cpu.map(|cpu| cpu / least_floor.cpu), 2),
+        known(limit, 0),
+        known(memory.map(|bytes| bytes / triangles), 0),
+        per_triangle * 1e9,
+    );
+    let stages = process::stages(model, &drawing)?;
+    let shares: Vec<String> = stages.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
+    println!(
+        "  floor: parse {}, edges {}, project {}, raster {}; drawing: {}",
+        ms(least_floor.parse),
+        ms(least_floor.edges),
+        ms(least_floor.project),
+        ms(least_floor.raster),
+        shares.join(", ")
+    );
+    Ok(Row { name, per_triangle })
+}
+
+/// How the time a triangle grows along models of one kind; 1 or less is linear or better.
+fn print_growth(rows: &[Row]) {
+    let names = ["knot_1k", "knot_10k", "knot_50k", "knot_100k", "dragon-871k"];
+    let chosen: Vec<&Row> =
+        names.iter().filter_map(|name| rows.iter().find(|row| row.name == *name)).collect();
+    for pair in chosen.windows(2) {
+        let [from, to] = pair else { continue };
+        let growth = to.per_triangle / from.per_triangle;
+        println!("time a triangle, {} to {}: times {growth:.2}", from.name, to.name);
+    }
+}
+
+/// The folder of the shared models.
+fn models() -> PathBuf {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models");
+    std::env::var_os("LIGNE_MODELS").map_or_else(beside, PathBuf::from)
+}
+
+fn write_obj(path: &Path, scene: &Triangles) -> std::io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    for [x, y, z] in &scene.points {
+        writeln!(file, "v {x:.6} {y:.6} {z:.6}")?;
+    }
+    for [a, b, c] in scene.faces.iter().map(|face| face.map(|corner| corner + 1)) {
+        writeln!(file, "f {a} {b} {c}")?;
+    }
+    file.flush()
+}
+
+/// Load averages of the machine, where it tells them: a busy one spoils all times.
+fn load() -> String {
+    std::fs::read_to_string("/proc/loadavg")
+        .map_or_else(|_| "unknown".to_owned(), |text| text.trim().to_owned())
+}

@@ -1,0 +1,148 @@
+//! Times each geometric stage on meshes that are made here: a sphere, rough terrain, a city.
+
+use divan::{Bencher, black_box};
+use glam::{DAffine3, DVec3};
+use ligne::drawing::Drawing;
+use ligne::export::SvgOptions;
+use ligne::lines::{self, FeatureLines};
+use ligne::mesh::{Edges, Mesh, weld};
+use ligne::render;
+use ligne::scene::{Camera, Geometry, Part, Scene};
+use ligne::style::Style;
+use ligne::view::View;
+use ligne::viewmap::{self, ViewMap, doubles};
+
+#[allow(dead_code)]
+#[path = "../examples/make_stress/scenes.rs"]
+mod scenes;
+
+/// 120,000 triangles each.
+const SCENES: [&str; 3] = ["sphere", "terrain", "city"];
+
+fn main() {
+    divan::main();
+}
+
+fn scene(name: &str) -> Scene {
+    let made = match name {
+        "sphere" => scenes::sphere(100),
+        "terrain" => scenes::terrain(245),
+        _ => scenes::city(100),
+    };
+    let geometry = Geometry {
+        positions: made.points.into_iter().map(DVec3::from_array).collect(),
+        triangles: made.faces,
+        ..Geometry::default()
+    };
+    let part = Part { name: name.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+    Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
+}
+
+/// A scene and everything that is made of it on the way to a drawing.
+struct Made {
+    scene: Scene,
+    camera: Camera,
+    style: Style,
+    mesh: Mesh,
+    view: View,
+    lines: FeatureLines,
+}
+
+fn made(name: &str) -> Made {
+    let scene = scene(name);
+    let camera = Camera::three_quarter().fit(&scene);
+    let style = Style::preset("ink").unwrap_or_default();
+    let mesh = Mesh::build(scene.to_soup());
+    let view = View::new(&mesh, &camera);
+    let lines = lines::extract(&mesh, &view, &style.lines);
+    Made { scene, camera, style, mesh, view, lines }
+}
+
+impl Made {
+    fn view_map(&self) -> ViewMap {
+        viewmap::build(&self.mesh, &self.view, &self.lines, &self.style.lines)
+    }
+
+    fn drawing(&self) -> Drawing {
+        render::render(&self.scene, &self.camera, &self.style)
+    }
+}
+
+#[divan::bench(args = SCENES)]
+fn fit(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| Camera::three_quarter().fit(black_box(&made.scene)));
+}
+
+#[divan::bench(args = SCENES)]
+fn flatten(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| black_box(&made.scene).to_soup());
+}
+
+#[divan::bench(args = SCENES)]
+fn weld(bencher: Bencher, name: &str) {
+    let soup = scene(name).to_soup();
+    bencher.bench(|| weld::exact(black_box(&soup.positions)));
+}
+
+#[divan::bench(args = SCENES)]
+fn edges(bencher: Bencher, name: &str) {
+    let soup = scene(name).to_soup();
+    bencher.bench(|| Edges::build(soup.positions.len(), black_box(&soup.triangles)));
+}
+
+#[divan::bench(args = SCENES)]
+fn mesh(bencher: Bencher, name: &str) {
+    let scene = scene(name);
+    bencher.with_inputs(|| scene.to_soup()).bench_values(Mesh::build);
+}
+
+#[divan::bench(args = SCENES)]
+fn view(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| View::new(black_box(&made.mesh), &made.camera));
+}
+
+#[divan::bench(args = SCENES)]
+fn edge_lines(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| lines::edge_lines::find(black_box(&made.mesh), &made.view, &made.style.lines));
+}
+
+#[divan::bench(args = SCENES)]
+fn all_lines(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| lines::extract(black_box(&made.mesh), &made.view, &made.style.lines));
+}
+
+#[divan::bench(args = SCENES)]
+fn visibility(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| black_box(&made).view_map());
+}
+
+/// On a map whose doubles are gone already: the search without the removal.
+#[divan::bench(args = SCENES)]
+fn doubles(bencher: Bencher, name: &str) {
+    let map = made(name).view_map();
+    bencher.with_inputs(|| map.clone()).bench_refs(|map| doubles::remove(map, 0.02, 8.0));
+}
+
+#[divan::bench(args = SCENES)]
+fn svg(bencher: Bencher, name: &str) {
+    let drawing = made(name).drawing();
+    bencher.bench(|| black_box(&drawing).to_svg(&SvgOptions::default()));
+}
+
+#[divan::bench(args = SCENES)]
+fn pdf(bencher: Bencher, name: &str) {
+    let drawing = made(name).drawing();
+    bencher.bench(|| black_box(&drawing).to_pdf());
+}
+
+#[divan::bench(args = SCENES)]
+fn whole(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| black_box(&made).drawing());
+}

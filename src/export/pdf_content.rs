@@ -1,0 +1,224 @@
+//! The operators of PDF that paint marks: a content stream, written only where the ink changes.
+//!
+//! Source: ISO 32000-1, tables 57 (graphics state), 59 (path construction), 60 (path painting).
+
+use kurbo::{PathEl, Point};
+
+use super::number::Decimals;
+use crate::drawing::{Cap, Join, Mark, Paint, StrokePaint};
+use crate::math::colour::Colour;
+
+/// Decimals of widths and dashes, as in SVG, and of the channels of colours.
+const WIDTH_DECIMALS: u8 = 3;
+const CHANNEL_DECIMALS: u8 = 4;
+
+/// Paints marks, one after the other.
+pub(super) struct Writer {
+    pub(super) out: Vec<u8>,
+    decimals: Decimals,
+    /// The ink that is set; nothing is known at the start.
+    stroke: Option<StrokePaint>,
+    fill: Option<Colour>,
+    opacity: Option<u8>,
+}
+
+impl Writer {
+    /// Coordinates get so many decimals.
+    pub(super) fn new(decimals: Decimals) -> Self {
+        Self { out: Vec::new(), decimals, stroke: None, fill: None, opacity: None }
+    }
+
+    /// Paints one mark.
+    pub(super) fn mark(&mut self, mark: &Mark) {
+        if mark.path.elements().is_empty() {
+            return;
+        }
+        match &mark.paint {
+            Paint::Stroke(stroke) => {
+                self.set_opacity(stroke.colour.a);
+                self.set_stroke(stroke);
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"S\n");
+            }
+            Paint::Fill(colour) => {
+                self.set_opacity(colour.a);
+                self.set_fill(*colour);
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"f\n");
+            }
+        }
+    }
+
+    fn set_stroke(&mut self, stroke: &StrokePaint) {
+        let old = self.stroke.take();
+        let differs =
+            |same: fn(&StrokePaint, &StrokePaint) -> bool| !old.as_ref().is_some_and(|old| same(old, stroke));
+        let fine = Decimals::new(WIDTH_DECIMALS);
+        if differs(|a, b| a.width == b.width) {
+            self.value(fine, stroke.width);
+            self.operator(b"w");
+        }
+        if differs(|a, b| a.cap == b.cap) {
+            self.operator(match stroke.cap {
+                Cap::Butt => b"0 J",
+                Cap::Round => b"1 J",
+                Cap::Square => b"2 J",
+            });
+        }
+        if differs(|a, b| a.join == b.join) {
+            self.operator(match stroke.join {
+                Join::Miter => b"0 j",
+                Join::Round => b"1 j",
+                Join::Bevel => b"2 j",
+            });
+        }
+        if differs(|a, b| a.colour == b.colour) {
+            self.colour(stroke.colour, b"RG");
+        }
+        if differs(|a, b| a.dash == b.dash && a.dash_offset == b.dash_offset) {
+            self.out.push(b'[');
+            // A pattern that is all zero would be an error.
+            if stroke.dash.iter().any(|length| fine.round(*length) > 0) {
+                stroke.dash.iter().for_each(|length| self.value(fine, *length));
+            }
+            self.out.extend_from_slice(b"] ");
+            self.value(fine, stroke.dash_offset);
+            self.operator(b"d");
+        }
+        self.stroke = Some(stroke.clone());
+    }
+
+    /// Sets the colour of filled outlines.
+    pub(super) fn set_fill(&mut self, colour: Colour) {
+        if self.fill != Some(colour) {
+            self.colour(colour, b"rg");
+            self.fill = Some(colour);
+        }
+    }
+
+    /// Chooses the graphics state of that opacity, by its [`state_name`].
+    pub(super) fn set_opacity(&mut self, opacity: u8) {
+        if self.opacity != Some(opacity) {
+            self.out.push(b'/');
+            self.out.extend_from_slice(state_name(opacity).as_bytes());
+            self.operator(b" gs");
+            self.opacity = Some(opacity);
+        }
+    }
+
+    fn colour(&mut self, colour: Colour, operator: &[u8]) {
+        for channel in [colour.r, colour.g, colour.b] {
+            self.value(Decimals::new(CHANNEL_DECIMALS), f64::from(channel) / 255.0);
+        }
+        self.operator(operator);
+    }
+
+    fn path(&mut self, elements: &[PathEl]) {
+        let mut pen = Point::ZERO;
+        let mut start = Point::ZERO;
+        for (index, element) in elements.iter().enumerate() {
+            match *element {
+                PathEl::MoveTo(to) => {
+                    self.points(&[to], b"m");
+                    // A subpath of no length is a dot, and needs a piece for its caps to be drawn.
+                    if !matches!(elements.get(index + 1), Some(next) if !matches!(next, PathEl::MoveTo(_))) {
+                        self.points(&[to], b"l");
+                    }
+                    (pen, start) = (to, to);
+                }
+                PathEl::LineTo(to) => {
+                    self.points(&[to], b"l");
+                    pen = to;
+                }
+                PathEl::QuadTo(control, to) => {
+                    let (first, second) = (pen.lerp(control, 2.0 / 3.0), to.lerp(control, 2.0 / 3.0));
+                    self.points(&[first, second, to], b"c");
+                    pen = to;
+                }
+                PathEl::CurveTo(first, second, to) => {
+                    self.points(&[first, second, to], b"c");
+                    pen = to;
+                }
+                PathEl::ClosePath => {
+                    self.operator(b"h");
+                    pen = start;
+                }
+            }
+        }
+    }
+
+    fn points(&mut self, points: &[Point], operator: &[u8]) {
+        for point in points {
+            self.value(self.decimals, point.x);
+            self.value(self.decimals, point.y);
+        }
+        self.operator(operator);
+    }
+
+    fn value(&mut self, decimals: Decimals, value: f64) {
+        decimals.write(&mut self.out, decimals.round(value));
+        self.out.push(b' ');
+    }
+
+    fn operator(&mut self, operator: &[u8]) {
+        self.out.extend_from_slice(operator);
+        self.out.push(b'\n');
+    }
+}
+
+/// Name of the graphics state of an opacity.
+pub(super) fn state_name(opacity: u8) -> String {
+    format!("A{opacity}")
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::BezPath;
+
+    use super::*;
+    use crate::drawing::Provenance;
+
+    fn content(marks: &[(&str, Paint)]) -> String {
+        let mut writer = Writer::new(Decimals::new(2));
+        for (data, paint) in marks {
+            let path = BezPath::from_svg(data).unwrap();
+            writer.mark(&Mark { path, paint: paint.clone(), provenance: Provenance::default() });
+        }
+        String::from_utf8(writer.out).unwrap().replace('\n', " ")
+    }
+
+    fn pen(width: f64, dash: &[f64]) -> Paint {
+        Paint::Stroke(StrokePaint {
+            width,
+            colour: Colour::rgb(255, 0, 51),
+            cap: Cap::Round,
+            join: Join::Bevel,
+            dash: dash.to_vec(),
+            dash_offset: 0.0,
+        })
+    }
+
+    #[test]
+    fn ink_is_set_where_it_changes() {
+        let lines =
+            [("M0 0L1 2.5", pen(1.5, &[])), ("M3 3H4", pen(1.5, &[])), ("M5 5H6", pen(2.0, &[4.0, 2.0]))];
+        assert_eq!(
+            content(&lines),
+            "/A255 gs 1.5 w 1 J 2 j 1 0 .2 RG [] 0 d 0 0 m 1 2.5 l S 3 3 m 4 3 l S 2 w [4 2 ] 0 d 5 5 m 6 5 l S "
+        );
+    }
+
+    #[test]
+    fn all_elements_of_paths() {
+        let fill = Paint::Fill(Colour { a: 128, ..Colour::BLACK });
+        let ink = "/A128 gs 0 0 0 rg ";
+        for (data, operators) in [
+            ("M0 0C1 2 3 4 5 6Z", "0 0 m 1 2 3 4 5 6 c h f "),
+            ("M0 0Q3 0 3 3", "0 0 m 2 0 3 1 3 3 c f "),
+            ("M0 0H3ZQ0 3 3 3", "0 0 m 3 0 l h 0 0 m 0 2 1 3 3 3 c f "),
+            ("M1 1M2 2", "1 1 m 1 1 l 2 2 m 2 2 l f "),
+        ] {
+            assert_eq!(content(&[(data, fill.clone())]), format!("{ink}{operators}"), "{data}");
+        }
+    }
+}
