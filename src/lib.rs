@@ -20,7 +20,7 @@
 //! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
 //! [`viewmap::ViewMap`] decides what is visible; [`chain`] links the pieces to long chains;
 //! [`stroke`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
-//! [`export`] writes as SVG or PNG. Each stage can be called by itself; the programs in `examples/`
+//! [`export`] writes as SVG, PDF or PNG. Each stage can be called by itself; the programs in `examples/`
 //! show how.
 //!
 //! # Decisions not taken
