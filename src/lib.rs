@@ -1,10 +1,27 @@
 //! **ligne** turns a 3D model into a vector drawing: ink lines with exact hidden-line removal.
 //!
-//! The pipeline is one function, [`render::render`]: a [`scene::Scene`] is flattened to one
+#![doc = include_str!("../docs/pictures/gear.svg")]
+//!
+//! Five lines draw a model:
+//!
+//! ```
+//! use ligne::{Camera, Scene, Style, SvgOptions, render};
+//!
+//! let scene = Scene::open("examples/models/gear.obj")?;
+//! let camera = Camera::three_quarter_of(scene.up).fit(&scene);
+//! let style = Style::load("ink", &[])?;
+//! let drawing = render(&scene, &camera, &style);
+//! let svg = drawing.to_svg(&SvgOptions::default());
+//! # assert!(svg.contains("class=\"contour silhouette\""));
+//! # Ok::<(), ligne::Error>(())
+//! ```
+//!
+//! The pipeline is one function, [`render()`]: a [`scene::Scene`] is flattened to one
 //! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
 //! [`viewmap::ViewMap`] decides what is visible; [`chain`] links the pieces to long chains;
 //! [`stroke`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
-//! [`export`] writes as SVG or PNG.
+//! [`export`] writes as SVG, PDF or PNG. Each stage can be called by itself; the programs in `examples/`
+//! show how.
 //!
 //! # Decisions not taken
 //!
@@ -34,4 +51,14 @@ pub mod style;
 pub mod view;
 pub mod viewmap;
 
+pub use drawing::Drawing;
 pub use error::Error;
+pub use export::{PngOptions, SvgOptions};
+pub use render::render;
+pub use scene::{Camera, Scene};
+pub use style::Style;
+
+/// The README's code, compiled and run with the doc tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

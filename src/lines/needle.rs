@@ -50,3 +50,37 @@ fn long_edge(mesh: &Mesh, face: u32) -> [u32; 2] {
     }
     [longest[0].min(longest[1]), longest[0].max(longest[1])]
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::Soup;
+
+    #[test]
+    fn faces_across_a_needle_are_neighbours() {
+        // One long side below, two short ones above; the needle 0 1 2 lies between.
+        let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, -1.0], [1.0, 1.0]];
+        let mesh = Mesh::build(Soup {
+            positions: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            triangles: vec![[0, 3, 1], [0, 1, 2], [0, 2, 4], [2, 1, 4]],
+            ..Soup::default()
+        });
+        assert!(mesh.is_degenerate(FaceId(1)));
+        assert_eq!(beyond(&mesh, 1, 0, 2), Beyond::Face(0));
+        assert_eq!(beyond(&mesh, 1, 1, 2), Beyond::Face(0));
+        assert_eq!(beyond(&mesh, 1, 0, 1), Beyond::LongEdge);
+    }
+
+    #[test]
+    fn a_needle_at_a_border_has_nothing_beyond() {
+        let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+        let mesh = Mesh::build(Soup {
+            positions: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3], [2, 1, 3]],
+            ..Soup::default()
+        });
+        assert_eq!(beyond(&mesh, 0, 0, 2), Beyond::Nothing);
+    }
+}

@@ -24,9 +24,20 @@ struct Source {
 
 /// Reads a style, see [`Style::load`].
 pub(super) fn load(name_or_path: &str, sets: &[String]) -> Result<Style, Error> {
+    merged(find(name_or_path, None)?, sets)
+}
+
+/// Reads the text of a sheet, see [`Style::from_toml`].
+pub(super) fn load_text(text: &str) -> Result<Style, Error> {
+    let shown = PathBuf::from("style sheet");
+    merged(Source { identity: PathBuf::new(), shown, folder: None, text: text.to_owned() }, &[])
+}
+
+/// The style of a sheet, of those it extends, and of changes.
+fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     let mut sheets: Vec<Table> = Vec::new();
     let mut seen: Vec<PathBuf> = Vec::new();
-    let mut next = Some(find(name_or_path, None)?);
+    let mut next = Some(source);
     while let Some(source) = next.take() {
         let (sheet, table) = read(&source.text)
             .map_err(|error| fault::in_sheet(&source.text, &error).in_file(&source.shown))?;

@@ -72,4 +72,17 @@ impl Style {
     pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
         load::load(name_or_path, sets)
     }
+    /// Reads the text of a style sheet; paths that it extends are relative to the working folder.
+    ///
+    /// ```
+    /// let style = ligne::Style::from_toml("extends = 'ink'\nlines.crease_deg = 25")?;
+    /// assert_eq!(style.lines.crease_deg, 25.0);
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the line and the key that is wrong, and the nearest known one.
+    pub fn from_toml(text: &str) -> Result<Self, Error> {
+        load::load_text(text)
+    }
 }

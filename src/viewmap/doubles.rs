@@ -216,7 +216,9 @@ mod tests {
     use crate::lines::LineKind;
     use crate::mesh::{MaterialId, PartId};
 
-    fn map(lines: &[((f64, f64), (f64, f64), LineKind)]) -> ViewMap {
+    type Drawn = ((f64, f64), (f64, f64), LineKind);
+
+    fn map(lines: &[Drawn]) -> ViewMap {
         let mut map = ViewMap::default();
         for (i, (a, b, kind)) in lines.iter().enumerate() {
             for p in [a, b] {

@@ -1,6 +1,6 @@
 //! Reads glTF 2.0 and GLB into a [`Scene`], in the pose the file stores.
 //!
-//! Source: Khronos Group, glTF 2.0 specification, and the extensions that [`extensions`] lists.
+//! Source: Khronos Group, glTF 2.0 specification, and the extensions that `extensions` lists.
 
 mod accessor;
 mod buffers;

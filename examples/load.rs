@@ -1,0 +1,47 @@
+//! What is in a model file, and what was mended on the way from its parts to one mesh.
+//!
+//! ```sh
+//! cargo run --example load [-- MODEL]
+//! ```
+
+use ligne::mesh::Mesh;
+use ligne::render::defects;
+use ligne::{Error, Scene};
+
+fn main() -> Result<(), Error> {
+    let pump = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
+    let model = std::env::args().nth(1).unwrap_or_else(|| pump.to_owned());
+
+    let mut scene = Scene::open(&model)?;
+    println!("{model}: {}, {} triangles", scene.format, scene.triangle_count());
+    for line in scene.warnings.lines() {
+        println!("  reading it: {line}");
+    }
+
+    // A part is an instance: it points to a geometry, which is stored once, and says where it is.
+    println!("{} parts that show {} geometries", scene.parts.len(), scene.geometries.len());
+    for part in scene.parts.iter().take(8) {
+        let triangles = scene.geometries[part.geometry].triangles.len();
+        let place = part.world_from_part.translation;
+        println!("  {:24} {triangles:6} triangles at {place:.3}", part.name);
+    }
+    for material in &scene.materials {
+        println!("  material {:20} {}", material.name, material.colour.hex());
+    }
+
+    // Parts are chosen by name before the mesh is made.
+    let all = scene.parts.len();
+    scene.keep_parts(&[], &["*bolt*".to_owned()]);
+    println!("{} of {all} parts are no bolts", scene.parts.len());
+
+    // The mesh has all parts in world space; vertices at one place are one vertex.
+    let mesh = Mesh::build(scene.to_soup());
+    let cleaning = mesh.cleaning;
+    println!("{} faces, {} vertices, {} edges", mesh.triangles.len(), mesh.positions.len(), mesh.edges.len());
+    println!("  {} vertices were joined to another at their place", cleaning.welded);
+    println!("  {} edges have one face, {} three or more", cleaning.borders, cleaning.non_manifold);
+    for line in defects::of_mesh(&mesh, &scene).lines() {
+        println!("  cleaning it: {line}");
+    }
+    Ok(())
+}

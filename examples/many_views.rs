@@ -1,0 +1,52 @@
+//! One mesh, six views: the stages of the pipeline by hand, so that the mesh is made only once.
+//!
+//! ```sh
+//! cargo run --example many_views [-- FOLDER]
+//! ```
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ligne::drawing::{Drawing, Page, Unit};
+use ligne::mesh::Mesh;
+use ligne::scene::NamedView;
+use ligne::stroke::{self, InkContext};
+use ligne::view::View;
+use ligne::{Camera, Scene, Style, SvgOptions, chain, lines, viewmap};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = std::env::args().nth(1).map_or_else(std::env::temp_dir, PathBuf::from);
+    let scene = Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb"))?;
+    let style = Style::load("technical", &["lines.hidden=none".to_owned()])?;
+
+    // What all views share.
+    let mesh = Mesh::build(scene.to_soup());
+    let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| part.name.as_str().into()).collect();
+    let materials: Vec<_> = scene.materials.iter().map(|m| (m.name.as_str().into(), m.colour)).collect();
+    let hidden = style.lines.hidden;
+    let context = InkContext { unit: Unit::Px, parts: &parts, materials: &materials, hidden };
+    let page = Page { width: 600.0, height: 600.0, unit: Unit::Px, background: style.background };
+
+    let six = [
+        NamedView::Front,
+        NamedView::Back,
+        NamedView::Left,
+        NamedView::Right,
+        NamedView::Top,
+        NamedView::Bottom,
+    ];
+    for named in six {
+        let camera = Camera::named(named, scene.up).with_frame(page.width, page.height).fit(&scene);
+        let view = View::new(&mesh, &camera);
+        let feature_lines = lines::extract(&mesh, &view, &style.lines);
+        let map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
+        let chains = chain::link(&map, &style.chain, page.unit);
+        let layers = stroke::ink(&chains, &context, &style.stroke);
+
+        let drawing = Drawing { title: format!("pump, {}", named.name()), page, layers };
+        let file = folder.join(format!("pump-{}.svg", named.name()));
+        std::fs::write(&file, drawing.to_svg(&SvgOptions::default()))?;
+        println!("{}: {} chains", file.display(), chains.len());
+    }
+    Ok(())
+}

@@ -1,0 +1,47 @@
+//! What is seen and what is hidden: the view map, by length and by the ends of its pieces.
+//!
+//! ```sh
+//! cargo run --example view_map [-- MODEL]
+//! ```
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ligne::lines::{self, HiddenLines, LineOptions};
+use ligne::mesh::Mesh;
+use ligne::view::View;
+use ligne::viewmap::{self, ViewVertexKind};
+use ligne::{Camera, Error, Scene};
+
+fn main() -> Result<(), Error> {
+    let bracket = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/bracket.stl");
+    let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| bracket.to_owned()))?;
+    let mesh = Mesh::build(scene.to_soup());
+    let view = View::new(&mesh, &Camera::three_quarter_of(scene.up).fit(&scene));
+
+    // Unless hidden lines are asked for, what is hidden is left out and not counted.
+    let options = LineOptions { hidden: HiddenLines::Solid, ..LineOptions::default() };
+    let feature_lines = lines::extract(&mesh, &view, &options);
+    let map = viewmap::build(&mesh, &view, &feature_lines, &options);
+
+    // Each edge of the map is a straight piece of one line, behind so many surfaces throughout.
+    let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();
+    for edge in &map.edges {
+        let [a, b] = [edge.start, edge.end].map(|vertex| map.vertices[vertex.index()].position);
+        *lengths.entry(edge.invisibility).or_default() += a.distance(b);
+    }
+    println!("{} feature segments became {} view edges", feature_lines.segments.len(), map.edges.len());
+    for (surfaces, length) in &lengths {
+        println!("  {length:9.1} px of line behind {surfaces} surfaces");
+    }
+
+    // Visible lines end where another surface passes in front: at computed points, not at pixels.
+    let seen = map.edges.iter().filter(|edge| edge.invisibility == 0);
+    let ends: BTreeSet<_> = seen.flat_map(|edge| [edge.start, edge.end]).collect();
+    let junctions = ends.iter().map(|vertex| map.vertices[vertex.index()]);
+    let junctions: Vec<_> = junctions.filter(|vertex| vertex.kind == ViewVertexKind::TJunction).collect();
+    println!("{} T-junctions; the first of them:", junctions.len());
+    for vertex in junctions.iter().take(5) {
+        println!("  ({:.6}, {:.6}) at depth {:.3}", vertex.position.x, vertex.position.y, vertex.depth);
+    }
+    Ok(())
+}
