@@ -11,12 +11,17 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::grid::Grid;
+use super::occlude::Limits;
 use super::occluders::{Triangles, corners};
 use super::project::ImageSegment;
+use crate::view::Frame;
 
 /// Squares along each side of a tile.
 const SQUARES: u32 = 4;
-const OPEN: f64 = f64::NEG_INFINITY;
+/// The cover of a square that nothing fills.
+pub(super) const OPEN: f64 = f64::NEG_INFINITY;
+/// With fewer layers of surface than this over the page on average, covers hide less than they cost.
+const LAYERS: f64 = 3.0;
 
 /// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
 #[derive(Debug, Clone)]
@@ -33,6 +38,9 @@ impl Covers {
     /// The result does not depend on the number of threads: the nearest of all covers is taken.
     #[must_use]
     pub fn find(triangles: &Triangles, wanted: &[bool]) -> Self {
+        if triangles.mean_layers() < LAYERS {
+            return Self::none(triangles.grid);
+        }
         let squares = triangles.grid.refined(SQUARES);
         let large: Vec<u32> = (0..triangles.count() as u32)
             .into_par_iter()
@@ -44,8 +52,11 @@ impl Covers {
             .par_chunks(share)
             .map(|ids| {
                 let mut cover = vec![OPEN; squares.len()];
+                let wanted = |square| wanted[squares.tile_of_square(square, triangles.grid, SQUARES)];
                 for id in ids {
-                    add(triangles, &squares, wanted, *id, &mut cover);
+                    let (points, _) = corners(triangles.mesh, triangles.view, *id);
+                    let frame = &triangles.view.frame;
+                    add(&points, &squares, frame, triangles.limits, wanted, &mut cover);
                 }
                 cover
             })
@@ -101,27 +112,36 @@ fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
         && !triangles.mesh.is_degenerate(crate::mesh::FaceId(face))
 }
 
-fn add(triangles: &Triangles, squares: &Grid, wanted: &[bool], id: u32, cover: &mut [f64]) {
-    let (points, _) = corners(triangles.mesh, triangles.view, id);
+/// Raises the cover of the wanted squares that a triangle fills.
+pub(super) fn add(
+    points: &[DVec3; 3],
+    squares: &Grid,
+    frame: &Frame,
+    limits: &Limits,
+    wanted: impl Fn(usize) -> bool,
+    cover: &mut [f64],
+) {
+    let low = points[0].min(points[1]).min(points[2]);
+    let high = points[0].max(points[1]).max(points[2]);
+    if high.x - low.x < squares.cell || high.y - low.y < squares.cell {
+        return;
+    }
     let (u, v) = (points[1] - points[0], points[2] - points[0]);
     let area = u.truncate().perp_dot(v.truncate());
-    if area.abs() <= triangles.limits.height * u.truncate().length().max(v.truncate().length()) {
+    if area.abs() <= limits.height * u.truncate().length().max(v.truncate().length()) {
         return;
     }
     let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
-    let low = points[0].min(points[1]).min(points[2]);
-    let high = points[0].max(points[1]).max(points[2]);
-    let sides = Sides::new(&points);
+    let sides = Sides::new(points);
     let half = squares.cell / 2.0;
     for (square, corner) in squares.tiles_of(squares.tile_box(low, high)) {
-        let tile = squares.tile_of_square(square, triangles.grid, SQUARES);
         let centre = corner + half;
-        if !wanted[tile] || !sides.contains(centre, half) {
+        if !wanted(square) || !sides.contains(centre, half) {
             continue;
         }
         let middle = points[0].z + slope.dot(centre - points[0].truncate());
         let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(low.z);
-        let least = least - triangles.view.frame.nearness_step(least, 2.0 * triangles.limits.contact);
+        let least = least - frame.nearness_step(least, 2.0 * limits.contact);
         cover[square] = cover[square].max(least);
     }
 }

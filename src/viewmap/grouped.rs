@@ -23,37 +23,25 @@ impl<T: Copy> Grouped<T> {
         self.starts[segment] as usize..self.starts[segment + 1] as usize
     }
 
-    /// Sorts findings by segment (a counting sort, stable) and lets `tidy` order and join those
-    /// of each.
-    pub(super) fn new(segments: usize, found: &[&[(u32, T)]], tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
-        let mut starts = vec![0u32; segments + 1];
-        for (segment, _) in found.iter().copied().flatten() {
-            starts[*segment as usize + 1] += 1;
-        }
-        for segment in 0..segments {
-            starts[segment + 1] += starts[segment];
-        }
-        let mut order = vec![(0u32, 0u32); starts[segments] as usize];
-        let mut next = starts.clone();
-        for (list, findings) in found.iter().enumerate() {
-            for (i, (segment, _)) in findings.iter().enumerate() {
-                order[next[*segment as usize] as usize] = (list as u32, i as u32);
-                next[*segment as usize] += 1;
-            }
-        }
-        let mut grouped = Self { starts: vec![0; segments + 1], findings: Vec::with_capacity(order.len()) };
+    /// The same groups after `tidy` has ordered and joined each that is not empty.
+    pub(super) fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
+        let mut tidied = Self {
+            starts: Vec::with_capacity(self.starts.len()),
+            findings: Vec::with_capacity(self.findings.len()),
+        };
+        tidied.starts.push(0);
         let mut own: Vec<T> = Vec::new();
-        for segment in 0..segments {
-            let places = &order[starts[segment] as usize..starts[segment + 1] as usize];
-            if !places.is_empty() {
+        for group in 0..self.starts.len() - 1 {
+            let found = self.of(group);
+            if !found.is_empty() {
                 own.clear();
-                own.extend(places.iter().map(|(list, i)| found[*list as usize][*i as usize].1));
-                tidy(segment, &mut own);
-                grouped.findings.extend_from_slice(&own);
+                own.extend_from_slice(found);
+                tidy(group, &mut own);
+                tidied.findings.extend_from_slice(&own);
             }
-            grouped.starts[segment + 1] = grouped.findings.len() as u32;
+            tidied.starts.push(tidied.findings.len() as u32);
         }
-        grouped
+        tidied
     }
 }
 

@@ -8,19 +8,24 @@ use rayon::prelude::*;
 
 use super::cover::Sides;
 use super::grid::{Grid, TileBox};
+use super::grouped::{Grouped, bucket};
 use super::occlude::Limits;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
-/// A triangle in a tile, with its box in the image rounded outward.
+/// A triangle that may hide lines, with all that the comparison needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Occluder {
-    /// Least x, greatest x, least y, greatest y.
+    /// Least x, greatest x, least y, greatest y in the image, rounded outward.
     pub bounds: [f32; 4],
     /// Greatest nearness of any of its points, rounded towards the eye.
     pub nearest: f32,
-    /// A face, or beyond those, an entry of [`View::clipped`].
-    pub id: u32,
+    /// The face it is, or is left of.
+    pub face: u32,
+    /// Vertex ids of that face.
+    pub ids: [u32; 3],
+    /// Its corners in image space.
+    pub corners: [DVec3; 3],
 }
 
 /// The triangles of a view over a grid of tiles.
@@ -34,22 +39,6 @@ pub struct Triangles<'a> {
     pub grid: &'a Grid,
     /// The tolerances of the view.
     pub limits: &'a Limits,
-}
-
-/// The occluders of every tile, tile after tile.
-#[derive(Debug, Clone, Default)]
-pub struct Occluders {
-    starts: Vec<u32>,
-    entries: Vec<Occluder>,
-}
-
-impl Occluders {
-    /// The occluders of a tile.
-    #[inline]
-    #[must_use]
-    pub fn of_tile(&self, tile: usize) -> &[Occluder] {
-        &self.entries[self.starts[tile] as usize..self.starts[tile + 1] as usize]
-    }
 }
 
 /// The corners in image space and the face of an occluder.
@@ -97,9 +86,38 @@ impl Triangles<'_> {
         self.grid.tile_box(low, high)
     }
 
-    /// Fills the wanted tiles with the triangles that reach before their covers.
+    /// How many triangles lie over each other on average, over the grid.
+    pub(super) fn mean_layers(&self) -> f64 {
+        let area = |id: u32| {
+            let ([a, b, c], _) = corners(self.mesh, self.view, id);
+            let area = (b - a).truncate().perp_dot((c - a).truncate()).abs() / 2.0;
+            if area.is_finite() { area } else { 0.0 }
+        };
+        // A sample is enough, and its order is fixed.
+        let step = (self.count() / 20_000).max(1);
+        let sum: f64 = (0..self.count()).step_by(step).map(|id| area(id as u32)).sum();
+        let tile = self.grid.cell * self.grid.cell;
+        sum * step as f64 / (tile * self.grid.len() as f64)
+    }
+
+    /// The triangle with this id: a face, or beyond those, an entry of [`View::clipped`].
+    #[inline]
     #[must_use]
-    pub fn fill(&self, boxes: &[TileBox], wanted: &[bool], cover: &[f64]) -> Occluders {
+    pub fn occluder(&self, id: u32) -> Occluder {
+        let (corners, face) = corners(self.mesh, self.view, id);
+        let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
+        Occluder {
+            bounds: outward_box(&corners),
+            nearest: (nearest as f32).next_up(),
+            face,
+            ids: self.mesh.triangles[face as usize],
+            corners,
+        }
+    }
+
+    /// The ids of the triangles of each wanted tile that reach before its cover, ascending.
+    #[must_use]
+    pub(super) fn fill(&self, boxes: &[TileBox], wanted: &[bool], cover: &[f64]) -> Grouped<u32> {
         let chunk = self.chunk();
         let found: Vec<Vec<(u32, u32)>> = boxes
             .par_chunks(chunk)
@@ -112,30 +130,12 @@ impl Triangles<'_> {
                 pairs
             })
             .collect();
-        // Counting sort by tile; chunks follow the order of the triangles, so tiles do too.
-        let mut starts = vec![0u32; self.grid.len() + 1];
-        for (tile, _) in found.iter().flatten() {
-            starts[*tile as usize + 1] += 1;
-        }
-        for tile in 0..self.grid.len() {
-            starts[tile + 1] += starts[tile];
-        }
-        let mut next = starts.clone();
-        let mut ids = vec![0u32; starts[self.grid.len()] as usize];
-        for (tile, id) in found.into_iter().flatten() {
-            let at = &mut next[tile as usize];
-            ids[*at as usize] = id;
-            *at += 1;
-        }
-        let entries = ids.par_iter().with_min_len(1 << 12).map(|id| self.occluder(*id)).collect();
-        Occluders { starts, entries }
-    }
-
-    #[inline]
-    fn occluder(&self, id: u32) -> Occluder {
-        let (points, _) = corners(self.mesh, self.view, id);
-        let nearest = points[0].z.max(points[1].z).max(points[2].z);
-        Occluder { bounds: outward_box(&points), nearest: (nearest as f32).next_up(), id }
+        // Chunks follow the order of the triangles, so tiles do too.
+        bucket(self.grid.len(), |put| {
+            for (tile, id) in found.iter().flatten() {
+                put(*tile as usize, *id);
+            }
+        })
     }
 
     /// Adds a pair of tile and triangle for each wanted tile in which the triangle may matter.

@@ -2,12 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
+use super::cover::{self, OPEN};
 use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::grouped::bucket;
 use super::layers::{Layer, sweep};
 use super::occlude::{Interval, Limits, covered, hidden_interval};
-use super::occluders::{self, Occluder};
+use super::occluders::Occluder;
 use super::project::ImageSegment;
 use crate::lines::NO_FACE;
 use crate::mesh::Mesh;
@@ -31,17 +32,14 @@ pub(super) struct Item {
 /// What a run of tiles found out about segments.
 #[derive(Debug, Default)]
 pub(super) struct TileResult {
+    /// Items that are hidden from end to end.
+    pub(super) whole: Vec<Item>,
+    /// Hidden pieces of others.
     pub(super) hidden: Vec<(u32, Layer)>,
+    /// Where a surface lies beside a bounding segment.
     pub(super) backed: Vec<(u32, Interval)>,
+    /// How many times a segment was compared with a triangle.
     pub(super) tests: u64,
-}
-
-pub(super) fn whole(item: &Item) -> Layer {
-    let kind = ViewVertexKind::TJunction;
-    Layer {
-        interval: Interval { start: item.start, end: item.end, start_kind: kind, end_kind: kind },
-        count: 1,
-    }
 }
 
 /// What all tiles share.
@@ -54,39 +52,57 @@ pub(super) struct Context<'a> {
     pub(super) counting: bool,
 }
 
+/// The triangles of a tile, and which of them to look at.
+#[derive(Clone, Copy)]
+struct Entries<'a> {
+    all: &'a [Occluder],
+    chosen: &'a [u32],
+    /// Whether nearer ones come first.
+    ordered: bool,
+}
+
+impl<'a> Entries<'a> {
+    fn iter(self) -> impl Iterator<Item = &'a Occluder> {
+        self.chosen.iter().map(move |i| &self.all[*i as usize])
+    }
+}
+
 impl Context<'_> {
-    /// Compares the items of a tile with its triangles. `tiles` has the tile as its cell `tile`.
+    /// Compares the items of a tile of a grid with its triangles.
     pub(super) fn decide_tile(
         &self,
         items: &[Item],
-        entries: &[Occluder],
+        all: &[Occluder],
         grid: &Grid,
         tile: usize,
         result: &mut TileResult,
     ) {
-        if entries.len() > FEW
-            && items.len() * entries.len() > MANY_PAIRS
-            && grid.cell > self.limits.beside * 64.0
-        {
+        let chosen: Vec<u32> = (0..all.len() as u32).collect();
+        self.decide(items, Entries { all, chosen: &chosen, ordered: false }, grid, tile, result);
+    }
+
+    fn decide(&self, items: &[Item], entries: Entries, grid: &Grid, tile: usize, result: &mut TileResult) {
+        let count = entries.chosen.len();
+        if count > FEW && items.len() * count > MANY_PAIRS && grid.cell > self.limits.beside * 64.0 {
             return self.decide_finer(items, entries, &grid.of_tile(tile, FINER), result);
         }
         let mut sorted = Vec::new();
         let mut entries = entries;
         // Sorting pays where many lines are asked of many triangles: hidden ones then meet what
         // hides them first.
-        if !self.counting && entries.len() > FEW && items.len() > 8 {
-            sorted.extend_from_slice(entries);
-            sorted.sort_by(|a, b| b.nearest.total_cmp(&a.nearest).then(a.id.cmp(&b.id)));
-            entries = &sorted;
+        if !self.counting && count > FEW && items.len() > FEW {
+            sorted.extend_from_slice(entries.chosen);
+            let key = |i: &u32| entries.all[*i as usize].nearest;
+            sorted.sort_by(|a, b| key(b).total_cmp(&key(a)).then(a.cmp(b)));
+            entries = Entries { chosen: &sorted, ordered: true, ..entries };
         }
-        let ordered = !sorted.is_empty();
         let mut hidden: Vec<Interval> = Vec::new();
         let mut layers: Vec<Layer> = Vec::new();
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &self.segments[item.segment as usize];
             hidden.clear();
-            if self.gather_hidden(segment, item, entries, ordered, &mut hidden, &mut result.tests) {
-                result.hidden.push((item.segment, whole(item)));
+            if self.gather_hidden(segment, item, entries, &mut hidden, &mut result.tests) {
+                result.whole.push(*item);
                 continue;
             }
             layers.clear();
@@ -102,32 +118,50 @@ impl Context<'_> {
 
     /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over
     /// the page does not part its lines.
-    fn decide_finer(&self, items: &[Item], entries: &[Occluder], grid: &Grid, result: &mut TileResult) {
-        let own = items.iter().filter(|item| item.end > item.start);
+    fn decide_finer(&self, items: &[Item], entries: Entries, grid: &Grid, result: &mut TileResult) {
+        let mut cover = vec![OPEN; grid.len()];
+        if !self.counting {
+            for entry in entries.iter() {
+                cover::add(&entry.corners, grid, &self.view.frame, self.limits, |_| true, &mut cover);
+            }
+        }
+        let mut fine: Vec<(u32, Item)> = Vec::with_capacity(items.len() * 2);
+        for item in items.iter().filter(|item| item.end > item.start) {
+            let segment = &self.segments[item.segment as usize];
+            let (a, b) = (segment.at(item.start), segment.at(item.end));
+            let span = item.end - item.start;
+            grid.walk(a, b, |tile, t0, t1| {
+                let at = |t: f64| if t >= 1.0 { item.end } else { item.start + span * t };
+                let part = Item { start: at(t0), end: at(t1), ..*item };
+                if (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1) < cover[tile] {
+                    result.whole.push(part);
+                } else {
+                    fine.push((tile as u32, part));
+                }
+            });
+        }
         let fine_items = bucket(grid.len(), |put| {
-            for item in own.clone() {
-                let segment = &self.segments[item.segment as usize];
-                let span = item.end - item.start;
-                grid.walk(segment.at(item.start), segment.at(item.end), |tile, t0, t1| {
-                    let at = |t: f64| if t >= 1.0 { item.end } else { item.start + span * t };
-                    put(tile, Item { start: at(t0), end: at(t1), ..*item });
-                });
+            for (tile, item) in &fine {
+                put(*tile as usize, *item);
             }
         });
         let slack = 2.0 * self.limits.beside;
         let fine_entries = bucket(grid.len(), |put| {
-            for entry in entries {
+            for i in entries.chosen {
+                let entry = &entries.all[*i as usize];
                 let [left, right, top, bottom] = entry.bounds.map(f64::from);
                 let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
                 for (tile, _) in grid.tiles_of(grid.tile_box(low - slack, high + slack)) {
-                    put(tile, *entry);
+                    if f64::from(entry.nearest) >= cover[tile] && !fine_items.of(tile).is_empty() {
+                        put(tile, *i);
+                    }
                 }
             }
         });
         for tile in 0..grid.len() {
-            let (items, entries) = (fine_items.of(tile), fine_entries.of(tile));
+            let (items, chosen) = (fine_items.of(tile), fine_entries.of(tile));
             if !items.is_empty() {
-                self.decide_tile(items, entries, grid, tile, result);
+                self.decide(items, Entries { chosen, ordered: false, ..entries }, grid, tile, result);
             }
         }
     }
@@ -139,8 +173,7 @@ impl Context<'_> {
         &self,
         segment: &ImageSegment,
         item: &Item,
-        entries: &[Occluder],
-        ordered: bool,
+        entries: Entries,
         hidden: &mut Vec<Interval>,
         tests: &mut u64,
     ) -> bool {
@@ -154,9 +187,9 @@ impl Context<'_> {
         ];
         let farthest = (low.z as f32).next_down();
         let mut run = (f64::INFINITY, f64::NEG_INFINITY);
-        for entry in entries {
+        for entry in entries.iter() {
             if entry.nearest < farthest {
-                if ordered {
+                if entries.ordered {
                     break;
                 }
                 continue;
@@ -165,14 +198,12 @@ impl Context<'_> {
             if b[0] > bounds[1] || b[1] < bounds[0] || b[2] > bounds[3] || b[3] < bounds[2] {
                 continue;
             }
-            let (corners, face) = occluders::corners(self.mesh, self.view, entry.id);
-            if segment.hosts.contains(&face) {
+            if segment.hosts.contains(&entry.face) {
                 continue;
             }
             *tests += 1;
-            let ids = self.mesh.triangles[face as usize];
-            let Some(mut found) = hidden_interval(segment, &corners, ids, &self.view.frame, self.limits)
-            else {
+            let found = hidden_interval(segment, &entry.corners, entry.ids, &self.view.frame, self.limits);
+            let Some(mut found) = found else {
                 continue;
             };
             if found.end < item.start || found.start > item.end {
@@ -197,29 +228,21 @@ impl Context<'_> {
 
     /// Collects where a surface lies just beside a bounding segment, on its outer side.
     #[inline(never)]
-    fn gather_backed(
-        &self,
-        segment: &ImageSegment,
-        item: &Item,
-        entries: &[Occluder],
-        result: &mut TileResult,
-    ) {
+    fn gather_backed(&self, segment: &ImageSegment, item: &Item, entries: Entries, result: &mut TileResult) {
         let Some(outward) = self.outward(segment) else { return };
         let shift = outward * self.limits.beside;
         let (p, q) = (segment.a.truncate() + shift, segment.b.truncate() + shift);
         let (from, to) = (segment.at(item.start).truncate() + shift, segment.at(item.end).truncate() + shift);
         let (low, high) = (from.min(to), from.max(to));
-        for entry in entries {
+        for entry in entries.iter() {
             let b = entry.bounds.map(f64::from);
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
-            let (corners, face) = occluders::corners(self.mesh, self.view, entry.id);
-            let ids = self.mesh.triangles[face as usize];
-            if segment.ends.iter().all(|end| ids.contains(end)) {
+            if segment.ends.iter().all(|end| entry.ids.contains(end)) {
                 continue;
             }
-            let Some((start, end)) = covered(p, q, &corners, self.limits) else { continue };
+            let Some((start, end)) = covered(p, q, &entry.corners, self.limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
                 let kind = ViewVertexKind::Backdrop;

@@ -17,19 +17,34 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::cover::Covers;
+use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::grouped::{Grouped, bucket};
 use super::layers::{Layer, sweep};
 use super::occlude::{Interval, Limits};
-use super::occluders::Triangles;
+use super::occluders::{Occluder, Triangles};
 use super::project::ImageSegment;
-use super::tile::{Context, Item, TileResult, whole};
+use super::tile::{Context, Item, TileResult};
 use crate::mesh::Mesh;
 use crate::view::View;
+
+/// A segment is hidden from end to end when no more than this share of it is left.
+const WHOLE_SLACK: f64 = 1e-9;
+
+/// Hidden from end to end.
+const BURIED: [Layer; 1] = [whole(0.0, 1.0)];
+
+const fn whole(start: f64, end: f64) -> Layer {
+    let kind = ViewVertexKind::TJunction;
+    Layer { interval: Interval { start, end, start_kind: kind, end_kind: kind }, count: 1 }
+}
 
 /// What is known of all segments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Visibility {
+    /// Whether each segment is hidden from end to end by one layer or more; only where layers are
+    /// not counted.
+    buried: Vec<bool>,
     hidden: Grouped<Layer>,
     backed: Grouped<Interval>,
     /// How many times a segment was compared with a triangle.
@@ -40,7 +55,7 @@ impl Visibility {
     /// The hidden pieces of a segment with their counts, ascending.
     #[must_use]
     pub fn hidden(&self, segment: usize) -> &[Layer] {
-        self.hidden.of(segment)
+        if self.buried[segment] { &BURIED } else { self.hidden.of(segment) }
     }
 
     /// The ranges of a segment that have a surface beside them on the outer side, ascending; only
@@ -72,7 +87,7 @@ pub fn decide(
     let triangles = Triangles { mesh, view, grid: &grid, limits };
     let boxes = triangles.tile_boxes();
     let mut covers = Covers::none(&grid);
-    let mut buried: Vec<(u32, Layer)> = Vec::new();
+    let mut buried: Vec<Item> = Vec::new();
     if !counting {
         covers = Covers::find(&triangles, &wanted);
         buried = bury(segments, &mut items, &covers, &mut wanted);
@@ -86,8 +101,13 @@ pub fn decide(
         .into_par_iter()
         .map(|k| {
             let mut result = TileResult::default();
+            let mut all: Vec<Occluder> = Vec::new();
             for tile in k * TILES..((k + 1) * TILES).min(grid.len()) {
-                context.decide_tile(items.of(tile), occluders.of_tile(tile), &grid, tile, &mut result);
+                if items.of(tile).iter().any(|item| item.end > item.start) {
+                    all.clear();
+                    all.extend(occluders.of(tile).iter().map(|id| triangles.occluder(*id)));
+                    context.decide_tile(items.of(tile), &all, &grid, tile, &mut result);
+                }
             }
             result
         })
@@ -120,13 +140,13 @@ fn bury(
     items: &mut Grouped<Item>,
     covers: &Covers,
     wanted: &mut [bool],
-) -> Vec<(u32, Layer)> {
+) -> Vec<Item> {
     let mut buried = Vec::new();
     for (tile, wanted) in wanted.iter_mut().enumerate().filter(|(_, wanted)| **wanted) {
         *wanted = false;
         for item in items.of_mut(tile) {
             if covers.bury(&segments[item.segment as usize], item.start, item.end) {
-                buried.push((item.segment, whole(item)));
+                buried.push(*item);
                 item.end = f64::NEG_INFINITY;
             } else {
                 *wanted = true;
@@ -140,19 +160,36 @@ fn bury(
 fn gather(
     segments: &[ImageSegment],
     limits: &Limits,
-    buried: &[(u32, Layer)],
+    buried_items: &[Item],
     results: &[TileResult],
 ) -> Visibility {
     let shortest = |segment: usize| limits.piece / segments[segment].length().max(limits.piece);
-    let hidden: Vec<&[(u32, Layer)]> =
-        std::iter::once(buried).chain(results.iter().map(|r| &r.hidden[..])).collect();
-    let backed: Vec<&[(u32, Interval)]> = results.iter().map(|r| &r.backed[..]).collect();
+    let wholes = || buried_items.iter().chain(results.iter().flat_map(|r| &r.whole));
+    // The items of a segment part its parameter range, so that a segment all of whose items are
+    // hidden is known by their sum.
+    let mut length = vec![0.0f64; segments.len()];
+    for item in wholes() {
+        length[item.segment as usize] += item.end - item.start;
+    }
+    let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - WHOLE_SLACK).collect();
+    let open = |segment: u32| !buried[segment as usize];
+    let hidden = bucket(segments.len(), |put| {
+        for item in wholes().filter(|item| open(item.segment)) {
+            put(item.segment as usize, whole(item.start, item.end));
+        }
+        for (segment, layer) in results.iter().flat_map(|r| &r.hidden).filter(|(s, _)| open(*s)) {
+            put(*segment as usize, *layer);
+        }
+    });
+    let backed = bucket(segments.len(), |put| {
+        for (segment, interval) in results.iter().flat_map(|r| &r.backed) {
+            put(*segment as usize, *interval);
+        }
+    });
     Visibility {
         tests: results.iter().map(|r| r.tests).sum(),
-        hidden: Grouped::new(segments.len(), &hidden, |segment, layers| {
-            join_layers(layers, shortest(segment));
-        }),
-        backed: Grouped::new(segments.len(), &backed, |segment, intervals| {
+        hidden: hidden.tidied(|segment, layers| join_layers(layers, shortest(segment))),
+        backed: backed.tidied(|segment, intervals| {
             let mut joined = Vec::new();
             // Beside a corner the outer side may graze a face that only shares the vertex.
             let grazing = 4.0 * limits.beside / segments[segment].length().max(4.0 * limits.beside);
@@ -160,6 +197,7 @@ fn gather(
             intervals.clear();
             intervals.extend(joined.iter().map(|l| l.interval));
         }),
+        buried,
     }
 }
 
