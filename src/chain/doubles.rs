@@ -2,10 +2,9 @@
 
 use kurbo::{Point, Vec2};
 
-use super::line::{distance2, length};
-use super::link::{Class, Routes, Step};
+use super::line::{Line, distance2, length};
+use super::raw::{Degrees, Raw};
 use crate::lines::LineKind;
-use crate::viewmap::ViewMap;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
 const PARALLEL_COSINE: f64 = 0.82;
@@ -16,13 +15,18 @@ const COVERED: f64 = 0.8;
 /// Length, in distances, over which the direction of a jagged line is taken.
 const WINDOW: f64 = 4.0;
 
-/// A line shorter than this many distances doubles another at twice the distance.
-const FLAKE: f64 = 16.0;
+/// A line shorter than this many distances is a flake, and doubles another at this much more
+/// than the distance.
+const FLAKE: f64 = 21.0;
+const FLAKE_DISTANCE: f64 = 3.0;
+
+/// Part of the distance by which lines beside each other may miss each other lengthwise.
+const ABREAST: f64 = 0.3;
 
 /// A piece of a visible line in a bucket of the page.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
-    route: u32,
+    line: u32,
     a: Point,
     b: Point,
     direction: Vec2,
@@ -38,103 +42,96 @@ struct Buckets {
     pieces: Vec<u32>,
 }
 
-/// Takes the class from the edges of smooth contours and noisy creases that double a longer
-/// visible line within `distance`, shortest first; returns whether there was any.
+/// Leaves out smooth contours and noisy creases that double a longer visible line within
+/// `distance`, shortest first; returns whether there was any.
 pub(super) fn drop_doubles(
-    map: &ViewMap,
-    routes: &Routes,
+    raws: &mut Vec<Raw>,
+    degrees: &mut Degrees,
     organic: &[bool],
     distance: f64,
-    classes: &mut [Option<Class>],
 ) -> bool {
-    let mut pieces: Vec<Piece> = Vec::new();
-    let mut spans: Vec<(usize, usize)> = Vec::with_capacity(routes.len());
-    let mut lengths: Vec<f64> = Vec::with_capacity(routes.len());
-    let mut silhouettes: Vec<bool> = Vec::with_capacity(routes.len());
-    let mut suspects: Vec<u32> = Vec::new();
-    for (route, (steps, _)) in routes.iter().enumerate() {
-        let first = pieces.len();
-        let mut total = 0.0;
-        if let Some(class) = steps.first().and_then(|s| classes[s.edge as usize]).filter(|c| !c.hidden) {
-            collect(map, route as u32, steps, distance, &mut pieces);
-            total = pieces[first..].iter().map(|p| length(p.b - p.a)).sum();
-            if is_suspect(map, steps, class, organic) {
-                suspects.push(route as u32);
-            }
-        }
-        spans.push((first, pieces.len()));
-        // A silhouette is never the weaker of two.
-        let silhouette = steps.first().and_then(|s| classes[s.edge as usize]).is_some_and(|c| c.silhouette);
-        silhouettes.push(silhouette);
-        lengths.push(if silhouette { total * 1e3 } else { total });
-    }
+    let mut suspects: Vec<u32> =
+        (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize], organic)).collect();
     if suspects.is_empty() {
         return false;
     }
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut spans: Vec<usize> = vec![0];
+    let mut lengths: Vec<f64> = Vec::with_capacity(raws.len());
+    for (i, raw) in raws.iter().enumerate() {
+        if !raw.class.hidden {
+            collect(i as u32, &raw.line, distance, &mut pieces);
+        }
+        spans.push(pieces.len());
+        lengths.push(raw.length());
+    }
     let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return false };
     suspects.sort_by(|a, b| lengths[*a as usize].total_cmp(&lengths[*b as usize]).then(a.cmp(b)));
-    let mut gone = vec![false; routes.len()];
-    for route in suspects {
-        let (first, end) = spans[route as usize];
-        let own = &pieces[first..end];
-        let total: f64 = own.iter().map(|p| length(p.b - p.a)).sum();
-        // The shorter, the more likely a flake; but a gap in the outline is worse than a double.
-        let (allowed, distance) = match (silhouettes[route as usize], total < FLAKE * distance) {
-            (true, _) => (0.0, distance),
-            (false, true) => ((1.0 - COVERED) * total, 2.0 * distance),
-            (false, false) => ((1.0 - COVERED) * total, distance),
-        };
+    let mut gone = vec![false; raws.len()];
+    for i in suspects {
+        let own = &pieces[spans[i as usize]..spans[i as usize + 1]];
+        let total = lengths[i as usize];
+        // The shorter, the more likely a flake; but a gap in the outline is worse.
+        let flake = total < FLAKE * distance && !raws[i as usize].is_silhouette();
+        let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
+        let allowed = (1.0 - COVERED) * total;
         let mut bare = 0.0;
         for piece in own {
-            if !buckets.beside(&pieces, piece, distance, |other| {
-                other != route && !gone[other as usize] && lengths[other as usize] > lengths[route as usize]
-            }) {
-                bare += length(piece.b - piece.a);
-                if bare > allowed {
-                    break;
+            let side = length(piece.b - piece.a);
+            let parts = (side / distance).ceil().clamp(1.0, 256.0);
+            for k in 0..parts as usize {
+                let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
+                if !buckets.beside(&pieces, point, piece.direction, distance, |other| {
+                    let other = other as usize;
+                    other != i as usize && !gone[other] && lengths[other] > total
+                }) {
+                    bare += side / parts;
                 }
             }
-        }
-        if total > 0.0 && bare <= allowed {
-            gone[route as usize] = true;
-            for step in routes.get(route as usize).0 {
-                classes[step.edge as usize] = None;
+            if bare > allowed {
+                break;
             }
         }
+        gone[i as usize] = total > 0.0 && bare <= allowed;
     }
+    let mut doubles = gone.iter();
+    raws.retain(|raw| {
+        let goes = doubles.next().copied().unwrap_or(false);
+        if goes {
+            degrees.leave_out(raw);
+        }
+        !goes
+    });
     gone.contains(&true)
 }
 
 /// Whether a line may be a double at all: exact models draw every line they have.
-fn is_suspect(map: &ViewMap, steps: &[Step], class: Class, organic: &[bool]) -> bool {
-    match class.kind {
-        LineKind::Contour => {
-            let smooth = steps.iter().filter(|s| map.edges[s.edge as usize].smooth).count();
-            2 * smooth > steps.len()
+fn is_suspect(raw: &Raw, organic: &[bool]) -> bool {
+    !raw.class.hidden
+        && match raw.class.kind {
+            LineKind::Contour => raw.smooth,
+            LineKind::Crease => organic.get(raw.class.part.index()).copied().unwrap_or(false),
+            _ => false,
         }
-        LineKind::Crease => organic.get(class.part.index()).copied().unwrap_or(false),
-        _ => false,
-    }
 }
 
-/// The pieces of a route, with the direction each has over a few distances.
-fn collect(map: &ViewMap, route: u32, steps: &[Step], distance: f64, pieces: &mut Vec<Piece>) {
-    let at = |k: usize| match steps.get(k) {
-        Some(step) => map.vertices[step.from(map).index()].position,
-        None => steps.last().map_or(Point::ZERO, |step| map.vertices[step.to(map).index()].position),
-    };
+/// The pieces of a line, with the direction each has over a few distances.
+fn collect(index: u32, line: &Line, distance: f64, pieces: &mut Vec<Piece>) {
+    let n = line.len();
+    let sides = if line.closed { n } else { n - 1 };
     let reach = WINDOW * distance / 2.0;
-    for k in 0..steps.len() {
-        let (a, b) = (at(k), at(k + 1));
+    for k in 0..sides {
+        let (a, b) = (line.points[k], line.points[(k + 1) % n]);
         let mut low = k;
-        while low > 0 && length(at(low) - a) < reach {
+        while low > 0 && length(line.points[low] - a) < reach {
             low -= 1;
         }
         let mut high = k + 1;
-        while high < steps.len() && length(at(high) - b) < reach {
+        while high < sides && length(line.points[high % n] - b) < reach {
             high += 1;
         }
-        pieces.push(Piece { route, a, b, direction: super::fit::unit(at(high) - at(low)) });
+        let direction = super::fit::unit(line.points[high % n] - line.points[low]);
+        pieces.push(Piece { line: index, a, b, direction });
     }
 }
 
@@ -194,16 +191,33 @@ impl Buckets {
         cells.into_iter()
     }
 
-    /// Whether a parallel piece of an admitted route runs within `distance` of the piece's middle.
-    fn beside(&self, pieces: &[Piece], piece: &Piece, distance: f64, admit: impl Fn(u32) -> bool) -> bool {
-        let middle = piece.a.midpoint(piece.b);
-        self.each_cell(middle, middle, distance).any(|cell| {
+    /// Whether a parallel piece of an admitted line runs beside `point` within `distance`.
+    fn beside(
+        &self,
+        pieces: &[Piece],
+        point: Point,
+        direction: Vec2,
+        distance: f64,
+        admit: impl Fn(u32) -> bool,
+    ) -> bool {
+        self.each_cell(point, point, distance).any(|cell| {
             let range = self.first[cell] as usize..self.first[cell + 1] as usize;
             self.pieces[range].iter().map(|i| &pieces[*i as usize]).any(|other| {
-                admit(other.route)
-                    && distance2(middle, other.a, other.b) <= distance * distance
-                    && other.direction.dot(piece.direction).abs() >= PARALLEL_COSINE
+                admit(other.line)
+                    && distance2(point, other.a, other.b) <= distance * distance
+                    && other.direction.dot(direction).abs() >= PARALLEL_COSINE
+                    && other.is_abreast(point, ABREAST * distance)
             })
         })
+    }
+}
+
+impl Piece {
+    /// Whether a point lies beside the piece rather than ahead of it or behind, but for `slack`.
+    fn is_abreast(&self, point: Point, slack: f64) -> bool {
+        let side = self.b - self.a;
+        let along = (point - self.a).dot(side);
+        let slack = slack * length(side);
+        (-slack..=side.hypot2() + slack).contains(&along)
     }
 }

@@ -1,7 +1,7 @@
-//! Evens out what flickers along a line: tiny gaps in the visible, tiny changes of class.
+//! Evens out what flickers along a line: tiny gaps in the visible.
 //!
-//! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px, and
-//! change between silhouette and inner contour just as often; a pen makes one line of them.
+//! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px; a pen
+//! makes one line of them.
 
 use super::link::{Class, Routes, Step};
 use crate::lines::LineKind;
@@ -45,68 +45,6 @@ pub(super) fn bridge(map: &ViewMap, routes: &Routes, gap: f64, classes: &mut [Op
             }
         }
     }
-}
-
-/// Gives stretches shorter than `shortest` the silhouette and thickness of their neighbours.
-/// `routes` must join edges of one visibility regardless of both.
-pub(super) fn even_out(map: &ViewMap, routes: &Routes, shortest: f64, classes: &mut [Option<Class>]) {
-    type Aspect = (fn(&Class) -> bool, fn(&mut Class, bool));
-    let aspects: [Aspect; 2] = [
-        (|c| c.silhouette, |c, value| c.silhouette = value),
-        (|c| c.both_seen, |c, value| c.both_seen = value),
-    ];
-    for (steps, closed) in routes.iter() {
-        for (get, set) in aspects {
-            let runs = runs(map, steps, closed, |step| class(classes, step).is_some_and(|c| get(&c)));
-            for (run, value) in majority(&runs, closed, shortest) {
-                for k in run.first..run.end {
-                    if let Some(class) = &mut classes[steps[k % steps.len()].edge as usize] {
-                        set(class, value);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// The runs whose value changes: those of each group of short runs take the value of the long runs
-/// on both sides if these agree, else the one that most of the group's length has.
-fn majority(runs: &[Run], closed: bool, shortest: f64) -> Vec<(Run, bool)> {
-    let count = runs.len();
-    let mut changes = Vec::new();
-    if count < 2 {
-        return changes;
-    }
-    // A closed route is gone round from a long run.
-    let start = if closed { runs.iter().position(|r| r.length >= shortest).unwrap_or(0) } else { 0 };
-    let at = |k: usize| runs[(start + k) % count];
-    let mut k = 0;
-    let mut before: Option<bool> = None;
-    while k < count {
-        if at(k).length >= shortest {
-            before = Some(at(k).value);
-            k += 1;
-            continue;
-        }
-        let group = (k..count).take_while(|j| at(*j).length < shortest).count();
-        let after = if k + group < count {
-            Some(at(k + group).value)
-        } else if closed && before.is_some() {
-            Some(at(0).value)
-        } else {
-            None
-        };
-        let balance: f64 =
-            (k..k + group).map(|j| if at(j).value { at(j).length } else { -at(j).length }).sum();
-        let value = match (before, after) {
-            (Some(a), Some(b)) if a == b => a,
-            (Some(a), None) | (None, Some(a)) => a,
-            _ => balance > 0.0,
-        };
-        changes.extend((k..k + group).map(at).filter(|r| r.value != value).map(|r| (r, value)));
-        k += group;
-    }
-    changes
 }
 
 /// The runs of equal value along a route. In a closed route the first run may begin before the
