@@ -42,13 +42,19 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
         // A loop of two strokes' width is a blot.
         return raw.smooth && length < 2.0 * tidy;
     }
+    // A gap in the outline is worse than a crumb on it.
+    if raw.is_silhouette() {
+        return false;
+    }
     let free = raw.ends.map(|end| degrees.is_free(end));
     let ends = [0, 1].map(|side| free[side] || raw.covered[side]);
     match raw.class.kind {
         LineKind::Contour if raw.smooth => {
             let floating = scanned && ends[0] && ends[1];
             let least = if floating { FLOATING * tidy } else { tidy };
-            length < least && (ends[0] || ends[1])
+            // Where it is the last piece of another line, round a corner, that line needs it.
+            let spur = [0, 1].map(|side| !ends[side] && degrees.is_junction(raw.ends[side]));
+            length < least && ((ends[0] && (ends[1] || spur[1])) || (ends[1] && spur[0]))
         }
         LineKind::Crease => {
             // On exact models only what ends in the middle of a surface is doubtful.

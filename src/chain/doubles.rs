@@ -18,7 +18,7 @@ const WINDOW: f64 = 4.0;
 /// A line shorter than this many distances is a flake, and doubles another at this much more
 /// than the distance.
 const FLAKE: f64 = 21.0;
-const FLAKE_DISTANCE: f64 = 3.0;
+const FLAKE_DISTANCE: f64 = 4.0;
 
 /// Part of the distance by which lines beside each other may miss each other lengthwise.
 const ABREAST: f64 = 0.3;

@@ -111,6 +111,11 @@ impl Degrees {
         self.0[vertex.index()] <= 1
     }
 
+    /// Whether more than two lines end here, or a line passes through where another ends.
+    pub fn is_junction(&self, vertex: ViewVertexId) -> bool {
+        self.0[vertex.index()] > 2
+    }
+
     /// Takes the ends of a line that is left out.
     pub fn leave_out(&mut self, raw: &Raw) {
         for end in raw.ends {

@@ -14,17 +14,19 @@ use super::raw::{Degrees, Raw};
 const JUMP: f64 = 1.5;
 const JUMP_TRIMMED: f64 = 0.6;
 
-/// Tidy lengths beyond which a jump must go straight on.
-const LEAP: f64 = 0.35;
+/// Tidy lengths beyond which a jump must go on more or less, and straight.
+const HOP: f64 = 0.35;
+const LEAP: f64 = 0.8;
 
 /// Tidy lengths that a stub may have, and that directions are taken over.
-const STUB: f64 = 2.0;
+const STUB: f64 = 4.0;
 const WINDOW: f64 = 1.5;
 
 /// Cosine of the sharpest turn (45 degrees) at a stitch.
 const STITCH_COSINE: f64 = 0.707;
 
-/// Cosine of the sharpest turn (30 degrees) into and out of a long jump.
+/// Cosines of the sharpest turns (53 and 30 degrees) into and out of such jumps.
+const HOP_COSINE: f64 = 0.6;
 const LEAP_COSINE: f64 = 0.866;
 
 /// A possible stitch between two ends (`2 * line + side`), the parts cut off either line.
@@ -168,9 +170,12 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
         let ahead = to.direction(&cut_b, WINDOW * tidy);
         let bent = -back.dot(ahead) < STITCH_COSINE;
         let way = super::fit::unit(jump);
-        let aside = trimmed <= 0.0
-            && length(jump) > LEAP * tidy
-            && way.dot(ahead).min(-way.dot(back)) < LEAP_COSINE;
+        let least = match length(jump) / tidy {
+            far if far > LEAP => LEAP_COSINE,
+            far if far > HOP => HOP_COSINE,
+            _ => -1.0,
+        };
+        let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
         // Two crumbs do not make a line by what is between them.
         let thin = from.arc(length(jump)).max(to.arc(length(jump))) < length(jump);
         // A stub is cut off only where it runs beside the other line.
