@@ -72,7 +72,7 @@ pub(super) fn drop_doubles(
         let own = &pieces[spans[i as usize]..spans[i as usize + 1]];
         let total = lengths[i as usize];
         // The shorter, the more likely a flake; but a gap in the outline is worse.
-        let flake = total < FLAKE * distance && !raws[i as usize].is_silhouette();
+        let flake = total < FLAKE * distance && !raws[i as usize].touches_background();
         let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
         let allowed = (1.0 - COVERED) * total;
         let mut bare = 0.0;

@@ -19,6 +19,8 @@ pub(super) struct Raw {
     pub smooth: bool,
     /// Where it begins and ends; twice the same vertex in a ring.
     pub ends: [ViewVertexId; 2],
+    /// The view vertices its pieces begin and end at, each piece's two.
+    pub vertices: Vec<ViewVertexId>,
     /// Whether a surface covers the line at its first and last point, so that it ends in the
     /// drawing, but not on the surface.
     pub covered: [bool; 2],
@@ -63,6 +65,7 @@ impl Raw {
             invisibility: if class.hidden { hidden } else { 0 },
             smooth: noisy || 2 * edges().filter(|edge| edge.smooth).count() > steps.len(),
             ends,
+            vertices: edges().flat_map(|edge| [edge.start, edge.end]).collect(),
             covered: ends.map(|v| map.vertices[v.index()].kind == ViewVertexKind::TJunction),
             pronounced,
         })
@@ -78,6 +81,11 @@ impl Raw {
         }
     }
 
+    /// Whether background lies behind any of it.
+    pub fn touches_background(&self) -> bool {
+        self.line.silhouette.contains(&true)
+    }
+
     /// Whether background lies behind most of it.
     pub fn is_silhouette(&self) -> bool {
         let sides = self.line.points.windows(2).map(|pair| length(pair[1] - pair[0]));
@@ -91,7 +99,7 @@ impl Raw {
     }
 }
 
-/// How many visible lines come together at each view vertex.
+/// How many visible pieces come together at each view vertex.
 pub(super) struct Degrees(Vec<u32>);
 
 impl Degrees {
@@ -116,10 +124,10 @@ impl Degrees {
         self.0[vertex.index()] > 2
     }
 
-    /// Takes the ends of a line that is left out.
+    /// Takes away a line that is left out.
     pub fn leave_out(&mut self, raw: &Raw) {
-        for end in raw.ends {
-            self.0[end.index()] = self.0[end.index()].saturating_sub(1);
+        for vertex in &raw.vertices {
+            self.0[vertex.index()] = self.0[vertex.index()].saturating_sub(1);
         }
     }
 }

@@ -89,6 +89,7 @@ pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &Degrees, tidy: f64) -> Vec<Ra
             used[at / 2] = true;
             if at / 2 != i {
                 whole.pronounced += raws[at / 2].pronounced;
+                whole.vertices.extend(&raws[at / 2].vertices);
             }
             let line = &raws[at / 2].line;
             add(&mut whole.line, line, at % 2 == 1, link[at].map(|l| l.1), link[at ^ 1].map(|l| l.1));

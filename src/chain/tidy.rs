@@ -54,13 +54,14 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64)
         return raws;
     }
     let mut degrees = Degrees::new(map, &classes);
+    raws = stitch(raws, &degrees, tidy);
     for _ in 0..ROUNDS {
-        raws = stitch(raws, &degrees, tidy);
         let doubles = drop_doubles(&mut raws, &mut degrees, &organic, DOUBLE * tidy);
         let crumbs = drop_crumbs(&mut raws, &mut degrees, &organic, tidy);
         if !doubles && !crumbs {
             break;
         }
+        raws = stitch(raws, &degrees, tidy);
     }
     let mut parts = Vec::with_capacity(raws.len());
     for raw in raws {
