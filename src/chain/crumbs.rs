@@ -7,12 +7,14 @@ use crate::lines::LineKind;
 /// fainter, the longer.
 const NOISE: f64 = 5.0;
 
+/// A line of any kind that hangs on nothing is a dot if it is shorter than this many tidy lengths.
+const DOT: f64 = 0.3;
+
 /// A contour of a scan that hangs on nothing must be this many times longer.
 const FLOATING: f64 = 2.5;
 
-/// Leaves out every line that is a crumb; returns whether there was any.
-pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &[bool], tidy: f64) -> bool {
-    let count = raws.len();
+/// Leaves out every line that is a crumb.
+pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &[bool], tidy: f64) {
     // All are judged before any goes, so that no order matters.
     let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, organic, tidy)).collect();
     let mut crumb = crumbs.into_iter();
@@ -23,7 +25,6 @@ pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &
         }
         !goes
     });
-    raws.len() < count
 }
 
 fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
@@ -42,12 +43,15 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
         // A loop of two strokes' width is a blot.
         return raw.smooth && length < 2.0 * tidy;
     }
-    // A gap in the outline is worse than a crumb on it.
-    if raw.is_silhouette() {
-        return false;
-    }
     let free = raw.ends.map(|end| degrees.is_free(end));
     let ends = [0, 1].map(|side| free[side] || raw.covered[side]);
+    if length < DOT * tidy && ends[0] && ends[1] {
+        return true;
+    }
+    // A gap in the outline is worse than a crumb on it.
+    if raw.silhouette_part() > 0.5 {
+        return false;
+    }
     match raw.class.kind {
         LineKind::Contour if raw.smooth => {
             let floating = scanned && ends[0] && ends[1];

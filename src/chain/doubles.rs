@@ -20,6 +20,9 @@ const WINDOW: f64 = 4.0;
 const FLAKE: f64 = 21.0;
 const FLAKE_DISTANCE: f64 = 4.0;
 
+/// Part of a flake that may be silhouette.
+const OUTLINE: f64 = 0.25;
+
 /// Part of the distance by which lines beside each other may miss each other lengthwise.
 const ABREAST: f64 = 0.3;
 
@@ -43,17 +46,17 @@ struct Buckets {
 }
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within
-/// `distance`, shortest first; returns whether there was any.
+/// `distance`, shortest first.
 pub(super) fn drop_doubles(
     raws: &mut Vec<Raw>,
     degrees: &mut Degrees,
     organic: &[bool],
     distance: f64,
-) -> bool {
+) {
     let mut suspects: Vec<u32> =
         (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize], organic)).collect();
     if suspects.is_empty() {
-        return false;
+        return;
     }
     let mut pieces: Vec<Piece> = Vec::new();
     let mut spans: Vec<usize> = vec![0];
@@ -65,14 +68,14 @@ pub(super) fn drop_doubles(
         spans.push(pieces.len());
         lengths.push(raw.length());
     }
-    let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return false };
+    let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
     suspects.sort_by(|a, b| lengths[*a as usize].total_cmp(&lengths[*b as usize]).then(a.cmp(b)));
     let mut gone = vec![false; raws.len()];
     for i in suspects {
         let own = &pieces[spans[i as usize]..spans[i as usize + 1]];
         let total = lengths[i as usize];
         // The shorter, the more likely a flake; but a gap in the outline is worse.
-        let flake = total < FLAKE * distance && !raws[i as usize].touches_background();
+        let flake = total < FLAKE * distance && raws[i as usize].silhouette_part() < OUTLINE;
         let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
         let allowed = (1.0 - COVERED) * total;
         let mut bare = 0.0;
@@ -102,7 +105,6 @@ pub(super) fn drop_doubles(
         }
         !goes
     });
-    gone.contains(&true)
 }
 
 /// Whether a line may be a double at all: exact models draw every line they have.

@@ -81,16 +81,11 @@ impl Raw {
         }
     }
 
-    /// Whether background lies behind any of it.
-    pub fn touches_background(&self) -> bool {
-        self.line.silhouette.contains(&true)
-    }
-
-    /// Whether background lies behind most of it.
-    pub fn is_silhouette(&self) -> bool {
-        let sides = self.line.points.windows(2).map(|pair| length(pair[1] - pair[0]));
-        let balance = sides.zip(&self.line.silhouette).map(|(side, is)| if *is { side } else { -side });
-        balance.sum::<f64>() > 0.0
+    /// The part of it that has background behind it, 0 to 1.
+    pub fn silhouette_part(&self) -> f64 {
+        let sides = || self.line.points.windows(2).map(|pair| length(pair[1] - pair[0]));
+        let silhouette = sides().zip(&self.line.silhouette).filter(|(_, is)| **is);
+        silhouette.map(|(side, _)| side).sum::<f64>() / sides().sum::<f64>().max(f64::MIN_POSITIVE)
     }
 
     /// Whether it ends where it began.
@@ -124,10 +119,13 @@ impl Degrees {
         self.0[vertex.index()] > 2
     }
 
+    /// Takes away a piece that ended here.
+    pub fn cut_off(&mut self, vertex: ViewVertexId) {
+        self.0[vertex.index()] = self.0[vertex.index()].saturating_sub(1);
+    }
+
     /// Takes away a line that is left out.
     pub fn leave_out(&mut self, raw: &Raw) {
-        for vertex in &raw.vertices {
-            self.0[vertex.index()] = self.0[vertex.index()].saturating_sub(1);
-        }
+        raw.vertices.iter().for_each(|vertex| self.cut_off(*vertex));
     }
 }

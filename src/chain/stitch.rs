@@ -50,13 +50,18 @@ struct Cut {
 }
 
 /// Sews what can be sewn; lines keep the order and sense of the first of those they are made of.
-pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &Degrees, tidy: f64) -> Vec<Raw> {
+pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64) -> Vec<Raw> {
     let stitches = choose(&raws, degrees, tidy);
     if stitches.is_empty() {
         return raws;
     }
     let mut link: Vec<Option<(usize, Cut)>> = vec![None; 2 * raws.len()];
     for s in stitches {
+        for (end, cut) in [(s.a, s.cut_a), (s.b, s.cut_b)] {
+            if cut.trimmed > 0.0 {
+                degrees.cut_off(raws[end / 2].ends[end % 2]);
+            }
+        }
         link[s.a] = Some((s.b, s.cut_a));
         link[s.b] = Some((s.a, s.cut_b));
     }
@@ -272,7 +277,7 @@ impl<'a> Walk<'a> {
                 .take_while(|j| {
                     let before = arc;
                     arc += length(other.point(*j) - other.point(j - 1));
-                    before < 4.0 * tidy
+                    before < (STUB + 1.0) * tidy
                 })
                 .all(|j| distance2(p, other.point(j - 1), other.point(j)) > near)
         })

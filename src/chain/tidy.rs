@@ -27,6 +27,9 @@ const DOUBLE: f64 = 0.3;
 /// lengths.
 const SILHOUETTE: f64 = 3.0;
 
+/// A line shorter than this many tidy lengths is less than a dot of the pen.
+const POINT: f64 = 0.1;
+
 /// Rounds of dropping and sewing; each may free the ends of others.
 const ROUNDS: usize = 3;
 
@@ -54,17 +57,20 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64)
         return raws;
     }
     let mut degrees = Degrees::new(map, &classes);
-    raws = stitch(raws, &degrees, tidy);
     for _ in 0..ROUNDS {
-        let doubles = drop_doubles(&mut raws, &mut degrees, &organic, DOUBLE * tidy);
-        let crumbs = drop_crumbs(&mut raws, &mut degrees, &organic, tidy);
-        if !doubles && !crumbs {
+        let count = raws.len();
+        raws = stitch(raws, &mut degrees, tidy);
+        drop_doubles(&mut raws, &mut degrees, &organic, DOUBLE * tidy);
+        drop_crumbs(&mut raws, &mut degrees, &organic, tidy);
+        if raws.len() == count {
             break;
         }
-        raws = stitch(raws, &degrees, tidy);
     }
     let mut parts = Vec::with_capacity(raws.len());
     for raw in raws {
+        if !raw.class.hidden && raw.length() < POINT * tidy {
+            continue;
+        }
         silhouette::cut(raw, SILHOUETTE * tidy, &mut parts);
     }
     parts
