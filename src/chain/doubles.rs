@@ -47,12 +47,7 @@ struct Buckets {
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within
 /// `distance`, shortest first.
-pub(super) fn drop_doubles(
-    raws: &mut Vec<Raw>,
-    degrees: &mut Degrees,
-    organic: &[bool],
-    distance: f64,
-) {
+pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &[bool], distance: f64) {
     let mut suspects: Vec<u32> =
         (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize], organic)).collect();
     if suspects.is_empty() {

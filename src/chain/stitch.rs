@@ -19,7 +19,11 @@ const HOP: f64 = 0.35;
 const LEAP: f64 = 0.8;
 
 /// Tidy lengths that a stub may have, and that directions are taken over.
-const STUB: f64 = 4.0;
+const STUB: f64 = 8.0;
+
+/// Tidy lengths beyond which a stub must lie on the other line, and how near to it.
+const LONG_STUB: f64 = 4.0;
+const LONG_STUB_NEAR: f64 = 0.3;
 const WINDOW: f64 = 1.5;
 
 /// Cosine of the sharpest turn (45 degrees) at a stitch.
@@ -182,11 +186,15 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
             _ => -1.0,
         };
         let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
+        // A line that is mostly stub is another line.
+        let eaten =
+            |walk: &Walk, cut: &Cut| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
+        let consumed = trimmed > LONG_STUB * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
         // Two crumbs do not make a line by what is between them.
         let thin = from.arc(length(jump)).max(to.arc(length(jump))) < length(jump);
         // A stub is cut off only where it runs beside the other line.
         let apart = from.strays(&cut_a, &to, tidy) || to.strays(&cut_b, &from, tidy);
-        (!bent && !aside && !thin && !apart).then(|| Stitch {
+        (!bent && !aside && !thin && !consumed && !apart).then(|| Stitch {
             cost: length(jump) + 0.25 * trimmed,
             a,
             b,
@@ -269,7 +277,8 @@ impl<'a> Walk<'a> {
         if cut.trimmed <= 0.0 {
             return false;
         }
-        let near = JUMP_TRIMMED * tidy * (JUMP_TRIMMED * tidy);
+        let near = tidy * if cut.trimmed > LONG_STUB * tidy { LONG_STUB_NEAR } else { JUMP_TRIMMED };
+        let near = near * near;
         (0..cut.next).any(|k| {
             let p = self.point(k);
             let mut arc = 0.0;
