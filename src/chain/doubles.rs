@@ -1,5 +1,7 @@
 //! Drops second strokes: lines that run beside a longer one within a pen's width.
 
+use std::ops::RangeInclusive;
+
 use kurbo::{Point, Vec2};
 
 use super::line::{Line, distance2, length};
@@ -148,44 +150,49 @@ impl Buckets {
         }
         let columns = ((high.x - low.x) / cell) as usize + 1;
         let rows = ((high.y - low.y) / cell) as usize + 1;
-        let mut buckets =
-            Self { cell, corner: low, columns, rows, first: vec![0; columns * rows + 1], pieces: Vec::new() };
+        let mut buckets = Self { cell, corner: low, columns, rows, first: Vec::new(), pieces: Vec::new() };
+        let mut counts: Vec<u32> = vec![0; columns * rows + 1];
         for piece in pieces {
-            buckets.each_cell(piece.a, piece.b, 0.0).for_each(|c| buckets.first[c + 1] += 1);
+            buckets.each_cell(piece.a, piece.b, |cell| counts[cell + 1] += 1);
         }
-        for c in 1..buckets.first.len() {
-            buckets.first[c] += buckets.first[c - 1];
+        for c in 1..counts.len() {
+            counts[c] += counts[c - 1];
         }
-        let mut next = buckets.first.clone();
-        buckets.pieces = vec![0; buckets.first.last().copied().unwrap_or(0) as usize];
+        let mut next = counts.clone();
+        let mut filled = vec![0; counts.last().copied().unwrap_or(0) as usize];
         for (i, piece) in pieces.iter().enumerate() {
-            for c in buckets.each_cell(piece.a, piece.b, 0.0) {
-                buckets.pieces[next[c] as usize] = i as u32;
-                next[c] += 1;
-            }
+            buckets.each_cell(piece.a, piece.b, |cell| {
+                filled[next[cell] as usize] = i as u32;
+                next[cell] += 1;
+            });
         }
+        buckets.first = counts;
+        buckets.pieces = filled;
         Some(buckets)
     }
 
-    /// Cells that a segment, widened by `margin`, touches; along long segments it is taken in parts
-    /// so that their boxes stay small.
-    fn each_cell(&self, a: Point, b: Point, margin: f64) -> impl Iterator<Item = usize> + use<> {
-        let parts = ((length(b - a) / self.cell).ceil() as usize).clamp(1, 4096);
-        let mut cells: Vec<usize> = Vec::with_capacity(4);
+    /// Columns and rows of the box round two points, widened by `margin`.
+    fn range(&self, p: Point, q: Point, margin: f64) -> (RangeInclusive<usize>, RangeInclusive<usize>) {
         let column = |x: f64| (((x - self.corner.x) / self.cell).max(0.0) as usize).min(self.columns - 1);
         let row = |y: f64| (((y - self.corner.y) / self.cell).max(0.0) as usize).min(self.rows - 1);
+        (
+            column(p.x.min(q.x) - margin)..=column(p.x.max(q.x) + margin),
+            row(p.y.min(q.y) - margin)..=row(p.y.max(q.y) + margin),
+        )
+    }
+
+    /// Cells that a segment touches; long segments are taken in parts so that their boxes stay
+    /// small, and may give a cell twice.
+    fn each_cell(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
+        let parts = ((length(b - a) / self.cell).ceil() as usize).clamp(1, 4096);
         for part in 0..parts {
             let p = a.lerp(b, part as f64 / parts as f64);
             let q = a.lerp(b, (part + 1) as f64 / parts as f64);
-            for y in row(p.y.min(q.y) - margin)..=row(p.y.max(q.y) + margin) {
-                for x in column(p.x.min(q.x) - margin)..=column(p.x.max(q.x) + margin) {
-                    cells.push(y * self.columns + x);
-                }
+            let (columns, rows) = self.range(p, q, 0.0);
+            for row in rows {
+                columns.clone().for_each(|column| visit(row * self.columns + column));
             }
         }
-        cells.sort_unstable();
-        cells.dedup();
-        cells.into_iter()
     }
 
     /// Whether a parallel piece of an admitted line runs beside `point` within `distance`.
@@ -197,7 +204,9 @@ impl Buckets {
         distance: f64,
         admit: impl Fn(u32) -> bool,
     ) -> bool {
-        self.each_cell(point, point, distance).any(|cell| {
+        let (columns, rows) = self.range(point, point, distance);
+        rows.flat_map(|row| columns.clone().map(move |column| (row, column))).any(|(row, column)| {
+            let cell = row * self.columns + column;
             let range = self.first[cell] as usize..self.first[cell + 1] as usize;
             self.pieces[range].iter().map(|i| &pieces[*i as usize]).any(|other| {
                 admit(other.line)

@@ -11,12 +11,14 @@ use super::line::{Line, distance2, length};
 use super::raw::{Degrees, Raw};
 
 /// Tidy lengths that a stitch may jump when nothing is trimmed, and when a stub is.
-const JUMP: f64 = 1.5;
+const JUMP: f64 = 2.5;
 const JUMP_TRIMMED: f64 = 0.6;
 
-/// Tidy lengths beyond which a jump must go on more or less, and straight.
+/// Tidy lengths beyond which a jump must go on more or less, straight, and dead straight between
+/// lines longer than itself.
 const HOP: f64 = 0.35;
 const LEAP: f64 = 0.8;
+const FLIGHT: f64 = 1.5;
 
 /// Tidy lengths that a stub may have, and that directions are taken over.
 const STUB: f64 = 8.0;
@@ -29,9 +31,10 @@ const WINDOW: f64 = 1.5;
 /// Cosine of the sharpest turn (45 degrees) at a stitch.
 const STITCH_COSINE: f64 = 0.707;
 
-/// Cosines of the sharpest turns (53 and 30 degrees) into and out of such jumps.
+/// Cosines of the sharpest turns (53, 30 and 16 degrees) into and out of such jumps.
 const HOP_COSINE: f64 = 0.6;
 const LEAP_COSINE: f64 = 0.866;
+const FLIGHT_COSINE: f64 = 0.96;
 
 /// A possible stitch between two ends (`2 * line + side`), the parts cut off either line.
 #[derive(Debug, Clone, Copy)]
@@ -181,6 +184,7 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
         let bent = -back.dot(ahead) < STITCH_COSINE;
         let way = super::fit::unit(jump);
         let least = match length(jump) / tidy {
+            far if far > FLIGHT => FLIGHT_COSINE,
             far if far > LEAP => LEAP_COSINE,
             far if far > HOP => HOP_COSINE,
             _ => -1.0,
@@ -191,7 +195,9 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
             |walk: &Walk, cut: &Cut| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
         let consumed = trimmed > LONG_STUB * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
         // Two crumbs do not make a line by what is between them.
-        let thin = from.arc(length(jump)).max(to.arc(length(jump))) < length(jump);
+        let far = length(jump);
+        let arcs = [from.arc(1.5 * far), to.arc(1.5 * far)];
+        let thin = arcs[0].max(arcs[1]) < far || (far > FLIGHT * tidy && arcs[0].min(arcs[1]) < 1.5 * far);
         // A stub is cut off only where it runs beside the other line.
         let apart = from.strays(&cut_a, &to, tidy) || to.strays(&cut_b, &from, tidy);
         (!bent && !aside && !thin && !consumed && !apart).then(|| Stitch {
