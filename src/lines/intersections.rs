@@ -1,19 +1,29 @@
 //! Feature lines where surfaces pass through each other.
+//!
+//! All intersections of a large mesh take long to find, and most are out of sight. Where only
+//! visible lines are drawn, a buffer of the faces in sight proposes those that may meet others;
+//! from the pairs found among them the curves are followed over the mesh, so that every visible
+//! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
+//! lines, get the full search.
 
-use super::{FeatureLines, FeatureSegment, LineKind};
-use crate::mesh::intersect::{IntersectionInput, intersections};
+use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind};
+use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections};
+use crate::mesh::trace::Tracer;
 use crate::mesh::{FaceId, Mesh};
+use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::view::View;
 
-/// Adds the intersection curves of all faces that have area.
-pub fn find(mesh: &Mesh, view: &View, lines: &mut FeatureLines) {
-    let active: Vec<bool> = if mesh.cleaning.degenerate == 0 {
-        Vec::new()
+/// Meshes with at most this many triangles are searched in full, which takes no longer.
+pub const FULL_SEARCH_TRIANGLES: usize = 300_000;
+
+/// Adds the intersection curves of all faces that have area; without hidden lines, at least those
+/// that show in the view.
+pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLines) {
+    let curves = if hidden == HiddenLines::None && mesh.triangles.len() > FULL_SEARCH_TRIANGLES {
+        visible_curves(mesh, view)
     } else {
-        (0..mesh.triangles.len()).map(|f| !mesh.is_degenerate(FaceId::from(f))).collect()
+        all_curves(mesh)
     };
-    let input = IntersectionInput { positions: &mesh.positions, triangles: &mesh.triangles, active: &active };
-    let curves = intersections(&input);
     let first = (mesh.positions.len() + lines.points.len()) as u32;
     lines.points.extend(curves.points);
     lines.segments.extend(curves.segments.iter().map(|s| {
@@ -30,4 +40,28 @@ pub fn find(mesh: &Mesh, view: &View, lines: &mut FeatureLines) {
             material: mesh.face_material[nearer],
         }
     }));
+}
+
+/// All curves of a mesh.
+#[must_use]
+pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
+    let active: Vec<bool> = if mesh.cleaning.degenerate == 0 {
+        Vec::new()
+    } else {
+        (0..mesh.triangles.len()).map(|f| !mesh.is_degenerate(FaceId::from(f))).collect()
+    };
+    intersections(&IntersectionInput {
+        positions: &mesh.positions,
+        triangles: &mesh.triangles,
+        active: &active,
+    })
+}
+
+/// The curves of which something shows in a view, whole, and perhaps others.
+#[must_use]
+pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
+    let buffer = FaceBuffer::new(&Screen::new(mesh, view));
+    let active = strangers::find(mesh, &buffer);
+    let tracer = Tracer::new(mesh);
+    tracer.curves(&tracer.pairs_among(&active))
 }

@@ -23,7 +23,7 @@ pub fn extract(mesh: &Mesh, view: &View, options: &LineOptions) -> FeatureLines 
     }
     lines.segments = edge_lines::find(mesh, view, options);
     if options.kinds.contains(&LineKind::Intersection) {
-        intersections::find(mesh, view, &mut lines);
+        intersections::find(mesh, view, options.hidden, &mut lines);
     }
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));

@@ -53,11 +53,22 @@ pub struct IntersectionSegment {
 /// lie on either side. The result does not depend on the number of threads.
 #[must_use]
 pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
-    let IntersectionInput { positions, triangles, active } = *input;
-    let Some((low, high)) = bounds(positions, triangles) else {
+    let Some((low, high)) = bounds(input.positions, input.triangles) else {
         return IntersectionCurves::default();
     };
     let tolerance = PairTolerance::of_model((high - low).length());
+    join(&find_pairs(input, low, high, tolerance))
+}
+
+/// All pairs of triangles without common vertices that have something in common, sorted; `low`
+/// and `high` are the corners of a box around them.
+pub(super) fn find_pairs(
+    input: &IntersectionInput,
+    low: DVec3,
+    high: DVec3,
+    tolerance: PairTolerance,
+) -> Vec<Pair> {
+    let IntersectionInput { positions, triangles, active } = *input;
     let tree = BoxTree::new(positions, triangles, active, low, high);
     let mut pairs = tree.overlaps(|face, others, found: &mut Vec<Pair>| {
         let own = &Triangle::new(positions, triangles[face as usize]);
@@ -78,13 +89,14 @@ pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
         }
     });
     pairs.par_sort_unstable_by_key(|pair| pair.faces);
-    join(&pairs)
+    pairs
 }
 
 /// Two triangles that have something in common.
-struct Pair {
-    faces: [u32; 2],
-    common: Common,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) faces: [u32; 2],
+    pub(super) common: Common,
 }
 
 /// The box around all corners of all triangles.
@@ -115,8 +127,8 @@ struct Naming {
     point: DVec3,
 }
 
-/// Makes ends that share a name one point.
-fn join(pairs: &[Pair]) -> IntersectionCurves {
+/// Makes ends that share a name one point. The pairs are sorted by faces.
+pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
     // Segments have two ends each; a point is one end that only lends its names.
     let mut namings = Vec::new();
     let mut end_count = 0;

@@ -7,6 +7,7 @@ pub mod edges;
 pub mod ids;
 pub mod intersect;
 pub mod soup;
+pub mod trace;
 pub mod triangle_pair;
 pub mod weld;
 

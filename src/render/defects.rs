@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::mesh::{EdgeFaces, Mesh};
+use crate::mesh::{EdgeFaces, Mesh, PartId};
 use crate::scene::{Scene, Warnings};
 
 /// The defects that cleaning found and drew around, counted and named by part.
@@ -14,16 +14,26 @@ pub fn of_mesh(mesh: &Mesh, scene: &Scene) -> Warnings {
     warnings.count("doubled faces were left out", c.doubled);
     warnings.count("faces without area", c.degenerate);
     if c.non_manifold > 0 {
-        let mut by_part: BTreeMap<&str, u64> = BTreeMap::new();
-        for edge in 0..mesh.edges.len() {
-            if let EdgeFaces::Many([face, ..]) = mesh.edges.faces(edge) {
-                let part = mesh.face_part.get(*face as usize).and_then(|p| scene.parts.get(p.index()));
-                *by_part.entry(part.map_or("", |p| p.name.as_str())).or_default() += 1;
-            }
-        }
-        for (part, n) in by_part {
-            warnings.count(format!("non-manifold edges in part '{part}'"), n);
+        for (part, n) in non_manifold_by_part(mesh) {
+            let name = scene.parts.get(part.index()).map_or("", |p| p.name.as_str());
+            warnings.count(format!("non-manifold edges in part '{name}'"), n);
         }
     }
     warnings
+}
+
+/// Number of edges at which one part alone has three faces or more. Where parts touch, each has
+/// its own two faces, and nothing is wrong.
+fn non_manifold_by_part(mesh: &Mesh) -> BTreeMap<PartId, u64> {
+    let mut counts: BTreeMap<PartId, u64> = BTreeMap::new();
+    for edge in 0..mesh.edges.len() {
+        if let EdgeFaces::Many(faces) = mesh.edges.faces(edge) {
+            let mut parts: Vec<PartId> = faces.iter().map(|f| mesh.face_part[*f as usize]).collect();
+            parts.sort_unstable();
+            for own in parts.chunk_by(|a, b| a == b).filter(|own| own.len() > 2) {
+                *counts.entry(own[0]).or_default() += 1;
+            }
+        }
+    }
+    counts
 }

@@ -7,7 +7,7 @@ mod stage_drawing;
 
 use std::sync::Arc;
 
-use kurbo::Vec2;
+use kurbo::{PathEl, Vec2};
 
 pub use report::{Report, Stopwatch};
 pub use stage::Stage;
@@ -87,9 +87,22 @@ pub fn render_reported(
     report.counts.vertices = mesh.positions.len() as u64;
     report.counts.edges = mesh.edges.len() as u64;
     report.counts.feature_edges = feature_lines.segments.len() as u64;
+    report.counts.ray_tests = map.tests;
     report.counts.chains = chains.len() as u64;
+    report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
     report.warnings = defects::of_mesh(&mesh, scene).lines();
     (Drawing { title: title(scene), page, layers }, report)
+}
+
+/// Points of a path, control points counted.
+fn points(path: &kurbo::BezPath) -> u64 {
+    let of = |element: &PathEl| match element {
+        PathEl::MoveTo(_) | PathEl::LineTo(_) => 1,
+        PathEl::QuadTo(..) => 2,
+        PathEl::CurveTo(..) => 3,
+        PathEl::ClosePath => 0,
+    };
+    path.elements().iter().map(of).sum()
 }
 
 /// Moves the picture from the camera's frame to the middle of the page.

@@ -42,7 +42,13 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
         builder.add(segment, Seen::of(&seen, i), limits.piece);
     }
     let mut map = builder.map;
-    doubles::remove(&mut map, limits.double, view.frame.width.max(view.frame.height) / 128.0);
+    map.tests = seen.tests;
+    doubles::remove(
+        &mut map,
+        limits.double,
+        view.frame.width.max(view.frame.height) / 128.0,
+        view.frame.perspective,
+    );
     map
 }
 

@@ -2,16 +2,25 @@
 //!
 //! Edges of parts that touch, coplanar faces and T-vertices make lines that coincide in the image
 //! without being one edge of the mesh. Of two such lines the weaker kind gives way, of equal kinds
-//! the later one. Lines that share a node are left alone: they are a fold of one curve.
+//! the later one. Lines that share a node may be a fold of one curve, and must coincide to rounding.
 
 use kurbo::{Point, Vec2};
 use rustc_hash::FxHashMap;
 
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 
+/// Lines shorter than this many times the distance have no direction to speak of, and are left
+/// alone.
+const SHORTEST_SHARE: f64 = 8.0;
+
+/// Lines that share a node count as coinciding within this share of the distance of others: the
+/// two sides of a T-vertex do, the folds of a contour hardly ever.
+const JOINED_SHARE: f64 = 1e-3;
+
 /// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
-/// edge. `cell` is the side of the tiles in which neighbours are sought.
-pub fn remove(map: &mut ViewMap, within: f64, cell: f64) {
+/// edge. `cell` is the side of the tiles in which neighbours are sought; `perspective` tells how
+/// depth runs along a line.
+pub fn remove(map: &mut ViewMap, within: f64, cell: f64, perspective: bool) {
     let covered = find_covered(map, within, cell);
     if covered.is_empty() {
         return;
@@ -26,7 +35,7 @@ pub fn remove(map: &mut ViewMap, within: f64, cell: f64) {
         if ranges.is_empty() {
             edges.push(*edge);
         } else {
-            cut(&mut map.vertices, &mut edges, edge, &mut ranges, within);
+            cut(&mut map.vertices, &mut edges, edge, &mut ranges, within, perspective);
         }
     }
     map.edges = edges;
@@ -39,7 +48,7 @@ fn find_covered(map: &ViewMap, within: f64, cell: f64) -> Vec<(u32, (f64, f64))>
     let mut near: Vec<u32> = Vec::new();
     for (id, edge) in map.edges.iter().enumerate().filter(|(_, e)| e.invisibility == 0) {
         let line = Line::of(map, edge);
-        if line.length <= within {
+        if line.length <= SHORTEST_SHARE * within {
             continue;
         }
         near.clear();
@@ -52,13 +61,15 @@ fn find_covered(map: &ViewMap, within: f64, cell: f64) -> Vec<(u32, (f64, f64))>
         near.dedup();
         for &other_id in &near {
             let other = &map.edges[other_id as usize];
-            if edge.start == other.start
-                || edge.start == other.end
-                || edge.end == other.start
-                || edge.end == other.end
-            {
+            // A long line may come back to a tile where it is known already.
+            if other_id as usize == id {
                 continue;
             }
+            let joined = edge.start == other.start
+                || edge.start == other.end
+                || edge.end == other.start
+                || edge.end == other.end;
+            let within = if joined { within * JOINED_SHARE } else { within };
             let other_line = Line::of(map, other);
             if !line.runs_along(&other_line, within) {
                 continue;
@@ -148,6 +159,7 @@ fn cut(
     edge: &ViewEdge,
     ranges: &mut [(f64, f64)],
     within: f64,
+    perspective: bool,
 ) {
     let (a, b) = (vertices[edge.start.index()], vertices[edge.end.index()]);
     let shortest = within / (b.position - a.position).hypot().max(within);
@@ -155,7 +167,11 @@ fn cut(
         let id = ViewVertexId(vertices.len() as u32);
         vertices.push(ViewVertex {
             position: a.position.lerp(b.position, t),
-            depth: a.depth + (b.depth - a.depth) * t,
+            depth: if perspective {
+                1.0 / ((1.0 - t) / a.depth + t / b.depth)
+            } else {
+                a.depth + (b.depth - a.depth) * t
+            },
             kind: ViewVertexKind::TJunction,
         });
         id
@@ -218,7 +234,7 @@ mod tests {
             ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
             ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, 8.0);
+        remove(&mut m, 0.005, 8.0, false);
         let (k, c) = (LineKind::Crease, LineKind::Contour);
         assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
     }
@@ -230,7 +246,7 @@ mod tests {
             ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
             ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, 8.0);
+        remove(&mut m, 0.005, 8.0, false);
         assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
     }
 }

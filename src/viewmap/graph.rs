@@ -81,4 +81,6 @@ pub struct ViewMap {
     pub vertices: Vec<ViewVertex>,
     /// Pieces, in the order of the feature segments they were cut from.
     pub edges: Vec<ViewEdge>,
+    /// How many times a feature segment was compared with a triangle to decide all this.
+    pub tests: u64,
 }

@@ -1,10 +1,8 @@
-//! A grid of square tiles over the page, and the walk of a segment through it.
+//! A grid of square tiles over the image, and the walk of a segment through it.
 
 use glam::{DVec2, DVec3};
 
-use crate::view::Frame;
-
-/// Square tiles that cover the page.
+/// Square tiles that cover a part of the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// Number of tiles from left to right.
@@ -13,6 +11,8 @@ pub struct Grid {
     pub rows: u32,
     /// Side of a tile, user units.
     pub cell: f64,
+    /// Top left corner of the first tile.
+    origin: DVec2,
     per_cell: f64,
 }
 
@@ -50,10 +50,10 @@ impl TileBox {
         (u32::from(self.right - self.left) + 1) * (u32::from(self.bottom - self.top) + 1)
     }
 
-    /// Whether it touches the edge of the page, beyond which it may go on.
+    /// Whether it touches the edge of the grid, beyond which it may go on.
     #[inline]
     #[must_use]
-    pub fn meets_page_edge(self, grid: &Grid) -> bool {
+    pub fn meets_edge(self, grid: &Grid) -> bool {
         self.left == 0
             || self.top == 0
             || u32::from(self.right) + 1 == grid.columns
@@ -66,8 +66,8 @@ impl Grid {
     #[inline]
     #[must_use]
     pub fn tile_box(&self, low: DVec3, high: DVec3) -> TileBox {
-        let (width, height) = (f64::from(self.columns) * self.cell, f64::from(self.rows) * self.cell);
-        if high.x < 0.0 || low.x > width || high.y < 0.0 || low.y > height {
+        let (first, last) = (self.origin, self.corner(self.columns, self.rows));
+        if high.x < first.x || low.x > last.x || high.y < first.y || low.y > last.y {
             return TileBox::EMPTY;
         }
         TileBox {
@@ -87,12 +87,22 @@ impl Grid {
         })
     }
 
-    /// A grid of about `across` tiles along the longer side of the frame.
+    /// A grid of about `across` tiles along the longer side of the box from `low` to `high`.
     #[must_use]
-    pub fn new(frame: &Frame, across: u32) -> Self {
-        let cell = frame.width.max(frame.height) / f64::from(across.max(1));
-        let count = |length: f64| ((length / cell).ceil() as u32).clamp(1, across.max(1) + 1);
-        Self { columns: count(frame.width), rows: count(frame.height), cell, per_cell: 1.0 / cell }
+    pub fn new(low: DVec2, high: DVec2, across: u32) -> Self {
+        let size = (high - low).max(DVec2::ZERO);
+        let cell = (size.max_element() / f64::from(across.max(1))).max(f64::MIN_POSITIVE);
+        let count = |length: f64| ((length / cell).ceil() as u32).clamp(1, across.max(1));
+        Self { columns: count(size.x), rows: count(size.y), cell, origin: low, per_cell: 1.0 / cell }
+    }
+
+    /// A grid over one tile of this one, with `across` tiles along its sides.
+    #[must_use]
+    pub fn of_tile(&self, tile: usize, across: u32) -> Self {
+        let tile = tile as u32;
+        let low = self.corner(tile % self.columns, tile / self.columns);
+        let cell = self.cell / f64::from(across);
+        Self { columns: across, rows: across, cell, origin: low, per_cell: 1.0 / cell }
     }
 
     /// Number of tiles.
@@ -114,25 +124,25 @@ impl Grid {
         row as usize * self.columns as usize + column as usize
     }
 
-    /// The column that x lies in, kept on the page.
+    /// The column that x lies in, kept on the grid.
     #[inline]
     #[must_use]
     pub fn column(&self, x: f64) -> u32 {
-        ((x * self.per_cell).max(0.0) as u32).min(self.columns - 1)
+        (((x - self.origin.x) * self.per_cell).max(0.0) as u32).min(self.columns - 1)
     }
 
-    /// The row that y lies in, kept on the page.
+    /// The row that y lies in, kept on the grid.
     #[inline]
     #[must_use]
     pub fn row(&self, y: f64) -> u32 {
-        ((y * self.per_cell).max(0.0) as u32).min(self.rows - 1)
+        (((y - self.origin.y) * self.per_cell).max(0.0) as u32).min(self.rows - 1)
     }
 
     /// Top left corner of a tile.
     #[inline]
     #[must_use]
     pub fn corner(&self, column: u32, row: u32) -> DVec2 {
-        DVec2::new(f64::from(column), f64::from(row)) * self.cell
+        self.origin + DVec2::new(f64::from(column), f64::from(row)) * self.cell
     }
 
     /// Calls `visit(tile, t0, t1)` for the tiles that the image segment a→b passes through, in
@@ -144,16 +154,16 @@ impl Grid {
         let (mut column, mut row) = (self.column(a.x), self.row(a.y));
         let (last_column, last_row) = (self.column(b.x), self.row(b.y));
         let d = b - a;
-        let axis = |from: u32, to: u32, start: f64, delta: f64| {
+        let axis = |from: u32, to: u32, origin: f64, start: f64, delta: f64| {
             if from == to {
                 return (0i64, f64::INFINITY, 0.0);
             }
             let step = if to > from { 1i64 } else { -1 };
-            let border = f64::from(from + u32::from(to > from)) * self.cell;
+            let border = origin + f64::from(from + u32::from(to > from)) * self.cell;
             (step, (border - start) / delta, (self.cell / delta).abs())
         };
-        let (step_x, mut next_x, stride_x) = axis(column, last_column, a.x, d.x);
-        let (step_y, mut next_y, stride_y) = axis(row, last_row, a.y, d.y);
+        let (step_x, mut next_x, stride_x) = axis(column, last_column, self.origin.x, a.x, d.x);
+        let (step_y, mut next_y, stride_y) = axis(row, last_row, self.origin.y, a.y, d.y);
         let mut t = 0.0;
         while (column, row) != (last_column, last_row) {
             let along_x = row == last_row || (column != last_column && next_x <= next_y);
@@ -175,19 +185,9 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Projection};
 
     fn grid() -> Grid {
-        let camera = Camera {
-            eye: DVec3::Z,
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            projection: Projection::Orthographic { height: 1.0 },
-            width: 100.0,
-            height: 60.0,
-            near: None,
-        };
-        Grid::new(&Frame::new(&camera, DVec3::ZERO), 10)
+        Grid::new(DVec2::ZERO, DVec2::new(100.0, 60.0), 10)
     }
 
     #[test]

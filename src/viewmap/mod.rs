@@ -4,10 +4,12 @@ pub mod build;
 pub mod doubles;
 pub mod graph;
 pub mod grid;
+mod grouped;
 pub mod layers;
 pub mod occlude;
 pub mod occluders;
 pub mod project;
+mod tile;
 pub mod visibility;
 
 pub use build::build;

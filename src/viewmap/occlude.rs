@@ -77,13 +77,22 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     let [a, b, c] = corners.map(DVec3::truncate);
     let sides = [(a, b - a), (b, c - b), (c, a - c)];
     let area = sides[0].1.perp_dot(c - a);
+    let sign = area.signum();
+    // Most triangles that are asked lie wholly on the far side of one of their sides; that much is
+    // seen without a square root, since the sum of its coordinates is no shorter than a vector.
+    for (corner, side) in sides {
+        let slack = -limits.cover * (side.x.abs() + side.y.abs());
+        if side.perp_dot(p - corner) * sign < slack && side.perp_dot(q - corner) * sign < slack {
+            return None;
+        }
+    }
     let longest = sides.iter().map(|(_, d)| d.length_squared()).fold(0.0, f64::max).sqrt();
     if area.abs() <= limits.height * longest {
         return None;
     }
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for (corner, side) in sides {
-        let inward = area.signum() / side.length().max(f64::MIN_POSITIVE);
+        let inward = sign / side.length().max(f64::MIN_POSITIVE);
         let at_p = side.perp_dot(p - corner) * inward + limits.cover;
         let at_q = side.perp_dot(q - corner) * inward + limits.cover;
         if at_p < 0.0 {
@@ -120,6 +129,7 @@ pub fn hidden_interval(
     let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
     let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
     let farthest = corners[0].z.min(corners[1].z).min(corners[2].z);
+    let at_corner = |end: usize| shared[end].is_some() && !segment.cut[end];
     let is_neighbour = shared[0].is_some() || shared[1].is_some();
     let step = if is_neighbour { limits.neighbour } else { limits.contact };
     let lead = |t: f64| {
@@ -138,10 +148,10 @@ pub fn hidden_interval(
     if at_start <= 0.0 {
         let t = start + span * (at_start / (at_start - at_end));
         // From a shared corner the surface rises at once.
-        if !(shared[0].is_some() && start == 0.0) {
+        if !(at_corner(0) && start == 0.0) {
             (hidden.start, hidden.start_kind) = (t, ViewVertexKind::Piercing);
         }
-    } else if at_end <= 0.0 && !(shared[1].is_some() && end == 1.0) {
+    } else if at_end <= 0.0 && !(at_corner(1) && end == 1.0) {
         let t = start + span * (at_start / (at_start - at_end));
         (hidden.end, hidden.end_kind) = (t, ViewVertexKind::Piercing);
     }

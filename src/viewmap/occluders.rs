@@ -77,7 +77,7 @@ impl Triangles<'_> {
     }
 
     /// The tiles that each triangle's box meets; an empty box for triangles that hide nothing or
-    /// lie off the page.
+    /// lie off the grid.
     #[must_use]
     pub fn tile_boxes(&self) -> Vec<TileBox> {
         (0..self.count()).into_par_iter().with_min_len(1 << 12).map(|id| self.tile_box(id as u32)).collect()
@@ -90,7 +90,8 @@ impl Triangles<'_> {
         if cut || self.mesh.is_degenerate(FaceId(face)) {
             return TileBox::EMPTY;
         }
-        let slack = self.grid.cell * 1e-6;
+        // Lines are also asked about a little beside themselves.
+        let slack = (self.grid.cell * 1e-6).max(2.0 * self.limits.beside);
         let low = points[0].min(points[1]).min(points[2]) - slack;
         let high = points[0].max(points[1]).max(points[2]) + slack;
         self.grid.tile_box(low, high)
@@ -104,7 +105,7 @@ impl Triangles<'_> {
             let spans =
                 |first: u16, last: u16, count: u32| last >= first && (last - first >= 2 || count <= 2);
             spans(b.left, b.right, self.grid.columns) && spans(b.top, b.bottom, self.grid.rows)
-                || b.meets_page_edge(self.grid) && !b.is_empty()
+                || b.meets_edge(self.grid) && !b.is_empty()
         };
         let large: Vec<u32> = boxes
             .par_iter()
@@ -158,15 +159,15 @@ impl Triangles<'_> {
     #[must_use]
     pub fn fill(&self, boxes: &[TileBox], wanted: &[bool], cover: &[f64]) -> Occluders {
         let chunk = self.chunk();
-        let found: Vec<Vec<(u32, Occluder)>> = boxes
+        let found: Vec<Vec<(u32, u32)>> = boxes
             .par_chunks(chunk)
             .enumerate()
             .map(|(k, boxes)| {
-                let mut entries = Vec::new();
+                let mut pairs = Vec::new();
                 for (i, tiles) in boxes.iter().enumerate() {
-                    self.add_entries((k * chunk + i) as u32, *tiles, wanted, cover, &mut entries);
+                    self.add_tiles((k * chunk + i) as u32, *tiles, wanted, cover, &mut pairs);
                 }
-                entries
+                pairs
             })
             .collect();
         // Counting sort by tile; chunks follow the order of the triangles, so tiles do too.
@@ -178,45 +179,62 @@ impl Triangles<'_> {
             starts[tile + 1] += starts[tile];
         }
         let mut next = starts.clone();
-        let blank = Occluder { bounds: [0.0; 4], nearest: 0.0, id: 0 };
-        let mut entries = vec![blank; starts[self.grid.len()] as usize];
-        for chunk in found {
-            for (tile, occluder) in chunk {
-                let at = &mut next[tile as usize];
-                entries[*at as usize] = occluder;
-                *at += 1;
-            }
+        let mut ids = vec![0u32; starts[self.grid.len()] as usize];
+        for (tile, id) in found.into_iter().flatten() {
+            let at = &mut next[tile as usize];
+            ids[*at as usize] = id;
+            *at += 1;
         }
+        let entries = ids.par_iter().with_min_len(1 << 12).map(|id| self.occluder(*id)).collect();
         Occluders { starts, entries }
     }
 
     #[inline]
-    fn add_entries(
+    fn occluder(&self, id: u32) -> Occluder {
+        let (points, _) = corners(self.mesh, self.view, id);
+        let nearest = points[0].z.max(points[1].z).max(points[2].z);
+        Occluder { bounds: outward_box(&points), nearest: (nearest as f32).next_up(), id }
+    }
+
+    /// Adds a pair of tile and triangle for each wanted tile in which the triangle may matter.
+    #[inline]
+    fn add_tiles(
         &self,
         id: u32,
         tiles: TileBox,
         wanted: &[bool],
         cover: &[f64],
-        entries: &mut Vec<(u32, Occluder)>,
+        pairs: &mut Vec<(u32, u32)>,
     ) {
-        if tiles.is_empty() || !self.grid.tiles_of(tiles).any(|(tile, _)| wanted[tile]) {
+        if tiles.is_empty() {
+            return;
+        }
+        // For boxes of few tiles the exact test costs more than it saves.
+        if tiles.area() <= 4 {
+            for (tile, _) in self.grid.tiles_of(tiles) {
+                if wanted[tile] && (cover[tile] == f64::NEG_INFINITY || self.nearest(id) >= cover[tile]) {
+                    pairs.push((tile as u32, id));
+                }
+            }
             return;
         }
         let (points, _) = corners(self.mesh, self.view, id);
         let nearest = points[0].z.max(points[1].z).max(points[2].z);
-        let occluder = Occluder { bounds: outward_box(&points), nearest: (nearest as f32).next_up(), id };
-        // For boxes of few tiles the exact test costs more than it saves.
-        let sides = (tiles.area() > 4).then(|| Sides::new(&points));
+        let sides = Sides::new(&points);
         let half = self.grid.cell / 2.0;
         for (tile, corner) in self.grid.tiles_of(tiles) {
-            if !wanted[tile] || nearest < cover[tile] {
-                continue;
+            if wanted[tile]
+                && nearest >= cover[tile]
+                && !sides.misses(corner + half, half * (1.0 + 1e-5) + 2.0 * self.limits.beside)
+            {
+                pairs.push((tile as u32, id));
             }
-            if sides.as_ref().is_some_and(|s| s.misses(corner + half, half * (1.0 + 1e-5))) {
-                continue;
-            }
-            entries.push((tile as u32, occluder));
         }
+    }
+
+    fn nearest(&self, id: u32) -> f64 {
+        let (points, _) = corners(self.mesh, self.view, id);
+        points[0].z.max(points[1].z).max(points[2].z)
     }
 }
 

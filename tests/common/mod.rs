@@ -1,4 +1,5 @@
 //! What the tests of the command line share: running the program in a folder of its own.
+#![allow(dead_code)] // each test uses some of it
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,4 +1,5 @@
 //! Closed-form solids for tests and benchmarks.
+#![allow(dead_code)] // each test uses some of it
 
 use glam::DVec3;
 
@@ -9,7 +10,6 @@ pub struct Solid {
     pub triangles: Vec<[u32; 3]>,
 }
 
-#[allow(dead_code)] // each test uses some of them
 impl Solid {
     /// Adds another solid beside this one, sharing no vertex.
     pub fn add(&mut self, other: Solid) {
@@ -26,7 +26,6 @@ impl Solid {
 }
 
 /// An upright box of twelve triangles.
-#[allow(dead_code)]
 pub fn cuboid(low: DVec3, high: DVec3) -> Solid {
     let corner = |i: u32| {
         let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
@@ -40,7 +39,6 @@ pub fn cuboid(low: DVec3, high: DVec3) -> Solid {
 }
 
 /// A torus about the z axis.
-#[allow(dead_code)]
 pub fn torus(around: usize, along: usize, radius: f64, tube: f64) -> Solid {
     grid(around, along, true, |u, v| {
         let (cos_u, sin_u) = turn(u);
@@ -51,7 +49,6 @@ pub fn torus(around: usize, along: usize, radius: f64, tube: f64) -> Solid {
 }
 
 /// An open tube about the z axis, from −`half` to `half`.
-#[allow(dead_code)]
 pub fn tube(around: usize, along: usize, radius: f64, half: f64) -> Solid {
     grid(around, along, false, |u, v| {
         let (cos_u, sin_u) = turn(u);
@@ -60,7 +57,6 @@ pub fn tube(around: usize, along: usize, radius: f64, half: f64) -> Solid {
 }
 
 /// A sphere of meridians and parallels, with a fan of triangles at each pole.
-#[allow(dead_code)]
 pub fn sphere(around: usize, radius: f64) -> Solid {
     let mut sphere = grid(2 * around, around, false, |u, v| {
         let (cos_u, sin_u) = turn(u);

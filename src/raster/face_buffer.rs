@@ -1,0 +1,140 @@
+//! [`FaceBuffer`]: which face is in front at each pixel of a view.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::Screen;
+
+/// Triangles handled by one task.
+const TASK: usize = 1 << 13;
+
+/// The face nearest to the eye at the centre of each pixel, row after row from the top.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FaceBuffer {
+    /// Pixels in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// The bits of the nearness, which order positive numbers, above those of the face, inverted;
+    /// zero where there is no face.
+    cells: Vec<u64>,
+}
+
+impl FaceBuffer {
+    /// Draws all triangles of a screen.
+    ///
+    /// The nearer face wins, of equally near ones that of the lesser id, whatever the order and
+    /// the number of threads.
+    #[must_use]
+    pub fn new(screen: &Screen) -> Self {
+        let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
+        let count = screen.triangle_count();
+        (0..count.div_ceil(TASK)).into_par_iter().for_each(|task| {
+            for id in task * TASK..((task + 1) * TASK).min(count) {
+                let (corners, face) = screen.triangle(id);
+                screen.cover(&corners, |pixel, nearness| {
+                    let cell = u64::from(nearness.to_bits()) << 32 | u64::from(!face);
+                    // Most triangles lose, and looking is cheaper than writing.
+                    if cell > cells[pixel].load(Ordering::Relaxed) {
+                        cells[pixel].fetch_max(cell, Ordering::Relaxed);
+                    }
+                });
+            }
+        });
+        let cells = cells.into_iter().map(AtomicU64::into_inner).collect();
+        Self { columns: screen.columns, rows: screen.rows, cells }
+    }
+
+    /// The face in front at a pixel.
+    #[inline]
+    #[must_use]
+    pub fn front(&self, pixel: usize) -> Option<u32> {
+        let cell = self.cells[pixel];
+        (cell != 0).then_some(!(cell as u32))
+    }
+
+    /// How near the face in front is at a pixel, on the screen's scale from 0 to 1.
+    #[inline]
+    #[must_use]
+    pub fn nearness(&self, pixel: usize) -> Option<f32> {
+        let cell = self.cells[pixel];
+        (cell != 0).then_some(f32::from_bits((cell >> 32) as u32))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::{Mesh, Soup};
+    use crate::scene::{Camera, UpAxis};
+    use crate::view::View;
+
+    /// Seen from above in a parallel view of 10 × 10 world units.
+    fn from_above(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> (Mesh, View) {
+        let positions: Vec<DVec3> = positions.iter().map(|p| DVec3::from(*p)).collect();
+        let soup = Soup { positions: positions.clone(), triangles: triangles.to_vec(), ..Soup::default() };
+        let mesh = Mesh::build(soup);
+        let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.0);
+        let view = View::new(&mesh, &camera);
+        (mesh, view)
+    }
+
+    fn faces(buffer: &FaceBuffer) -> Vec<Option<u32>> {
+        (0..buffer.columns * buffer.rows).map(|pixel| buffer.front(pixel)).collect()
+    }
+
+    #[test]
+    fn a_quad_of_two_triangles_has_no_hole() {
+        let corners = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+        let (mesh, view) = from_above(&corners, &[[0, 1, 2], [0, 2, 3]]);
+        let screen = Screen::new(&mesh, &view);
+        let buffer = FaceBuffer::new(&screen);
+        let (left, right) = (view.points[0].x, view.points[1].x);
+        let (top, bottom) = (view.points[2].y, view.points[0].y);
+        let per_unit = 1024.0 / view.frame.width.max(view.frame.height);
+        for row in 0..buffer.rows {
+            for column in 0..buffer.columns {
+                let (x, y) = ((column as f64 + 0.5) / per_unit, (row as f64 + 0.5) / per_unit);
+                let inside = x > left && x < right && y > top && y < bottom;
+                assert_eq!(buffer.front(row * buffer.columns + column).is_some(), inside, "{column} {row}");
+            }
+        }
+        assert!(faces(&buffer).contains(&Some(0)) && faces(&buffer).contains(&Some(1)));
+    }
+
+    #[test]
+    fn the_nearer_triangle_wins_whatever_the_order() {
+        let corners = [[0., 0., 0.], [9., 0., 0.], [0., 9., 0.], [0., 0., 1.], [9., 0., 1.], [0., 9., 1.]];
+        for (triangles, nearer) in [([[0, 1, 2], [3, 4, 5]], 1), ([[3, 4, 5], [0, 1, 2]], 0)] {
+            let (mesh, view) = from_above(&corners, &triangles);
+            let buffer = FaceBuffer::new(&Screen::new(&mesh, &view));
+            let shown = faces(&buffer);
+            let count = |face: u32| shown.iter().filter(|f| **f == Some(face)).count();
+            assert!(count(nearer) > 1000);
+            assert!(count(1 - nearer) * 20 < count(nearer), "but for what perspective leaves of it");
+        }
+    }
+
+    #[test]
+    fn threads_do_not_change_the_result() {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for i in 0..30_000_u32 {
+            let x = |k: u32| f64::from((i * 7919 + k * 104_729) % 1000);
+            let (a, b, c) = (x(0), x(1), x(2) / 100.0);
+            let first = positions.len() as u32;
+            positions.extend([[a, b, c], [a + 9.0, b, c], [a, b + 7.0, 0.5 * c]]);
+            triangles.push([first, first + 1, first + 2]);
+        }
+        let (mesh, view) = from_above(&positions, &triangles);
+        let screen = Screen::new(&mesh, &view);
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| FaceBuffer::new(&screen))
+        };
+        assert_eq!(with(1), with(3));
+    }
+}

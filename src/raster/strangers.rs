@@ -1,0 +1,106 @@
+//! Which faces may meet others in a visible curve, proposed by the face buffer.
+//!
+//! Along a visible intersection curve two faces show side by side that have no vertex in common;
+//! where one shows as a strip thinner than a pixel, the face beyond its next edge does. So the
+//! faces of neighbouring pixels that are strangers to each other are taken, and all that share an
+//! edge with one of them.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use super::FaceBuffer;
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
+
+/// Rows handled by one task.
+const ROWS: usize = 16;
+/// Up to this many active faces, more faces around them are taken in as well, which costs little
+/// and finds curves beside strips of several faces thinner than a pixel.
+const FEW_FACES: usize = 60_000;
+/// How often that is done at most.
+const RINGS: usize = 3;
+/// Edges handled by one task.
+const EDGES: usize = 1 << 15;
+
+/// Whether each face of the mesh may meet another in a visible curve; faces without area do not.
+#[must_use]
+pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
+    let unmarked = || -> Vec<AtomicBool> { mesh.triangles.iter().map(|_| AtomicBool::new(false)).collect() };
+    let is_marked = |marks: &[AtomicBool], face: u32| marks[face as usize].load(Ordering::Relaxed);
+    let mark = |marks: &[AtomicBool], face: u32| marks[face as usize].store(true, Ordering::Relaxed);
+
+    let strangers = unmarked();
+    (0..buffer.rows.div_ceil(ROWS)).into_par_iter().for_each(|task| {
+        for row in task * ROWS..((task + 1) * ROWS).min(buffer.rows) {
+            for_each_pair(mesh, buffer, row, |a, b| {
+                mark(&strangers, a);
+                mark(&strangers, b);
+            });
+        }
+    });
+
+    let near = unmarked();
+    let edges = mesh.edges.len();
+    (0..edges.div_ceil(EDGES)).into_par_iter().for_each(|task| {
+        for edge in task * EDGES..((task + 1) * EDGES).min(edges) {
+            let spread = |faces: &[u32]| {
+                if faces.iter().any(|face| is_marked(&strangers, *face)) {
+                    faces.iter().for_each(|face| mark(&near, *face));
+                }
+            };
+            match mesh.edges.faces(edge) {
+                EdgeFaces::One(face) => spread(&[face]),
+                EdgeFaces::Two { faces, .. } => spread(&faces),
+                EdgeFaces::Many(faces) => spread(faces),
+            }
+        }
+    });
+    let mut active: Vec<bool> = near.into_iter().map(AtomicBool::into_inner).collect();
+    for _ in 0..RINGS {
+        if active.iter().filter(|a| **a).count() > FEW_FACES {
+            break;
+        }
+        add_ring(mesh, &mut active);
+    }
+    active.par_iter_mut().enumerate().for_each(|(f, active)| *active &= !mesh.is_degenerate(FaceId::from(f)));
+    active
+}
+
+/// Adds all faces that share a vertex with an active one.
+fn add_ring(mesh: &Mesh, active: &mut [bool]) {
+    let mut reached = vec![false; mesh.positions.len()];
+    for (corners, _) in mesh.triangles.iter().zip(&*active).filter(|(_, active)| **active) {
+        corners.iter().for_each(|v| reached[*v as usize] = true);
+    }
+    active.par_iter_mut().zip(&mesh.triangles).for_each(|(active, corners)| {
+        *active |= corners.iter().any(|v| reached[*v as usize]);
+    });
+}
+
+/// Calls `visit` for the faces of neighbouring pixels of a row and with the next row that have no
+/// vertex in common.
+fn for_each_pair(mesh: &Mesh, buffer: &FaceBuffer, row: usize, visit: impl Fn(u32, u32)) {
+    for column in 0..buffer.columns {
+        let pixel = row * buffer.columns + column;
+        let Some(own) = buffer.front(pixel) else { continue };
+        let look = |pixel: usize| {
+            if let Some(other) = buffer.front(pixel)
+                && other != own
+                && !are_neighbours(mesh, own, other)
+            {
+                visit(own, other);
+            }
+        };
+        if column + 1 < buffer.columns {
+            look(pixel + 1);
+        }
+        if row + 1 < buffer.rows {
+            look(pixel + buffer.columns);
+        }
+    }
+}
+
+fn are_neighbours(mesh: &Mesh, a: u32, b: u32) -> bool {
+    let corners = mesh.triangles[b as usize];
+    mesh.triangles[a as usize].iter().any(|v| corners.contains(v))
+}
