@@ -76,7 +76,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: 
         let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
         let allowed = (1.0 - COVERED) * total;
         let mut bare = 0.0;
-        for piece in own {
+        'line: for piece in own {
             let side = length(piece.b - piece.a);
             let parts = (side / distance).ceil().clamp(1.0, 256.0);
             for k in 0..parts as usize {
@@ -87,9 +87,9 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: 
                 }) {
                     bare += side / parts;
                 }
-            }
-            if bare > allowed {
-                break;
+                if bare > allowed {
+                    break 'line;
+                }
             }
         }
         gone[i as usize] = total > 0.0 && bare <= allowed;
@@ -209,10 +209,10 @@ impl Buckets {
             let cell = row * self.columns + column;
             let range = self.first[cell] as usize..self.first[cell + 1] as usize;
             self.pieces[range].iter().map(|i| &pieces[*i as usize]).any(|other| {
-                admit(other.line)
-                    && distance2(point, other.a, other.b) <= distance * distance
-                    && other.direction.dot(direction).abs() >= PARALLEL_COSINE
+                other.direction.dot(direction).abs() >= PARALLEL_COSINE
                     && other.is_abreast(point, ABREAST * distance)
+                    && admit(other.line)
+                    && distance2(point, other.a, other.b) <= distance * distance
             })
         })
     }

@@ -6,7 +6,7 @@ mod curve;
 mod doubles;
 mod finish;
 mod fit;
-mod flips;
+mod gaps;
 mod line;
 mod link;
 pub mod options;

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::crumbs::drop_crumbs;
 use super::doubles::drop_doubles;
-use super::flips::bridge;
+use super::gaps::bridge;
 use super::line::length;
 use super::link::{Class, routes};
 use super::raw::{Degrees, Raw};

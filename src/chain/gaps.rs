@@ -1,4 +1,4 @@
-//! Evens out what flickers along a line: tiny gaps in the visible.
+//! Closes the tiny gaps in the visible part of a line.
 //!
 //! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px; a pen
 //! makes one line of them.
