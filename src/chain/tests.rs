@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::math::function::{cos, sin};
-use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexKind};
+use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
 /// A view map of polylines: each a list of points and whether it closes; points of equal
 /// coordinates are one vertex.
@@ -297,10 +297,12 @@ fn smoothing_and_fitting_keep_their_tolerances_both_ways() {
     let mut path = BezPath::new();
     path.move_to(smoothed[0]);
     curve::add_smooth(&smoothed, 0.15, &mut path);
-    let drawn = samples(&path);
-    // Samples of the curve lie a little off it between each other, and the line's own chords too.
-    assert!(farthest(&drawn, &smoothed) <= 0.15 + 0.02);
-    assert!(farthest(&smoothed, &drawn) <= 0.15 + 0.02);
+    let dense = |s: PathSeg| (0..=512).map(move |k| s.eval(f64::from(k) / 512.0)).collect::<Vec<_>>();
+    let drawn: Vec<Point> = path.segments().flat_map(dense).collect();
+    let (out, back) = (farthest(&drawn, &smoothed), farthest(&smoothed, &drawn));
+    assert!(back <= 0.15 + 1e-3, "{back}");
+    // Between the points, where the line is a chord of the curve, it may be a little more.
+    assert!(out <= 0.15 + 0.02, "{out}");
     assert!(path.elements().len() < 40, "{} elements", path.elements().len());
 }
 
@@ -383,7 +385,7 @@ proptest! {
         order.iter().enumerate().for_each(|(to, from)| place[*from] = to as u32);
         let mut shuffled = ViewMap {
             vertices: order.iter().map(|i| map.vertices[*i]).collect(),
-            edges: map.edges.clone(),
+            ..map.clone()
         };
         for edge in &mut shuffled.edges {
             edge.start = ViewVertexId(place[edge.start.index()]);
