@@ -14,10 +14,10 @@ struct Run {
 
 /// Adds the parts of a line that are silhouette throughout or nowhere, none shorter than `shortest`
 /// unless the whole line is.
-pub(super) fn cut(raw: Raw, shortest: f64, parts: &mut Vec<Raw>) {
+pub(super) fn cut(mut raw: Raw, shortest: f64, parts: &mut Vec<Raw>) {
     if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
-        let silhouette = raw.line.silhouette[0];
-        parts.push(with_silhouette(&raw, raw.line.clone(), silhouette));
+        raw.class.silhouette = raw.line.silhouette[0];
+        parts.push(raw);
         return;
     }
     // A closed line begins where the value changes, so that no run goes over its seam.

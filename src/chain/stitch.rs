@@ -88,7 +88,8 @@ pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64) -> Ve
         }
         let closed = link[start].is_some();
         let first = std::mem::take(&mut raws[i].line);
-        let mut whole = raws[i].clone();
+        let vertices = std::mem::take(&mut raws[i].vertices);
+        let mut whole = Raw { vertices, ..raws[i].clone() };
         if !closed && link[start ^ 1].is_none() {
             used[i] = true;
             sewn.push(Raw { line: first, ..whole });
