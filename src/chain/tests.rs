@@ -7,9 +7,12 @@ use super::*;
 use crate::math::function::{cos, sin};
 use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
+/// Points, what line they make, and whether it lies on a smooth surface.
+type Polyline = (Vec<(f64, f64)>, LineKind, bool);
+
 /// A view map of polylines: each a list of points and whether it closes; points of equal
 /// coordinates are one vertex.
-fn map_of(lines: &[(Vec<(f64, f64)>, LineKind, bool)]) -> ViewMap {
+fn map_of(lines: &[Polyline]) -> ViewMap {
     let mut map = ViewMap::default();
     for (points, kind, smooth) in lines {
         let ids: Vec<ViewVertexId> = points
@@ -323,7 +326,7 @@ fn drawing_of(chains: &[Chain]) -> Vec<String> {
 }
 
 /// Random walks on a coarse grid: crossings, junctions, doubled edges and loops of every sort.
-fn walks() -> impl Strategy<Value = Vec<(Vec<(f64, f64)>, LineKind, bool)>> {
+fn walks() -> impl Strategy<Value = Vec<Polyline>> {
     let step = (-2_i32..=2, -2_i32..=2);
     let walk = (0_i32..8, 0_i32..8, prop::collection::vec(step, 1..30), 0_usize..3);
     prop::collection::vec(walk, 1..8).prop_map(|walks| {
