@@ -4,7 +4,7 @@ use divan::{Bencher, black_box};
 use kurbo::Point;
 use ligne::chain::{ChainOptions, link};
 use ligne::drawing::Unit;
-use ligne::lines::LineKind;
+use ligne::lines::{HiddenLines, LineKind};
 use ligne::math::function::{cos, sin};
 use ligne::mesh::{MaterialId, PartId};
 use ligne::viewmap::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
@@ -75,11 +75,11 @@ fn city(edges: usize) -> ViewMap {
 #[divan::bench(args = [3_000, 60_000])]
 fn chains_of_a_scan(bencher: Bencher, pieces: usize) {
     let map = scan(pieces);
-    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px));
+    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px, HiddenLines::None));
 }
 
 #[divan::bench(args = [160_000])]
 fn chains_of_a_city(bencher: Bencher, edges: usize) {
     let map = city(edges);
-    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px));
+    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px, HiddenLines::None));
 }

@@ -14,7 +14,7 @@ use glam::DVec3;
 use kurbo::Point;
 use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{LineKind, LineOptions};
+use ligne::lines::{HiddenLines, LineKind, LineOptions};
 use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
 use ligne::viewmap::ViewVertexKind;
@@ -192,7 +192,7 @@ fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
         let thick = tube > s * s;
         let camera = orthographic(at(0.0, -10.0 * c, 10.0 * s), DVec3::ZERO, 4.0);
         let drawn = stages(&scene([torus(128, 64, 1.0, tube)]), &camera, &LineOptions::default());
-        let chains = chain::link(&drawn.map, &ChainOptions::default(), Unit::Px);
+        let chains = chain::link(&drawn.map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
         let open: Vec<_> = chains.iter().filter(|c| !c.closed && c.invisibility == 0).collect();
         let ends: Vec<Point> =
             open.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]).collect();
@@ -453,7 +453,7 @@ fn lines_seen_end_on_leave_no_dots() {
         stages(&scene([plate, cuboid(at(-1.0, -1.0, -3.0), at(1.0, 1.0, -2.0))]), &camera, &counting());
     let off = Length::px(0.0);
     let plain = ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
-    let chains = chain::link(&drawn.map, &plain, Unit::Px);
+    let chains = chain::link(&drawn.map, &plain, Unit::Px, HiddenLines::None);
     let visible: Vec<_> = chains.iter().filter(|c| c.invisibility == 0).collect();
     assert!(visible.iter().all(|c| c.part.index() == 0), "only the plate is seen: {visible:?}");
     assert_eq!(visible.len(), 1, "{visible:?}");

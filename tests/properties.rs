@@ -17,7 +17,7 @@ use glam::{DMat3, DVec3};
 use kurbo::Point;
 use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::LineOptions;
+use ligne::lines::{HiddenLines, LineOptions};
 use ligne::scene::{Camera, Projection, Scene};
 use pipeline::{counting, orthographic, perspective, scene, stages};
 use scenes::{random_camera, random_scene};
@@ -154,7 +154,7 @@ fn plain_chains_are_the_visible_lines_each_once() {
         ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
     for_scenes(15, |scene, camera, _| {
         let drawn = stages(scene, camera, &counting());
-        let chains = chain::link(&drawn.map, &options, Unit::Px);
+        let chains = chain::link(&drawn.map, &options, Unit::Px, HiddenLines::None);
         let mut inked = Vec::new();
         for chain in chains.iter().filter(|c| c.invisibility == 0) {
             inked.extend(chain.points.windows(2).map(|w| [w[0], w[1]]));

@@ -1,86 +1,70 @@
 //! Drops what no illustrator would draw: crumbs, spurs, tiny loops and creases that are noise.
 
-use super::link::{Class, Ends, Routes, Step};
+use super::raw::{Degrees, Raw};
 use crate::lines::LineKind;
-use crate::viewmap::{ViewMap, ViewVertexId, ViewVertexKind};
 
-/// A noisy crease must be this many times longer than a crumb.
+/// A crease of a scan must be this many times longer than a crumb if it turns by a right angle; the
+/// fainter, the longer.
 const NOISE: f64 = 5.0;
 
-/// Degrees of a dihedral angle beyond which a crease counts double.
-const PRONOUNCED_DEG: f32 = 75.0;
+/// A line of any kind that hangs on nothing is a dot if it is shorter than this many tidy lengths.
+const DOT: f64 = 0.3;
 
-/// Takes the class from the edges of every such route; returns whether there was any.
-pub(super) fn drop_crumbs(
-    map: &ViewMap,
-    routes: &Routes,
-    organic: &[bool],
-    tidy: f64,
-    classes: &mut [Option<Class>],
-) -> bool {
-    let ends = Ends::new(map, |e| classes[e].is_some_and(|c| !c.hidden));
-    let mut dropped = false;
-    for (steps, closed) in routes.iter() {
-        if is_crumb(map, steps, closed, organic, tidy, &ends, classes) {
-            for step in steps {
-                classes[step.edge as usize] = None;
-            }
-            dropped = true;
+/// A contour of a scan that hangs on nothing must be this many times longer.
+const FLOATING: f64 = 2.5;
+
+/// Leaves out every line that is a crumb.
+pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &[bool], tidy: f64) {
+    // All are judged before any goes, so that no order matters.
+    let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, organic, tidy)).collect();
+    let mut crumb = crumbs.into_iter();
+    raws.retain(|raw| {
+        let goes = crumb.next().unwrap_or(false);
+        if goes {
+            degrees.leave_out(raw);
         }
-    }
-    dropped
+        !goes
+    });
 }
 
-fn is_crumb(
-    map: &ViewMap,
-    steps: &[Step],
-    closed: bool,
-    organic: &[bool],
-    tidy: f64,
-    ends: &Ends,
-    classes: &[Option<Class>],
-) -> bool {
-    let (Some(first), Some(last)) = (steps.first(), steps.last()) else { return false };
-    let edge = |step: &Step| &map.edges[step.edge as usize];
-    let Some(class) = classes[first.edge as usize] else { return false };
-    let total = |keep: &dyn Fn(&Step) -> bool| -> f64 {
-        steps.iter().filter(|s| keep(s)).map(|s| s.length(map)).sum()
-    };
-    let length = total(&|_| true);
-    if class.hidden || length >= NOISE * tidy {
+fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
+    if raw.class.hidden {
         return false;
     }
-    let soft = total(&|s| edge(s).smooth) > 0.5 * length;
+    let length = raw.length();
+    let scanned = organic.get(raw.class.part.index()).copied().unwrap_or(false);
+    if scanned && raw.class.kind == LineKind::Crease {
+        return raw.pronounced < NOISE * tidy;
+    }
+    if length >= FLOATING * tidy {
+        return false;
+    }
+    if raw.is_ring() {
+        // A loop of two strokes' width is a blot.
+        return raw.smooth && length < 2.0 * tidy;
+    }
+    let free = raw.ends.map(|end| degrees.is_free(end));
+    let ends = [0, 1].map(|side| free[side] || raw.covered[side]);
+    if length < DOT * tidy && ends[0] && ends[1] {
+        return true;
+    }
     // A gap in the outline is worse than a crumb on it.
-    if total(&|s| edge(s).silhouette) > 0.5 * length {
+    if raw.silhouette_part() > 0.5 {
         return false;
     }
-    let scanned = organic.get(class.part.index()).copied().unwrap_or(false);
-    if closed || first.from(map) == last.to(map) {
-        // A loop of two strokes' width is a blot; a ring of creases on a scan, a grain.
-        let noise = scanned && class.kind == LineKind::Crease;
-        return (soft && length < 2.0 * tidy) || noise;
-    }
-    let free = |v: ViewVertexId, by_cover: bool| {
-        ends.at(v.index()).len() == 1 || by_cover && map.vertices[v.index()].kind == ViewVertexKind::TJunction
-    };
-    // Where a surface covers the line it ends in the drawing, but not on the surface.
-    let covered = |v: ViewVertexId| map.vertices[v.index()].kind == ViewVertexKind::TJunction;
-    let (from, to) = (first.from(map), last.to(map));
-    match class.kind {
-        LineKind::Contour if soft => length < tidy && (free(from, true) || free(to, true)),
-        LineKind::Crease if scanned => {
-            // Hysteresis: pronounced pieces count double, so that a short sharp crease stays where
-            // a long faint one does, and noise, short and faint, goes.
-            let pronounced = total(&|s| edge(s).strength >= PRONOUNCED_DEG);
-            length + pronounced < NOISE * tidy && (free(from, true) || free(to, true))
+    match raw.class.kind {
+        LineKind::Contour if raw.smooth => {
+            let floating = scanned && ends[0] && ends[1];
+            let least = if floating { FLOATING * tidy } else { tidy };
+            // Where it is the last piece of another line, round a corner, that line needs it.
+            let spur = [0, 1].map(|side| !ends[side] && degrees.is_junction(raw.ends[side]));
+            length < least && ((ends[0] && (ends[1] || spur[1])) || (ends[1] && spur[0]))
         }
         LineKind::Crease => {
             // On exact models only what ends in the middle of a surface is doubtful.
-            let loose = |v: ViewVertexId| free(v, false) && !covered(v);
-            length < tidy && loose(from) && loose(to)
+            length < tidy && [0, 1].iter().all(|side| free[*side] && !raw.covered[*side])
         }
         LineKind::Wire | LineKind::Border | LineKind::Motion => false,
-        _ => length < 0.25 * tidy && free(from, false) && free(to, false),
+        _ => length < 0.25 * tidy && free[0] && free[1],
     }
 }

@@ -51,9 +51,7 @@ pub(super) fn finish(raw: &Line, t: Tolerances) -> (Line, BezPath) {
 /// Drops the repeated end of a line that ends where it began.
 fn close(line: &mut Line) {
     line.closed = true;
-    line.points.pop();
-    line.depths.pop();
-    line.soft.pop();
+    line.pop();
 }
 
 /// A line nothing of which is smoothed.
@@ -177,6 +175,6 @@ fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
 /// Adds a line that begins where the other ends.
 fn append(line: &mut Line, part: &Line) {
     for i in 0..part.len() {
-        line.push(part.points[i], part.depths[i], part.soft[i]);
+        line.push(part.points[i], part.depths[i], part.soft[i], part.silhouette[i]);
     }
 }

@@ -14,6 +14,8 @@ pub(super) struct Line {
     /// Whether the piece that follows each point lies on a smooth surface; one a point (the last
     /// of an open line repeats the one before).
     pub soft: Vec<bool>,
+    /// Whether the piece that follows each point has background behind it; likewise.
+    pub silhouette: Vec<bool>,
     pub closed: bool,
 }
 
@@ -21,43 +23,54 @@ impl Line {
     /// The points of a route, points that coincide once; if `noisy`, all of it counts as lying on a
     /// smooth surface.
     pub fn of_route(map: &ViewMap, steps: &[Step], closed: bool, noisy: bool) -> Self {
-        let mut line = Self {
-            points: Vec::with_capacity(steps.len() + 1),
-            depths: Vec::with_capacity(steps.len() + 1),
-            soft: Vec::with_capacity(steps.len() + 1),
-            closed,
-        };
+        let mut line = Self { closed, ..Self::with_capacity(steps.len() + 1) };
         for step in steps {
             let vertex = &map.vertices[step.from(map).index()];
-            let soft = noisy || map.edges[step.edge as usize].smooth;
-            line.push(vertex.position, vertex.depth, soft);
+            let edge = &map.edges[step.edge as usize];
+            line.push(vertex.position, vertex.depth, noisy || edge.smooth, edge.silhouette);
         }
         if let (false, Some(last)) = (closed, steps.last()) {
             let vertex = &map.vertices[last.to(map).index()];
-            let soft = noisy || map.edges[last.edge as usize].smooth;
-            line.push(vertex.position, vertex.depth, soft);
+            let edge = &map.edges[last.edge as usize];
+            line.push(vertex.position, vertex.depth, noisy || edge.smooth, edge.silhouette);
         }
-        if closed {
-            while line.points.len() > 1 && line.points.first() == line.points.last() {
-                line.points.pop();
-                line.depths.pop();
-                line.soft.pop();
-            }
+        while closed && line.points.len() > 1 && line.points.first() == line.points.last() {
+            line.pop();
         }
         line
     }
 
+    fn with_capacity(count: usize) -> Self {
+        Self {
+            points: Vec::with_capacity(count),
+            depths: Vec::with_capacity(count),
+            soft: Vec::with_capacity(count),
+            silhouette: Vec::with_capacity(count),
+            closed: false,
+        }
+    }
+
     /// Adds a point, or renews the last one if it lies there already.
-    pub fn push(&mut self, point: Point, depth: f64, soft: bool) {
+    pub fn push(&mut self, point: Point, depth: f64, soft: bool, silhouette: bool) {
         if self.points.last() == Some(&point) {
-            if let Some(last) = self.soft.last_mut() {
-                *last = soft;
+            if let (Some(was_soft), Some(was)) = (self.soft.last_mut(), self.silhouette.last_mut()) {
+                *was_soft = soft;
+                *was = silhouette;
             }
             return;
         }
         self.points.push(point);
         self.depths.push(depth);
         self.soft.push(soft);
+        self.silhouette.push(silhouette);
+    }
+
+    /// Takes the last point away.
+    pub fn pop(&mut self) {
+        self.points.pop();
+        self.depths.pop();
+        self.soft.pop();
+        self.silhouette.pop();
     }
 
     pub fn len(&self) -> usize {
@@ -74,12 +87,7 @@ impl Line {
         let n = self.len();
         let index = (0..=n).map(|i| (start + i) % n.max(1));
         let index: Vec<usize> = if n == 0 { Vec::new() } else { index.collect() };
-        Self {
-            points: index.iter().map(|i| self.points[*i]).collect(),
-            depths: index.iter().map(|i| self.depths[*i]).collect(),
-            soft: index.iter().map(|i| self.soft[*i]).collect(),
-            closed: false,
-        }
+        Self { closed: false, ..self.pick(&index) }
     }
 
     /// Points `first..=last` as an open line.
@@ -88,6 +96,7 @@ impl Line {
             points: self.points[first..=last].to_vec(),
             depths: self.depths[first..=last].to_vec(),
             soft: self.soft[first..=last].to_vec(),
+            silhouette: self.silhouette[first..=last].to_vec(),
             closed: false,
         }
     }
@@ -98,6 +107,7 @@ impl Line {
             points: index.iter().map(|i| self.points[*i]).collect(),
             depths: index.iter().map(|i| self.depths[*i]).collect(),
             soft: index.iter().map(|i| self.soft[*i]).collect(),
+            silhouette: index.iter().map(|i| self.silhouette[*i]).collect(),
             closed: self.closed,
         }
     }

@@ -223,6 +223,11 @@ fn pair(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Vec<u32> {
             }
         }
     }
+    // Junctions of equal turns are paired by what the edges are, not by where they are in the map.
+    for group in &mut groups {
+        let step = |end: u32| Step { edge: end / 2, reversed: end % 2 == 1 };
+        group.sort_by(|a, b| order(map, step(*a), step(*b)));
+    }
     // Directions are all taken before any junction is paired, so that no order matters.
     let matched: Vec<Vec<(u32, u32)>> =
         groups.iter().map(|group| straightest(map, group, &partner, window)).collect();

@@ -6,11 +6,13 @@ mod curve;
 mod doubles;
 mod finish;
 mod fit;
-mod flips;
+mod gaps;
 mod line;
 mod link;
 pub mod options;
+mod raw;
 mod resample;
+mod silhouette;
 mod simplify;
 mod smooth;
 mod stitch;
@@ -25,14 +27,12 @@ use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
 use crate::drawing::{Length, Unit};
-use crate::lines::LineKind;
+use crate::lines::{HiddenLines, LineKind};
 use crate::mesh::{MaterialId, PartId};
-use crate::viewmap::{ViewMap, ViewVertexId};
+use crate::viewmap::ViewMap;
 use finish::{Tolerances, finish};
-use line::Line;
-use link::{Ends, Step, routes};
-use stitch::{Raw, stitch};
-use tidy::Tidied;
+use raw::Raw;
+use tidy::tidied;
 
 /// What a chain knows of the world at one of its points; travels with the chain so that strokes
 /// never look back into the scene.
@@ -74,14 +74,15 @@ pub struct Chain {
 /// Length over which directions are measured at junctions, px.
 const DIRECTION_PX: f64 = 3.0;
 
-/// Joins the view edges end to end and makes drawn lines of them.
+/// Joins the view edges end to end and makes drawn lines of them; hidden ones only if `hidden` has
+/// them drawn.
 ///
-/// Visible and hidden edges, kinds, parts, materials and silhouettes never join. With every option
-/// off each edge longer than nothing is in exactly one chain and no point is moved; points between
-/// pieces of one straight line are left out. Chains come in the order of the feature segments
-/// they begin with.
+/// Visible and hidden edges, kinds, parts and materials never join. With every option off each
+/// edge longer than nothing is in exactly one chain and no point is moved; points between pieces
+/// of one straight line are left out. Chains come in the order of the feature segments they begin
+/// with.
 #[must_use]
-pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit) -> Vec<Chain> {
+pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
     let px = Length::px(1.0).in_unit(unit);
     let t = Tolerances {
         px,
@@ -90,39 +91,8 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit) -> Vec<Chain> {
         tidy: options.tidy.in_unit(unit).max(0.0),
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
     };
-    let window = DIRECTION_PX * px;
-    let tidied = tidy::tidy(map, t, window);
-    let routes = routes(map, &tidied.classes, window);
-    let ends = Ends::new(map, |e| tidied.classes[e].is_some_and(|class| !class.hidden));
-    let raws: Vec<Raw> = (0..routes.len())
-        .into_par_iter()
-        .with_min_len(64)
-        .filter_map(|route| raw(map, routes.get(route), &tidied, &ends))
-        .collect();
-    stitch(raws, t).into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
-}
-
-/// The line of a route, or nothing for one seen end-on as a point.
-fn raw(map: &ViewMap, (steps, closed): (&[Step], bool), tidied: &Tidied, ends: &Ends) -> Option<Raw> {
-    let (first, last) = (steps.first()?, steps.last()?);
-    let class = tidied.classes[first.edge as usize]?;
-    let noisy = matches!(class.kind, LineKind::Contour | LineKind::Crease) && tidied.is_organic(class.part);
-    let line = Line::of_route(map, steps, closed, noisy);
-    // A closed line of two points runs there and back.
-    let line = if closed && line.len() == 2 { line.opened_at(0) } else { line };
-    if line.len() < 2 {
-        return None;
-    }
-    let edges = || steps.iter().map(|step| &map.edges[step.edge as usize]);
-    let hidden = edges().map(|edge| edge.invisibility).filter(|i| *i > 0).min().unwrap_or(0);
-    let free = |vertex: ViewVertexId| ends.at(vertex.index()).len() <= 1;
-    Some(Raw {
-        line,
-        class,
-        invisibility: if class.hidden { hidden } else { 0 },
-        smooth: noisy || 2 * edges().filter(|edge| edge.smooth).count() > steps.len(),
-        free: [free(first.from(map)), free(last.to(map))],
-    })
+    let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px);
+    raws.into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
 }
 
 fn chain(raw: Raw, t: Tolerances) -> Chain {

@@ -20,6 +20,7 @@ pub(super) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
         points: Vec::with_capacity(last),
         depths: Vec::with_capacity(last),
         soft: Vec::with_capacity(last),
+        silhouette: Vec::with_capacity(last),
         closed: line.closed,
     };
     let (mut side, mut before) = (0, 0.0);
@@ -34,6 +35,7 @@ pub(super) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
         even.points.push(line.points[i].lerp(line.points[j], t));
         even.depths.push(line.depths[i] + (line.depths[j] - line.depths[i]) * t);
         even.soft.push(line.soft[i]);
+        even.silhouette.push(line.silhouette[i]);
     }
     if !line.closed {
         // Ends stay to the bit.

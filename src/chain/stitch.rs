@@ -7,33 +7,34 @@
 
 use kurbo::{Point, Vec2};
 
-use super::finish::Tolerances;
 use super::line::{Line, distance2, length};
-use super::link::Class;
+use super::raw::{Degrees, Raw};
 
-/// A line before it is smoothed.
-#[derive(Debug, Clone)]
-pub(super) struct Raw {
-    pub line: Line,
-    pub class: Class,
-    /// Smallest number of surfaces that hide any of it.
-    pub invisibility: u16,
-    /// Whether most of it lies on smooth surfaces.
-    pub smooth: bool,
-    /// Whether the first and the last point are free: nothing else visible begins there.
-    pub free: [bool; 2],
-}
+/// Tidy lengths that a stitch may jump when nothing is trimmed, and when a stub is.
+const JUMP: f64 = 2.5;
+const JUMP_TRIMMED: f64 = 0.6;
 
-/// Part of the tidy length that a stitch may jump when nothing is trimmed, and when a stub is.
-const JUMP: f64 = 0.6;
-const JUMP_TRIMMED: f64 = 0.35;
+/// Tidy lengths beyond which a jump must go on more or less, straight, and dead straight between
+/// lines longer than itself.
+const HOP: f64 = 0.35;
+const LEAP: f64 = 0.8;
+const FLIGHT: f64 = 1.5;
 
 /// Tidy lengths that a stub may have, and that directions are taken over.
-const STUB: f64 = 2.0;
+const STUB: f64 = 8.0;
+
+/// Tidy lengths beyond which a stub must lie on the other line, and how near to it.
+const LONG_STUB: f64 = 4.0;
+const LONG_STUB_NEAR: f64 = 0.3;
 const WINDOW: f64 = 1.5;
 
 /// Cosine of the sharpest turn (45 degrees) at a stitch.
 const STITCH_COSINE: f64 = 0.707;
+
+/// Cosines of the sharpest turns (53, 30 and 16 degrees) into and out of such jumps.
+const HOP_COSINE: f64 = 0.6;
+const LEAP_COSINE: f64 = 0.866;
+const FLIGHT_COSINE: f64 = 0.96;
 
 /// A possible stitch between two ends (`2 * line + side`), the parts cut off either line.
 #[derive(Debug, Clone, Copy)]
@@ -56,16 +57,18 @@ struct Cut {
 }
 
 /// Sews what can be sewn; lines keep the order and sense of the first of those they are made of.
-pub(super) fn stitch(raws: Vec<Raw>, t: Tolerances) -> Vec<Raw> {
-    if t.tidy <= 0.0 {
-        return raws;
-    }
-    let stitches = choose(&raws, t.tidy);
+pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64) -> Vec<Raw> {
+    let stitches = choose(&raws, degrees, tidy);
     if stitches.is_empty() {
         return raws;
     }
     let mut link: Vec<Option<(usize, Cut)>> = vec![None; 2 * raws.len()];
     for s in stitches {
+        for (end, cut) in [(s.a, s.cut_a), (s.b, s.cut_b)] {
+            if cut.trimmed > 0.0 {
+                degrees.cut_off(raws[end / 2].ends[end % 2]);
+            }
+        }
         link[s.a] = Some((s.b, s.cut_a));
         link[s.b] = Some((s.a, s.cut_b));
     }
@@ -84,29 +87,35 @@ pub(super) fn stitch(raws: Vec<Raw>, t: Tolerances) -> Vec<Raw> {
             }
         }
         let closed = link[start].is_some();
-        let mut whole = Raw { line: Line::default(), ..raws[i].clone() };
-        if link[start].is_none() && link[start ^ 1].is_none() {
-            whole.line = raws[i].line.clone();
+        let first = std::mem::take(&mut raws[i].line);
+        let vertices = std::mem::take(&mut raws[i].vertices);
+        let mut whole = Raw { vertices, ..raws[i].clone() };
+        if !closed && link[start ^ 1].is_none() {
             used[i] = true;
-            sewn.push(whole);
+            sewn.push(Raw { line: first, ..whole });
             continue;
         }
+        raws[i].line = first;
+        let end = |end: usize| (raws[end / 2].ends[end % 2], raws[end / 2].covered[end % 2]);
         let mut at = start;
-        loop {
+        let last = loop {
             used[at / 2] = true;
-            let raw = &raws[at / 2];
-            add(&mut whole.line, &raw.line, at % 2 == 1, link[at].map(|l| l.1), link[at ^ 1].map(|l| l.1));
-            whole.free[1] = raw.free[(at ^ 1) % 2];
+            if at / 2 != i {
+                whole.pronounced += raws[at / 2].pronounced;
+                whole.vertices.extend(&raws[at / 2].vertices);
+            }
+            let line = &raws[at / 2].line;
+            add(&mut whole.line, line, at % 2 == 1, link[at].map(|l| l.1), link[at ^ 1].map(|l| l.1));
             match link[at ^ 1] {
                 Some((next, _)) if !used[next / 2] => at = next,
-                _ => break,
+                _ => break at ^ 1,
             }
-        }
-        whole.free[0] = raws[start / 2].free[start % 2];
+        };
+        let ((from, covered_from), (to, covered_to)) = (end(start), end(last));
+        whole.ends = [from, to];
+        whole.covered = [covered_from, covered_to];
         if closed && whole.line.points.first() == whole.line.points.last() {
-            whole.line.points.pop();
-            whole.line.depths.pop();
-            whole.line.soft.pop();
+            whole.line.pop();
         }
         whole.line.closed = closed && whole.line.len() > 2;
         sewn.push(whole);
@@ -115,13 +124,13 @@ pub(super) fn stitch(raws: Vec<Raw>, t: Tolerances) -> Vec<Raw> {
 }
 
 /// The cheapest stitches, each end in at most one.
-fn choose(raws: &[Raw], tidy: f64) -> Vec<Stitch> {
+fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64) -> Vec<Stitch> {
     let mut ends: Vec<(Point, usize)> = Vec::new();
     for (i, raw) in raws.iter().enumerate() {
         if raw.smooth && !raw.class.hidden && !raw.line.closed && raw.line.len() > 1 {
             let points = &raw.line.points;
             for (side, point) in [points.first(), points.last()].into_iter().enumerate() {
-                if let (true, Some(p)) = (raw.free[side], point) {
+                if let (true, Some(p)) = (degrees.is_free(raw.ends[side]), point) {
                     ends.push((*p, 2 * i + side));
                 }
             }
@@ -174,11 +183,25 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
         let back = from.direction(&cut_a, WINDOW * tidy);
         let ahead = to.direction(&cut_b, WINDOW * tidy);
         let bent = -back.dot(ahead) < STITCH_COSINE;
-        let aside = length(jump) > JUMP_TRIMMED * tidy
-            && super::fit::unit(jump).dot(ahead - back) < 2.0 * STITCH_COSINE;
+        let way = super::fit::unit(jump);
+        let least = match length(jump) / tidy {
+            far if far > FLIGHT => FLIGHT_COSINE,
+            far if far > LEAP => LEAP_COSINE,
+            far if far > HOP => HOP_COSINE,
+            _ => -1.0,
+        };
+        let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
+        // A line that is mostly stub is another line.
+        let eaten =
+            |walk: &Walk, cut: &Cut| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
+        let consumed = trimmed > LONG_STUB * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
+        // Two crumbs do not make a line by what is between them.
+        let far = length(jump);
+        let arcs = [from.arc(1.5 * far), to.arc(1.5 * far)];
+        let thin = arcs[0].max(arcs[1]) < far || (far > FLIGHT * tidy && arcs[0].min(arcs[1]) < 1.5 * far);
         // A stub is cut off only where it runs beside the other line.
         let apart = from.strays(&cut_a, &to, tidy) || to.strays(&cut_b, &from, tidy);
-        (!bent && !aside && !apart).then(|| Stitch {
+        (!bent && !aside && !thin && !consumed && !apart).then(|| Stitch {
             cost: length(jump) + 0.25 * trimmed,
             a,
             b,
@@ -261,7 +284,8 @@ impl<'a> Walk<'a> {
         if cut.trimmed <= 0.0 {
             return false;
         }
-        let near = 0.4 * tidy * (0.4 * tidy);
+        let near = tidy * if cut.trimmed > LONG_STUB * tidy { LONG_STUB_NEAR } else { JUMP_TRIMMED };
+        let near = near * near;
         (0..cut.next).any(|k| {
             let p = self.point(k);
             let mut arc = 0.0;
@@ -269,7 +293,7 @@ impl<'a> Walk<'a> {
                 .take_while(|j| {
                     let before = arc;
                     arc += length(other.point(*j) - other.point(j - 1));
-                    before < 4.0 * tidy
+                    before < (STUB + 1.0) * tidy
                 })
                 .all(|j| distance2(p, other.point(j - 1), other.point(j)) > near)
         })
@@ -283,14 +307,14 @@ fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<Cut>, end: 
     let first = begin.map_or(0, |cut| cut.next);
     let last = n - end.map_or(0, |cut| cut.next);
     if let Some(cut) = begin {
-        whole.push(cut.point, cut.depth, true);
+        whole.push(cut.point, cut.depth, true, line.silhouette[index(first.min(n - 1))]);
     }
     for k in first..last.max(first) {
         // Walked backwards, the side after a point is the one before it.
         let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
-        whole.push(line.points[index(k)], line.depths[index(k)], line.soft[side]);
+        whole.push(line.points[index(k)], line.depths[index(k)], line.soft[side], line.silhouette[side]);
     }
     if let Some(cut) = end {
-        whole.push(cut.point, cut.depth, true);
+        whole.push(cut.point, cut.depth, true, line.silhouette[index(last.max(1) - 1)]);
     }
 }

@@ -5,14 +5,14 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::math::function::{cos, sin};
-use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexKind};
+use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
-/// Points, kind, and whether the line lies on a smooth surface.
-type Walk = (Vec<(f64, f64)>, LineKind, bool);
+/// Points, what line they make, and whether it lies on a smooth surface.
+type Polyline = (Vec<(f64, f64)>, LineKind, bool);
 
 /// A view map of polylines: each a list of points and whether it closes; points of equal
 /// coordinates are one vertex.
-fn map_of(lines: &[Walk]) -> ViewMap {
+fn map_of(lines: &[Polyline]) -> ViewMap {
     let mut map = ViewMap::default();
     for (points, kind, smooth) in lines {
         let ids: Vec<ViewVertexId> = points
@@ -44,6 +44,11 @@ fn map_of(lines: &[Walk]) -> ViewMap {
         }
     }
     map
+}
+
+/// The chains with hidden lines, in px.
+fn linked(map: &ViewMap, options: &ChainOptions, unit: Unit) -> Vec<Chain> {
+    link(map, options, unit, HiddenLines::Solid)
 }
 
 fn off() -> ChainOptions {
@@ -84,7 +89,7 @@ fn a_hexagon_with_a_star_inside_is_one_ring_and_three_spokes() {
     let ring: Vec<(f64, f64)> = (0..6).chain([0]).map(corner).collect();
     let mut lines = vec![(ring, LineKind::Contour, false)];
     lines.extend([0, 2, 4].map(|k| (vec![(100.0, 100.0), corner(k)], LineKind::Crease, false)));
-    let chains = link(&map_of(&lines), &ChainOptions::default(), Unit::Px);
+    let chains = linked(&map_of(&lines), &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 4);
     assert!(chains[0].closed);
     assert_eq!(chains[0].points.len(), 6);
@@ -95,7 +100,7 @@ fn a_hexagon_with_a_star_inside_is_one_ring_and_three_spokes() {
 fn pieces_of_a_straight_edge_become_one_segment() {
     let line: Vec<(f64, f64)> = (0..10).map(|k| (10.0 + f64::from(k), 20.0 + 2.0 * f64::from(k))).collect();
     for options in [off(), ChainOptions::default()] {
-        let chains = link(&map_of(&[(line.clone(), LineKind::Border, false)]), &options, Unit::Px);
+        let chains = linked(&map_of(&[(line.clone(), LineKind::Border, false)]), &options, Unit::Px);
         assert_eq!(chains.len(), 1);
         assert_eq!(chains[0].path.elements().len(), 2);
         assert_eq!(chains[0].points, [Point::new(10.0, 20.0), Point::new(19.0, 38.0)]);
@@ -108,7 +113,7 @@ fn a_crossing_is_passed_straight_on() {
         (vec![(0.0, 0.0), (10.0, 11.0), (21.0, 20.0)], LineKind::Crease, false),
         (vec![(0.0, 20.0), (10.0, 11.0), (20.0, 0.0)], LineKind::Crease, false),
     ];
-    let chains = link(&map_of(&lines), &off(), Unit::Px);
+    let chains = linked(&map_of(&lines), &off(), Unit::Px);
     assert_eq!(chains.len(), 2);
     assert_eq!(chains[0].points.len(), 3);
     assert_eq!((chains[0].points[0], chains[0].points[2]), (Point::new(0.0, 0.0), Point::new(21.0, 20.0)));
@@ -117,7 +122,7 @@ fn a_crossing_is_passed_straight_on() {
 #[test]
 fn a_jagged_circle_becomes_a_round_one_of_few_cubics() {
     let map = map_of(&[(jagged_circle(120.0, 300, 0.35), LineKind::Contour, true)]);
-    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     assert!(chains[0].closed);
     let cubics = chains[0].path.elements().iter().filter(|e| matches!(e, PathEl::CurveTo(..))).count();
@@ -137,13 +142,13 @@ fn a_jagged_circle_becomes_a_round_one_of_few_cubics() {
 
 #[test]
 fn a_tessellated_rim_becomes_a_curve_and_an_octagon_stays_one() {
-    let fine = link(
+    let fine = linked(
         &map_of(&[(jagged_circle(50.0, 64, 0.0), LineKind::Crease, false)]),
         &ChainOptions::default(),
         Unit::Px,
     );
     assert!(fine[0].path.elements().iter().all(|e| !matches!(e, PathEl::LineTo(_))));
-    let coarse = link(
+    let coarse = linked(
         &map_of(&[(jagged_circle(50.0, 8, 0.0), LineKind::Crease, false)]),
         &ChainOptions::default(),
         Unit::Px,
@@ -157,14 +162,14 @@ fn a_hidden_dip_is_bridged_and_hidden_lines_stay_apart() {
     let line: Vec<(f64, f64)> = (0..60).map(|k| (f64::from(k), 50.0)).collect();
     let mut map = map_of(&[(line, LineKind::Contour, true)]);
     map.edges[20].invisibility = 1;
-    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     assert_eq!(chains[0].invisibility, 0);
     for edge in &mut map.edges[20..40] {
         edge.invisibility = 2;
     }
     map.edges[30].invisibility = 1;
-    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     let hidden: Vec<u16> = chains.iter().map(|c| c.invisibility).collect();
     assert_eq!(hidden, [0, 1, 0]);
 }
@@ -179,7 +184,7 @@ fn crumbs_and_spurs_go_and_the_outline_stays() {
         (spur, LineKind::Contour, true),
         (crumb, LineKind::Crease, false),
     ]);
-    let chains = link(&map, &ChainOptions::default(), Unit::Px);
+    let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     assert!(chains[0].closed);
 }
@@ -188,7 +193,7 @@ fn crumbs_and_spurs_go_and_the_outline_stays() {
 fn a_corner_of_a_smooth_line_is_kept() {
     let mut line: Vec<(f64, f64)> = (0..80).map(|k| (f64::from(k), 0.2 * f64::from(k % 2))).collect();
     line.extend((0..80).map(|k| (80.0 + 0.2 * f64::from(k % 2), f64::from(k))));
-    let chains = link(&map_of(&[(line, LineKind::Contour, true)]), &ChainOptions::default(), Unit::Px);
+    let chains = linked(&map_of(&[(line, LineKind::Contour, true)]), &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     let near = samples(&chains[0].path)
         .into_iter()
@@ -197,8 +202,131 @@ fn a_corner_of_a_smooth_line_is_kept() {
     assert!(near < 0.4, "corner cut by {near}");
 }
 
+#[test]
+fn contours_that_face_each_other_across_a_gap_are_one_line() {
+    // A silhouette, 5 px of nothing, an inner contour that goes on in line.
+    let wave = |k: i32| (f64::from(k), 50.0 + 5.0 * sin(f64::from(k) / 20.0));
+    let lines = [
+        ((0..100).map(wave).collect(), LineKind::Contour, true),
+        ((105..200).map(wave).collect(), LineKind::Contour, true),
+    ];
+    let mut map = map_of(&lines);
+    map.edges[..99].iter_mut().for_each(|edge| edge.silhouette = true);
+    let chains = linked(&map, &ChainOptions::default(), Unit::Px);
+    assert_eq!(chains.iter().map(|c| c.silhouette).collect::<Vec<_>>(), [true, false]);
+    let (end, start) = (chains[0].points.last(), chains[1].points.first());
+    assert!(end.is_some() && end == start, "{end:?} {start:?}");
+}
+
+#[test]
+fn lines_that_pass_each_other_are_one_line() {
+    let first: Vec<(f64, f64)> = (0..=110).map(|k| (f64::from(k), 50.0)).collect();
+    let second: Vec<(f64, f64)> = (100..=200).map(|k| (f64::from(k), 50.8)).collect();
+    let map = map_of(&[(first, LineKind::Contour, true), (second, LineKind::Contour, true)]);
+    let chains = linked(&map, &ChainOptions::default(), Unit::Px);
+    assert_eq!(chains.len(), 1);
+    let drawn = length_of(&chains[0].points, false);
+    assert!((199.0..202.0).contains(&drawn), "{drawn}");
+}
+
+#[test]
+fn a_flake_beside_an_outline_goes_and_a_line_apart_stays() {
+    let outline: Vec<(f64, f64)> = (0..200).map(|k| (f64::from(k), 50.0)).collect();
+    let beside = |y: f64| (80..100).map(|k| (f64::from(k), y)).collect::<Vec<_>>();
+    let count = |y: f64| {
+        let lines = [(outline.clone(), LineKind::Contour, true), (beside(y), LineKind::Contour, true)];
+        linked(&map_of(&lines), &ChainOptions::default(), Unit::Px).len()
+    };
+    assert_eq!((count(53.0), count(62.0)), (1, 2));
+}
+
+#[test]
+fn hidden_lines_that_are_not_drawn_are_not_made() {
+    let mut map = map_of(&[((0..60).map(|k| (f64::from(k), 50.0)).collect(), LineKind::Border, false)]);
+    map.edges[20..40].iter_mut().for_each(|edge| edge.invisibility = 1);
+    for options in [off(), ChainOptions::default()] {
+        assert_eq!(link(&map, &options, Unit::Px, HiddenLines::None).len(), 2);
+        assert_eq!(link(&map, &options, Unit::Px, HiddenLines::Dashed).len(), 3);
+    }
+}
+
+#[test]
+fn a_line_ends_at_its_t_junctions_whatever_is_done_to_it() {
+    let front: Vec<(f64, f64)> = (0..120).map(|k| (f64::from(k), 50.0 + 0.2 * f64::from(k % 2))).collect();
+    let behind: Vec<(f64, f64)> = (0..80).map(|k| (60.3, 50.2 + f64::from(k))).collect();
+    let mut map = map_of(&[(front, LineKind::Contour, true), (behind, LineKind::Contour, true)]);
+    let junction = Point::new(60.3, 50.2);
+    for vertex in map.vertices.iter_mut().filter(|v| v.position == junction) {
+        vertex.kind = ViewVertexKind::TJunction;
+    }
+    let default = ChainOptions::default();
+    let none = Length::px(0.0);
+    let all = [
+        off(),
+        ChainOptions { smooth: none, ..default.clone() },
+        ChainOptions { simplify: none, ..default.clone() },
+        ChainOptions { tidy: none, ..default.clone() },
+        ChainOptions { fit: false, ..default.clone() },
+        default,
+    ];
+    for options in all {
+        let chains = linked(&map, &options, Unit::Px);
+        let ends = chains.iter().flat_map(|c| [c.points.first(), c.points.last()]).flatten();
+        let nearest = ends.map(|p| p.distance(junction)).fold(f64::MAX, f64::min);
+        assert!(nearest <= options.smooth.value + 1e-9, "{nearest} with {options:?}");
+    }
+}
+
+/// The largest distance from points to a polyline.
+fn farthest(points: &[Point], line: &[Point]) -> f64 {
+    let to_line = |p: &Point| {
+        let sides = line.windows(2).map(|s| line::distance2(*p, s[0], s[1]));
+        sides.fold(f64::MAX, f64::min).sqrt()
+    };
+    points.iter().map(to_line).fold(0.0, f64::max)
+}
+
+#[test]
+fn smoothing_and_fitting_keep_their_tolerances_both_ways() {
+    let jagged = |k: i32| {
+        let x = f64::from(k);
+        let noise = f64::from((k * 7919) % 13 - 6) / 20.0;
+        Point::new(x, 100.0 + 30.0 * sin(x / 40.0) + noise)
+    };
+    let points: Vec<Point> = (0..400).map(jagged).collect();
+    let smoothed = smooth::smooth(&points, false, 0.5);
+    assert!(farthest(&smoothed, &points) <= 0.5 + 1e-9);
+    assert!(farthest(&points, &smoothed) <= 0.5 + 1e-9);
+    let mut path = BezPath::new();
+    path.move_to(smoothed[0]);
+    curve::add_smooth(&smoothed, 0.15, &mut path);
+    let dense = |s: PathSeg| (0..=512).map(move |k| s.eval(f64::from(k) / 512.0)).collect::<Vec<_>>();
+    let drawn: Vec<Point> = path.segments().flat_map(dense).collect();
+    let (out, back) = (farthest(&drawn, &smoothed), farthest(&smoothed, &drawn));
+    assert!(back <= 0.15 + 1e-3, "{back}");
+    // Between the points, where the line is a chord of the curve, it may be a little more.
+    assert!(out <= 0.15 + 0.02, "{out}");
+    assert!(path.elements().len() < 40, "{} elements", path.elements().len());
+}
+
+/// What a set of chains draws, in an order of its own.
+fn drawing_of(chains: &[Chain]) -> Vec<String> {
+    let mut drawn: Vec<String> = chains
+        .iter()
+        .map(|c| {
+            let lengths = length_of(&c.points, c.closed);
+            let mut points: Vec<[i64; 2]> =
+                c.points.iter().map(|p| [(p.x * 1e6) as i64, (p.y * 1e6) as i64]).collect();
+            points.sort_unstable();
+            format!("{:?} {} {:.6} {points:?}", c.kind, c.closed, lengths)
+        })
+        .collect();
+    drawn.sort();
+    drawn
+}
+
 /// Random walks on a coarse grid: crossings, junctions, doubled edges and loops of every sort.
-fn walks() -> impl Strategy<Value = Vec<Walk>> {
+fn walks() -> impl Strategy<Value = Vec<Polyline>> {
     let step = (-2_i32..=2, -2_i32..=2);
     let walk = (0_i32..8, 0_i32..8, prop::collection::vec(step, 1..30), 0_usize..3);
     prop::collection::vec(walk, 1..8).prop_map(|walks| {
@@ -227,7 +355,7 @@ proptest! {
             .iter()
             .map(|e| map.vertices[e.start.index()].position.distance(map.vertices[e.end.index()].position))
             .sum();
-        let chains = link(&map, &off(), Unit::Px);
+        let chains = linked(&map, &off(), Unit::Px);
         let drawn: f64 = chains.iter().map(|c| length_of(&c.points, c.closed)).sum();
         prop_assert!((whole - drawn).abs() < 1e-6 * (1.0 + whole), "{whole} drawn as {drawn}");
         for c in &chains {
@@ -244,12 +372,50 @@ proptest! {
                 std::mem::swap(&mut edge.start, &mut edge.end);
             }
         }
-        prop_assert_eq!(link(&map, &off(), Unit::Px), link(&turned, &off(), Unit::Px));
+        prop_assert_eq!(linked(&map, &off(), Unit::Px), linked(&turned, &off(), Unit::Px));
+    }
+
+    #[test]
+    fn the_order_of_edges_and_vertices_changes_nothing(
+        lines in walks(),
+        keys in prop::collection::vec(any::<u32>(), 600),
+    ) {
+        let map = map_of(&lines);
+        let key = |i: usize| keys[i % keys.len()];
+        let mut order: Vec<usize> = (0..map.vertices.len()).collect();
+        order.sort_by_key(|i| (key(*i), *i));
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(to, from)| place[*from] = to as u32);
+        let mut shuffled = ViewMap {
+            vertices: order.iter().map(|i| map.vertices[*i]).collect(),
+            ..map.clone()
+        };
+        for edge in &mut shuffled.edges {
+            edge.start = ViewVertexId(place[edge.start.index()]);
+            edge.end = ViewVertexId(place[edge.end.index()]);
+        }
+        let mut turn: Vec<usize> = (0..map.edges.len()).collect();
+        turn.sort_by_key(|i| (key(*i + 300), *i));
+        shuffled.edges = turn.iter().map(|i| shuffled.edges[*i]).collect();
+        prop_assert_eq!(
+            drawing_of(&linked(&map, &off(), Unit::Px)),
+            drawing_of(&linked(&shuffled, &off(), Unit::Px))
+        );
+    }
+
+    #[test]
+    fn simplifying_twice_is_simplifying_once(lines in walks(), tolerance in 0.1_f64..9.0) {
+        for (points, ..) in lines {
+            let mut line = line::Line::default();
+            points.iter().for_each(|(x, y)| line.push(Point::new(*x, *y), 1.0, true, false));
+            let once = simplify::simplify(&line, tolerance);
+            prop_assert_eq!(simplify::simplify(&once, tolerance), once);
+        }
     }
 
     #[test]
     fn any_graph_gives_finite_chains(lines in walks()) {
-        for chain in link(&map_of(&lines), &ChainOptions::default(), Unit::Px) {
+        for chain in linked(&map_of(&lines), &ChainOptions::default(), Unit::Px) {
             prop_assert!(chain.points.len() > 1);
             prop_assert!(chain.path.is_finite());
         }

@@ -1,16 +1,20 @@
-//! Decides which edges are drawn and what class each has, so that lines hold together.
+//! Decides which lines are drawn and sews them together.
 //!
 //! Source: Bénard, Hertzmann and Kass, Computing smooth surface contours with accurate topology,
 //! ACM Transactions on Graphics 2014, section 6: lines without junctions that are short and end
 //! free, loop on themselves or lie beside others go, until none is left.
 
+use rayon::prelude::*;
+
 use super::crumbs::drop_crumbs;
 use super::doubles::drop_doubles;
-use super::finish::Tolerances;
-use super::flips::{bridge, even_out};
+use super::gaps::bridge;
+use super::line::length;
 use super::link::{Class, routes};
-use crate::lines::LineKind;
-use crate::mesh::PartId;
+use super::raw::{Degrees, Raw};
+use super::silhouette;
+use super::stitch::stitch;
+use crate::lines::{HiddenLines, LineKind};
 use crate::viewmap::ViewMap;
 
 /// Hidden gaps are bridged up to this part of the tidy length.
@@ -19,50 +23,57 @@ const GAP: f64 = 0.6;
 /// Lines nearer than this part of the tidy length are double strokes.
 const DOUBLE: f64 = 0.3;
 
-/// Rounds of dropping; each may free the ends of others.
-const ROUNDS: usize = 4;
+/// A line changes between silhouette and inner contour no more often than every so many tidy
+/// lengths.
+const SILHOUETTE: f64 = 3.0;
 
-/// What tidying found.
-pub(super) struct Tidied {
-    /// The class of every edge, `None` for those left out.
-    pub classes: Vec<Option<Class>>,
-    /// For each part, whether it is a scan or another rounded shape, whose creases may be noise;
-    /// empty when nothing is tidied.
-    organic: Vec<bool>,
-}
+/// A line shorter than this many tidy lengths is less than a dot of the pen.
+const POINT: f64 = 0.1;
 
-impl Tidied {
-    pub fn is_organic(&self, part: PartId) -> bool {
-        self.organic.get(part.index()).copied().unwrap_or(false)
-    }
-}
+/// Rounds of dropping and sewing; each may free the ends of others.
+const ROUNDS: usize = 3;
 
-/// Tidies the edges of a view map.
-pub(super) fn tidy(map: &ViewMap, t: Tolerances, window: f64) -> Tidied {
+/// The tidied lines of a view map. Hidden ones are left out where they are not drawn.
+pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64) -> Vec<Raw> {
     let mut classes: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of(e))).collect();
-    if t.tidy <= 0.0 {
-        return Tidied { classes, organic: Vec::new() };
+    let mut organic = Vec::new();
+    if tidy > 0.0 {
+        if map.edges.iter().any(|e| e.invisibility > 0) {
+            let sources: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of_source(e))).collect();
+            bridge(map, &routes(map, &sources, window), GAP * tidy, &mut classes);
+        }
+        for class in classes.iter_mut().flatten() {
+            class.silhouette = false;
+        }
+        organic = organic_parts(map);
     }
-    if map.edges.iter().any(|e| e.invisibility > 0) {
-        let sources: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of_source(e))).collect();
-        bridge(map, &routes(map, &sources, window), GAP * t.tidy, &mut classes);
+    if hidden == HiddenLines::None {
+        classes.iter_mut().filter(|c| c.is_some_and(|c| c.hidden)).for_each(|c| *c = None);
     }
-    let sources: Vec<Option<Class>> = classes
-        .iter()
-        .zip(&map.edges)
-        .map(|(c, e)| c.map(|c| Class { hidden: c.hidden, ..Class::of_source(e) }))
-        .collect();
-    even_out(map, &routes(map, &sources, window), t.tidy, &mut classes);
-    let organic = organic_parts(map);
-    for round in 0..ROUNDS {
-        let routes = routes(map, &classes, window);
-        let crumbs = drop_crumbs(map, &routes, &organic, t.tidy, &mut classes);
-        let doubles = round < 2 && drop_doubles(map, &routes, &organic, DOUBLE * t.tidy, &mut classes);
-        if !crumbs && !doubles {
+    let routes = routes(map, &classes, window);
+    let raw = |route| Raw::of_route(map, &routes, route, &classes, &organic);
+    let mut raws: Vec<Raw> = (0..routes.len()).into_par_iter().with_min_len(64).filter_map(raw).collect();
+    if tidy <= 0.0 {
+        return raws;
+    }
+    let mut degrees = Degrees::new(map, &classes);
+    for _ in 0..ROUNDS {
+        let count = raws.len();
+        raws = stitch(raws, &mut degrees, tidy);
+        drop_doubles(&mut raws, &mut degrees, &organic, DOUBLE * tidy);
+        drop_crumbs(&mut raws, &mut degrees, &organic, tidy);
+        if raws.len() == count {
             break;
         }
     }
-    Tidied { classes, organic }
+    let mut parts = Vec::with_capacity(raws.len());
+    for raw in raws {
+        if !raw.class.hidden && raw.length() < POINT * tidy {
+            continue;
+        }
+        silhouette::cut(raw, SILHOUETTE * tidy, &mut parts);
+    }
+    parts
 }
 
 /// For each part, whether most of its contour runs over smooth surface: a scan or another rounded
@@ -72,7 +83,7 @@ fn organic_parts(map: &ViewMap) -> Vec<bool> {
     let mut balance = vec![0.0; parts];
     for edge in &map.edges {
         let way = map.vertices[edge.end.index()].position - map.vertices[edge.start.index()].position;
-        let length = super::line::length(way);
+        let length = length(way);
         balance[edge.part.index()] += match edge.kind {
             LineKind::Contour if edge.smooth => length,
             LineKind::Contour | LineKind::Crease => -length,

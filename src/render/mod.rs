@@ -68,7 +68,7 @@ pub fn render_reported(
     centre_on_page(&mut map, camera, &page);
     report.stages_ms.visibility = watch.lap_ms();
 
-    let chains = chain::link(&map, &style.chain, page.unit);
+    let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
     report.stages_ms.chains = watch.lap_ms();
 
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();

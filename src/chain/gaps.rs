@@ -1,0 +1,73 @@
+//! Closes the tiny gaps in the visible part of a line.
+//!
+//! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px; a pen
+//! makes one line of them.
+
+use super::link::{Class, Routes, Step};
+use crate::lines::LineKind;
+use crate::viewmap::ViewMap;
+
+/// A stretch of a route over which something stays the same.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    first: usize,
+    end: usize,
+    length: f64,
+    value: bool,
+}
+
+/// Makes hidden stretches of smooth contours shorter than `gap` visible where the line is visible
+/// before and behind them. `routes` must join edges regardless of visibility.
+pub(super) fn bridge(map: &ViewMap, routes: &Routes, gap: f64, classes: &mut [Option<Class>]) {
+    for (steps, closed) in routes.iter() {
+        let runs = runs(map, steps, closed, |step| class(classes, step).is_none_or(|c| c.hidden));
+        let count = runs.len();
+        for (i, run) in runs.iter().enumerate() {
+            let inner = closed && count > 1 || (i > 0 && i + 1 < count);
+            let beside = |j: usize| runs[j % count].length;
+            if !run.value || !inner || run.length >= gap {
+                continue;
+            }
+            // Two crumbs do not make a line by what is between them.
+            if beside(i + count - 1).max(beside(i + 1)) < run.length {
+                continue;
+            }
+            let smooth = |step: &Step| {
+                let edge = &map.edges[step.edge as usize];
+                edge.kind == LineKind::Contour && edge.smooth
+            };
+            if (run.first..run.end).all(|k| smooth(&steps[k % steps.len()])) {
+                for k in run.first..run.end {
+                    if let Some(class) = &mut classes[steps[k % steps.len()].edge as usize] {
+                        class.hidden = false;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The runs of equal value along a route. In a closed route the first run may begin before the
+/// route's start: its `end` then exceeds the number of steps.
+fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bool) -> Vec<Run> {
+    let n = steps.len();
+    let start =
+        if closed { (1..n).find(|k| value(&steps[*k]) != value(&steps[k - 1])).unwrap_or(0) } else { 0 };
+    let mut runs: Vec<Run> = Vec::new();
+    for k in start..start + n {
+        let step = &steps[k % n];
+        let (now, length) = (value(step), step.length(map));
+        match runs.last_mut() {
+            Some(run) if run.value == now => {
+                run.end = k + 1;
+                run.length += length;
+            }
+            _ => runs.push(Run { first: k, end: k + 1, length, value: now }),
+        }
+    }
+    runs
+}
+
+fn class(classes: &[Option<Class>], step: &Step) -> Option<Class> {
+    classes[step.edge as usize]
+}

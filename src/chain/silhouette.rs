@@ -1,0 +1,81 @@
+//! Cuts lines where silhouette turns into inner contour, but not where it only flickers.
+
+use super::line::{Line, length};
+use super::raw::Raw;
+
+/// A stretch of a line, from one side to another, that is silhouette or is not.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    first: usize,
+    end: usize,
+    length: f64,
+    value: bool,
+}
+
+/// Adds the parts of a line that are silhouette throughout or nowhere, none shorter than `shortest`
+/// unless the whole line is.
+pub(super) fn cut(mut raw: Raw, shortest: f64, parts: &mut Vec<Raw>) {
+    if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
+        raw.class.silhouette = raw.line.silhouette[0];
+        parts.push(raw);
+        return;
+    }
+    // A closed line begins where the value changes, so that no run goes over its seam.
+    let n = raw.line.len();
+    let change = (0..n).find(|i| raw.line.silhouette[*i] != raw.line.silhouette[(i + n - 1) % n]);
+    let open = if raw.line.closed { raw.line.opened_at(change.unwrap_or(0)) } else { raw.line.clone() };
+    let runs = even(runs(&open), shortest);
+    if let [run] = runs[..] {
+        let silhouette = run.value;
+        let line = if raw.line.closed { raw.line.clone() } else { open };
+        parts.push(with_silhouette(&raw, line, silhouette));
+        return;
+    }
+    for (i, run) in runs.iter().enumerate() {
+        let mut part = with_silhouette(&raw, open.slice(run.first, run.end), run.value);
+        part.covered = [i == 0 && raw.covered[0], i + 1 == runs.len() && raw.covered[1]];
+        parts.push(part);
+    }
+}
+
+fn with_silhouette(raw: &Raw, line: Line, silhouette: bool) -> Raw {
+    let mut part = Raw { line, ..raw.clone() };
+    part.class.silhouette = silhouette;
+    part
+}
+
+fn runs(line: &Line) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for i in 0..line.len() - 1 {
+        let (value, side) = (line.silhouette[i], length(line.points[i + 1] - line.points[i]));
+        match runs.last_mut() {
+            Some(run) if run.value == value => {
+                run.end = i + 1;
+                run.length += side;
+            }
+            _ => runs.push(Run { first: i, end: i + 1, length: side, value }),
+        }
+    }
+    runs
+}
+
+/// Joins the shortest run to its neighbours until all are long enough.
+fn even(mut runs: Vec<Run>, shortest: f64) -> Vec<Run> {
+    while runs.len() > 1 {
+        let least = (0..runs.len()).min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)).unwrap_or(0);
+        if runs[least].length >= shortest {
+            break;
+        }
+        let low = least.saturating_sub(1);
+        let high = (least + 1).min(runs.len() - 1);
+        let value = if low == least { runs[high].value } else { runs[low].value };
+        let joined = Run {
+            first: runs[low].first,
+            end: runs[high].end,
+            length: runs[low..=high].iter().map(|r| r.length).sum(),
+            value,
+        };
+        runs.splice(low..=high, [joined]);
+    }
+    runs
+}
