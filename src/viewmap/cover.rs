@@ -16,8 +16,8 @@ use super::occluders::{Triangles, corners};
 use super::project::ImageSegment;
 use crate::view::Frame;
 
-/// Squares along each side of a tile.
-const SQUARES: u32 = 4;
+/// Squares along the longer side of the grid, about: about as many as pixels of a picture.
+const SQUARES_ACROSS: u32 = 1024;
 /// The cover of a square that nothing fills.
 pub(super) const OPEN: f64 = f64::NEG_INFINITY;
 /// With fewer layers of surface than this over the page on average, covers hide less than they cost.
@@ -41,7 +41,8 @@ impl Covers {
         if triangles.mean_layers() < LAYERS {
             return Self::none(triangles.grid);
         }
-        let squares = triangles.grid.refined(SQUARES);
+        let per_tile = (SQUARES_ACROSS / triangles.grid.columns.max(triangles.grid.rows)).clamp(1, 8);
+        let squares = triangles.grid.refined(per_tile);
         let large: Vec<u32> = (0..triangles.count() as u32)
             .into_par_iter()
             .with_min_len(1 << 13)
@@ -52,7 +53,7 @@ impl Covers {
             .par_chunks(share)
             .map(|ids| {
                 let mut cover = vec![OPEN; squares.len()];
-                let wanted = |square| wanted[squares.tile_of_square(square, triangles.grid, SQUARES)];
+                let wanted = |square| wanted[squares.tile_of_square(square, triangles.grid, per_tile)];
                 for id in ids {
                     let (points, _) = corners(triangles.mesh, triangles.view, *id);
                     let frame = &triangles.view.frame;
@@ -68,7 +69,7 @@ impl Covers {
         let mut of_tile = vec![f64::INFINITY; triangles.grid.len()];
         for row in 0..squares.rows {
             for column in 0..squares.columns {
-                let tile = &mut of_tile[triangles.grid.tile(column / SQUARES, row / SQUARES)];
+                let tile = &mut of_tile[triangles.grid.tile(column / SQUARES, row / per_tile)];
                 *tile = tile.min(of_square[squares.tile(column, row)]);
             }
         }

@@ -13,13 +13,13 @@ impl<T: Copy> Grouped<T> {
         &self.findings[self.range(segment)]
     }
 
-    /// The same, to be changed.
-    pub(super) fn of_mut(&mut self, segment: usize) -> &mut [T] {
-        let range = self.range(segment);
-        &mut self.findings[range]
+    /// One of all findings, to be changed.
+    pub(super) fn at_mut(&mut self, at: usize) -> &mut T {
+        &mut self.findings[at]
     }
 
-    fn range(&self, segment: usize) -> std::ops::Range<usize> {
+    /// Where those of one segment or bucket lie among all findings.
+    pub(super) fn range(&self, segment: usize) -> std::ops::Range<usize> {
         self.starts[segment] as usize..self.starts[segment + 1] as usize
     }
 

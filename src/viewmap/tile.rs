@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::cover::{self, OPEN};
 use super::graph::ViewVertexKind;
-use super::grid::Grid;
+use super::grid::{Grid, TileBox};
 use super::grouped::bucket;
 use super::layers::{Layer, sweep};
 use super::occlude::{Interval, Limits, covered, hidden_interval};
@@ -16,8 +16,8 @@ use crate::view::View;
 
 /// Lists up to this long are looked through as they are.
 const FEW: usize = 32;
-/// A tile with more pairs of segment and triangle than this is cut into finer ones.
-const MANY_PAIRS: usize = 1024;
+/// A tile with more pairs than this for each of its segments and triangles is cut into finer ones.
+const CROWD: usize = 64;
 /// Finer tiles along each side of a crowded one.
 const FINER: u32 = 8;
 
@@ -83,7 +83,10 @@ impl Context<'_> {
 
     fn decide(&self, items: &[Item], entries: Entries, grid: &Grid, tile: usize, result: &mut TileResult) {
         let count = entries.chosen.len();
-        if count > FEW && items.len() * count > MANY_PAIRS && grid.cell > self.limits.beside * 64.0 {
+        if count > FEW
+            && items.len() * count > CROWD * (items.len() + count)
+            && grid.cell > self.limits.beside * 64.0
+        {
             return self.decide_finer(items, entries, &grid.of_tile(tile, FINER), result);
         }
         let mut sorted = Vec::new();
@@ -130,6 +133,7 @@ impl Context<'_> {
             let segment = &self.segments[item.segment as usize];
             let (a, b) = (segment.at(item.start), segment.at(item.end));
             let span = item.end - item.start;
+            let (first_fine, first_whole) = (fine.len(), result.whole.len());
             grid.walk(a, b, |tile, t0, t1| {
                 let at = |t: f64| if t >= 1.0 { item.end } else { item.start + span * t };
                 let part = Item { start: at(t0), end: at(t1), ..*item };
@@ -139,6 +143,10 @@ impl Context<'_> {
                     fine.push((tile as u32, part));
                 }
             });
+            if fine.len() == first_fine {
+                result.whole.truncate(first_whole);
+                result.whole.push(*item);
+            }
         }
         let fine_items = bucket(grid.len(), |put| {
             for (tile, item) in &fine {
@@ -146,13 +154,20 @@ impl Context<'_> {
             }
         });
         let slack = 2.0 * self.limits.beside;
-        let fine_entries = bucket(grid.len(), |put| {
-            for i in entries.chosen {
-                let entry = &entries.all[*i as usize];
-                let [left, right, top, bottom] = entry.bounds.map(f64::from);
+        let boxes: Vec<(u32, TileBox)> = entries
+            .chosen
+            .iter()
+            .map(|i| {
+                let [left, right, top, bottom] = entries.all[*i as usize].bounds.map(f64::from);
                 let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
-                for (tile, _) in grid.tiles_of(grid.tile_box(low - slack, high + slack)) {
-                    if f64::from(entry.nearest) >= cover[tile] && !fine_items.of(tile).is_empty() {
+                (*i, grid.tile_box(low - slack, high + slack))
+            })
+            .collect();
+        let fine_entries = bucket(grid.len(), |put| {
+            for (i, tiles) in &boxes {
+                let nearest = f64::from(entries.all[*i as usize].nearest);
+                for (tile, _) in grid.tiles_of(*tiles) {
+                    if nearest >= cover[tile] && !fine_items.of(tile).is_empty() {
                         put(tile, *i);
                     }
                 }

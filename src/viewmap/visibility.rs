@@ -90,7 +90,12 @@ pub fn decide(
     let mut buried: Vec<Item> = Vec::new();
     if !counting {
         covers = Covers::find(&triangles, &wanted);
-        buried = bury(segments, &mut items, &covers, &mut wanted);
+        for at in bury(segments, &items, &covers, &mut wanted).into_iter().flatten() {
+            let item = items.at_mut(at as usize);
+            buried.push(*item);
+            // An item without length is looked at no more.
+            item.end = f64::NEG_INFINITY;
+        }
     }
     let occluders = triangles.fill(&boxes, &wanted, &covers.of_tile);
     drop(boxes);
@@ -129,31 +134,38 @@ fn tiles_across(triangles: usize) -> u32 {
     match triangles {
         0..=2_000 => 64,
         2_001..=30_000 => 128,
-        _ => 256,
+        30_001..=200_000 => 256,
+        _ => 512,
     }
 }
 
-/// Marks items that lie behind covers as hidden by emptying their range, and forgets tiles all of
-/// whose items do.
+/// The items that lie behind covers, tile by tile; tiles all of whose items do are wanted no more.
 fn bury(
     segments: &[ImageSegment],
-    items: &mut Grouped<Item>,
+    items: &Grouped<Item>,
     covers: &Covers,
     wanted: &mut [bool],
-) -> Vec<Item> {
-    let mut buried = Vec::new();
-    for (tile, wanted) in wanted.iter_mut().enumerate().filter(|(_, wanted)| **wanted) {
-        *wanted = false;
-        for item in items.of_mut(tile) {
-            if covers.bury(&segments[item.segment as usize], item.start, item.end) {
-                buried.push(*item);
-                item.end = f64::NEG_INFINITY;
-            } else {
-                *wanted = true;
+) -> Vec<Vec<u32>> {
+    const TILES: usize = 256;
+    wanted
+        .par_chunks_mut(TILES)
+        .enumerate()
+        .map(|(k, wanted)| {
+            let mut buried = Vec::new();
+            for (i, wanted) in wanted.iter_mut().enumerate().filter(|(_, wanted)| **wanted) {
+                let range = items.range(k * TILES + i);
+                let before = buried.len();
+                let first = range.start as u32;
+                for (at, item) in items.of(k * TILES + i).iter().enumerate() {
+                    if covers.bury(&segments[item.segment as usize], item.start, item.end) {
+                        buried.push(first + at as u32);
+                    }
+                }
+                *wanted = buried.len() - before < range.len();
             }
-        }
-    }
-    buried
+            buried
+        })
+        .collect()
 }
 
 /// Brings the findings of all tiles back to their segments and joins them there.
