@@ -69,7 +69,7 @@ impl Covers {
         let mut of_tile = vec![f64::INFINITY; triangles.grid.len()];
         for row in 0..squares.rows {
             for column in 0..squares.columns {
-                let tile = &mut of_tile[triangles.grid.tile(column / SQUARES, row / per_tile)];
+                let tile = &mut of_tile[triangles.grid.tile(column / per_tile, row / per_tile)];
                 *tile = tile.min(of_square[squares.tile(column, row)]);
             }
         }
