@@ -126,7 +126,7 @@ fn visibility(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn doubles(bencher: Bencher, name: &str) {
     let map = made(name).view_map();
-    bencher.with_inputs(|| map.clone()).bench_refs(|map| doubles::remove(map, 0.02, 8.0));
+    bencher.with_inputs(|| map.clone()).bench_refs(|map| doubles::remove(map, 0.02, true));
 }
 
 #[divan::bench(args = SCENES)]

@@ -6,7 +6,7 @@
 
 use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{self, LineOptions};
+use ligne::lines::{self, HiddenLines, LineOptions};
 use ligne::mesh::Mesh;
 use ligne::view::View;
 use ligne::{Camera, Error, Scene, viewmap};
@@ -37,7 +37,7 @@ fn main() -> Result<(), Error> {
     ];
     for (name, options) in ways {
         // Hidden contours are linked as well, but not drawn.
-        let mut chains = chain::link(&map, &options, Unit::Px);
+        let mut chains = chain::link(&map, &options, Unit::Px, HiddenLines::None);
         chains.retain(|chain| chain.invisibility == 0);
         let closed = chains.iter().filter(|chain| chain.closed).count();
         // The path is what is drawn: one element moves the pen, each further one is a line or a curve.

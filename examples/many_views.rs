@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let view = View::new(&mesh, &camera);
         let feature_lines = lines::extract(&mesh, &view, &style.lines);
         let map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
-        let chains = chain::link(&map, &style.chain, page.unit);
+        let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
         let layers = stroke::ink(&chains, &context, &style.stroke);
 
         let drawing = Drawing { title: format!("pump, {}", named.name()), page, layers };
