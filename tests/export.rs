@@ -379,7 +379,12 @@ fn pdf_pages_are_as_large_as_the_paper() {
     let mut drawing = drawing(Vec::new());
     drawing.layers.clear();
     drawing.page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
-    assert!(take_apart(&drawing.to_pdf()).1.contains("/MediaBox [0 0 595.2756 841.88975]"));
+    let text = take_apart(&drawing.to_pdf()).1;
+    let (_, sides) = text.split_once("/MediaBox [0 0 ").expect("the page has a size");
+    let sides: Vec<f64> =
+        sides.split([' ', ']']).take(2).map(|side| side.parse().expect("a number")).collect();
+    // A4 in points, within what single precision holds.
+    assert!((sides[0] - 595.275_59).abs() < 1e-3 && (sides[1] - 841.889_76).abs() < 1e-3, "{sides:?}");
     drawing.page = Page { width: 38_400.0, height: 100.0, unit: Unit::Px, background: None };
     let (_, rest) = take_apart(&drawing.to_pdf());
     assert!(rest.contains("/MediaBox [0 0 14400 37.5]") && rest.contains("/UserUnit 2"), "{rest}");

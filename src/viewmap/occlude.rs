@@ -78,17 +78,24 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     let sides = [(a, b - a), (b, c - b), (c, a - c)];
     let area = sides[0].1.perp_dot(c - a);
     let sign = area.signum();
-    // Most triangles that are asked lie wholly on the far side of one of their sides; that much is
-    // seen without a square root, since the sum of its coordinates is no shorter than a vector.
+    // Most triangles that are asked lie wholly on the far side of one of their sides, and most
+    // others cover all that is asked; that much is seen without a square root, since the sum of
+    // its coordinates is no shorter than a vector.
+    let mut inside = true;
     for (corner, side) in sides {
+        let (at_p, at_q) = (side.perp_dot(p - corner) * sign, side.perp_dot(q - corner) * sign);
         let slack = -limits.cover * (side.x.abs() + side.y.abs());
-        if side.perp_dot(p - corner) * sign < slack && side.perp_dot(q - corner) * sign < slack {
+        if at_p < slack && at_q < slack {
             return None;
         }
+        inside &= at_p >= 0.0 && at_q >= 0.0;
     }
-    let longest = sides.iter().map(|(_, d)| d.length_squared()).fold(0.0, f64::max).sqrt();
-    if area.abs() <= limits.height * longest {
+    let longest = sides.iter().map(|(_, d)| d.length_squared()).fold(0.0, f64::max);
+    if area * area <= limits.height * limits.height * longest {
         return None;
+    }
+    if inside {
+        return Some((0.0, 1.0));
     }
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for (corner, side) in sides {
@@ -107,11 +114,13 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     (start <= end).then_some((start, end))
 }
 
-/// What a triangle hides of a segment. `ids` are the triangle's vertex ids.
+/// What a triangle hides of the part of a segment between two parameters. `ids` are the
+/// triangle's vertex ids.
 #[inline]
 #[must_use]
 pub fn hidden_interval(
     segment: &ImageSegment,
+    (from, to): (f64, f64),
     corners: &[DVec3; 3],
     ids: [u32; 3],
     frame: &Frame,
@@ -121,7 +130,10 @@ pub fn hidden_interval(
     if shared[0].is_some() && shared[1].is_some() {
         return None;
     }
-    let (start, end) = covered(segment.a.truncate(), segment.b.truncate(), corners, limits)?;
+    let (p, q) = (segment.at(from).truncate(), segment.at(to).truncate());
+    let (start, end) = covered(p, q, corners, limits)?;
+    let at = |t: f64| if t >= 1.0 { to } else { from + (to - from) * t };
+    let (start, end) = (at(start), at(end));
     // Heights over the plane are measured from the shared corner, where they vanish exactly.
     let base = corners[shared[0].or(shared[1]).unwrap_or(0)];
     let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);

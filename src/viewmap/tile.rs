@@ -201,6 +201,7 @@ impl Context<'_> {
             (high.y as f32).next_up(),
         ];
         let farthest = (low.z as f32).next_down();
+        let part = (item.start, item.end);
         let mut run = (f64::INFINITY, f64::NEG_INFINITY);
         for entry in entries.iter() {
             if entry.nearest < farthest {
@@ -217,15 +218,11 @@ impl Context<'_> {
                 continue;
             }
             *tests += 1;
-            let found = hidden_interval(segment, &entry.corners, entry.ids, &self.view.frame, self.limits);
-            let Some(mut found) = found else {
+            let found =
+                hidden_interval(segment, part, &entry.corners, entry.ids, &self.view.frame, self.limits);
+            let Some(found) = found else {
                 continue;
             };
-            if found.end < item.start || found.start > item.end {
-                continue;
-            }
-            found.start = found.start.max(item.start);
-            found.end = found.end.min(item.end);
             hidden.push(found);
             if !self.counting {
                 if found.start <= run.1 && found.end >= run.0 {
