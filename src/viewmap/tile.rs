@@ -93,7 +93,7 @@ impl Context<'_> {
         let mut entries = entries;
         // Sorting pays where many lines are asked of many triangles: hidden ones then meet what
         // hides them first.
-        if !self.counting && count > FEW && items.len() > FEW {
+        if !self.counting && count > FEW && items.len() > FEW / 4 {
             sorted.extend_from_slice(entries.chosen);
             let key = |i: &u32| entries.all[*i as usize].nearest;
             sorted.sort_by(|a, b| key(b).total_cmp(&key(a)).then(a.cmp(b)));
