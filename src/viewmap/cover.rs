@@ -10,7 +10,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::grid::Grid;
+use super::grid::{Grid, TileBox};
 use super::occlude::Limits;
 use super::occluders::{Triangles, corners};
 use super::project::ImageSegment;
@@ -135,15 +135,22 @@ pub(super) fn add(
     let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
     let sides = Sides::new(points);
     let half = squares.cell / 2.0;
-    for (square, corner) in squares.tiles_of(squares.tile_box(low, high)) {
-        let centre = corner + half;
-        if !wanted(square) || !sides.contains(centre, half) {
-            continue;
+    let tiles = squares.tile_box(low, high);
+    if tiles.is_empty() {
+        return;
+    }
+    for row in tiles.top..=tiles.bottom {
+        for column in sides.columns(squares, tiles, row, -half) {
+            let square = squares.tile(column, u32::from(row));
+            if !wanted(square) {
+                continue;
+            }
+            let centre = squares.corner(column, u32::from(row)) + half;
+            let middle = points[0].z + slope.dot(centre - points[0].truncate());
+            let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(low.z);
+            let least = least - frame.nearness_step(least, 2.0 * limits.contact);
+            cover[square] = cover[square].max(least);
         }
-        let middle = points[0].z + slope.dot(centre - points[0].truncate());
-        let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(low.z);
-        let least = least - frame.nearness_step(least, 2.0 * limits.contact);
-        cover[square] = cover[square].max(least);
     }
 }
 
@@ -163,19 +170,30 @@ impl Sides {
         Self { normals, offsets: [-normals[0].dot(a), -normals[1].dot(b), -normals[2].dot(c)] }
     }
 
-    /// Whether the square lies wholly outside one side.
-    pub(super) fn misses(&self, centre: DVec2, half: f64) -> bool {
-        (0..3).any(|i| {
-            let n = self.normals[i];
-            n.dot(centre) + self.offsets[i] + (n.x.abs() + n.y.abs()) * half < 0.0
-        })
-    }
-
-    /// Whether the square lies wholly inside all sides.
-    pub(super) fn contains(&self, centre: DVec2, half: f64) -> bool {
-        (0..3).all(|i| {
-            let n = self.normals[i];
-            n.dot(centre) + self.offsets[i] - (n.x.abs() + n.y.abs()) * half > 0.0
-        })
+    /// The columns of a row of tiles whose squares lie wholly inside all sides (`reach` is minus
+    /// half a tile) or not wholly outside one (`reach` is half a tile or more).
+    ///
+    /// A square with half side h and centre c lies wholly inside a side n·x + d > 0 if
+    /// n·c + d > h (|nx| + |ny|): solved for the x of the centre, row by row.
+    #[inline]
+    pub(super) fn columns(&self, grid: &Grid, tiles: TileBox, row: u16, reach: f64) -> std::ops::Range<u32> {
+        let corner = grid.corner(0, u32::from(row));
+        let y = corner.y + grid.cell / 2.0;
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (n, d) in self.normals.iter().zip(self.offsets) {
+            let rest = n.y * y + d + reach * (n.x.abs() + n.y.abs());
+            if n.x > 0.0 {
+                low = low.max(-rest / n.x);
+            } else if n.x < 0.0 {
+                high = high.min(-rest / n.x);
+            } else if rest < 0.0 {
+                return 0..0;
+            }
+        }
+        // Rounding may not add a tile that is not filled, nor lose one that is met.
+        let margin = if reach < 0.0 { 1e-6 } else { -1e-6 };
+        let first = ((low - corner.x) / grid.cell - 0.5 + margin).ceil().max(f64::from(tiles.left));
+        let last = ((high - corner.x) / grid.cell - 0.5 - margin).floor().min(f64::from(tiles.right));
+        if first <= last { first as u32..last as u32 + 1 } else { 0..0 }
     }
 }

@@ -163,13 +163,13 @@ impl Triangles<'_> {
         let (points, _) = corners(self.mesh, self.view, id);
         let nearest = points[0].z.max(points[1].z).max(points[2].z);
         let sides = Sides::new(&points);
-        let half = self.grid.cell / 2.0;
-        for (tile, corner) in self.grid.tiles_of(tiles) {
-            if wanted[tile]
-                && nearest >= cover[tile]
-                && !sides.misses(corner + half, half * (1.0 + 1e-5) + 2.0 * self.limits.beside)
-            {
-                pairs.push((tile as u32, id));
+        let reach = self.grid.cell / 2.0 * (1.0 + 1e-5) + 2.0 * self.limits.beside;
+        for row in tiles.top..=tiles.bottom {
+            for column in sides.columns(self.grid, tiles, row, reach) {
+                let tile = self.grid.tile(column, u32::from(row));
+                if wanted[tile] && nearest >= cover[tile] {
+                    pairs.push((tile as u32, id));
+                }
             }
         }
     }
