@@ -22,18 +22,51 @@ pub fn of_mesh(mesh: &Mesh, scene: &Scene) -> Warnings {
     warnings
 }
 
-/// Number of edges at which one part alone has three faces or more. Where parts touch, each has
-/// its own two faces, and nothing is wrong.
+/// Number of edges at which the faces of one part cannot be paired to surfaces: as many have to
+/// run along the edge one way as the other. Where parts touch, or solids of one part, each has its
+/// own pair of faces, and nothing is wrong.
 fn non_manifold_by_part(mesh: &Mesh) -> BTreeMap<PartId, u64> {
     let mut counts: BTreeMap<PartId, u64> = BTreeMap::new();
     for edge in 0..mesh.edges.len() {
         if let EdgeFaces::Many(faces) = mesh.edges.faces(edge) {
-            let mut parts: Vec<PartId> = faces.iter().map(|f| mesh.face_part[*f as usize]).collect();
-            parts.sort_unstable();
-            for own in parts.chunk_by(|a, b| a == b).filter(|own| own.len() > 2) {
-                *counts.entry(own[0]).or_default() += 1;
+            let [lo, hi] = mesh.edges.vertices[edge];
+            let runs_up = |face: u32| {
+                let [a, b, c] = mesh.triangles[face as usize];
+                [(a, b), (b, c), (c, a)].contains(&(lo, hi))
+            };
+            let part = |face: u32| mesh.face_part[face as usize];
+            let mut balance: Vec<(PartId, i32)> =
+                faces.iter().map(|f| (part(*f), if runs_up(*f) { 1 } else { -1 })).collect();
+            balance.sort_unstable();
+            for own in balance.chunk_by(|a, b| a.0 == b.0) {
+                if own.len() > 2 && own.iter().map(|(_, way)| way).sum::<i32>() != 0 {
+                    *counts.entry(own[0].0).or_default() += 1;
+                }
             }
         }
     }
     counts
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::Soup;
+
+    #[test]
+    fn fins_are_defects_and_touching_solids_are_not() {
+        let spokes = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        let mut positions = vec![DVec3::ZERO, DVec3::Z];
+        positions.extend(spokes.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)));
+        let defects = |triangles: &[[u32; 3]]| {
+            let soup =
+                Soup { positions: positions.clone(), triangles: triangles.to_vec(), ..Soup::default() };
+            non_manifold_by_part(&Mesh::build(soup)).values().sum::<u64>()
+        };
+        assert_eq!(defects(&[[0, 1, 2], [1, 0, 3], [0, 1, 4], [1, 0, 5]]), 0);
+        assert_eq!(defects(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]), 1);
+        assert_eq!(defects(&[[0, 1, 2], [0, 1, 3], [0, 1, 4], [1, 0, 5]]), 1);
+    }
 }
