@@ -6,6 +6,7 @@ pub mod clean;
 pub mod edges;
 pub mod ids;
 pub mod intersect;
+pub mod smooth_normals;
 pub mod soup;
 pub mod trace;
 pub mod triangle_pair;
@@ -16,6 +17,7 @@ use glam::DVec3;
 pub use clean::Cleaning;
 pub use edges::{EdgeFaces, Edges};
 pub use ids::{EdgeId, FaceId, MaterialId, PartId, VertexId};
+pub use smooth_normals::SmoothNormals;
 pub use soup::{EdgeMark, Soup, Wire};
 
 /// A welded triangle mesh, centred on its bounding box.
