@@ -3,9 +3,12 @@
 pub mod boxes;
 pub mod build;
 pub mod clean;
+pub mod edge_arc;
 pub mod edges;
 pub mod ids;
 pub mod intersect;
+pub mod refine;
+pub mod rounded;
 pub mod smooth_normals;
 pub mod soup;
 pub mod trace;
@@ -15,6 +18,7 @@ pub mod weld;
 use glam::DVec3;
 
 pub use clean::Cleaning;
+pub use edge_arc::EdgeArc;
 pub use edges::{EdgeFaces, Edges};
 pub use ids::{EdgeId, FaceId, MaterialId, PartId, VertexId};
 pub use smooth_normals::SmoothNormals;
