@@ -6,23 +6,33 @@ pub mod kind;
 pub mod line;
 pub mod needle;
 pub mod options;
+pub mod smooth_contours;
+pub mod surface;
 pub mod zero_set;
 
 pub use kind::LineKind;
-pub use line::{FeatureLines, FeatureSegment, NO_FACE};
-pub use options::{HiddenLines, LineOptions};
+pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE};
+pub use options::{Contours, HiddenLines, LineOptions};
+pub use surface::rounded_surface;
 
-use crate::mesh::Mesh;
+use crate::field;
+use crate::mesh::{Mesh, SmoothNormals};
 use crate::view::View;
 
-/// All feature lines of a view that the options ask for.
+/// All feature lines of a view that the options ask for. `smooth` are the rounded surfaces of the
+/// mesh ([`rounded_surface`]); with none, contours are edges of the mesh.
 #[must_use]
-pub fn extract(mesh: &Mesh, view: &View, options: &LineOptions) -> FeatureLines {
+pub fn extract(mesh: &Mesh, view: &View, smooth: &SmoothNormals, options: &LineOptions) -> FeatureLines {
     let mut lines = FeatureLines::default();
     if !options.enabled {
         return lines;
     }
-    lines.segments = edge_lines::find(mesh, view, options);
+    let facing = field::facing(mesh, smooth, &view.frame);
+    let edges = edge_lines::find(mesh, view, smooth, &facing, options);
+    lines.segments = edges.segments;
+    if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {
+        smooth_contours::find(mesh, view, smooth, &facing, &edges.parted, &mut lines);
+    }
     if options.kinds.contains(&LineKind::Intersection) {
         intersections::find(mesh, view, options.hidden, &mut lines);
     }

@@ -10,6 +10,7 @@ pub mod intersect;
 pub mod refine;
 pub mod rounded;
 pub mod smooth_normals;
+pub mod solid;
 pub mod soup;
 pub mod trace;
 pub mod triangle_pair;

@@ -14,13 +14,14 @@ pub use stage::Stage;
 
 use crate::chain;
 use crate::drawing::{Drawing, Page, Unit};
+use crate::field;
 use crate::lines;
 use crate::math::colour::Colour;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, SmoothNormals};
 use crate::scene::{Camera, Scene};
 use crate::stroke::{self, InkContext};
 use crate::style::Style;
-use crate::view::View;
+use crate::view::{Frame, View};
 use crate::viewmap::{self, ViewMap};
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
@@ -58,10 +59,12 @@ pub fn render_reported(
     let mut watch = Stopwatch::start();
 
     let mesh = Mesh::build(scene.to_soup());
+    let smooth = lines::rounded_surface(&mesh, &style.lines);
+    let (mesh, smooth) = finer(mesh, smooth, camera);
     let view = View::new(&mesh, camera);
     report.stages_ms.topology = watch.lap_ms();
 
-    let feature_lines = lines::extract(&mesh, &view, &style.lines);
+    let feature_lines = lines::extract(&mesh, &view, &smooth, &style.lines);
     report.stages_ms.features = watch.lap_ms();
 
     let mut map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
@@ -92,6 +95,12 @@ pub fn render_reported(
     report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
     report.warnings = defects::of_mesh(&mesh, scene).lines();
     (Drawing { title: title(scene), page, layers }, report)
+}
+
+/// The mesh, with more triangles where a coarse rounded surface would show its corners.
+fn finer(mesh: Mesh, smooth: SmoothNormals, camera: &Camera) -> (Mesh, SmoothNormals) {
+    let frame = Frame::new(camera, mesh.origin);
+    field::finer_near_contours(&mesh, &smooth, &frame).unwrap_or((mesh, smooth))
 }
 
 /// Points of a path, control points counted.

@@ -1,0 +1,237 @@
+//! Arcs: pieces of contours of rounded surfaces between places where visibility may change.
+//!
+//! A contour of the smooth surface lies among faces of the polyhedron that stand for the same
+//! surface, and some of them would hide bits of it here and there. On the smooth surface visibility
+//! changes only where the contour passes under another bounding line, at a cusp, and where surfaces
+//! pass through each other. So the curve is cut at these places, and each arc between them is visible
+//! or hidden as a whole:
+//!
+//! - hidden, if one of its ends lies under the nearer surface that it meets there;
+//! - hidden, if it runs backward on a closed surface, whose nearer side then is its inside;
+//! - else as the greater part of its length is, compared with all faces that are nearer than those
+//!   around it (the segment is lifted towards the eye by their size).
+//!
+//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section
+//! 4.4 (one decision for each piece between cusps and crossings); Pierre Bénard and Aaron Hertzmann,
+//! "Line drawings from 3D models", 2019, chapter 7, for what goes wrong without it.
+
+use super::events::{Event, Scene};
+use super::graph::{ArcCounts, ViewVertexKind};
+use super::layers::Layer;
+use super::occlude::Interval;
+use super::project::ImageSegment;
+
+/// A run of image segments of one contour, from head to tail.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Run {
+    /// Image segments in order.
+    pub segments: Vec<u32>,
+    /// Whether the last meets the first.
+    pub closed: bool,
+    /// Whether its surface is closed, so that backward pieces show their inside.
+    pub solid: bool,
+}
+
+/// What was decided of one image segment: its hidden pieces.
+pub(super) type Decided = Vec<(u32, Layer)>;
+
+/// An arc is hidden against its ends' word only if it is shorter than this (px).
+const LONG_PX: f64 = 12.0;
+/// What counts as nearly all of an arc.
+const NEARLY_ALL: f64 = 0.9;
+/// What counts as nearly none.
+const HARDLY_ANY: f64 = 0.1;
+
+/// A place along a run.
+#[derive(Debug, Clone, Copy)]
+struct Stop {
+    /// Index of the segment in the run, plus the parameter on it.
+    at: f64,
+    kind: ViewVertexKind,
+    covered: Option<bool>,
+}
+
+/// Decides all arcs of a run. `hidden` gives the hidden pieces of an image segment as faces have it.
+pub(super) fn decide<'a>(
+    run: &Run,
+    scene: &Scene,
+    events: &[Event],
+    hidden: impl Fn(u32) -> &'a [Layer],
+    px: f64,
+    cusp: f64,
+    counts: &mut ArcCounts,
+) -> Decided {
+    let backward = even_backward(run, scene, cusp);
+    let stops = stops(run, events, &backward);
+    let n = run.segments.len() as f64;
+    let mut decided = Vec::new();
+    for arc in arcs(&stops, n, run.closed) {
+        counts.arcs += 1;
+        let mut length = 0.0;
+        let mut seen = 0.0;
+        each_part(run, arc.from, arc.to, |k, from, to| {
+            let segment = &scene.segments[run.segments[k] as usize];
+            let part = |from: f64, to: f64| (to - from).max(0.0) * segment.length();
+            length += part(from, to);
+            let own = hidden(run.segments[k]).iter().map(|l| &l.interval);
+            seen += part(from, to) - own.map(|i| part(i.start.max(from), i.end.min(to))).sum::<f64>();
+        });
+        let share = if length > 0.0 { seen / length } else { 0.0 };
+        let covered = arc.covered[0] || arc.covered[1];
+        let middle = run_index((arc.from + arc.to) / 2.0, n);
+        let inside = backward[middle] && run.solid;
+        let trusted = share > NEARLY_ALL && length > LONG_PX * px && !(arc.covered[0] && arc.covered[1]);
+        counts.contradicted += u64::from(covered && !inside && trusted);
+        if !covered && !inside && length > px && (HARDLY_ANY..NEARLY_ALL).contains(&share) {
+            counts.contested += 1;
+        }
+        let visible = if inside {
+            false
+        } else if covered {
+            trusted
+        } else {
+            share >= 0.5
+        };
+        if visible {
+            continue;
+        }
+        let kinds = arc.kinds;
+        each_part(run, arc.from, arc.to, |k, from, to| {
+            let id = run.segments[k];
+            let of_faces = hidden(id).iter().filter(|l| l.interval.start < to && l.interval.end > from);
+            let count = of_faces.map(|l| l.count).max().unwrap_or(1);
+            let interval = Interval { start: from, end: to, start_kind: kinds[0], end_kind: kinds[1] };
+            decided.push((id, Layer { interval, count }));
+        });
+    }
+    decided
+}
+
+/// A piece of a run between two stops; `to` may lie beyond the end of a closed run.
+struct Arc {
+    from: f64,
+    to: f64,
+    kinds: [ViewVertexKind; 2],
+    covered: [bool; 2],
+}
+
+fn arcs(stops: &[Stop], n: f64, closed: bool) -> Vec<Arc> {
+    let free = |at: f64| Stop { at, kind: ViewVertexKind::Vertex, covered: None };
+    let mut all: Vec<Stop> = stops.to_vec();
+    if closed {
+        match all.first().copied() {
+            Some(first) => all.push(Stop { at: first.at + n, ..first }),
+            None => all = vec![free(0.0), free(n)],
+        }
+    } else {
+        all.insert(0, free(0.0));
+        all.push(free(n));
+    }
+    let arc = |pair: &[Stop]| Arc {
+        from: pair[0].at,
+        to: pair[1].at,
+        kinds: [pair[0].kind, pair[1].kind],
+        covered: [pair[0].covered == Some(true), pair[1].covered == Some(false)],
+    };
+    all.windows(2).map(arc).filter(|arc| arc.to > arc.from).collect()
+}
+
+/// The index of the segment at a place that may lie beyond the end of a closed run.
+fn run_index(at: f64, n: f64) -> usize {
+    let at = if at >= n { at - n } else { at };
+    (at.floor().max(0.0) as usize).min(n as usize - 1)
+}
+
+/// Calls `visit(index in the run, from, to)` for the parts of segments between two places.
+fn each_part(run: &Run, from: f64, to: f64, mut visit: impl FnMut(usize, f64, f64)) {
+    let n = run.segments.len();
+    let mut k = from.floor() as usize;
+    while (k as f64) < to {
+        let (start, end) = ((from - k as f64).max(0.0), (to - k as f64).min(1.0));
+        if end > start {
+            visit(k % n, start, end);
+        }
+        k += 1;
+    }
+}
+
+/// The places where a run may change, in order.
+fn stops(run: &Run, events: &[Event], backward: &[bool]) -> Vec<Stop> {
+    let mut stops = Vec::new();
+    for (k, id) in run.segments.iter().enumerate() {
+        let before = if k > 0 { Some(k - 1) } else { run.closed.then(|| backward.len() - 1) };
+        if before.is_some_and(|before| backward[before] != backward[k]) {
+            stops.push(Stop { at: k as f64, kind: ViewVertexKind::Cusp, covered: None });
+        }
+        let first = events.partition_point(|e| e.segment < *id);
+        let own = events[first..].iter().take_while(|e| e.segment == *id);
+        stops.extend(own.map(|e| Stop { at: k as f64 + e.t, kind: e.kind, covered: e.covered }));
+    }
+    stops
+}
+
+/// Whether each segment of a run lies between cusps. Stretches that turn back for less than `cusp`
+/// user units are ripples of the mesh: the shortest is made even first.
+fn even_backward(run: &Run, scene: &Scene, cusp: f64) -> Vec<bool> {
+    let mut backward: Vec<bool> = run.segments.iter().map(|s| scene.backward[*s as usize]).collect();
+    let n = backward.len();
+    let length = |s: u32| scene.segments[s as usize].length();
+    loop {
+        // Stretches of one value: first index, number, length.
+        let mut stretches: Vec<(usize, usize, f64)> = Vec::new();
+        for k in 0..n {
+            match stretches.last_mut() {
+                Some((first, count, sum)) if backward[*first] == backward[k] => {
+                    *count += 1;
+                    *sum += length(run.segments[k]);
+                }
+                _ => stretches.push((k, 1, length(run.segments[k]))),
+            }
+        }
+        if run.closed && stretches.len() > 1 && backward[0] == backward[n - 1] {
+            let (first, count, sum) = stretches.pop().unwrap_or_default();
+            stretches[0] = (first, stretches[0].1 + count, stretches[0].2 + sum);
+        }
+        if stretches.len() < 2 {
+            return backward;
+        }
+        let least = stretches.iter().min_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
+        match least {
+            Some(&(first, count, sum)) if sum < cusp => {
+                for k in first..first + count {
+                    backward[k % n] = !backward[k % n];
+                }
+            }
+            _ => return backward,
+        }
+    }
+}
+
+/// The runs of image segments that are left of contour curves: `image_of` gives the image segment of
+/// a feature segment, if it is on the page.
+pub(super) fn runs(
+    curve: &crate::lines::ContourCurve,
+    solid: bool,
+    segments: &[ImageSegment],
+    image_of: impl Fn(u32) -> Option<u32>,
+) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    let mut joined = false;
+    for source in curve.segments.clone() {
+        let Some(id) = image_of(source) else {
+            joined = false;
+            continue;
+        };
+        let cut = segments[id as usize].cut;
+        match runs.last_mut() {
+            Some(run) if joined && !cut[0] => run.segments.push(id),
+            _ => runs.push(Run { segments: vec![id], closed: false, solid }),
+        }
+        joined = !cut[1];
+    }
+    let whole = runs.len() == 1 && runs[0].segments.len() == curve.segments.len();
+    if whole && curve.closed && joined && !segments[runs[0].segments[0] as usize].cut[0] {
+        runs[0].closed = true;
+    }
+    runs
+}
