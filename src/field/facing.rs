@@ -12,8 +12,7 @@ use crate::view::Frame;
 /// turns its outside to the eye. One per smooth vertex.
 #[must_use]
 pub fn facing(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<f64> {
-    let at = |(normal, vertex): (&glam::DVec3, &u32)| {
-        normal.dot(frame.to_eye(mesh.positions[*vertex as usize]))
-    };
+    let at =
+        |(normal, vertex): (&glam::DVec3, &u32)| normal.dot(frame.to_eye(mesh.positions[*vertex as usize]));
     smooth.normals.par_iter().zip(&smooth.vertices).with_min_len(1 << 14).map(at).collect()
 }

@@ -9,6 +9,10 @@ use crate::math::tolerance;
 use crate::mesh::{EdgeArc, Mesh, SmoothNormals, refine};
 use crate::view::Frame;
 
+/// To vanish in between two values of one sign, the field has to fall from both: half of what the
+/// ends turn is the most, and a little for arcs that are longer than their chords.
+const REACH: f64 = 0.55;
+
 /// The mesh with its edges cut near the contour of a view until none is farther from its arc than
 /// [`tolerance::ARC_PX`]; `None` where they are short enough already.
 #[must_use]
@@ -23,12 +27,15 @@ pub fn finer_near_contours(
         let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
         // Between the ends the field varies by no more than normal and line of sight turn.
         let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
-        if (facing[0] > 0.0) == (facing[1] > 0.0) && facing[0].abs().min(facing[1].abs()) > turn {
+        let nearest = facing[0].abs().min(facing[1].abs());
+        if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > REACH * turn {
             return false;
         }
         let depth = if frame.perspective { frame.depth(ends[0]).min(frame.depth(ends[1])) } else { 1.0 };
-        let height = EdgeArc::new(ends, normals).height().length();
-        depth > 0.0 && height * frame.scale > tolerance::ARC_PX * px * depth
+        let page = frame.scale / (px * depth);
+        depth > 0.0
+            && ends[0].distance(ends[1]) * page > tolerance::SHORT_EDGE_PX
+            && EdgeArc::new(ends, normals).height().length() * page > tolerance::ARC_PX
     };
     refine::refined(mesh, smooth, wanted)
 }

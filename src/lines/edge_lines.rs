@@ -56,7 +56,7 @@ pub fn find(
 pub struct EdgeLines {
     /// Whole edges, in edge order.
     pub segments: Vec<FeatureSegment>,
-    /// Hard edges of rounded surfaces that are contours over a part of their length.
+    /// Hard edges of rounded surfaces that are contours over a part of their length or all of it.
     pub parted: Vec<PartedEdge>,
 }
 
@@ -64,12 +64,15 @@ pub struct EdgeLines {
 /// contour, and that may change along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartedEdge {
-    /// The edge as a contour, and what it is elsewhere, if anything.
-    pub contour: FeatureSegment,
+    /// Its vertices.
+    pub ends: [u32; 2],
+    /// Its two faces.
+    pub hosts: [u32; 2],
+    /// Degrees by which the surface turns.
+    pub turn: f32,
     /// What it is where it is no contour, if anything.
     pub else_line: Option<FeatureSegment>,
-    /// For each of its hosts the smooth vertices at its ends, in the order of the segment's ends, or
-    /// whether a flat face turns its outside to the eye.
+    /// What each of its hosts turns to the eye.
     pub sides: [EdgeSide; 2],
     /// Whether both faces run along the edge the same way, so that outside meets inside.
     pub same_way: bool,
@@ -124,7 +127,10 @@ impl Finder<'_> {
         let material = |face: u32| self.mesh.face_material[face as usize];
         (material(first) != material(second) && self.wants(LineKind::Material)).then(|| {
             let nearer = if self.view.facing[first as usize] { first } else { second };
-            FeatureSegment { strength: 0.0, ..self.segment(edge, LineKind::Material, nearer, [first, second]) }
+            FeatureSegment {
+                strength: 0.0,
+                ..self.segment(edge, LineKind::Material, nearer, [first, second])
+            }
         })
     }
 
@@ -146,21 +152,12 @@ impl Finder<'_> {
         let is_contour = |end: usize| (facing(sides[0], end) != facing(sides[1], end)) != same_way;
         let steady = sides.iter().all(|side| facing(*side, 0) == facing(*side, 1));
         let else_line = self.classify_turn(edge, hosts[0], hosts[1], same_way, false);
-        if steady && !(is_contour(0) && self.wants(LineKind::Contour)) {
+        if !self.wants(LineKind::Contour) || (steady && !is_contour(0)) {
             lines.segments.extend(else_line);
             return;
         }
-        let nearer = if facing(sides[0], 0) { hosts[0] } else { hosts[1] };
-        let contour = FeatureSegment {
-            both_seen: false,
-            strength: self.turn(hosts[0], hosts[1], same_way),
-            ..self.segment(edge, LineKind::Contour, nearer, hosts)
-        };
-        if steady {
-            lines.segments.push(contour);
-        } else {
-            lines.parted.push(PartedEdge { contour, else_line, sides, same_way });
-        }
+        let turn = self.turn(hosts[0], hosts[1], same_way);
+        lines.parted.push(PartedEdge { ends, hosts, turn, else_line, sides, same_way });
     }
 
     #[inline]

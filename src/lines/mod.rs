@@ -1,6 +1,7 @@
 //! Feature lines: curves on the surface that may be drawn.
 
 pub mod edge_lines;
+mod hard_contours;
 pub mod intersections;
 pub mod kind;
 pub mod line;

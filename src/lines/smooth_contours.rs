@@ -9,8 +9,10 @@
 //! 4.1 and 4.2; the points lie on the arcs over the edges rather than on the edges themselves.
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
-use super::edge_lines::{EdgeSide, PartedEdge};
+use super::edge_lines::PartedEdge;
+use super::hard_contours;
 use super::zero_set::{self, EdgePoint, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind};
 use crate::mesh::{EdgeArc, FaceId, Mesh, SmoothNormals};
@@ -23,8 +25,26 @@ const LIFT_OF_FACE: f64 = 1.5;
 /// The same in units of what a px shows there.
 const LIFT_PX: f64 = 1.5;
 
-/// Adds the contours of all rounded surfaces, curve by curve, and the pieces of the hard edges that
-/// are contours in part. `facing` is n·v, one per smooth vertex.
+/// A piece of a contour, with the facing side of the surface on its left, seen from outside.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    pub segment: FeatureSegment,
+    /// See [`ContourCurve::backward`].
+    pub backward: bool,
+}
+
+/// What contours are sought on.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<'a> {
+    pub mesh: &'a Mesh,
+    pub view: &'a View,
+    pub smooth: &'a SmoothNormals,
+    /// n·v, one per smooth vertex.
+    pub facing: &'a [f64],
+}
+
+/// Adds the contours of all rounded surfaces, curve by curve, and what their hard edges are elsewhere.
+/// `facing` is n·v, one per smooth vertex.
 pub fn find(
     mesh: &Mesh,
     view: &View,
@@ -33,18 +53,24 @@ pub fn find(
     parted: &[PartedEdge],
     lines: &mut FeatureLines,
 ) {
+    let surface = Surface { mesh, view, smooth, facing };
     // Faces without area have no side, but the curve passes through them.
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = (mesh.positions.len() + lines.points.len()) as u32;
     lines.points.extend(set.points.iter().map(|p| on_arc(mesh, smooth, p)));
-    for (order, closed) in curves(&set) {
-        let start = lines.segments.len() as u32;
-        lines.segments.extend(order.iter().map(|s| segment(mesh, view, &set, *s, first)));
-        let backward = order.iter().map(|s| is_backward(mesh, view, smooth, &set, *s, first, lines)).collect();
-        lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, backward });
-    }
+    let position = |end: u32| lines.position(mesh, end);
+    let mut pieces: Vec<Piece> =
+        set.segments.iter().map(|s| surface.piece(&set, s, first, position)).collect();
+    let mut others = Vec::new();
     for edge in parted {
-        part(edge, &set, facing, first, &mut lines.segments);
+        hard_contours::add(&surface, edge, &set, first, position, &mut pieces, &mut others);
+    }
+    lines.segments.extend(others);
+    for (order, closed) in curves(&pieces) {
+        let start = lines.segments.len() as u32;
+        lines.segments.extend(order.iter().map(|p| pieces[*p as usize].segment));
+        let backward = order.iter().map(|p| pieces[*p as usize].backward).collect();
+        lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, backward });
     }
 }
 
@@ -55,107 +81,91 @@ fn on_arc(mesh: &Mesh, smooth: &SmoothNormals, point: &EdgePoint) -> DVec3 {
     EdgeArc::new(point.between.map(position), point.between.map(normal)).at(point.t)
 }
 
-/// Whether the averted side of the surface is the nearer one along a piece: the sign of the radial
-/// curvature (DeCarlo et al. 2003, section 2), taken from the piece itself, so that it changes
-/// exactly where its image turns back.
-fn is_backward(
-    mesh: &Mesh,
-    view: &View,
-    smooth: &SmoothNormals,
-    set: &ZeroSet,
-    segment: u32,
-    first: u32,
-    lines: &FeatureLines,
-) -> bool {
-    let ends = set.segments[segment as usize].ends;
-    let [a, b] = ends.map(|end| lines.position(mesh, first + end));
-    let normal = |end: u32| {
-        let point = &set.points[end as usize];
-        let [n, m] = point.between.map(|v| smooth.normals[v as usize]);
-        n.lerp(m, point.t)
-    };
-    let to_facing = (normal(ends[0]) + normal(ends[1])).cross(b - a);
-    to_facing.dot(view.frame.to_eye((a + b) / 2.0)) < 0.0
-}
+impl Surface<'_> {
+    fn piece(
+        &self,
+        set: &ZeroSet,
+        piece: &zero_set::ZeroSegment,
+        first: u32,
+        position: impl Fn(u32) -> DVec3,
+    ) -> Piece {
+        let ends = piece.ends.map(|end| first + end);
+        let [a, b] = ends.map(position);
+        let normal = |end: u32| {
+            let point = &set.points[end as usize];
+            let [n, m] = point.between.map(|v| self.smooth.normals[v as usize]);
+            n.lerp(m, point.t)
+        };
+        // The sign of the radial curvature (DeCarlo et al. 2003, section 2), taken from the piece
+        // itself, so that it changes exactly where its image turns back.
+        let to_facing = (normal(piece.ends[0]) + normal(piece.ends[1])).cross(b - a);
+        let backward = to_facing.dot(self.view.frame.to_eye((a + b) / 2.0)) < 0.0;
+        Piece { segment: self.segment(ends, [piece.face; 2], true), backward }
+    }
 
-fn segment(mesh: &Mesh, view: &View, set: &ZeroSet, segment: u32, first: u32) -> FeatureSegment {
-    let piece = set.segments[segment as usize];
-    let corners = mesh.corners(FaceId(piece.face));
-    let longest = [0, 1, 2].map(|k| corners[k].distance_squared(corners[(k + 1) % 3]));
-    let longest = longest.into_iter().fold(0.0, f64::max).sqrt();
-    let depth = if view.frame.perspective { view.frame.depth(corners[0]).max(0.0) } else { 1.0 };
-    let px = view.frame.width.max(view.frame.height) / 1000.0 * depth / view.frame.scale;
-    FeatureSegment {
-        ends: piece.ends.map(|end| first + end),
-        hosts: [piece.face; 2],
-        kind: LineKind::Contour,
-        both_seen: false,
-        smooth: true,
-        lift: (LIFT_OF_FACE * longest + LIFT_PX * px) as f32,
-        strength: 0.0,
-        part: mesh.face_part[piece.face as usize],
-        material: mesh.face_material[piece.face as usize],
+    /// A piece of contour between faces.
+    pub fn segment(&self, ends: [u32; 2], hosts: [u32; 2], smooth: bool) -> FeatureSegment {
+        let mesh = self.mesh;
+        let face = hosts[0] as usize;
+        FeatureSegment {
+            ends,
+            hosts,
+            kind: LineKind::Contour,
+            both_seen: false,
+            smooth,
+            lift: hosts.map(|face| self.lift(face)).into_iter().fold(0.0, f32::max),
+            strength: 0.0,
+            part: mesh.face_part[face],
+            material: mesh.face_material[face],
+        }
+    }
+
+    /// How far faces that stand for the same surface may lie before it, world units.
+    fn lift(&self, face: u32) -> f32 {
+        let frame = &self.view.frame;
+        let corners = self.mesh.corners(FaceId(face));
+        let sides = [0, 1, 2].map(|k| corners[k].distance_squared(corners[(k + 1) % 3]));
+        let longest = sides.into_iter().fold(0.0, f64::max).sqrt();
+        let depth = if frame.perspective { frame.depth(corners[0]).max(0.0) } else { 1.0 };
+        let px = frame.width.max(frame.height) / 1000.0 * depth / frame.scale;
+        (LIFT_OF_FACE * longest + LIFT_PX * px) as f32
     }
 }
 
-/// The pieces of a zero set in the order in which curves pass them, and whether each curve closes.
-fn curves(set: &ZeroSet) -> Vec<(Vec<u32>, bool)> {
-    let mut leaving = vec![NONE; set.points.len()];
-    let mut arriving = vec![false; set.points.len()];
-    for (s, piece) in set.segments.iter().enumerate() {
-        leaving[piece.ends[0] as usize] = s as u32;
-        arriving[piece.ends[1] as usize] = true;
+/// The pieces in the order in which curves pass them, and whether each curve closes. Where more than
+/// one piece leaves a point, the earlier ones go on.
+fn curves(pieces: &[Piece]) -> Vec<(Vec<u32>, bool)> {
+    let mut leaving: FxHashMap<u32, u32> = FxHashMap::default();
+    let mut next_leaving = vec![NONE; pieces.len()];
+    let mut arriving: FxHashMap<u32, u32> = FxHashMap::default();
+    for (p, piece) in pieces.iter().enumerate().rev() {
+        let [from, to] = piece.segment.ends;
+        next_leaving[p] = leaving.insert(from, p as u32).unwrap_or(NONE);
+        *arriving.entry(to).or_default() += 1;
     }
-    let mut used = vec![false; set.segments.len()];
+    let mut used = vec![false; pieces.len()];
     let mut found = Vec::new();
     // Open curves begin where nothing arrives; what they leave is closed.
     for open in [true, false] {
-        for start in 0..set.segments.len() as u32 {
-            let begin = set.segments[start as usize].ends[0];
-            if used[start as usize] || (open && arriving[begin as usize]) {
+        for start in 0..pieces.len() as u32 {
+            let begin = pieces[start as usize].segment.ends[0];
+            if used[start as usize] || (open && arriving.contains_key(&begin)) {
                 continue;
             }
             let mut order = Vec::new();
             let mut at = start;
-            while at != NONE && !used[at as usize] {
+            while at != NONE {
                 used[at as usize] = true;
                 order.push(at);
-                at = leaving[set.segments[at as usize].ends[1] as usize];
+                let mut next = leaving.get(&pieces[at as usize].segment.ends[1]).copied().unwrap_or(NONE);
+                while next != NONE && used[next as usize] {
+                    next = next_leaving[next as usize];
+                }
+                at = next;
             }
-            found.push((order, !open && at == start));
+            let last = order[order.len() - 1];
+            found.push((order, pieces[last as usize].segment.ends[1] == begin));
         }
     }
     found
-}
-
-/// Cuts a hard edge where one of its sides turns, and adds the pieces.
-fn part(edge: &PartedEdge, set: &ZeroSet, facing: &[f64], first: u32, segments: &mut Vec<FeatureSegment>) {
-    let facing_at = |side: EdgeSide, end: usize| match side {
-        EdgeSide::Flat(facing) => facing,
-        EdgeSide::Rounded(corners) => facing[corners[end] as usize] >= 0.0,
-    };
-    // Where each side turns: parameter along the edge, end id.
-    let mut cuts: Vec<(f64, u32, usize)> = Vec::with_capacity(2);
-    for (which, side) in edge.sides.iter().enumerate() {
-        let EdgeSide::Rounded([a, b]) = *side else { continue };
-        let between = [a.min(b), a.max(b)];
-        if let Ok(id) = set.points.binary_search_by_key(&between, |p| p.between) {
-            let t = set.points[id].t;
-            cuts.push((if a < b { t } else { 1.0 - t }, first + id as u32, which));
-        }
-    }
-    cuts.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-    let mut now = edge.sides.map(|side| facing_at(side, 0));
-    let mut from = edge.contour.ends[0];
-    let mut push = |from: u32, to: u32, now: [bool; 2]| {
-        let is_contour = (now[0] != now[1]) != edge.same_way;
-        let line = if is_contour { Some(edge.contour) } else { edge.else_line };
-        segments.extend(line.map(|line| FeatureSegment { ends: [from, to], ..line }));
-    };
-    for (_, point, which) in cuts {
-        push(from, point, now);
-        now[which] = !now[which];
-        from = point;
-    }
-    push(from, edge.contour.ends[1], now);
 }

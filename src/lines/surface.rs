@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::options::Contours;
 use super::LineOptions;
+use super::options::Contours;
 use crate::math::function::cos;
 use crate::mesh::rounded::rounded_faces;
 use crate::mesh::{EdgeFaces, Mesh, SmoothNormals};

@@ -62,7 +62,10 @@ pub const DOUBLE_PX: f64 = 5e-3;
 pub const ZERO_SET_OF_EDGE: f64 = 1e-6;
 
 /// An edge of a rounded surface is cut where its arc lies farther than this (px) from it.
-pub const ARC_PX: f64 = 0.04;
+pub const ARC_PX: f64 = 0.08;
+
+/// Edges no longer than this (px, seen square on) are never cut: lines over them are smooth already.
+pub const SHORT_EDGE_PX: f64 = 2.5;
 
 /// A contour that turns back in the image for no longer than this (px) has no cusp there.
 pub const CUSP_PX: f64 = 1.0;

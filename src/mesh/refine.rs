@@ -253,7 +253,15 @@ impl Work {
             cleaning: mesh.cleaning,
             ..Mesh::default()
         };
-        (finer, SmoothNormals { normals: self.normals, vertices: self.vertices, corners, seamless: smooth.seamless })
+        (
+            finer,
+            SmoothNormals {
+                normals: self.normals,
+                vertices: self.vertices,
+                corners,
+                seamless: smooth.seamless,
+            },
+        )
     }
 }
 

@@ -6,10 +6,11 @@
 //! pass through each other. So the curve is cut at these places, and each arc between them is visible
 //! or hidden as a whole:
 //!
-//! - hidden, if one of its ends lies under the nearer surface that it meets there;
 //! - hidden, if it runs backward on a closed surface, whose nearer side then is its inside;
+//! - hidden, if it is a short spur from a cusp to where it comes out from under the line it meets;
 //! - else as the greater part of its length is, compared with all faces that are nearer than those
-//!   around it (the segment is lifted towards the eye by their size).
+//!   around it (the segment is lifted towards the eye by their size). Only where faces leave long
+//!   stretches of both kinds is an arc broken, and that is counted.
 //!
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section
 //! 4.4 (one decision for each piece between cusps and crossings); Pierre Bénard and Aaron Hertzmann,
@@ -20,6 +21,8 @@ use super::graph::{ArcCounts, ViewVertexKind};
 use super::layers::Layer;
 use super::occlude::Interval;
 use super::project::ImageSegment;
+use super::visibility::Visibility;
+use crate::math::tolerance;
 
 /// A run of image segments of one contour, from head to tail.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,15 +35,13 @@ pub(super) struct Run {
     pub solid: bool,
 }
 
-/// What was decided of one image segment: its hidden pieces.
+/// What was decided: hidden pieces of image segments.
 pub(super) type Decided = Vec<(u32, Layer)>;
 
-/// An arc is hidden against its ends' word only if it is shorter than this (px).
-const LONG_PX: f64 = 12.0;
-/// What counts as nearly all of an arc.
-const NEARLY_ALL: f64 = 0.9;
-/// What counts as nearly none.
-const HARDLY_ANY: f64 = 0.1;
+/// A piece that is shorter than this (px) and ends in a cusp goes by what its other end says.
+const SPUR_PX: f64 = 12.0;
+/// Stretches shorter than this (px) have no say against the rest of their arc.
+const STRETCH_PX: f64 = 6.0;
 
 /// A place along a run.
 #[derive(Debug, Clone, Copy)]
@@ -51,60 +52,140 @@ struct Stop {
     covered: Option<bool>,
 }
 
-/// Decides all arcs of a run. `hidden` gives the hidden pieces of an image segment as faces have it.
-pub(super) fn decide<'a>(
-    run: &Run,
-    scene: &Scene,
-    events: &[Event],
-    hidden: impl Fn(u32) -> &'a [Layer],
-    px: f64,
-    cusp: f64,
-    counts: &mut ArcCounts,
-) -> Decided {
-    let backward = even_backward(run, scene, cusp);
-    let stops = stops(run, events, &backward);
-    let n = run.segments.len() as f64;
-    let mut decided = Vec::new();
-    for arc in arcs(&stops, n, run.closed) {
-        counts.arcs += 1;
+/// What all runs of a view share.
+#[derive(Clone, Copy)]
+pub(super) struct Judge<'a> {
+    pub scene: &'a Scene<'a>,
+    pub events: &'a [Event],
+    pub seen: &'a Visibility,
+    /// A px in user units.
+    pub px: f64,
+}
+
+impl Judge<'_> {
+    /// Decides all arcs of a run.
+    pub fn decide(&self, run: &Run, counts: &mut ArcCounts) -> Decided {
+        let backward = even_backward(run, self.scene, tolerance::CUSP_PX * self.px);
+        let stops = stops(run, self.events, &backward);
+        let n = run.segments.len() as f64;
+        let mut decided = Vec::new();
+        for arc in arcs(&stops, n, run.closed) {
+            counts.arcs += 1;
+            if run.solid && backward[run_index((arc.from + arc.to) / 2.0, n)] {
+                self.hide(run, arc.from, arc.to, arc.kinds, &mut decided);
+                continue;
+            }
+            let length = self.length(run, arc.from, arc.to);
+            let cusp = arc.kinds.contains(&ViewVertexKind::Cusp);
+            if cusp && length < SPUR_PX * self.px && (arc.covered[0] || arc.covered[1]) {
+                self.hide(run, arc.from, arc.to, arc.kinds, &mut decided);
+                continue;
+            }
+            let stretches = self.stretches(run, &arc);
+            counts.broken += stretches.len() as u64 - 1;
+            for stretch in stretches.iter().filter(|stretch| stretch.hidden) {
+                self.hide(run, stretch.from, stretch.to, stretch.kinds, &mut decided);
+            }
+        }
+        decided
+    }
+
+    fn length(&self, run: &Run, from: f64, to: f64) -> f64 {
         let mut length = 0.0;
-        let mut seen = 0.0;
-        each_part(run, arc.from, arc.to, |k, from, to| {
-            let segment = &scene.segments[run.segments[k] as usize];
-            let part = |from: f64, to: f64| (to - from).max(0.0) * segment.length();
-            length += part(from, to);
-            let own = hidden(run.segments[k]).iter().map(|l| &l.interval);
-            seen += part(from, to) - own.map(|i| part(i.start.max(from), i.end.min(to))).sum::<f64>();
-        });
-        let share = if length > 0.0 { seen / length } else { 0.0 };
-        let covered = arc.covered[0] || arc.covered[1];
-        let middle = run_index((arc.from + arc.to) / 2.0, n);
-        let inside = backward[middle] && run.solid;
-        let trusted = share > NEARLY_ALL && length > LONG_PX * px && !(arc.covered[0] && arc.covered[1]);
-        counts.contradicted += u64::from(covered && !inside && trusted);
-        if !covered && !inside && length > px && (HARDLY_ANY..NEARLY_ALL).contains(&share) {
-            counts.contested += 1;
-        }
-        let visible = if inside {
-            false
-        } else if covered {
-            trusted
-        } else {
-            share >= 0.5
-        };
-        if visible {
-            continue;
-        }
-        let kinds = arc.kinds;
-        each_part(run, arc.from, arc.to, |k, from, to| {
+        each_part(run, from, to, |k, from, to| length += (to - from) * self.segment_length(run, k));
+        length
+    }
+
+    fn segment_length(&self, run: &Run, k: usize) -> f64 {
+        self.scene.segments[run.segments[k] as usize].length()
+    }
+
+    /// Hides all of a run between two places.
+    fn hide(&self, run: &Run, from: f64, to: f64, kinds: [ViewVertexKind; 2], decided: &mut Decided) {
+        each_part(run, from, to, |k, from, to| {
             let id = run.segments[k];
-            let of_faces = hidden(id).iter().filter(|l| l.interval.start < to && l.interval.end > from);
+            let of_faces = self.seen.hidden(id as usize).iter();
+            let of_faces = of_faces.filter(|l| l.interval.start < to && l.interval.end > from);
             let count = of_faces.map(|l| l.count).max().unwrap_or(1);
             let interval = Interval { start: from, end: to, start_kind: kinds[0], end_kind: kinds[1] };
             decided.push((id, Layer { interval, count }));
         });
     }
-    decided
+
+    /// The visible and hidden stretches of an arc by what faces say, the short ones given to their
+    /// neighbours, shortest first.
+    fn stretches(&self, run: &Run, arc: &Arc) -> Vec<Stretch> {
+        let mut stretches: Vec<Stretch> = Vec::new();
+        let mut push = |hidden: bool, from: f64, to: f64, length: f64| match stretches.last_mut() {
+            Some(last) if last.hidden == hidden => {
+                last.to = to;
+                last.length += length;
+            }
+            _ => stretches.push(Stretch { hidden, from, to, length, kinds: arc.kinds }),
+        };
+        each_part_at(run, arc.from, arc.to, |k, base, from, to| {
+            let length = self.segment_length(run, k);
+            let mut at = from;
+            for layer in self.seen.hidden(run.segments[k] as usize) {
+                let (start, end) = (layer.interval.start.max(at), layer.interval.end.min(to));
+                if end <= start {
+                    continue;
+                }
+                if start > at {
+                    push(false, base + at, base + start, (start - at) * length);
+                }
+                push(true, base + start, base + end, (end - start) * length);
+                at = end;
+            }
+            if to > at {
+                push(false, base + at, base + to, (to - at) * length);
+            }
+        });
+        if stretches.is_empty() {
+            stretches.push(Stretch {
+                hidden: true,
+                from: arc.from,
+                to: arc.to,
+                length: 0.0,
+                kinds: arc.kinds,
+            });
+        }
+        while stretches.len() > 1 {
+            let by_length = |a: &(usize, &Stretch), b: &(usize, &Stretch)| a.1.length.total_cmp(&b.1.length);
+            let Some((least, stretch)) = stretches.iter().enumerate().min_by(by_length) else { break };
+            if stretch.length >= STRETCH_PX * self.px {
+                break;
+            }
+            let before = if least > 0 { Some(stretches[least - 1].length) } else { None };
+            let after = stretches.get(least + 1).map(|s| s.length);
+            // An arc of two stretches is as its longer one; in the middle both neighbours are joined.
+            let first = if before.is_some() { least - 1 } else { least };
+            let last = if after.is_some() { least + 1 } else { least };
+            let joined = Stretch {
+                hidden: !stretches[least].hidden,
+                from: stretches[first].from,
+                to: stretches[last].to,
+                length: stretches[first..=last].iter().map(|s| s.length).sum(),
+                kinds: arc.kinds,
+            };
+            stretches.splice(first..=last, [joined]);
+        }
+        for k in 1..stretches.len() {
+            stretches[k - 1].kinds[1] = ViewVertexKind::Piercing;
+            stretches[k].kinds[0] = ViewVertexKind::Piercing;
+        }
+        stretches
+    }
+}
+
+/// A stretch of an arc that faces hide or do not.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    hidden: bool,
+    from: f64,
+    to: f64,
+    length: f64,
+    kinds: [ViewVertexKind; 2],
 }
 
 /// A piece of a run between two stops; `to` may lie beyond the end of a closed run.
@@ -144,12 +225,17 @@ fn run_index(at: f64, n: f64) -> usize {
 
 /// Calls `visit(index in the run, from, to)` for the parts of segments between two places.
 fn each_part(run: &Run, from: f64, to: f64, mut visit: impl FnMut(usize, f64, f64)) {
+    each_part_at(run, from, to, |k, _, from, to| visit(k, from, to));
+}
+
+/// The same with the place where each segment begins, counted on beyond the end of a closed run.
+fn each_part_at(run: &Run, from: f64, to: f64, mut visit: impl FnMut(usize, f64, f64, f64)) {
     let n = run.segments.len();
     let mut k = from.floor() as usize;
     while (k as f64) < to {
         let (start, end) = ((from - k as f64).max(0.0), (to - k as f64).min(1.0));
         if end > start {
-            visit(k % n, start, end);
+            visit(k % n, k as f64, start, end);
         }
         k += 1;
     }

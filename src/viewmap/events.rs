@@ -75,7 +75,8 @@ pub(super) fn find(scene: &Scene, grid: &Grid) -> Vec<Event> {
         })
         .collect();
     let mut events = found.concat();
-    events.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.t.total_cmp(&b.t)).then(a.covered.cmp(&b.covered)));
+    events
+        .sort_by(|a, b| a.segment.cmp(&b.segment).then(a.t.total_cmp(&b.t)).then(a.covered.cmp(&b.covered)));
     // A pair that passes through two tiles together was found in both.
     events.dedup();
     events

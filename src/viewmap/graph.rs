@@ -94,20 +94,14 @@ pub struct ViewMap {
 pub struct ArcCounts {
     /// Pieces between places where visibility may change.
     pub arcs: u64,
-    /// Those of a px or more of which faces hid some and left some, so that the greater part decided.
-    pub contested: u64,
-    /// Those that their ends say are covered, while most of them is not hidden by any face.
-    pub contradicted: u64,
+    /// Breaks inside of arcs, where faces hide a long stretch and leave another.
+    pub broken: u64,
 }
 
 impl ArcCounts {
     /// The sum of two counts.
     #[must_use]
     pub const fn plus(self, other: Self) -> Self {
-        Self {
-            arcs: self.arcs + other.arcs,
-            contested: self.contested + other.contested,
-            contradicted: self.contradicted + other.contradicted,
-        }
+        Self { arcs: self.arcs + other.arcs, broken: self.broken + other.broken }
     }
 }

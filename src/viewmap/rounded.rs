@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::arcs::{self, Run};
+use super::arcs::{self, Judge, Run};
 use super::events::{self, Scene};
 use super::graph::ArcCounts;
 use super::grid::Grid;
@@ -10,7 +10,6 @@ use super::layers::Layer;
 use super::project::ImageSegment;
 use super::visibility::Visibility;
 use crate::lines::FeatureLines;
-use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::mesh::solid::solid_parts;
 use crate::view::View;
@@ -60,14 +59,13 @@ pub(super) fn decide(
             arcs::runs(curve, solid.get(part.index()) == Some(&true), segments, image)
         })
         .collect();
+    let judge = Judge { scene: &scene, events: &events, seen, px };
     let decided: Vec<(arcs::Decided, ArcCounts)> = runs
         .par_iter()
         .with_min_len(8)
         .map(|run| {
             let mut counts = ArcCounts::default();
-            let hidden = |id: u32| seen.hidden(id as usize);
-            let cusp = tolerance::CUSP_PX * px;
-            (arcs::decide(run, &scene, &events, hidden, px, cusp, &mut counts), counts)
+            (judge.decide(run, &mut counts), counts)
         })
         .collect();
     let mut counts = ArcCounts::default();
@@ -75,6 +73,9 @@ pub(super) fn decide(
     for (own, of_run) in decided {
         counts = counts.plus(of_run);
         hidden.extend(own);
+    }
+    if std::env::var_os("ARCS").is_some() {
+        eprintln!("{counts:?}");
     }
     hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
     Rounded { hidden, counts }
