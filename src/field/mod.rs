@@ -2,6 +2,8 @@
 
 pub mod facing;
 pub mod finer;
+pub mod smoothing;
 
 pub use facing::facing;
 pub use finer::finer_near_contours;
+pub use smoothing::smooth_near_zero;

@@ -1,7 +1,5 @@
 //! Contours along hard edges of rounded surfaces, cut where one of the two sides turns.
 
-use glam::DVec3;
-
 use super::FeatureSegment;
 use super::edge_lines::{EdgeSide, PartedEdge};
 use super::smooth_contours::{Piece, Surface};
@@ -14,7 +12,6 @@ pub(super) fn add(
     edge: &PartedEdge,
     set: &ZeroSet,
     first: u32,
-    position: impl Fn(u32) -> DVec3 + Copy,
     contours: &mut Vec<Piece>,
     others: &mut Vec<FeatureSegment>,
 ) {
@@ -37,7 +34,7 @@ pub(super) fn add(
     let stops = cuts.iter().map(|(_, point, which)| (*point, Some(*which)));
     for (to, turns) in stops.chain([(edge.ends[1], None)]) {
         if (facing[0] != facing[1]) != edge.same_way {
-            contours.push(contour(surface, edge, [from, to], facing, position));
+            contours.push(contour(surface, edge, [from, to], facing));
         } else {
             others.extend(edge.else_line.map(|line| FeatureSegment { ends: [from, to], ..line }));
         }
@@ -49,24 +46,13 @@ pub(super) fn add(
 }
 
 /// A piece of a hard edge as a contour, run through as its facing face runs along it.
-fn contour(
-    surface: &Surface,
-    edge: &PartedEdge,
-    ends: [u32; 2],
-    facing: [bool; 2],
-    position: impl Fn(u32) -> DVec3,
-) -> Piece {
+fn contour(surface: &Surface, edge: &PartedEdge, ends: [u32; 2], facing: [bool; 2]) -> Piece {
     let (near, far) = if facing[0] { (0, 1) } else { (1, 0) };
     let triangle = surface.mesh.triangles[edge.hosts[near] as usize];
     let along = [0, 1, 2].map(|k| [triangle[k], triangle[(k + 1) % 3]]);
     let ends = if along.contains(&edge.ends) { ends } else { [ends[1], ends[0]] };
-    let normal =
-        |side: usize| glam::Vec3::from_array(surface.mesh.face_normals[edge.hosts[side] as usize]).as_dvec3();
-    let [a, b] = ends.map(position);
-    // Where the surface rises on both sides of the edge, the averted face lies before the facing one.
-    let into_near = normal(near).cross(b - a);
-    let backward = normal(far).dot(into_near) > 0.0 && !edge.same_way;
     let mut segment = surface.segment(ends, [edge.hosts[near], edge.hosts[far]], false);
     segment.strength = edge.turn;
-    Piece { segment, backward }
+    // Which side is nearer is not asked: what hides a hollow edge is seldom near.
+    Piece { segment, backward: false }
 }

@@ -28,7 +28,8 @@ pub fn extract(mesh: &Mesh, view: &View, smooth: &SmoothNormals, options: &LineO
     if !options.enabled {
         return lines;
     }
-    let facing = field::facing(mesh, smooth, &view.frame);
+    let mut facing = field::facing(mesh, smooth, &view.frame);
+    field::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
     let edges = edge_lines::find(mesh, view, smooth, &facing, options);
     lines.segments = edges.segments;
     if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {

@@ -63,7 +63,7 @@ pub fn find(
         set.segments.iter().map(|s| surface.piece(&set, s, first, position)).collect();
     let mut others = Vec::new();
     for edge in parted {
-        hard_contours::add(&surface, edge, &set, first, position, &mut pieces, &mut others);
+        hard_contours::add(&surface, edge, &set, first, &mut pieces, &mut others);
     }
     lines.segments.extend(others);
     for (order, closed) in curves(&pieces) {
