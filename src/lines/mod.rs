@@ -4,24 +4,33 @@ pub mod edge_lines;
 pub mod intersections;
 pub mod kind;
 pub mod line;
-pub mod needle;
 pub mod options;
 
 pub use kind::LineKind;
 pub use line::{FeatureLines, FeatureSegment, NO_FACE};
-pub use options::{HiddenLines, LineOptions};
+pub use options::{CreaseFilter, HiddenLines, LineOptions};
 
-use crate::mesh::Mesh;
+use crate::mesh::{HardEdges, Mesh};
 use crate::view::View;
 
-/// All feature lines of a view that the options ask for.
+/// The edges of a mesh that are creases in every view, as the options have it.
 #[must_use]
-pub fn extract(mesh: &Mesh, view: &View, options: &LineOptions) -> FeatureLines {
+pub fn hard_edges(mesh: &Mesh, options: &LineOptions) -> HardEdges {
+    match options.crease_filter {
+        _ if !options.enabled => HardEdges::none(),
+        CreaseFilter::Chains => HardEdges::find(mesh, options.crease_deg),
+        CreaseFilter::Edges => HardEdges::above(mesh, options.crease_deg),
+    }
+}
+
+/// All feature lines of a view that the options ask for; `hard` are the creases of the mesh.
+#[must_use]
+pub fn extract(mesh: &Mesh, hard: &HardEdges, view: &View, options: &LineOptions) -> FeatureLines {
     let mut lines = FeatureLines::default();
     if !options.enabled {
         return lines;
     }
-    lines.segments = edge_lines::find(mesh, view, options);
+    lines.segments = edge_lines::find(mesh, hard, view, options);
     if options.kinds.contains(&LineKind::Intersection) {
         intersections::find(mesh, view, options.hidden, &mut lines);
     }

@@ -18,6 +18,17 @@ pub enum HiddenLines {
     Solid,
 }
 
+/// Which sharp edges are creases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CreaseFilter {
+    /// Those in chains that stand out from the noise around them.
+    #[default]
+    Chains,
+    /// Every one by itself.
+    Edges,
+}
+
 /// Which feature lines are sought and drawn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -29,6 +40,8 @@ pub struct LineOptions {
     /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
     #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
+    /// Which sharp edges are creases. Default: chains.
+    pub crease_filter: CreaseFilter,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
 }
@@ -46,6 +59,7 @@ impl Default for LineOptions {
                 LineKind::Wire,
             ],
             crease_deg: 40.0,
+            crease_filter: CreaseFilter::Chains,
             hidden: HiddenLines::None,
         }
     }

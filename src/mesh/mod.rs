@@ -3,9 +3,14 @@
 pub mod boxes;
 pub mod build;
 pub mod clean;
+mod crease_chains;
+pub mod dihedral;
 pub mod edges;
+pub mod hard_edges;
 pub mod ids;
 pub mod intersect;
+pub mod needle;
+mod roughness;
 pub mod smooth_normals;
 pub mod soup;
 pub mod trace;
@@ -15,7 +20,9 @@ pub mod weld;
 use glam::DVec3;
 
 pub use clean::Cleaning;
+pub use dihedral::Dihedral;
 pub use edges::{EdgeFaces, Edges};
+pub use hard_edges::HardEdges;
 pub use ids::{EdgeId, FaceId, MaterialId, PartId, VertexId};
 pub use smooth_normals::SmoothNormals;
 pub use soup::{EdgeMark, Soup, Wire};

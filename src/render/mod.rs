@@ -61,7 +61,8 @@ pub fn render_reported(
     let view = View::new(&mesh, camera);
     report.stages_ms.topology = watch.lap_ms();
 
-    let feature_lines = lines::extract(&mesh, &view, &style.lines);
+    let hard = lines::hard_edges(&mesh, &style.lines);
+    let feature_lines = lines::extract(&mesh, &hard, &view, &style.lines);
     report.stages_ms.features = watch.lap_ms();
 
     let mut map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
