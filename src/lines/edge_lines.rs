@@ -86,7 +86,7 @@ impl Finder<'_> {
         let nearer = if facing[first as usize] { first } else { second };
         Some(FeatureSegment {
             both_seen: !contour,
-            smooth: !hard && (std::env::var_os("SM").is_none() || Dihedral::of(self.mesh, [first, second], same_way).turn() <= self.crease_deg),
+            smooth: !hard,
             strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
             ..self.segment(edge, kind, nearer, [first, second])
         })

@@ -5,6 +5,7 @@ pub mod intersections;
 pub mod kind;
 pub mod line;
 pub mod options;
+pub mod zero_set;
 
 pub use kind::LineKind;
 pub use line::{FeatureLines, FeatureSegment, NO_FACE};

@@ -50,7 +50,7 @@ pub(super) struct Folds<'a> {
 pub(super) struct Chain {
     /// In order along the chain.
     pub folds: Vec<Fold>,
-    /// How straight it runs: the mean cosine of its bends, 0 to 1.
+    /// How straight it runs: the mean cosine of its bends, above 0, at most 1.
     pub straightness: f64,
     /// Whether its last fold continues into its first.
     pub closed: bool,

@@ -14,9 +14,16 @@ use super::{EdgeMark, Mesh};
 /// The low threshold as a share of the high one: a crease goes on where it turns by more.
 pub const LOW_OF_HIGH: f64 = 0.5;
 
-/// A chain is a crease if the sum of its turns, each in deviations of the noise around it, is as
-/// large as this.
-const EVIDENCE: f64 = 16.0;
+/// A chain is a crease if n²·t/σ is as large as this (see `stands_out`): one right angle by itself
+/// where the surface around is flat within a degree, six edges of 45 degrees on a scan whose
+/// triangles turn by twenty at random.
+const EVIDENCE: f64 = 80.0;
+
+/// A chain that comes back to where it began counts as so many times as long.
+const LOOP: f64 = 2.0;
+
+/// An edge is tiny if this many times its length is less than the length of the edges around it.
+const TINY: f64 = 2.0;
 
 /// Turns beyond this many degrees say no more than this one: folded slivers of scans turn by 180.
 const FULL_TURN_DEG: f64 = 90.0;
@@ -109,26 +116,20 @@ fn count(bits: &[u64]) -> usize {
     bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
-/// Whether a chain is a feature and not noise.
+/// Whether a chain is a feature and not noise: n²·t/σ, where it is n edges long, turns by t on
+/// average, and σ is the spread of the turns around it.
+///
+/// The mean of n turns of noise spreads by σ/√n only, and noise does not go straight on: a line of
+/// it ends after two or three edges. Hence length counts for more than sharpness.
 fn stands_out(mesh: &Mesh, chain: &Chain, roughness: &Roughness) -> bool {
     let around = roughness.around(chain);
-    let turns: f64 = chain.folds.iter().map(|f| f64::from(f.turn).min(FULL_TURN_DEG)).sum();
-    let length: f64 = chain
-        .folds
-        .iter()
-        .map(|f| mesh.edges.vertices[f.edge as usize].map(|v| mesh.positions[v as usize]))
-        .map(|[a, b]| a.distance(b))
-        .sum();
-    // Many tiny edges are no more than one that is as long.
     let n = chain.folds.len() as f64;
-    let effective = (2.0 * length / around.edge_length.max(f64::MIN_POSITIVE)).clamp(1.0, n);
-    let loops = if chain.closed { 2.0 } else { 1.0 };
-    let straight = effective * chain.straightness.max(0.0) * loops;
-    let e = straight * straight * turns / n;
-    let ev: f64 = std::env::var("EV").ok().and_then(|s| s.parse().ok()).unwrap_or(EVIDENCE);
-    let kept = e >= ev * around.deviation;
-    if std::env::var_os("DBG").is_some() {
-        println!("chain {} n {n} mean {:.1} dev {:.2} straight {:.2} eff {effective:.2} closed {} e {:.1}", if kept {"kept"} else {"lost"}, turns / n, around.deviation, chain.straightness, chain.closed, e / around.deviation);
-    }
-    kept
+    let turn = chain.folds.iter().map(|f| f64::from(f.turn).min(FULL_TURN_DEG)).sum::<f64>() / n;
+    let ends = chain.folds.iter().map(|f| mesh.edges.vertices[f.edge as usize]);
+    let length: f64 =
+        ends.map(|[a, b]| mesh.positions[a as usize].distance(mesh.positions[b as usize])).sum();
+    // Many tiny edges are no more than one that is as long.
+    let edges = (TINY * length / around.edge_length.max(f64::MIN_POSITIVE)).clamp(1.0, n);
+    let straight = edges * chain.straightness * if chain.closed { LOOP } else { 1.0 };
+    straight * straight * turn >= EVIDENCE * around.deviation
 }
