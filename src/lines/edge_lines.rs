@@ -6,29 +6,24 @@
 
 use rayon::prelude::*;
 
-use super::needle::{Beyond, beyond};
-use super::{FeatureSegment, LineKind, LineOptions, NO_FACE};
-use crate::math::function::{acos, cos};
-use crate::mesh::{EdgeFaces, EdgeMark, FaceId, Mesh, SmoothNormals};
+use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Surface};
+use crate::mesh::dihedral::{mark, runs_up};
+use crate::mesh::needle::{Beyond, beyond};
+use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, HardEdges, Mesh, SmoothNormals};
 use crate::view::View;
 
 /// All edges of the mesh that are feature lines of the kinds asked for, in edge order, but for the
 /// contours of rounded surfaces. `facing` is the field n·v on their smooth vertices.
 #[must_use]
-pub fn find(
-    mesh: &Mesh,
-    view: &View,
-    smooth: &SmoothNormals,
-    facing: &[f64],
-    options: &LineOptions,
-) -> EdgeLines {
+pub fn find(surface: &Surface, view: &View, facing: &[f64], options: &LineOptions) -> EdgeLines {
+    let Surface { mesh, hard, smooth } = surface;
     let finder = Finder {
         mesh,
+        hard,
         view,
         smooth,
         facing,
         wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
-        crease_cosine: cos(options.crease_deg.to_radians()) as f32,
         crease_deg: options.crease_deg as f32,
     };
     const CHUNK: usize = 1 << 14;
@@ -89,11 +84,11 @@ pub enum EdgeSide {
 
 struct Finder<'a> {
     mesh: &'a Mesh,
+    hard: &'a HardEdges,
     view: &'a View,
     smooth: &'a SmoothNormals,
     facing: &'a [f64],
     wanted: u32,
-    crease_cosine: f32,
     crease_deg: f32,
 }
 
@@ -156,7 +151,7 @@ impl Finder<'_> {
             lines.segments.extend(else_line);
             return;
         }
-        let turn = self.turn(hosts[0], hosts[1], same_way);
+        let turn = Dihedral::of(self.mesh, hosts, same_way).turn();
         lines.parted.push(PartedEdge { ends, hosts, turn, else_line, sides, same_way });
     }
 
@@ -185,11 +180,6 @@ impl Finder<'_> {
         self.classify_turn(edge, first, second, same_way, contour)
     }
 
-    /// Degrees by which the surface turns between two faces.
-    fn turn(&self, first: u32, second: u32, same_way: bool) -> f32 {
-        acos(f64::from(self.normal_dot(first, second, same_way))).to_degrees() as f32
-    }
-
     #[inline]
     fn classify_turn(
         &self,
@@ -200,22 +190,14 @@ impl Finder<'_> {
         contour: bool,
     ) -> Option<FeatureSegment> {
         let facing = &self.view.facing;
-        let dot = self.normal_dot(first, second, same_way);
-        if !contour && dot >= self.crease_cosine && !self.speaks(first, second) {
+        let hard = self.hard.is_hard(edge);
+        let other_material = self.other_material(edge, [first, second]);
+        if !contour && !hard && !other_material {
             return None;
         }
-        let turn = acos(f64::from(dot)).to_degrees() as f32;
-        let mark = self.mark(edge, &[first, second]);
-        let crease = match mark {
-            EdgeMark::Unmarked => turn > self.crease_deg,
-            EdgeMark::Hard => true,
-            EdgeMark::Hidden | EdgeMark::Contour => false,
-        };
-        let other_material = mark != EdgeMark::Hidden
-            && self.mesh.face_material[first as usize] != self.mesh.face_material[second as usize];
         let kind = if contour && self.wants(LineKind::Contour) {
             LineKind::Contour
-        } else if crease && self.wants(LineKind::Crease) {
+        } else if hard && self.wants(LineKind::Crease) {
             LineKind::Crease
         } else if other_material && self.wants(LineKind::Material) {
             LineKind::Material
@@ -225,16 +207,16 @@ impl Finder<'_> {
         let nearer = if facing[first as usize] { first } else { second };
         Some(FeatureSegment {
             both_seen: !contour,
-            smooth: turn <= self.crease_deg && mark != EdgeMark::Hard,
-            strength: turn,
+            smooth: !hard,
+            strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
             ..self.segment(edge, kind, nearer, [first, second])
         })
     }
 
-    /// Whether a flat edge may still be a line: its materials differ or the file marks it.
-    fn speaks(&self, first: u32, second: u32) -> bool {
-        self.mesh.face_material[first as usize] != self.mesh.face_material[second as usize]
-            || !self.mesh.edge_marks.is_empty()
+    /// Whether the materials of two faces differ, and the file does not hide the edge.
+    fn other_material(&self, edge: usize, faces: [u32; 2]) -> bool {
+        let [first, second] = faces.map(|f| self.mesh.face_material[f as usize]);
+        first != second && mark(self.mesh, edge, faces) != EdgeMark::Hidden
     }
 
     fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
@@ -266,12 +248,12 @@ impl Finder<'_> {
             [] => return None,
             [face] => return self.classify_single(edge, face),
             [first, second] => {
-                let same_way = self.runs_up(edge, first) == self.runs_up(edge, second);
+                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
                 return self.classify_pair(edge, first, second, same_way);
             }
             _ => {}
         }
-        let side = |f: u32| self.view.facing[f as usize] == self.runs_up(edge, f);
+        let side = |f: u32| self.view.facing[f as usize] == runs_up(mesh, edge, f);
         let contour = real.iter().all(|f| side(*f)) || real.iter().all(|f| !side(*f));
         let turn = self.corner_turn(edge, &real).max(self.own_turn(edge, &real));
         let materials = |f: &u32| mesh.face_material[*f as usize];
@@ -335,46 +317,11 @@ impl Finder<'_> {
         for first in faces {
             let own: Vec<u32> = faces.iter().copied().filter(|f| part(f) == part(first)).collect();
             if let [a, b] = *own.as_slice() {
-                let same_way = self.runs_up(edge, a) == self.runs_up(edge, b);
-                most = most.max(acos(f64::from(self.normal_dot(a, b, same_way))).to_degrees() as f32);
+                let same_way = runs_up(mesh, edge, a) == runs_up(mesh, edge, b);
+                most = most.max(Dihedral::of(mesh, [a, b], same_way).turn());
             }
         }
         most
-    }
-
-    /// Whether a face runs along the edge from its smaller vertex to its larger one.
-    fn runs_up(&self, edge: usize, face: u32) -> bool {
-        let [lo, hi] = self.mesh.edges.vertices[edge];
-        let [a, b, c] = self.mesh.triangles[face as usize];
-        [(a, b), (b, c), (c, a)].contains(&(lo, hi))
-    }
-
-    #[inline]
-    fn normal_dot(&self, first: u32, second: u32, same_way: bool) -> f32 {
-        let (a, b) = (self.mesh.face_normals[first as usize], self.mesh.face_normals[second as usize]);
-        let dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        if same_way { -dot } else { dot }
-    }
-
-    fn mark(&self, edge: usize, faces: &[u32]) -> EdgeMark {
-        let mesh = self.mesh;
-        if mesh.edge_marks.is_empty() {
-            return EdgeMark::Unmarked;
-        }
-        let [lo, hi] = mesh.edges.vertices[edge];
-        let mut strongest = EdgeMark::Unmarked;
-        for face in faces {
-            let [a, b, c] = mesh.triangles[*face as usize];
-            for (side, (u, v)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-                if (u.min(v), u.max(v)) == (lo, hi) {
-                    let mark = mesh.edge_marks[*face as usize][side];
-                    if mark as u8 > strongest as u8 {
-                        strongest = mark;
-                    }
-                }
-            }
-        }
-        strongest
     }
 
     fn segment(&self, edge: usize, kind: LineKind, nearer: u32, hosts: [u32; 2]) -> FeatureSegment {

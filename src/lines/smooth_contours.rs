@@ -29,8 +29,9 @@ const LIFT_PX: f64 = 1.5;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     pub segment: FeatureSegment,
-    /// See [`ContourCurve::backward`].
-    pub backward: bool,
+    /// See [`ContourCurve::backward`]; unknown where the piece leaves the surface more than it runs
+    /// across the line of sight.
+    pub backward: Option<bool>,
 }
 
 /// What contours are sought on.
@@ -69,9 +70,23 @@ pub fn find(
     for (order, closed) in curves(&pieces) {
         let start = lines.segments.len() as u32;
         lines.segments.extend(order.iter().map(|p| pieces[*p as usize].segment));
-        let backward = order.iter().map(|p| pieces[*p as usize].backward).collect();
+        let known = order.iter().map(|p| pieces[*p as usize].backward).collect::<Vec<_>>();
+        let backward = as_neighbours(&known, closed);
         lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, backward });
     }
+}
+
+/// What is unknown is as what comes before it, or at the beginning as what comes first.
+fn as_neighbours(known: &[Option<bool>], closed: bool) -> Vec<bool> {
+    let ends = if closed { known.iter().rev().flatten().next() } else { known.iter().flatten().next() };
+    let mut last = ends.copied().unwrap_or(false);
+    known
+        .iter()
+        .map(|value| {
+            last = value.unwrap_or(last);
+            last
+        })
+        .collect()
 }
 
 /// The point of the rounded surface over an edge.
@@ -98,8 +113,9 @@ impl Surface<'_> {
         };
         // The sign of the radial curvature (DeCarlo et al. 2003, section 2), taken from the piece
         // itself, so that it changes exactly where its image turns back.
-        let to_facing = (normal(piece.ends[0]) + normal(piece.ends[1])).cross(b - a);
-        let backward = to_facing.dot(self.view.frame.to_eye((a + b) / 2.0)) < 0.0;
+        let outward = normal(piece.ends[0]) + normal(piece.ends[1]);
+        let across = outward.cross(b - a).dot(self.view.frame.to_eye((a + b) / 2.0));
+        let backward = (across.abs() > outward.dot(b - a).abs()).then_some(across < 0.0);
         Piece { segment: self.segment(ends, [piece.face; 2], true), backward }
     }
 

@@ -3,11 +3,16 @@
 pub mod boxes;
 pub mod build;
 pub mod clean;
+mod crease_chains;
+pub mod dihedral;
 pub mod edge_arc;
 pub mod edges;
+pub mod hard_edges;
 pub mod ids;
 pub mod intersect;
+pub mod needle;
 pub mod refine;
+mod roughness;
 pub mod rounded;
 pub mod smooth_normals;
 pub mod solid;
@@ -19,8 +24,10 @@ pub mod weld;
 use glam::DVec3;
 
 pub use clean::Cleaning;
+pub use dihedral::Dihedral;
 pub use edge_arc::EdgeArc;
 pub use edges::{EdgeFaces, Edges};
+pub use hard_edges::HardEdges;
 pub use ids::{EdgeId, FaceId, MaterialId, PartId, VertexId};
 pub use smooth_normals::SmoothNormals;
 pub use soup::{EdgeMark, Soup, Wire};

@@ -14,14 +14,13 @@ pub use stage::Stage;
 
 use crate::chain;
 use crate::drawing::{Drawing, Page, Unit};
-use crate::field;
-use crate::lines;
+use crate::lines::{self, Surface};
 use crate::math::colour::Colour;
-use crate::mesh::{Mesh, SmoothNormals};
+use crate::mesh::Mesh;
 use crate::scene::{Camera, Scene};
 use crate::stroke::{self, InkContext};
 use crate::style::Style;
-use crate::view::{Frame, View};
+use crate::view::View;
 use crate::viewmap::{self, ViewMap};
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
@@ -59,15 +58,15 @@ pub fn render_reported(
     let mut watch = Stopwatch::start();
 
     let mesh = Mesh::build(scene.to_soup());
-    let smooth = lines::rounded_surface(&mesh, &style.lines);
-    let (mesh, smooth) = finer(mesh, smooth, camera);
-    let view = View::new(&mesh, camera);
+    let surface = Surface::new(mesh, &style.lines).finer_for(camera);
+    let mesh = &surface.mesh;
+    let view = View::new(mesh, camera);
     report.stages_ms.topology = watch.lap_ms();
 
-    let feature_lines = lines::extract(&mesh, &view, &smooth, &style.lines);
+    let feature_lines = lines::extract(&surface, &view, &style.lines);
     report.stages_ms.features = watch.lap_ms();
 
-    let mut map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
+    let mut map = viewmap::build(mesh, &view, &feature_lines, &style.lines);
     centre_on_page(&mut map, camera, &page);
     report.stages_ms.visibility = watch.lap_ms();
 
@@ -83,7 +82,7 @@ pub fn render_reported(
         None => stroke::ink(&chains, &context, &style.stroke),
         Some(Stage::Chains) => stage_drawing::of_chains(&chains, page.unit),
         Some(Stage::ViewMap) => stage_drawing::of_view_map(&map, page.unit),
-        Some(Stage::Lines) => stage_drawing::of_lines(&mesh, &view, &feature_lines, &page),
+        Some(Stage::Lines) => stage_drawing::of_lines(mesh, &view, &feature_lines, &page),
     };
     report.stages_ms.strokes = watch.lap_ms();
 
@@ -93,14 +92,8 @@ pub fn render_reported(
     report.counts.ray_tests = map.tests;
     report.counts.chains = chains.len() as u64;
     report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
-    report.warnings = defects::of_mesh(&mesh, scene).lines();
+    report.warnings = defects::of_mesh(mesh, scene).lines();
     (Drawing { title: title(scene), page, layers }, report)
-}
-
-/// The mesh, with more triangles where a coarse rounded surface would show its corners.
-fn finer(mesh: Mesh, smooth: SmoothNormals, camera: &Camera) -> (Mesh, SmoothNormals) {
-    let frame = Frame::new(camera, mesh.origin);
-    field::finer_near_contours(&mesh, &smooth, &frame).unwrap_or((mesh, smooth))
 }
 
 /// Points of a path, control points counted.
