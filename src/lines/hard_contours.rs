@@ -54,5 +54,5 @@ fn contour(surface: &Surface, edge: &PartedEdge, ends: [u32; 2], facing: [bool; 
     let mut segment = surface.segment(ends, [edge.hosts[near], edge.hosts[far]], false);
     segment.strength = edge.turn;
     // Which side is nearer is not asked: what hides a hollow edge is seldom near.
-    Piece { segment, backward: None }
+    Piece { segment, advance: 0.0 }
 }

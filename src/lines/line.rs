@@ -56,15 +56,16 @@ impl FeatureSegment {
 
 /// A contour of a rounded surface: a run of feature segments from head to tail, with the facing side
 /// of the surface on their left, seen from outside.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ContourCurve {
     /// Its pieces in [`FeatureLines::segments`].
     pub segments: Range<u32>,
     /// Whether it ends where it begins.
     pub closed: bool,
-    /// Whether the averted side of the surface is the nearer one, for each piece: the image of the
-    /// curve then runs backwards, between one cusp and the next.
-    pub backward: Vec<bool>,
+    /// For each piece, positive where the facing side of the surface is the nearer one and negative
+    /// where the averted side is: there the image of the curve runs backward, between one cusp and
+    /// the next. The magnitude, 0 to 1, is how much of the piece says so.
+    pub advance: Vec<f32>,
 }
 
 /// All feature lines of a view.

@@ -29,9 +29,8 @@ const LIFT_PX: f64 = 1.5;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     pub segment: FeatureSegment,
-    /// See [`ContourCurve::backward`]; unknown where the piece leaves the surface more than it runs
-    /// across the line of sight.
-    pub backward: Option<bool>,
+    /// See [`ContourCurve::advance`].
+    pub advance: f32,
 }
 
 /// What contours are sought on.
@@ -70,23 +69,9 @@ pub fn find(
     for (order, closed) in curves(&pieces) {
         let start = lines.segments.len() as u32;
         lines.segments.extend(order.iter().map(|p| pieces[*p as usize].segment));
-        let known = order.iter().map(|p| pieces[*p as usize].backward).collect::<Vec<_>>();
-        let backward = as_neighbours(&known, closed);
-        lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, backward });
+        let advance = order.iter().map(|p| pieces[*p as usize].advance).collect();
+        lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, advance });
     }
-}
-
-/// What is unknown is as what comes before it, or at the beginning as what comes first.
-fn as_neighbours(known: &[Option<bool>], closed: bool) -> Vec<bool> {
-    let ends = if closed { known.iter().rev().flatten().next() } else { known.iter().flatten().next() };
-    let mut last = ends.copied().unwrap_or(false);
-    known
-        .iter()
-        .map(|value| {
-            last = value.unwrap_or(last);
-            last
-        })
-        .collect()
 }
 
 /// The point of the rounded surface over an edge.
@@ -115,8 +100,11 @@ impl Surface<'_> {
         // itself, so that it changes exactly where its image turns back.
         let outward = normal(piece.ends[0]) + normal(piece.ends[1]);
         let across = outward.cross(b - a).dot(self.view.frame.to_eye((a + b) / 2.0));
-        let backward = (across.abs() > outward.dot(b - a).abs()).then_some(across < 0.0);
-        Piece { segment: self.segment(ends, [piece.face; 2], true), backward }
+        // What leaves the surface of the normals comes from the mesh and says nothing.
+        let astray = outward.dot(b - a).abs();
+        let said = (1.0 - astray / across.abs().max(f64::MIN_POSITIVE)).max(0.0);
+        let advance = (said * across.signum()) as f32;
+        Piece { segment: self.segment(ends, [piece.face; 2], true), advance }
     }
 
     /// A piece of contour between faces.

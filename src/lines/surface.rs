@@ -14,6 +14,9 @@ use crate::view::Frame;
 /// where the file has it smooth.
 const SAME_NORMAL_COSINE: f32 = 0.94;
 
+/// On rounded parts a crease turns by so many times as much.
+const ROUNDED: f64 = 1.5;
+
 /// A mesh and the surface it stands for. The same for all views, but for [`Surface::finer_for`].
 #[derive(Debug, Clone, Default)]
 pub struct Surface {
@@ -37,11 +40,11 @@ impl Surface {
             let hard = HardEdges::above(&mesh, options.crease_deg);
             return Self { mesh, hard, smooth: SmoothNormals::default() };
         }
-        let hard = HardEdges::find(&mesh, options.crease_deg);
         let rounded = match options.contours {
             Contours::Smooth => vec![true; mesh.triangles.len()],
             _ => rounded_faces(&mesh),
         };
+        let hard = hard_edges(&mesh, &rounded, options.crease_deg);
         let smooth = SmoothNormals::new(&mesh, |f| rounded[f as usize], |e| is_hard(&mesh, e, &hard));
         Self { mesh, hard, smooth }
     }
@@ -54,6 +57,23 @@ impl Surface {
         match field::finer_near_contours(&self.mesh, &self.smooth, &frame) {
             None => self,
             Some((mesh, smooth)) => Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth },
+        }
+    }
+}
+
+/// Creases: on rounded parts, whose faces turn at every edge, they turn by more than elsewhere.
+fn hard_edges(mesh: &Mesh, rounded: &[bool], crease_deg: f64) -> HardEdges {
+    let blunt = || HardEdges::find(mesh, crease_deg);
+    let sharp = || HardEdges::find(mesh, (ROUNDED * crease_deg).min(180.0));
+    match (rounded.contains(&true), rounded.contains(&false)) {
+        (false, _) => blunt(),
+        (true, false) => sharp(),
+        (true, true) => {
+            let is_rounded = |edge: usize| match mesh.edges.faces(edge) {
+                EdgeFaces::Two { faces, .. } => faces.iter().all(|f| rounded[*f as usize]),
+                _ => false,
+            };
+            sharp().chosen_from(&blunt(), mesh, is_rounded)
         }
     }
 }

@@ -289,19 +289,20 @@ fn stops(run: &Run, events: &[Event], backward: &[bool]) -> Vec<Stop> {
 /// Whether each segment of a run lies between cusps. Stretches that turn back for less than `cusp`
 /// user units are ripples of the mesh: the shortest is made even first.
 fn even_backward(run: &Run, scene: &Scene, cusp: f64) -> Vec<bool> {
-    let mut backward: Vec<bool> = run.segments.iter().map(|s| scene.backward[*s as usize]).collect();
+    let mut backward: Vec<bool> = run.segments.iter().map(|s| scene.advance[*s as usize] < 0.0).collect();
     let n = backward.len();
-    let length = |s: u32| scene.segments[s as usize].length();
+    // What a segment says weighs as much as is drawn of it.
+    let weight = |s: u32| scene.segments[s as usize].length() * f64::from(scene.advance[s as usize].abs());
     loop {
-        // Stretches of one value: first index, number, length.
+        // Stretches of one value: first index, number, weight.
         let mut stretches: Vec<(usize, usize, f64)> = Vec::new();
         for k in 0..n {
             match stretches.last_mut() {
                 Some((first, count, sum)) if backward[*first] == backward[k] => {
                     *count += 1;
-                    *sum += length(run.segments[k]);
+                    *sum += weight(run.segments[k]);
                 }
-                _ => stretches.push((k, 1, length(run.segments[k]))),
+                _ => stretches.push((k, 1, weight(run.segments[k]))),
             }
         }
         if run.closed && stretches.len() > 1 && backward[0] == backward[n - 1] {

@@ -35,8 +35,8 @@ pub(super) struct Scene<'a> {
     pub view: &'a View,
     pub segments: &'a [ImageSegment],
     pub sources: &'a [FeatureSegment],
-    /// Whether a segment runs backward (see [`crate::lines::ContourCurve`]); such never cover.
-    pub backward: &'a [bool],
+    /// See [`crate::lines::ContourCurve::advance`]; what runs backward never covers.
+    pub advance: &'a [f32],
 }
 
 /// All events, by segment, then by place.
@@ -98,7 +98,7 @@ impl Scene<'_> {
         let nearness = |segment: &ImageSegment, t: f64| segment.a.z + (segment.b.z - segment.a.z) * t;
         let p_is_far = nearness(p, s) < nearness(q, t);
         let (far, near, at, far_id, near_id) = if p_is_far { (p, q, s, i, j) } else { (q, p, t, j, i) };
-        if !far.is_rounded() || self.backward[near_id as usize] {
+        if !far.is_rounded() || self.advance[near_id as usize] < 0.0 {
             return None;
         }
         let inward = self.inward(near)?;

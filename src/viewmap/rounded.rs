@@ -39,15 +39,15 @@ pub(super) fn decide(
     for (i, segment) in segments.iter().enumerate() {
         image_of[segment.source as usize] = i as u32;
     }
-    let mut backward = vec![false; segments.len()];
+    let mut advance = vec![0.0; segments.len()];
     for curve in &lines.curves {
-        for (source, value) in curve.segments.clone().zip(&curve.backward) {
-            if let Some(flag) = backward.get_mut(image_of[source as usize] as usize) {
-                *flag = *value;
+        for (source, value) in curve.segments.clone().zip(&curve.advance) {
+            if let Some(of_image) = advance.get_mut(image_of[source as usize] as usize) {
+                *of_image = *value;
             }
         }
     }
-    let scene = Scene { mesh, view, segments, sources: &lines.segments, backward: &backward };
+    let scene = Scene { mesh, view, segments, sources: &lines.segments, advance: &advance };
     let events = events::find(&scene, grid);
     let solid = solid_parts(mesh);
     let runs: Vec<Run> = lines
