@@ -6,6 +6,7 @@ pub mod kind;
 pub mod line;
 pub mod needle;
 pub mod options;
+pub mod zero_set;
 
 pub use kind::LineKind;
 pub use line::{FeatureLines, FeatureSegment, NO_FACE};
