@@ -5,7 +5,7 @@ mod crumbs;
 mod curve;
 mod doubles;
 mod finish;
-mod fit;
+pub(crate) mod fit;
 mod gaps;
 mod line;
 mod link;
@@ -40,6 +40,20 @@ use tidy::tidied;
 pub struct Sample {
     /// Distance from the eye along the optical axis, world units.
     pub depth: f64,
+    /// How strong the line is here, 0 to 1. Only suggestive contours, ridges and valleys are ever
+    /// weaker than 1.
+    pub strength: f64,
+}
+
+impl Sample {
+    /// What lies between two points of a line, at part `t` of the way.
+    #[must_use]
+    pub fn lerp(self, to: Self, t: f64) -> Self {
+        Self {
+            depth: self.depth + (to.depth - self.depth) * t,
+            strength: self.strength + (to.strength - self.strength) * t,
+        }
+    }
 }
 
 /// View edges of one kind joined end to end.
@@ -98,7 +112,7 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLin
 fn chain(raw: Raw, t: Tolerances) -> Chain {
     let (line, path) = finish(&raw.line, t);
     Chain {
-        samples: line.depths.iter().map(|depth| Sample { depth: *depth }).collect(),
+        samples: line.samples,
         points: line.points,
         closed: line.closed,
         kind: raw.class.kind,

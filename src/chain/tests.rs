@@ -21,7 +21,12 @@ fn map_of(lines: &[Polyline]) -> ViewMap {
                 let position = Point::new(*x, *y);
                 let found = map.vertices.iter().position(|v| v.position == position);
                 let id = found.unwrap_or_else(|| {
-                    map.vertices.push(ViewVertex { position, depth: 1.0, kind: ViewVertexKind::Vertex });
+                    map.vertices.push(ViewVertex {
+                        position,
+                        depth: 1.0,
+                        strength: 1.0,
+                        kind: ViewVertexKind::Vertex,
+                    });
                     map.vertices.len() - 1
                 });
                 ViewVertexId(id as u32)

@@ -23,7 +23,8 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that the mesh's corners along the line are
     /// artefacts.
     pub smooth: bool,
-    /// The angle by which the surface turns across the line, degrees; 180 where there is none.
+    /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
+    /// where it does not turn.
     pub strength: f32,
     /// The part of the nearer surface.
     pub part: PartId,
@@ -55,6 +56,9 @@ pub struct FeatureLines {
     pub segments: Vec<FeatureSegment>,
     /// Ends that are no vertices of the mesh, in local space.
     pub points: Vec<DVec3>,
+    /// How strong the lines are at the first of these points, 0 to 1; at all other ends they are as
+    /// strong as can be.
+    pub strengths: Vec<f32>,
 }
 
 impl FeatureLines {
@@ -65,5 +69,12 @@ impl FeatureLines {
         let end = end as usize;
         let vertices = mesh.positions.len();
         if end < vertices { mesh.positions[end] } else { self.points[end - vertices] }
+    }
+    /// How strong the lines are at an end, 0 to 1.
+    #[inline]
+    #[must_use]
+    pub fn strength(&self, mesh: &Mesh, end: u32) -> f32 {
+        let point = (end as usize).checked_sub(mesh.positions.len());
+        point.and_then(|point| self.strengths.get(point)).copied().unwrap_or(1.0)
     }
 }

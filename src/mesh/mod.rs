@@ -3,7 +3,12 @@
 pub mod boxes;
 pub mod build;
 pub mod clean;
+pub mod curvature;
+mod curvature_derivative;
+mod diffusion;
 pub mod edges;
+pub mod fans;
+pub mod feature_size;
 pub mod ids;
 pub mod intersect;
 pub mod smooth_normals;
@@ -15,6 +20,7 @@ pub mod weld;
 use glam::DVec3;
 
 pub use clean::Cleaning;
+pub use curvature::{Curvature, Principal};
 pub use edges::{EdgeFaces, Edges};
 pub use ids::{EdgeId, FaceId, MaterialId, PartId, VertexId};
 pub use smooth_normals::SmoothNormals;
