@@ -15,7 +15,7 @@ const FLOATING: f64 = 2.5;
 
 /// A line inside must be this many times longer than a crumb where it is as strong as can be; the
 /// weaker, the longer.
-const INSIDE: f64 = 3.0;
+const INSIDE: f64 = 5.0;
 
 /// Strength that a line inside must reach somewhere.
 const INSIDE_PEAK: f64 = 0.25;
@@ -43,7 +43,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
     if scanned && raw.class.kind == LineKind::Crease {
         return raw.pronounced < NOISE * tidy;
     }
-    if matches!(raw.class.kind, LineKind::Suggestive | LineKind::Ridge | LineKind::Valley) {
+    if raw.class.kind.is_inside() {
         return raw.line.strength() < INSIDE * tidy || raw.line.peak() < INSIDE_PEAK;
     }
     if length >= FLOATING * tidy {

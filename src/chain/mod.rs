@@ -109,7 +109,14 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLin
     raws.into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
 }
 
-fn chain(raw: Raw, t: Tolerances) -> Chain {
+/// Lines inside lie where noise puts them, more than contours do: smoothing may move them this many
+/// times farther.
+const INSIDE_SMOOTH: f64 = 3.0;
+
+fn chain(raw: Raw, mut t: Tolerances) -> Chain {
+    if raw.class.kind.is_inside() {
+        t.smooth *= INSIDE_SMOOTH;
+    }
     let (line, path) = finish(&raw.line, t);
     Chain {
         samples: line.samples,

@@ -17,10 +17,13 @@ const STEP_PX: f64 = 1.0;
 const EVEN_PX: f64 = 10.0;
 
 /// How far the sides may lie from what they are fitted to, px.
-const TOLERANCE_PX: f64 = 0.05;
+const TOLERANCE_PX: f64 = 0.1;
 
 /// The inner side of a bend keeps this part of the way to its centre.
 const INNER: f64 = 0.7;
+
+/// Directions and bends are taken over this many points on either side.
+const REACH: isize = 2;
 
 /// Handle of a quarter circle of radius 1.
 const QUARTER: f64 = 0.552_284_749_830_793_4;
@@ -177,7 +180,7 @@ fn sides(axis: &[Point], widths: &[f64], closed: bool) -> [Vec<Point>; 2] {
     };
     let mut sides = [Vec::with_capacity(n), Vec::with_capacity(n)];
     for i in 0..n {
-        let (before, after) = (axis[neighbour(i, -1)], axis[neighbour(i, 1)]);
+        let (before, after) = (axis[neighbour(i, -REACH)], axis[neighbour(i, REACH)]);
         let along = if !closed && (i == 0 || i + 1 == n) {
             let end = |k: usize| if i == 0 { axis[k] } else { axis[n - 1 - k] };
             let tangent = end_tangent(end, n);

@@ -24,14 +24,14 @@ use crate::mesh::{Curvature, Mesh, SmoothNormals};
 use crate::view::View;
 
 /// The measure from which on a line is as strong as can be.
-const FULL: f64 = 4.0;
+const FULL: f64 = 8.0;
 
 const UNSET: u32 = u32::MAX;
 
 /// Whether any line inside is asked for.
 #[must_use]
 pub fn wanted(options: &LineOptions) -> bool {
-    options.kinds.iter().any(|kind| matches!(kind, LineKind::Suggestive | LineKind::Ridge | LineKind::Valley))
+    options.kinds.iter().any(|kind| kind.is_inside())
 }
 
 /// The curvature that the lines inside of a mesh are found by.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct InsideOptions {
     /// Length over which normals are smoothed beforehand, in fortieths of the model's size.
-    /// Default: 0.2.
+    /// Default: 0.3.
     #[serde(deserialize_with = "positive")]
     pub smooth: f64,
     /// How fast radial curvature must change across a suggestive contour. Default: 0.01.
@@ -36,7 +36,7 @@ pub struct InsideOptions {
 impl Default for InsideOptions {
     fn default() -> Self {
         Self {
-            smooth: 0.2,
+            smooth: 0.3,
             suggestive: 0.01,
             highlights: false,
             highlight: 0.02,
