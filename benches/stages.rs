@@ -4,8 +4,8 @@ use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
-use ligne::lines::{self, FeatureLines};
-use ligne::mesh::{Edges, Mesh, weld};
+use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, inside};
+use ligne::mesh::{Edges, Mesh, SmoothNormals, weld};
 use ligne::render;
 use ligne::scene::{Camera, Geometry, Part, Scene};
 use ligne::style::Style;
@@ -108,6 +108,26 @@ fn view(bencher: Bencher, name: &str) {
 fn edge_lines(bencher: Bencher, name: &str) {
     let made = made(name);
     bencher.bench(|| lines::edge_lines::find(black_box(&made.mesh), &made.view, &made.style.lines));
+}
+
+#[divan::bench(args = SCENES)]
+fn curvature(bencher: Bencher, name: &str) {
+    let made = made(name);
+    let smooth = SmoothNormals::rounded(&made.mesh);
+    bencher.bench(|| inside::curvature(black_box(&made.mesh), &smooth, &InsideOptions::default()));
+}
+
+#[divan::bench(args = SCENES)]
+fn suggestive_contours(bencher: Bencher, name: &str) {
+    let made = made(name);
+    let smooth = SmoothNormals::rounded(&made.mesh);
+    let options = LineOptions { kinds: vec![LineKind::Suggestive], ..LineOptions::default() };
+    let curvature = inside::curvature(&made.mesh, &smooth, &options.inside);
+    bencher.bench(|| {
+        let mut lines = FeatureLines::default();
+        inside::find(black_box(&made.mesh), &made.view, &smooth, &curvature, &options, &mut lines);
+        lines
+    });
 }
 
 #[divan::bench(args = SCENES)]

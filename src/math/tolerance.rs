@@ -54,6 +54,10 @@ pub const IMAGE_HEIGHT_PX: f64 = 1e-8;
 /// Two lines that run within this distance (px) of each other are drawn once.
 pub const DOUBLE_PX: f64 = 5e-3;
 
+/// A threshold of lines inside below this counts as this; thresholds are pure numbers, measured by
+/// the size of features.
+pub const LEAST_THRESHOLD: f64 = 1e-9;
+
 /// Zero sets cross an edge of the mesh at least this fraction of it away from its ends, so that no
 /// piece of theirs is without length.
 pub const ZERO_SET_OF_EDGE: f64 = 1e-6;

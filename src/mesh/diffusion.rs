@@ -81,7 +81,7 @@ impl<'a> Flow<'a> {
     fn step(&mut self, now: &[DVec3], before: &mut [DVec3], sum: &mut [DVec3], factor: f64, weight: f64) {
         let (smooth, fans, parts, around) = (self.smooth, self.fans, &self.parts, &self.around);
         self.means.par_iter_mut().with_min_len(GRAIN).enumerate().for_each(|(face, mean)| {
-            if fans.holds(face) {
+            if parts[face] > 0.0 {
                 let [a, b, c] = smooth.corners[face].map(|v| now[v as usize]);
                 *mean = (a + b + c) * (parts[face] / 3.0);
             }

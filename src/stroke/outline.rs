@@ -238,3 +238,99 @@ fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, swell: &Swell)
 fn length(v: Vec2) -> f64 {
     v.hypot2().sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use kurbo::{PathEl, Shape};
+
+    use super::*;
+    use crate::chain::Sample;
+    use crate::lines::LineKind;
+    use crate::math::function::{cos, sin};
+    use crate::mesh::{MaterialId, PartId};
+
+    const SWELL: Swell = Swell { width: 4.0, fade: 1.0, cap: Cap::Round, px: 1.0 };
+
+    fn chain(points: Vec<Point>, strength: impl Fn(f64) -> f64, closed: bool) -> Chain {
+        let n = points.len() as f64 - 1.0;
+        let mut path = BezPath::new();
+        path.move_to(points[0]);
+        points[1..].iter().for_each(|p| path.line_to(*p));
+        if closed {
+            path.close_path();
+        }
+        let sample = |i: usize| Sample { depth: 1.0, strength: strength(i as f64 / n) };
+        Chain {
+            samples: (0..points.len()).map(sample).collect(),
+            points,
+            closed,
+            kind: LineKind::Suggestive,
+            silhouette: false,
+            invisibility: 0,
+            both_seen: true,
+            part: PartId(0),
+            material: MaterialId(0),
+            smooth: true,
+            path,
+        }
+    }
+
+    /// Whether any two sides of a flattened closed path cross.
+    fn crosses(path: &BezPath) -> bool {
+        let mut points: Vec<Point> = Vec::new();
+        kurbo::flatten(path, 0.05, |element| points.extend(element.end_point()));
+        points.dedup_by(|a, b| length(*a - *b) < 1e-3);
+        let n = points.len();
+        let side = |i: usize| (points[i], points[(i + 1) % n]);
+        let turn = |a: Point, b: Point, c: Point| (b - a).cross(c - a);
+        (0..n).any(|i| {
+            (i + 2..n).filter(|j| !(i == 0 && *j + 1 == n)).any(|j| {
+                let ((a, b), (c, d)) = (side(i), side(j));
+                turn(a, b, c) * turn(a, b, d) < -1e-9 && turn(c, d, a) * turn(c, d, b) < -1e-9
+            })
+        })
+    }
+
+    #[test]
+    fn a_straight_line_that_fades_is_a_wedge() {
+        let line: Vec<Point> = (0..=100).map(|i| Point::new(f64::from(i), 50.0)).collect();
+        let wedge = outline(&chain(line, |t| t, false), &SWELL).expect("an outline");
+        assert!((wedge.width - 2.0).abs() < 0.05, "{}", wedge.width);
+        // The wedge and the half circle at its thick end.
+        let area = 200.0 + std::f64::consts::PI * 2.0;
+        assert!((wedge.path.area().abs() - area).abs() < 4.0, "{}", wedge.path.area());
+        assert!(wedge.path.elements().len() < 12, "{:?}", wedge.path);
+        assert_eq!(wedge.path.elements().last(), Some(&PathEl::ClosePath));
+        assert!(!crosses(&wedge.path));
+    }
+
+    #[test]
+    fn tight_bends_do_not_fold() {
+        // A hairpin of radius 1 between straight legs, under a pen of width 4.
+        let mut line: Vec<Point> = (0..40).map(|i| Point::new(f64::from(i), 0.0)).collect();
+        line.extend((0..=8).map(|i| {
+            let angle = std::f64::consts::PI * f64::from(i) / 8.0;
+            Point::new(40.0 + 3.0 * sin(angle), 3.0 - 3.0 * cos(angle))
+        }));
+        line.extend((0..40).map(|i| Point::new(39.0 - f64::from(i), 6.0)));
+        let wide = Swell { width: 5.0, ..SWELL };
+        let bent = outline(&chain(line, |t| 4.0 * t * (1.0 - t), false), &wide).expect("an outline");
+        assert!(!crosses(&bent.path), "{}", bent.path.to_svg());
+        assert!(bent.path.elements().len() < 30, "{}", bent.path.elements().len());
+    }
+
+    #[test]
+    fn a_closed_line_is_a_ring() {
+        let ring: Vec<Point> = (0..60)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 60.0)
+            .map(|angle| Point::new(100.0 + 40.0 * cos(angle), 100.0 + 40.0 * sin(angle)))
+            .collect();
+        let made = outline(&chain(ring, |t| 0.6 + 0.3 * cos(std::f64::consts::TAU * t), true), &SWELL);
+        let path = made.expect("an outline").path;
+        assert_eq!(path.elements().iter().filter(|e| matches!(e, PathEl::ClosePath)).count(), 2);
+        assert_eq!(path.winding(Point::new(100.0, 100.0)), 0);
+        assert_ne!(path.winding(Point::new(140.0, 100.0)), 0);
+        let area = std::f64::consts::TAU * 40.0 * 4.0 * 0.6;
+        assert!((path.area().abs() - area).abs() < 0.05 * area, "{} {area}", path.area());
+    }
+}

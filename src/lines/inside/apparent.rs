@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::ridges::maximum;
-use super::{InsideOptions, Seen};
+use super::{InsideOptions, Seen, positive};
 use crate::lines::zero_set::{EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
 use crate::math::tolerance;
@@ -40,7 +40,7 @@ pub(super) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
     );
     let measure = |point: &EdgePoint, _| {
         let [a, b] = point.between.map(|v| apparent[v as usize].q1);
-        (a + (b - a) * point.t) * size2 / options.apparent_ridge
+        (a + (b - a) * point.t) * size2 / positive(options.apparent_ridge)
     };
     seen.add(&set, |_| Some(LineKind::Ridge), measure, lines);
 }

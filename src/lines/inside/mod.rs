@@ -19,6 +19,7 @@ pub use options::InsideOptions;
 
 use super::zero_set::{EdgePoint, ZeroSet};
 use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE};
+use crate::math::tolerance;
 use crate::mesh::feature_size::MOST_OF_MODEL;
 use crate::mesh::{Curvature, Mesh, SmoothNormals};
 use crate::view::View;
@@ -157,6 +158,11 @@ impl<'a> Seen<'a> {
             });
         }
     }
+}
+
+/// A threshold by which can be divided.
+fn positive(threshold: f64) -> f64 {
+    threshold.max(tolerance::LEAST_THRESHOLD)
 }
 
 /// How strong a line of this measure is: 0 at 1, 1 from [`FULL`] on.

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::{InsideOptions, Seen};
+use super::{InsideOptions, Seen, positive};
 use crate::lines::zero_set::{Crossing, EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
 
@@ -40,7 +40,7 @@ pub(super) fn find(
         let measure = |point: &EdgePoint, side: f64| {
             let [a, b] = point.between.map(|v| sign * seen.curvature.principal[v as usize].k1);
             let threshold = if sign * side > 0.0 { options.ridge } else { options.valley };
-            (a + (b - a) * point.t) * size / threshold
+            (a + (b - a) * point.t) * size / positive(threshold)
         };
         seen.add(&set, kind, measure, lines);
     }
@@ -62,8 +62,8 @@ fn crossing(seen: &Seen, sign: f64, a: usize, b: usize) -> Option<Crossing> {
 /// Where between the ends of an edge a curvature is greatest, of which is known which way and how
 /// fast it grows at the ends.
 pub(super) fn maximum(uphill: [DVec3; 2], edge: DVec3) -> Option<Crossing> {
-    let opposed = uphill[0].dot(uphill[1]) <= 0.0;
-    if !opposed || (uphill[0].dot(edge) < 0.0 && uphill[1].dot(edge) > 0.0) {
+    // Both ways lead away from each other, or towards each other.
+    if uphill[0].dot(uphill[1]) > 0.0 || (uphill[0] - uphill[1]).dot(edge) <= 0.0 {
         return None;
     }
     let speeds = uphill.map(DVec3::length);

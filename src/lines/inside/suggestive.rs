@@ -10,7 +10,7 @@
 //! falls to zero where the eye looks straight at the surface; DeCarlo and Rusinkiewicz,
 //! "Highlight lines for conveying shape", NPAR 2007.
 
-use super::{InsideOptions, Seen};
+use super::{InsideOptions, Seen, positive};
 use crate::lines::zero_set::{EdgePoint, trace};
 use crate::lines::{FeatureLines, LineKind};
 
@@ -34,7 +34,7 @@ pub(super) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
         move |point: &EdgePoint, side: f64| {
             let towards = cosine(point) * side;
             if towards > 0.0 {
-                sense * side * point.value(change) * size2 / (threshold * towards)
+                sense * side * point.value(change) * size2 / (positive(threshold) * towards)
             } else {
                 0.0
             }
