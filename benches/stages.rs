@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
 use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, inside};
-use ligne::mesh::{Edges, Mesh, SmoothNormals, weld};
+use ligne::mesh::{Edges, HardEdges, Mesh, SmoothNormals, weld};
 use ligne::render;
 use ligne::scene::{Camera, Geometry, Part, Scene};
 use ligne::style::Style;
@@ -45,6 +45,7 @@ struct Made {
     style: Style,
     mesh: Mesh,
     view: View,
+    hard: HardEdges,
     lines: FeatureLines,
 }
 
@@ -54,8 +55,9 @@ fn made(name: &str) -> Made {
     let style = Style::preset("ink").unwrap_or_default();
     let mesh = Mesh::build(scene.to_soup());
     let view = View::new(&mesh, &camera);
-    let lines = lines::extract(&mesh, &view, &style.lines);
-    Made { scene, camera, style, mesh, view, lines }
+    let hard = lines::hard_edges(&mesh, &style.lines);
+    let lines = lines::extract(&mesh, &hard, &view, &style.lines);
+    Made { scene, camera, style, mesh, view, hard, lines }
 }
 
 impl Made {
@@ -105,9 +107,16 @@ fn view(bencher: Bencher, name: &str) {
 }
 
 #[divan::bench(args = SCENES)]
+fn hard_edges(bencher: Bencher, name: &str) {
+    let made = made(name);
+    bencher.bench(|| HardEdges::find(black_box(&made.mesh), made.style.lines.crease_deg));
+}
+
+#[divan::bench(args = SCENES)]
 fn edge_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| lines::edge_lines::find(black_box(&made.mesh), &made.view, &made.style.lines));
+    bencher
+        .bench(|| lines::edge_lines::find(black_box(&made.mesh), &made.hard, &made.view, &made.style.lines));
 }
 
 #[divan::bench(args = SCENES)]
@@ -133,7 +142,7 @@ fn suggestive_contours(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn all_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| lines::extract(black_box(&made.mesh), &made.view, &made.style.lines));
+    bencher.bench(|| lines::extract(black_box(&made.mesh), &made.hard, &made.view, &made.style.lines));
 }
 
 #[divan::bench(args = SCENES)]

@@ -17,7 +17,8 @@ fn main() -> Result<(), Error> {
     let mesh = Mesh::build(scene.to_soup());
     let view = View::new(&mesh, &Camera::three_quarter_of(scene.up).fit(&scene));
     let options = LineOptions::default();
-    let map = viewmap::build(&mesh, &view, &lines::extract(&mesh, &view, &options), &options);
+    let hard = lines::hard_edges(&mesh, &options);
+    let map = viewmap::build(&mesh, &view, &lines::extract(&mesh, &hard, &view, &options), &options);
     let visible = map.edges.iter().filter(|edge| edge.invisibility == 0).count();
     println!("{visible} visible view edges");
 

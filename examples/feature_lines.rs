@@ -23,10 +23,11 @@ fn main() -> Result<(), Error> {
     kinds.iter().for_each(|kind| print!("{:>14}", kind.name()));
     println!();
     let options = LineOptions { crease_deg: 30.0, ..LineOptions::default() };
+    let hard = lines::hard_edges(&mesh, &options);
     for named in [NamedView::Front, NamedView::Right, NamedView::Top, NamedView::Iso] {
         let camera = Camera::named(named, scene.up).fit(&scene);
         let view = View::new(&mesh, &camera);
-        let found = lines::extract(&mesh, &view, &options);
+        let found = lines::extract(&mesh, &hard, &view, &options);
 
         print!("{:12}", named.name());
         for kind in kinds {
@@ -39,8 +40,9 @@ fn main() -> Result<(), Error> {
     let view = View::new(&mesh, &Camera::named(NamedView::Iso, scene.up).fit(&scene));
     for crease_deg in [20.0, 40.0, 80.0] {
         let options = LineOptions { kinds: vec![LineKind::Crease], crease_deg, ..LineOptions::default() };
-        let found = lines::extract(&mesh, &view, &options);
-        println!("{} edges turn by more than {crease_deg} degrees", found.segments.len());
+        let hard = lines::hard_edges(&mesh, &options);
+        let found = lines::extract(&mesh, &hard, &view, &options);
+        println!("{} edges are creases of more than {crease_deg} degrees", found.segments.len());
     }
     Ok(())
 }

@@ -21,6 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // What all views share.
     let mesh = Mesh::build(scene.to_soup());
+    let hard = lines::hard_edges(&mesh, &style.lines);
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| part.name.as_str().into()).collect();
     let materials: Vec<_> = scene.materials.iter().map(|m| (m.name.as_str().into(), m.colour)).collect();
     let hidden = style.lines.hidden;
@@ -38,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for named in six {
         let camera = Camera::named(named, scene.up).with_frame(page.width, page.height).fit(&scene);
         let view = View::new(&mesh, &camera);
-        let feature_lines = lines::extract(&mesh, &view, &style.lines);
+        let feature_lines = lines::extract(&mesh, &hard, &view, &style.lines);
         let map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
         let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
         let layers = stroke::ink(&chains, &context, &style.stroke);

@@ -20,7 +20,8 @@ fn main() -> Result<(), Error> {
 
     // Unless hidden lines are asked for, what is hidden is left out and not counted.
     let options = LineOptions { hidden: HiddenLines::Solid, ..LineOptions::default() };
-    let feature_lines = lines::extract(&mesh, &view, &options);
+    let hard = lines::hard_edges(&mesh, &options);
+    let feature_lines = lines::extract(&mesh, &hard, &view, &options);
     let map = viewmap::build(&mesh, &view, &feature_lines, &options);
 
     // Each edge of the map is a straight piece of one line, behind so many surfaces throughout.

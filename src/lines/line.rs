@@ -1,5 +1,7 @@
 //! [`FeatureSegment`]: one straight piece of a feature line, on one edge or between two faces.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::LineKind;
@@ -23,6 +25,9 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that the mesh's corners along the line are
     /// artefacts.
     pub smooth: bool,
+    /// By how much nearer to the eye its visibility is asked, world units: 0 but for contours of
+    /// rounded surfaces, which lie among faces that stand for the same surface.
+    pub lift: f32,
     /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
     /// where it does not turn.
     pub strength: f32,
@@ -42,11 +47,25 @@ impl FeatureSegment {
             kind: LineKind::Wire,
             both_seen: true,
             smooth: false,
+            lift: 0.0,
             strength: 180.0,
             part: wire.part,
             material: wire.material,
         }
     }
+}
+
+/// A contour of a rounded surface: a run of feature segments from head to tail, with the facing side
+/// of the surface on their left, seen from outside.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ContourCurve {
+    /// Its pieces in [`FeatureLines::segments`].
+    pub segments: Range<u32>,
+    /// Whether it ends where it begins.
+    pub closed: bool,
+    /// Whether the averted side of the surface is the nearer one, for each piece: the image of the
+    /// curve then runs backwards, between one cusp and the next.
+    pub backward: Vec<bool>,
 }
 
 /// All feature lines of a view.
@@ -59,6 +78,8 @@ pub struct FeatureLines {
     /// How strong the lines are at the first of these points, 0 to 1; at all other ends they are as
     /// strong as can be.
     pub strengths: Vec<f32>,
+    /// The contours of rounded surfaces among the pieces, in ascending order.
+    pub curves: Vec<ContourCurve>,
 }
 
 impl FeatureLines {

@@ -1,37 +1,49 @@
 //! Feature lines: curves on the surface that may be drawn.
 
 pub mod edge_lines;
+mod hard_contours;
 pub mod inside;
 pub mod intersections;
 pub mod kind;
 pub mod line;
-pub mod needle;
 pub mod options;
+pub mod smooth_contours;
+pub mod surface;
 pub mod zero_set;
 
 pub use inside::InsideOptions;
 pub use kind::LineKind;
-pub use line::{FeatureLines, FeatureSegment, NO_FACE};
-pub use options::{HiddenLines, LineOptions};
+pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE};
+pub use options::{Contours, HiddenLines, LineOptions};
+pub use surface::Surface;
 
-use crate::mesh::{Mesh, SmoothNormals};
+use crate::field;
 use crate::view::View;
 
-/// All feature lines of a view that the options ask for.
+/// All feature lines of a view of a surface that the options ask for.
 #[must_use]
-pub fn extract(mesh: &Mesh, view: &View, options: &LineOptions) -> FeatureLines {
+pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
     let mut lines = FeatureLines::default();
     if !options.enabled {
         return lines;
     }
-    lines.segments = edge_lines::find(mesh, view, options);
+    let Surface { mesh, hard, smooth } = surface;
+    let mut facing = field::facing(mesh, smooth, &view.frame);
+    field::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
+    let edges = edge_lines::find(surface, view, &facing, options);
+    lines.segments = edges.segments;
+    if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {
+        smooth_contours::find(mesh, view, smooth, &facing, &edges.parted, &mut lines);
+    }
     if options.kinds.contains(&LineKind::Intersection) {
         intersections::find(mesh, view, options.hidden, &mut lines);
     }
     if inside::wanted(options) {
-        let smooth = SmoothNormals::rounded(mesh);
-        let curvature = inside::curvature(mesh, &smooth, &options.inside);
-        inside::find(mesh, view, &smooth, &curvature, options, &mut lines);
+        // Contours along edges of the mesh need no normals, lines inside always do.
+        let own = smooth.is_empty().then(|| surface::normals(mesh, hard, options.contours));
+        let smooth = own.as_ref().unwrap_or(smooth);
+        let curvature = inside::curvature(mesh, smooth, &options.inside);
+        inside::find(mesh, view, smooth, &curvature, options, &mut lines);
     }
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));

@@ -18,6 +18,20 @@ pub enum HiddenLines {
     Solid,
 }
 
+/// Where the contour of a surface lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Contours {
+    /// Smooth on surfaces that are meant to be round, along edges of the mesh on all others: each
+    /// part and material by itself, from its dihedral angles and the file's normals.
+    #[default]
+    Auto,
+    /// Smooth everywhere: where the surface of the vertex normals turns away from the eye.
+    Smooth,
+    /// Along edges of the mesh everywhere: the exact contour of the polyhedron.
+    Mesh,
+}
+
 /// Which feature lines are sought and drawn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -26,6 +40,8 @@ pub struct LineOptions {
     pub enabled: bool,
     /// Kinds that are drawn. Default: contour, border, crease, material, intersection, wire.
     pub kinds: Vec<LineKind>,
+    /// Where contours lie. Default: auto.
+    pub contours: Contours,
     /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
     #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
@@ -47,6 +63,7 @@ impl Default for LineOptions {
                 LineKind::Intersection,
                 LineKind::Wire,
             ],
+            contours: Contours::Auto,
             crease_deg: 40.0,
             hidden: HiddenLines::None,
             inside: InsideOptions::default(),

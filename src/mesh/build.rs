@@ -117,7 +117,7 @@ fn border_vertices(edges: &Edges) -> Vec<u32> {
 }
 
 /// Unit normals; zero where the triangle is lower than rounding.
-fn face_normals(positions: &[DVec3], triangles: &[[u32; 3]], size: f64) -> Vec<[f32; 3]> {
+pub(super) fn face_normals(positions: &[DVec3], triangles: &[[u32; 3]], size: f64) -> Vec<[f32; 3]> {
     let normal = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|v| positions[v as usize]);
         let (u, v, w) = (b - a, c - a, c - b);

@@ -27,7 +27,8 @@ pub fn counting() -> LineOptions {
 pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
     let mesh = Mesh::build(scene.to_soup());
     let view = View::new(&mesh, camera);
-    let lines = lines::extract(&mesh, &view, options);
+    let hard = lines::hard_edges(&mesh, options);
+    let lines = lines::extract(&mesh, &hard, &view, options);
     let map = viewmap::build(&mesh, &view, &lines, options);
     Stages { mesh, view, lines, map }
 }

@@ -152,6 +152,7 @@ impl<'a> Seen<'a> {
                 kind,
                 both_seen: true,
                 smooth: true,
+                lift: 0.0,
                 strength: 0.0,
                 part: self.mesh.face_part[segment.face as usize],
                 material: self.mesh.face_material[segment.face as usize],

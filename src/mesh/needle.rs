@@ -4,7 +4,7 @@
 //! stitch a long edge to two short ones. The faces on its far side are looked up *through* it: its
 //! short edges see the face beyond its long edge, and its long edge draws nothing itself.
 
-use crate::mesh::{EdgeFaces, FaceId, Mesh};
+use super::{EdgeFaces, FaceId, Mesh};
 
 /// What lies across an edge when a needle is looked through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,244 @@
+//! [`Folds`]: the edges where a surface turns noticeably, and the chains they make end to end.
+//!
+//! Source: Hubeli and Gross, "Multiresolution feature extraction from unstructured meshes", IEEE
+//! Visualization 2001, section 3: edges are given weights, thinned and joined to lines by
+//! hysteresis. Here lines are followed straight on through junctions, and never from a ridge into
+//! a valley.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::dihedral::Dihedral;
+use super::{FaceId, Mesh};
+use crate::math::function::cos;
+
+/// Two folds whose directions make less than this cosine do not continue each other, even where no
+/// other fold ends there: 80 degrees, so that the zigzag of a regular triangulation is one chain.
+const BEND_COSINE: f64 = 0.17;
+
+/// The same where more than two folds meet: 53 degrees.
+const JUNCTION_COSINE: f64 = 0.6;
+
+/// A vertex where more folds meet is a tip, through which no line runs.
+const TIP: usize = 24;
+
+/// Folds that turn by more than this many degrees are neither ridge nor valley: the surface nearly
+/// lies on itself.
+const FLAPPED_DEG: f32 = 170.0;
+
+/// An edge at which the surface turns by more than the low threshold.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fold {
+    /// Its edge.
+    pub edge: u32,
+    /// Degrees by which the surface turns.
+    pub turn: f32,
+}
+
+/// All folds of a mesh, and which of them end at which vertex.
+pub(super) struct Folds<'a> {
+    mesh: &'a Mesh,
+    /// In edge order.
+    pub folds: Vec<Fold>,
+    /// For each vertex, where its ends begin in `ends`, and one entry more.
+    starts: Vec<u32>,
+    /// Fold shifted left by one; bit 0 says which of its vertices.
+    ends: Vec<u32>,
+}
+
+/// Folds end to end.
+pub(super) struct Chain {
+    /// In order along the chain.
+    pub folds: Vec<Fold>,
+    /// How straight it runs: the mean cosine of its bends, above 0, at most 1.
+    pub straightness: f64,
+    /// Whether its last fold continues into its first.
+    pub closed: bool,
+}
+
+/// All edges at which the surface turns by more than `low_deg` degrees, in edge order.
+pub(super) fn folds(mesh: &Mesh, low_deg: f64) -> Vec<Fold> {
+    const CHUNK: usize = 1 << 14;
+    let low_cosine = cos(low_deg.to_radians()) as f32;
+    let fold = |edge: usize| {
+        let dihedral = Dihedral::at(mesh, edge).filter(|d| d.cosine < low_cosine)?;
+        let turn = dihedral.turn();
+        (turn > low_deg as f32).then_some(Fold { edge: edge as u32, turn })
+    };
+    let chunks = mesh.edges.len().div_ceil(CHUNK);
+    let found: Vec<Vec<Fold>> = (0..chunks)
+        .into_par_iter()
+        .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len())).filter_map(fold).collect())
+        .collect();
+    found.concat()
+}
+
+impl<'a> Folds<'a> {
+    /// Sorts the ends of folds by vertex.
+    pub fn new(mesh: &'a Mesh, folds: Vec<Fold>) -> Self {
+        let vertices = |f: &Fold| mesh.edges.vertices[f.edge as usize];
+        let mut starts = vec![0u32; mesh.positions.len() + 1];
+        for v in folds.iter().flat_map(vertices) {
+            starts[v as usize] += 1;
+        }
+        let mut total = 0;
+        for start in &mut starts {
+            total += *start;
+            *start = total;
+        }
+        // Filled from behind, `starts` moves from the ends of the lists to their beginnings.
+        let mut ends = vec![0u32; 2 * folds.len()];
+        for (i, fold) in folds.iter().enumerate().rev() {
+            for (side, v) in vertices(fold).into_iter().enumerate() {
+                starts[v as usize] -= 1;
+                ends[starts[v as usize] as usize] = (i << 1 | side) as u32;
+            }
+        }
+        Self { mesh, folds, starts, ends }
+    }
+
+    /// The chains that hold a fold of more than `high_deg` degrees, each as long as it goes.
+    pub fn chains(&self, high_deg: f64) -> Vec<Chain> {
+        let links = self.links();
+        let mut taken = vec![false; self.folds.len()];
+        let mut chains = Vec::new();
+        for seed in 0..self.folds.len() {
+            if taken[seed] || self.folds[seed].turn <= high_deg as f32 {
+                continue;
+            }
+            taken[seed] = true;
+            let (mut ahead, mut cosines, closed) = walk(&links, (seed << 1 | 1) as u32, &mut taken);
+            let mut chain = Vec::new();
+            if !closed {
+                let (behind, more, _) = walk(&links, (seed << 1) as u32, &mut taken);
+                chain.extend(behind.into_iter().rev());
+                cosines += more;
+            }
+            chain.push(seed);
+            chain.append(&mut ahead);
+            let bends = chain.len() - usize::from(!closed);
+            chains.push(Chain {
+                straightness: if bends == 0 { 1.0 } else { cosines / bends as f64 },
+                folds: chain.into_iter().map(|i| self.folds[i]).collect(),
+                closed,
+            });
+        }
+        chains
+    }
+
+    /// Which ends continue each other: for each end the other one and the cosine of the bend
+    /// between them.
+    fn links(&self) -> Vec<Option<(u32, f32)>> {
+        const CHUNK: usize = 1 << 14;
+        let vertices = self.starts.len() - 1;
+        let found: Vec<Vec<Pair>> = (0..vertices.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|k| {
+                let mut pairs = Vec::new();
+                (k * CHUNK..((k + 1) * CHUNK).min(vertices)).for_each(|v| self.pair_up(v, &mut pairs));
+                pairs
+            })
+            .collect();
+        let mut links = vec![None; self.ends.len()];
+        for Pair { ends: [a, b], cosine, .. } in found.into_iter().flatten() {
+            links[a as usize] = Some((b, cosine as f32));
+            links[b as usize] = Some((a, cosine as f32));
+        }
+        links
+    }
+
+    /// Adds the pairs of ends at a vertex that continue each other.
+    fn pair_up(&self, vertex: usize, pairs: &mut Vec<Pair>) {
+        let ends = &self.ends[self.starts[vertex] as usize..self.starts[vertex + 1] as usize];
+        if !(2..=TIP).contains(&ends.len()) {
+            return;
+        }
+        let least = if ends.len() == 2 { BEND_COSINE } else { JUNCTION_COSINE };
+        let mut candidates = Vec::new();
+        for (i, a) in ends.iter().enumerate() {
+            for b in &ends[i + 1..] {
+                candidates.extend(self.pair(*a, *b, least));
+            }
+        }
+        // The best pair goes first, what is left pairs up after it; ties are broken by place, so
+        // that they do not depend on the order of the file.
+        candidates.sort_by(|a, b| b.rank.total_cmp(&a.rank).then_with(|| a.place.total_cmp(&b.place)));
+        let first = pairs.len();
+        for pair in candidates {
+            if pairs[first..].iter().all(|p| p.ends.iter().all(|end| !pair.ends.contains(end))) {
+                pairs.push(pair);
+            }
+        }
+    }
+
+    /// Two ends at one vertex as a pair, if the one continues the other.
+    fn pair(&self, a: u32, b: u32, least: f64) -> Option<Pair> {
+        let cosine = -self.away(a).dot(self.away(b));
+        if cosine < least || !self.same_bend(a, b) {
+            return None;
+        }
+        let [s, t] = [a, b].map(|end| f64::from(self.folds[(end >> 1) as usize].turn));
+        let middle = [a, b].map(|end| self.mesh.positions[self.vertex(end ^ 1)]);
+        let place = (middle[0] + middle[1]).dot(DVec3::new(1.0, 0.618, 0.414));
+        Some(Pair { ends: [a, b], cosine, rank: cosine * s.min(t) / s.max(t), place })
+    }
+
+    fn vertex(&self, end: u32) -> usize {
+        let fold = self.folds[(end >> 1) as usize];
+        self.mesh.edges.vertices[fold.edge as usize][(end & 1) as usize] as usize
+    }
+
+    /// The direction of a fold away from one of its vertices.
+    fn away(&self, end: u32) -> DVec3 {
+        let [near, far] = [end, end ^ 1].map(|end| self.mesh.positions[self.vertex(end)]);
+        (far - near).normalize_or_zero()
+    }
+
+    /// Whether two folds are both ridges or both valleys, seen from one side of the surface.
+    fn same_bend(&self, a: u32, b: u32) -> bool {
+        let [(a, outward_a), (b, outward_b)] = [a, b].map(|end| self.bend(end));
+        a * b * outward_a.dot(outward_b) >= 0.0
+    }
+
+    /// Below 0 for a ridge, above for a valley, 0 where it cannot be told; and a direction between
+    /// the normals of the two faces on the side from which it is so.
+    fn bend(&self, end: u32) -> (f64, DVec3) {
+        let fold = self.folds[(end >> 1) as usize];
+        let Some(dihedral) = Dihedral::at(self.mesh, fold.edge as usize) else { return (0.0, DVec3::ZERO) };
+        if fold.turn > FLAPPED_DEG {
+            return (0.0, DVec3::ZERO);
+        }
+        let [a, b] = dihedral.normals(self.mesh);
+        let near = self.mesh.positions[self.vertex(end)];
+        let corners = self.mesh.corners(FaceId(dihedral.faces[1])).map(|p| p - near);
+        (corners.iter().sum::<DVec3>().dot(a).signum(), a + b)
+    }
+}
+
+/// Walks on from an end of a fold: the folds on the way, the sum of the cosines of the bends
+/// between them, and whether the walk comes back to where it began.
+fn walk(links: &[Option<(u32, f32)>], from: u32, taken: &mut [bool]) -> (Vec<usize>, f64, bool) {
+    let (mut walked, mut cosines, mut end) = (Vec::new(), 0.0, from);
+    while let Some((next, cosine)) = links[end as usize] {
+        cosines += f64::from(cosine);
+        let fold = (next >> 1) as usize;
+        if taken[fold] {
+            return (walked, cosines, true);
+        }
+        taken[fold] = true;
+        walked.push(fold);
+        end = next ^ 1;
+    }
+    (walked, cosines, false)
+}
+
+/// Two ends at one vertex.
+struct Pair {
+    ends: [u32; 2],
+    /// Cosine of the bend between them.
+    cosine: f64,
+    /// How well they go together: straight on, and turning alike.
+    rank: f64,
+    /// Breaks ties.
+    place: f64,
+}

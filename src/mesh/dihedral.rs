@@ -1,0 +1,112 @@
+//! [`Dihedral`]: the two faces that meet at an edge, and by how much the surface turns there.
+//!
+//! Told from geometry, not from winding alone, so that meshes of mixed winding are judged right;
+//! faces without area are looked through.
+
+use glam::DVec3;
+
+use super::needle::{Beyond, beyond};
+use super::{EdgeFaces, EdgeMark, FaceId, Mesh};
+use crate::math::function::acos;
+
+/// Two faces with area that meet at an edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dihedral {
+    /// The two faces.
+    pub faces: [u32; 2],
+    /// Whether both run along the edge the same way, as no well-wound surface does.
+    pub same_way: bool,
+    /// Cosine of the angle by which the surface turns from one face to the other: 1 where it is
+    /// flat.
+    pub cosine: f32,
+}
+
+impl Dihedral {
+    /// The two faces of an edge; `None` at borders, where three or more faces with area meet, and
+    /// at the long edge of a needle, whose short edges speak for it.
+    #[inline]
+    #[must_use]
+    pub fn at(mesh: &Mesh, edge: usize) -> Option<Self> {
+        match mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, same_way } => {
+                let flat = faces.map(|f| mesh.is_degenerate(FaceId(f)));
+                if flat == [false; 2] {
+                    return Some(Self::of(mesh, faces, same_way));
+                }
+                beside_needle(mesh, edge, faces, flat)
+            }
+            EdgeFaces::One(_) => None,
+            EdgeFaces::Many(faces) => {
+                let mut real = faces.iter().copied().filter(|f| !mesh.is_degenerate(FaceId(*f)));
+                let (first, second, third) = (real.next()?, real.next()?, real.next());
+                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
+                third.is_none().then(|| Self::of(mesh, [first, second], same_way))
+            }
+        }
+    }
+
+    /// Two faces that are known to meet.
+    #[inline]
+    #[must_use]
+    pub fn of(mesh: &Mesh, faces: [u32; 2], same_way: bool) -> Self {
+        let [a, b] = faces.map(|f| mesh.face_normals[f as usize]);
+        let dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        Self { faces, same_way, cosine: if same_way { -dot } else { dot } }
+    }
+
+    /// Degrees by which the surface turns: 0 where it is flat, 180 where it folds back on itself.
+    #[must_use]
+    pub fn turn(&self) -> f32 {
+        acos(f64::from(self.cosine)).to_degrees() as f32
+    }
+
+    /// The normals of the two faces, both on the side that the first one calls outside.
+    #[must_use]
+    pub fn normals(&self, mesh: &Mesh) -> [DVec3; 2] {
+        let [a, b] = self.faces.map(|f| DVec3::from(mesh.face_normals[f as usize].map(f64::from)));
+        [a, if self.same_way { -b } else { b }]
+    }
+}
+
+/// Out of line: needles are rare.
+#[cold]
+fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2], flat: [bool; 2]) -> Option<Dihedral> {
+    let (face, needle) = match flat {
+        [false, true] => (faces[0], faces[1]),
+        [true, false] => (faces[1], faces[0]),
+        _ => return None,
+    };
+    let [lo, hi] = mesh.edges.vertices[edge];
+    match beyond(mesh, needle, lo, hi) {
+        Beyond::Face(other) => Some(Dihedral::of(mesh, [face, other], false)),
+        Beyond::LongEdge | Beyond::Nothing => None,
+    }
+}
+
+/// Whether a face runs along one of its edges from the smaller vertex to the larger one.
+#[must_use]
+pub fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
+    let [lo, hi] = mesh.edges.vertices[edge];
+    let [a, b, c] = mesh.triangles[face as usize];
+    [(a, b), (b, c), (c, a)].contains(&(lo, hi))
+}
+
+/// What the file says of an edge through some of its faces; the strongest mark counts.
+#[must_use]
+pub fn mark(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> EdgeMark {
+    if mesh.edge_marks.is_empty() {
+        return EdgeMark::Unmarked;
+    }
+    let [lo, hi] = mesh.edges.vertices[edge];
+    let mut strongest = EdgeMark::Unmarked;
+    for face in faces {
+        let [a, b, c] = mesh.triangles[face as usize];
+        for (side, (u, v)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+            let mark = mesh.edge_marks[face as usize][side];
+            if (u.min(v), u.max(v)) == (lo, hi) && mark as u8 > strongest as u8 {
+                strongest = mark;
+            }
+        }
+    }
+    strongest
+}

@@ -1,0 +1,145 @@
+//! [`HardEdges`]: the edges of a mesh where its surface is meant to be creased.
+//!
+//! Source: Canny, "A computational approach to edge detection", IEEE PAMI 8(6), 1986, section on
+//! thresholding with hysteresis: a line is followed from where it is surely one into where it is
+//! faint. Whether it is one at all is told by the noise around it.
+
+use rayon::prelude::*;
+
+use super::crease_chains::{Chain, Folds, folds};
+use super::dihedral::{Dihedral, mark};
+use super::roughness::Roughness;
+use super::{EdgeMark, Mesh};
+
+/// The low threshold as a share of the high one: a crease goes on where it turns by more.
+pub const LOW_OF_HIGH: f64 = 0.5;
+
+/// A chain is a crease if n²·t/σ is as large as this (see `stands_out`): one right angle by itself
+/// where the surface around is flat within a degree, six edges of 45 degrees on a scan whose
+/// triangles turn by twenty at random.
+const EVIDENCE: f64 = 80.0;
+
+/// A chain that comes back to where it began counts as so many times as long.
+const LOOP: f64 = 2.0;
+
+/// An edge is tiny if this many times its length is less than the length of the edges around it.
+const TINY: f64 = 2.0;
+
+/// Turns beyond this many degrees say no more than this one: folded slivers of scans turn by 180.
+const FULL_TURN_DEG: f64 = 90.0;
+
+/// Edges where the surface is creased: one flag for each edge of a mesh.
+///
+/// Only edges where two faces meet can be hard; the surface ends at borders, and where three faces
+/// meet, in any case.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct HardEdges {
+    /// One bit an edge, or empty if none is hard.
+    bits: Vec<u64>,
+    count: usize,
+}
+
+impl HardEdges {
+    /// Creases as chains: those that hold an edge whose faces turn by more than `crease_deg`
+    /// degrees, go on where they turn by more than half of it ([`LOW_OF_HIGH`]), and stand out
+    /// from the noise around them. Where the surface around is flat, one edge is enough; the
+    /// rougher it is, the longer and straighter a crease must be.
+    ///
+    /// What the file says of an edge goes before all this.
+    #[must_use]
+    pub fn find(mesh: &Mesh, crease_deg: f64) -> Self {
+        let folds = Folds::new(mesh, folds(mesh, LOW_OF_HIGH * crease_deg));
+        let chains = folds.chains(crease_deg);
+        let roughness = Roughness::new(mesh, crease_deg);
+        let kept: Vec<&Chain> = chains.par_iter().filter(|c| stands_out(mesh, c, &roughness)).collect();
+        let edges = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize));
+        Self::of_edges(mesh, edges).with_marks(mesh)
+    }
+
+    /// Every edge whose faces turn by more than `crease_deg` degrees, and those that the file
+    /// marks.
+    #[must_use]
+    pub fn above(mesh: &Mesh, crease_deg: f64) -> Self {
+        Self::of_edges(mesh, folds(mesh, crease_deg).iter().map(|f| f.edge as usize)).with_marks(mesh)
+    }
+
+    /// No edge.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// The same edges in a mesh made of this one whose hard edges are the same.
+    #[must_use]
+    pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {
+        if self.is_empty() {
+            return Self::none();
+        }
+        let hard = (0..from.edges.len()).filter(|e| self.is_hard(*e)).map(|e| from.edges.vertices[e]);
+        Self::of_edges(to, hard.filter_map(|ends| to.edges.vertices.binary_search(&ends).ok()))
+    }
+
+    fn of_edges(mesh: &Mesh, edges: impl Iterator<Item = usize>) -> Self {
+        let mut bits = vec![0u64; mesh.edges.len().div_ceil(64)];
+        edges.for_each(|e| bits[e / 64] |= 1 << (e % 64));
+        Self { count: count(&bits), bits }
+    }
+
+    fn with_marks(mut self, mesh: &Mesh) -> Self {
+        if mesh.edge_marks.is_empty() {
+            return self;
+        }
+        for edge in 0..mesh.edges.len() {
+            let Some(dihedral) = Dihedral::at(mesh, edge) else { continue };
+            let bit = 1 << (edge % 64);
+            match mark(mesh, edge, dihedral.faces) {
+                EdgeMark::Unmarked => {}
+                EdgeMark::Hard => self.bits[edge / 64] |= bit,
+                EdgeMark::Hidden | EdgeMark::Contour => self.bits[edge / 64] &= !bit,
+            }
+        }
+        self.count = count(&self.bits);
+        self
+    }
+
+    /// Whether the surface is creased at an edge of the mesh.
+    #[inline]
+    #[must_use]
+    pub fn is_hard(&self, edge: usize) -> bool {
+        self.bits.get(edge / 64).is_some_and(|word| word >> (edge % 64) & 1 == 1)
+    }
+
+    /// Number of hard edges.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+}
+
+fn count(bits: &[u64]) -> usize {
+    bits.iter().map(|word| word.count_ones() as usize).sum()
+}
+
+/// Whether a chain is a feature and not noise: n²·t/σ, where it is n edges long, turns by t on
+/// average, and σ is the spread of the turns around it.
+///
+/// The mean of n turns of noise spreads by σ/√n only, and noise does not go straight on: a line of
+/// it ends after two or three edges. Hence length counts for more than sharpness.
+fn stands_out(mesh: &Mesh, chain: &Chain, roughness: &Roughness) -> bool {
+    let around = roughness.around(chain);
+    let n = chain.folds.len() as f64;
+    let turn = chain.folds.iter().map(|f| f64::from(f.turn).min(FULL_TURN_DEG)).sum::<f64>() / n;
+    let ends = chain.folds.iter().map(|f| mesh.edges.vertices[f.edge as usize]);
+    let length: f64 =
+        ends.map(|[a, b]| mesh.positions[a as usize].distance(mesh.positions[b as usize])).sum();
+    // Many tiny edges are no more than one that is as long.
+    let edges = (TINY * length / around.edge_length.max(f64::MIN_POSITIVE)).clamp(1.0, n);
+    let straight = edges * chain.straightness * if chain.closed { LOOP } else { 1.0 };
+    straight * straight * turn >= EVIDENCE * around.deviation
+}

@@ -1,0 +1,327 @@
+//! Finer triangles on rounded surfaces: edges are cut in the middle of their arcs where the caller
+//! wants it, until it wants no more.
+//!
+//! Whether and where an edge is cut depends on the edge alone, so that the faces on both its sides
+//! agree and no crack opens. Faces are cut by the patterns of their cut sides.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::smooth_normals::NO_NORMAL;
+use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
+
+/// An edge is cut at most this many times over: into 256 pieces.
+const MOST_CUTS: usize = 8;
+
+/// A face that may be cut further.
+#[derive(Clone, Copy)]
+struct Piece {
+    corners: [u32; 3],
+    /// Whether the sides 0-1, 1-2, 2-0 may be cut.
+    open: [bool; 3],
+    marks: [EdgeMark; 3],
+    /// The face of the given mesh it is part of.
+    face: u32,
+}
+
+/// The mesh and its normals with all edges of rounded surfaces cut that `wanted` names, or `None`
+/// where it names none. `wanted` is given positions and unit normals of the ends of an edge, always
+/// in the same order. Edges that part surfaces are never cut. Faces that were cut lose their texture
+/// coordinates and the file's normals.
+#[must_use]
+pub fn refined(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync,
+) -> Option<(Mesh, SmoothNormals)> {
+    if smooth.is_empty() {
+        return None;
+    }
+    let marked: Vec<Vec<[u32; 2]>> = (0..mesh.edges.len().div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|k| {
+            let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
+            let ends = edges.filter_map(|edge| smooth.across(mesh, edge));
+            ends.filter(|[a, b]| {
+                let position = |v: &u32| mesh.positions[smooth.vertices[*v as usize] as usize];
+                let normal = |v: &u32| smooth.normals[*v as usize];
+                wanted([position(a), position(b)], [normal(a), normal(b)])
+            })
+            .collect()
+        })
+        .collect();
+    let marked = marked.concat();
+    if marked.is_empty() {
+        return None;
+    }
+    let mut work = Work::new(mesh, smooth);
+    for ends in marked {
+        work.cut(ends);
+    }
+    let (kept, mut open) = work.affected(mesh, smooth);
+    let mut done: Vec<Piece> = Vec::new();
+    for cuts in 0..MOST_CUTS {
+        let mut next = Vec::with_capacity(open.len() * 2);
+        for piece in &open {
+            if cuts > 0 {
+                work.decide(piece, &wanted);
+            }
+            work.split(piece, &mut next);
+        }
+        open.clear();
+        for piece in next {
+            if piece.open.contains(&true) { open.push(piece) } else { done.push(piece) }
+        }
+        if open.is_empty() {
+            break;
+        }
+    }
+    done.append(&mut open);
+    Some(work.finish(mesh, smooth, &kept, &done))
+}
+
+const CHUNK: usize = 1 << 14;
+
+struct Work {
+    /// All vertices, the new ones behind those of the mesh.
+    positions: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    /// The mesh vertex of each smooth vertex.
+    vertices: Vec<u32>,
+    /// The smooth vertex in the middle of an edge between two, [`NO_NORMAL`] where it is not cut.
+    middles: FxHashMap<[u32; 2], u32>,
+}
+
+impl Work {
+    fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
+        Self {
+            positions: mesh.positions.clone(),
+            normals: smooth.normals.clone(),
+            vertices: smooth.vertices.clone(),
+            middles: FxHashMap::default(),
+        }
+    }
+
+    fn ends(&self, ends: [u32; 2]) -> ([DVec3; 2], [DVec3; 2]) {
+        let position = |v: u32| self.positions[self.vertices[v as usize] as usize];
+        (ends.map(position), ends.map(|v| self.normals[v as usize]))
+    }
+
+    fn cut(&mut self, ends: [u32; 2]) {
+        let (positions, normals) = self.ends(ends);
+        let arc = EdgeArc::new(positions, normals);
+        self.middles.insert(ends, self.normals.len() as u32);
+        self.vertices.push(self.positions.len() as u32);
+        self.positions.push(arc.at(0.5));
+        self.normals.push(arc.middle_normal());
+    }
+
+    /// Decides about the open sides of a piece that are not decided yet.
+    fn decide(&mut self, piece: &Piece, wanted: &impl Fn([DVec3; 2], [DVec3; 2]) -> bool) {
+        for side in (0..3).filter(|side| piece.open[*side]) {
+            let ends = piece.side(side);
+            if self.middles.contains_key(&ends) {
+                continue;
+            }
+            let (positions, normals) = self.ends(ends);
+            if wanted(positions, normals) {
+                self.cut(ends);
+            } else {
+                self.middles.insert(ends, NO_NORMAL);
+            }
+        }
+    }
+
+    /// Which faces of the mesh stay as they are, and the pieces to begin with.
+    fn affected(&self, mesh: &Mesh, smooth: &SmoothNormals) -> (Vec<u32>, Vec<Piece>) {
+        let mut touched = vec![false; smooth.vertices.len()];
+        for [a, b] in self.middles.keys() {
+            (touched[*a as usize], touched[*b as usize]) = (true, true);
+        }
+        let (mut kept, mut open) = (Vec::new(), Vec::new());
+        for face in 0..mesh.triangles.len() as u32 {
+            let corners = smooth.corners_of(face).filter(|c| c.iter().any(|v| touched[*v as usize]));
+            let Some(corners) = corners else {
+                kept.push(face);
+                continue;
+            };
+            let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
+            let mut piece = Piece { corners, open: [false; 3], marks, face };
+            piece.open = [0, 1, 2].map(|side| self.middles.contains_key(&piece.side(side)));
+            if piece.open.contains(&true) { open.push(piece) } else { kept.push(face) }
+        }
+        (kept, open)
+    }
+
+    fn middle(&self, piece: &Piece, side: usize) -> Option<u32> {
+        if !piece.open[side] {
+            return None;
+        }
+        self.middles.get(&piece.side(side)).copied().filter(|middle| *middle != NO_NORMAL)
+    }
+
+    /// Cuts a piece by the pattern of its cut sides.
+    fn split(&self, piece: &Piece, out: &mut Vec<Piece>) {
+        let middles = [0, 1, 2].map(|side| self.middle(piece, side));
+        let count = middles.iter().flatten().count();
+        // Turned so that side 0 is the only cut one, or side 2 the only whole one.
+        let turn = match count {
+            1 => middles.iter().position(Option::is_some).unwrap_or(0),
+            2 => (middles.iter().position(Option::is_none).unwrap_or(0) + 1) % 3,
+            _ => 0,
+        };
+        let piece = piece.turned(turn);
+        let m = |side: usize| middles[(side + turn) % 3].unwrap_or(NO_NORMAL);
+        let [a, b, c] = piece.corners;
+        // A whole side was decided about and stays; halves and new sides may be cut again.
+        let own = |side: usize| (false, piece.marks[side]);
+        let half = |side: usize| (true, piece.marks[side]);
+        let new = (true, EdgeMark::Unmarked);
+        let mut push = |corners: [u32; 3], sides: [(bool, EdgeMark); 3]| {
+            out.push(Piece {
+                corners,
+                open: sides.map(|s| s.0),
+                marks: sides.map(|s| s.1),
+                face: piece.face,
+            });
+        };
+        match count {
+            0 => push(piece.corners, [own(0), own(1), own(2)]),
+            1 => {
+                push([a, m(0), c], [half(0), new, own(2)]);
+                push([m(0), b, c], [half(0), own(1), new]);
+            }
+            2 => {
+                push([m(0), b, m(1)], [half(0), half(1), new]);
+                let length = |p: u32, q: u32| {
+                    let (ends, _) = self.ends([p, q]);
+                    ends[0].distance_squared(ends[1])
+                };
+                if length(a, m(1)) <= length(m(0), c) {
+                    push([a, m(0), m(1)], [half(0), new, new]);
+                    push([a, m(1), c], [new, half(1), own(2)]);
+                } else {
+                    push([a, m(0), c], [half(0), new, own(2)]);
+                    push([m(0), m(1), c], [new, half(1), new]);
+                }
+            }
+            _ => {
+                push([a, m(0), m(2)], [half(0), new, half(2)]);
+                push([m(0), b, m(1)], [half(0), half(1), new]);
+                push([m(2), m(1), c], [new, half(1), half(2)]);
+                push([m(0), m(1), m(2)], [new, new, new]);
+            }
+        }
+    }
+
+    fn finish(
+        self,
+        mesh: &Mesh,
+        smooth: &SmoothNormals,
+        kept: &[u32],
+        done: &[Piece],
+    ) -> (Mesh, SmoothNormals) {
+        let faces = || kept.iter().copied().chain(done.iter().map(|piece| piece.face));
+        let triangles: Vec<[u32; 3]> = kept
+            .iter()
+            .map(|face| mesh.triangles[*face as usize])
+            .chain(done.iter().map(|piece| piece.corners.map(|v| self.vertices[v as usize])))
+            .collect();
+        let corners = kept
+            .iter()
+            .map(|face| smooth.corners[*face as usize])
+            .chain(done.iter().map(|piece| piece.corners))
+            .collect();
+        let edge_marks = if mesh.edge_marks.is_empty() {
+            Vec::new()
+        } else {
+            let of_kept = kept.iter().map(|face| mesh.edge_marks[*face as usize]);
+            of_kept.chain(done.iter().map(|piece| piece.marks)).collect()
+        };
+        let finer = Mesh {
+            origin: mesh.origin,
+            size: mesh.size,
+            face_normals: super::build::face_normals(&self.positions, &triangles, mesh.size),
+            face_part: faces().map(|f| mesh.face_part[f as usize]).collect(),
+            face_material: faces().map(|f| mesh.face_material[f as usize]).collect(),
+            edges: Edges::build(self.positions.len(), &triangles),
+            positions: self.positions,
+            triangles,
+            edge_marks,
+            wires: mesh.wires.clone(),
+            cleaning: mesh.cleaning,
+            ..Mesh::default()
+        };
+        (
+            finer,
+            SmoothNormals {
+                normals: self.normals,
+                vertices: self.vertices,
+                corners,
+                seamless: smooth.seamless,
+            },
+        )
+    }
+}
+
+impl Piece {
+    /// The smooth vertices at the ends of a side, smaller first.
+    fn side(&self, side: usize) -> [u32; 2] {
+        let (a, b) = (self.corners[side], self.corners[(side + 1) % 3]);
+        [a.min(b), a.max(b)]
+    }
+
+    fn turned(&self, by: usize) -> Self {
+        let pick = |k: usize| (k + by) % 3;
+        Self {
+            corners: [0, 1, 2].map(|k| self.corners[pick(k)]),
+            open: [0, 1, 2].map(|k| self.open[pick(k)]),
+            marks: [0, 1, 2].map(|k| self.marks[pick(k)]),
+            face: self.face,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    fn octahedron() -> Mesh {
+        let positions = vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+        let triangles =
+            vec![[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+        Mesh::build(Soup { positions, triangles, ..Soup::default() })
+    }
+
+    #[test]
+    fn a_refined_octahedron_is_a_sphere_without_cracks() {
+        let mesh = octahedron();
+        let smooth = SmoothNormals::rounded(&mesh);
+        // Only one half is refined, so that all patterns occur.
+        let wanted = |ends: [DVec3; 2], _: [DVec3; 2]| {
+            ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4 && ends[0].distance(ends[1]) > 0.1
+        };
+        let (finer, normals) = refined(&mesh, &smooth, wanted).expect("edges are longer than that");
+        assert!(finer.triangles.len() > 500);
+        assert_eq!((finer.edges.border_count(), finer.edges.non_manifold_count()), (0, 0));
+        let euler = finer.positions.len() as i64 - finer.edges.len() as i64 + finer.triangles.len() as i64;
+        assert_eq!(euler, 2);
+        for (vertex, normal) in normals.vertices.iter().zip(&normals.normals) {
+            let p = finer.positions[*vertex as usize];
+            assert!((p.length() - 1.0).abs() < 1e-9 && p.distance(*normal) < 1e-6, "{p} {normal}");
+        }
+        for face in 0..finer.triangles.len() {
+            let [a, b, c] = finer.corners(crate::mesh::FaceId(face as u32));
+            assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "every face keeps its side");
+        }
+    }
+
+    #[test]
+    fn what_nobody_wants_is_left() {
+        let mesh = octahedron();
+        assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| false).is_none());
+        assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true).is_none());
+    }
+}
