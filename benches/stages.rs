@@ -115,7 +115,8 @@ fn hard_edges(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn edge_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| lines::edge_lines::find(black_box(&made.mesh), &made.hard, &made.view, &made.style.lines));
+    bencher
+        .bench(|| lines::edge_lines::find(black_box(&made.mesh), &made.hard, &made.view, &made.style.lines));
 }
 
 #[divan::bench(args = SCENES)]
