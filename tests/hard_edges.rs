@@ -175,7 +175,7 @@ fn a_cylinder_of_twelve_sides_has_two_rims() {
 
 #[test]
 fn noise_is_no_crease() {
-    for (cuts, height) in [(4, 0.15), (4, 0.2), (5, 0.12), (5, 0.18)] {
+    for (cuts, height) in [(3, 0.3), (4, 0.25), (5, 0.22), (6, 0.22), (5, 0.3), (6, 0.3)] {
         // Heights are told as parts of the length of an edge.
         let edge = 1.4 / f64::from(1 << cuts);
         let bumpy = mesh(octasphere(cuts).moved(|p| p * (1.0 + height * edge * chance(p))));
@@ -183,7 +183,9 @@ fn noise_is_no_crease() {
         let hard = find(&bumpy).count();
         println!("{sharp} of {} edges are sharp, {hard} hard", bumpy.edges.len());
         assert!(sharp > 0);
-        assert_eq!(hard, 0, "of {sharp} sharp edges of {}", bumpy.edges.len());
+        // Where one edge in forty is sharp, chance alone makes a few long lines.
+        let most = if height < 0.3 { 0 } else { sharp / 20 };
+        assert!(hard <= most, "{hard} of {sharp} sharp edges");
     }
 }
 
