@@ -40,6 +40,7 @@ pub mod cli;
 pub mod drawing;
 pub mod error;
 pub mod export;
+pub mod field;
 pub mod lines;
 pub mod math;
 pub mod mesh;

@@ -41,7 +41,10 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
     }
     if raw.is_ring() {
         // A loop of two strokes' width is a blot.
-        return raw.smooth && length < 2.0 * tidy;
+        return match raw.class.kind {
+            LineKind::Border => scanned,
+            _ => raw.smooth && length < 2.0 * tidy,
+        };
     }
     let free = raw.ends.map(|end| degrees.is_free(end));
     let ends = [0, 1].map(|side| free[side] || raw.covered[side]);
@@ -64,6 +67,8 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
             // On exact models only what ends in the middle of a surface is doubtful.
             length < tidy && [0, 1].iter().all(|side| free[*side] && !raw.covered[*side])
         }
+        // A slit in a scan is a defect of its mesh.
+        LineKind::Border if scanned => ends[0] && ends[1],
         LineKind::Wire | LineKind::Border | LineKind::Motion => false,
         _ => length < 0.25 * tidy && free[0] && free[1],
     }

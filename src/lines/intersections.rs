@@ -35,6 +35,7 @@ pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLi
             kind: LineKind::Intersection,
             both_seen: true,
             smooth: false,
+            lift: 0.0,
             strength: 180.0,
             part: mesh.face_part[nearer],
             material: mesh.face_material[nearer],

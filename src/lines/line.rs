@@ -1,5 +1,7 @@
 //! [`FeatureSegment`]: one straight piece of a feature line, on one edge or between two faces.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::LineKind;
@@ -23,6 +25,9 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that the mesh's corners along the line are
     /// artefacts.
     pub smooth: bool,
+    /// By how much nearer to the eye its visibility is asked, world units: 0 but for contours of
+    /// rounded surfaces, which lie among faces that stand for the same surface.
+    pub lift: f32,
     /// The angle by which the surface turns across the line, degrees; 180 where there is none.
     pub strength: f32,
     /// The part of the nearer surface.
@@ -41,11 +46,26 @@ impl FeatureSegment {
             kind: LineKind::Wire,
             both_seen: true,
             smooth: false,
+            lift: 0.0,
             strength: 180.0,
             part: wire.part,
             material: wire.material,
         }
     }
+}
+
+/// A contour of a rounded surface: a run of feature segments from head to tail, with the facing side
+/// of the surface on their left, seen from outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContourCurve {
+    /// Its pieces in [`FeatureLines::segments`].
+    pub segments: Range<u32>,
+    /// Whether it ends where it begins.
+    pub closed: bool,
+    /// For each piece, positive where the facing side of the surface is the nearer one and negative
+    /// where the averted side is: there the image of the curve runs backward, between one cusp and
+    /// the next. The magnitude, 0 to 1, is how much of the piece says so.
+    pub advance: Vec<f32>,
 }
 
 /// All feature lines of a view.
@@ -55,6 +75,8 @@ pub struct FeatureLines {
     pub segments: Vec<FeatureSegment>,
     /// Ends that are no vertices of the mesh, in local space.
     pub points: Vec<DVec3>,
+    /// The contours of rounded surfaces among the pieces, in ascending order.
+    pub curves: Vec<ContourCurve>,
 }
 
 impl FeatureLines {

@@ -1,37 +1,38 @@
 //! Feature lines: curves on the surface that may be drawn.
 
 pub mod edge_lines;
+mod hard_contours;
 pub mod intersections;
 pub mod kind;
 pub mod line;
 pub mod options;
+pub mod smooth_contours;
+pub mod surface;
 pub mod zero_set;
 
 pub use kind::LineKind;
-pub use line::{FeatureLines, FeatureSegment, NO_FACE};
-pub use options::{CreaseFilter, HiddenLines, LineOptions};
+pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE};
+pub use options::{Contours, HiddenLines, LineOptions};
+pub use surface::Surface;
 
-use crate::mesh::{HardEdges, Mesh};
+use crate::field;
 use crate::view::View;
 
-/// The edges of a mesh that are creases in every view, as the options have it.
+/// All feature lines of a view of a surface that the options ask for.
 #[must_use]
-pub fn hard_edges(mesh: &Mesh, options: &LineOptions) -> HardEdges {
-    match options.crease_filter {
-        _ if !options.enabled => HardEdges::none(),
-        CreaseFilter::Chains => HardEdges::find(mesh, options.crease_deg),
-        CreaseFilter::Edges => HardEdges::above(mesh, options.crease_deg),
-    }
-}
-
-/// All feature lines of a view that the options ask for; `hard` are the creases of the mesh.
-#[must_use]
-pub fn extract(mesh: &Mesh, hard: &HardEdges, view: &View, options: &LineOptions) -> FeatureLines {
+pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
     let mut lines = FeatureLines::default();
     if !options.enabled {
         return lines;
     }
-    lines.segments = edge_lines::find(mesh, hard, view, options);
+    let Surface { mesh, smooth, .. } = surface;
+    let mut facing = field::facing(mesh, smooth, &view.frame);
+    field::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
+    let edges = edge_lines::find(surface, view, &facing, options);
+    lines.segments = edges.segments;
+    if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {
+        smooth_contours::find(mesh, view, smooth, &facing, &edges.parted, &mut lines);
+    }
     if options.kinds.contains(&LineKind::Intersection) {
         intersections::find(mesh, view, options.hidden, &mut lines);
     }

@@ -18,15 +18,18 @@ pub enum HiddenLines {
     Solid,
 }
 
-/// Which sharp edges are creases.
+/// Where the contour of a surface lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum CreaseFilter {
-    /// Those in chains that stand out from the noise around them.
+pub enum Contours {
+    /// Smooth on surfaces that are meant to be round, along edges of the mesh on all others: each
+    /// part and material by itself, from its dihedral angles and the file's normals.
     #[default]
-    Chains,
-    /// Every one by itself.
-    Edges,
+    Auto,
+    /// Smooth everywhere: where the surface of the vertex normals turns away from the eye.
+    Smooth,
+    /// Along edges of the mesh everywhere: the exact contour of the polyhedron.
+    Mesh,
 }
 
 /// Which feature lines are sought and drawn.
@@ -37,11 +40,11 @@ pub struct LineOptions {
     pub enabled: bool,
     /// Kinds that are drawn. Default: contour, border, crease, material, intersection, wire.
     pub kinds: Vec<LineKind>,
+    /// Where contours lie. Default: auto.
+    pub contours: Contours,
     /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
     #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
-    /// Which sharp edges are creases. Default: chains.
-    pub crease_filter: CreaseFilter,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
 }
@@ -58,8 +61,8 @@ impl Default for LineOptions {
                 LineKind::Intersection,
                 LineKind::Wire,
             ],
+            contours: Contours::Auto,
             crease_deg: 40.0,
-            crease_filter: CreaseFilter::Chains,
             hidden: HiddenLines::None,
         }
     }

@@ -44,6 +44,9 @@ pub const NEAR_OF_FARTHEST: f64 = 1e-5;
 /// How far beside a contour (px) the view asks whether there is only background.
 pub const BESIDE_PX: f64 = 1e-3;
 
+/// How far beside a contour of a rounded surface (px): farther than its faces stand out from it.
+pub const BESIDE_ROUNDED_PX: f64 = 1.0;
+
 /// A surface that shares a vertex with a line hides it only where it is at least this much nearer
 /// (fraction of the model): below that lies rounding.
 pub const NEIGHBOUR_OF_MODEL: f64 = 1e-10;
@@ -57,3 +60,12 @@ pub const DOUBLE_PX: f64 = 5e-3;
 /// Zero sets cross an edge of the mesh at least this fraction of it away from its ends, so that no
 /// piece of theirs is without length.
 pub const ZERO_SET_OF_EDGE: f64 = 1e-6;
+
+/// An edge of a rounded surface is cut where its arc lies farther than this (px) from it.
+pub const ARC_PX: f64 = 0.08;
+
+/// Edges no longer than this (px, seen square on) are never cut: lines over them are smooth already.
+pub const SHORT_EDGE_PX: f64 = 2.5;
+
+/// A contour that turns back in the image for no longer than this (px) has no cusp there.
+pub const CUSP_PX: f64 = 1.0;

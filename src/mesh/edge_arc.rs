@@ -9,9 +9,9 @@
 
 use glam::DVec3;
 
-/// An edge whose end normals leave the plane across it by more than this sine is no smooth curve:
-/// it stays straight.
-const STEEPEST: f64 = 0.8;
+/// The largest sine of the angle at which a curve leaves its edge: steeper ones come from normals that
+/// no surface through the ends has.
+const STEEPEST: f64 = 0.7;
 
 /// A cubic over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,17 +28,17 @@ impl EdgeArc {
     pub fn new(ends: [DVec3; 2], normals: [DVec3; 2]) -> Self {
         let chord = ends[1] - ends[0];
         let length = chord.length();
-        let rise = normals.map(|n| n.dot(chord));
-        let tangents = [0, 1].map(|k| (chord - normals[k] * rise[k]).normalize_or_zero());
-        let steep = rise.iter().any(|r| r.abs() > STEEPEST * length) || normals.contains(&DVec3::ZERO);
-        let handles = if steep || length == 0.0 {
-            [chord / 3.0, -chord / 3.0]
-        } else {
-            let turn = tangents[0].dot(tangents[1]).clamp(-1.0, 1.0);
-            let half = ((1.0 + turn) / 2.0).sqrt();
-            let reach = length * 2.0 / (3.0 * (1.0 + half));
-            [tangents[0] * reach, -tangents[1] * reach]
-        };
+        let along = chord.normalize_or_zero();
+        let tangents = normals.map(|n| {
+            let rise = n.dot(along);
+            let across = (rise * (along * rise - n)).normalize_or_zero();
+            let rise = rise.abs().min(STEEPEST);
+            along * (1.0 - rise * rise).sqrt() + across * rise
+        });
+        let turn = tangents[0].dot(tangents[1]).clamp(-1.0, 1.0);
+        let half = ((1.0 + turn) / 2.0).sqrt();
+        let reach = length * 2.0 / (3.0 * (1.0 + half));
+        let handles = [tangents[0] * reach, -tangents[1] * reach];
         Self { ends, normals, handles }
     }
 

@@ -73,6 +73,23 @@ impl HardEdges {
         Self::default()
     }
 
+    /// The same edges in a mesh made of this one whose hard edges are the same.
+    #[must_use]
+    pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {
+        if self.is_empty() {
+            return Self::none();
+        }
+        let hard = (0..from.edges.len()).filter(|e| self.is_hard(*e)).map(|e| from.edges.vertices[e]);
+        Self::of_edges(to, hard.filter_map(|ends| to.edges.vertices.binary_search(&ends).ok()))
+    }
+
+    /// The edges of these where `own` holds, and of `others` where it does not.
+    #[must_use]
+    pub fn chosen_from(&self, others: &Self, mesh: &Mesh, own: impl Fn(usize) -> bool) -> Self {
+        let hard = |e: &usize| if own(*e) { self.is_hard(*e) } else { others.is_hard(*e) };
+        Self::of_edges(mesh, (0..mesh.edges.len()).filter(hard))
+    }
+
     fn of_edges(mesh: &Mesh, edges: impl Iterator<Item = usize>) -> Self {
         let mut bits = vec![0u64; mesh.edges.len().div_ceil(64)];
         edges.for_each(|e| bits[e / 64] |= 1 << (e % 64));

@@ -15,6 +15,7 @@ pub mod refine;
 mod roughness;
 pub mod rounded;
 pub mod smooth_normals;
+pub mod solid;
 pub mod soup;
 pub mod trace;
 pub mod triangle_pair;

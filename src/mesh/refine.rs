@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::smooth_normals::NO_NORMAL;
-use super::{EdgeArc, EdgeFaces, EdgeMark, Edges, Mesh, SmoothNormals};
+use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
@@ -42,7 +42,7 @@ pub fn refined(
         .into_par_iter()
         .map(|k| {
             let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
-            let ends = edges.filter_map(|edge| smooth_ends(mesh, smooth, edge));
+            let ends = edges.filter_map(|edge| smooth.across(mesh, edge));
             ends.filter(|[a, b]| {
                 let position = |v: &u32| mesh.positions[smooth.vertices[*v as usize] as usize];
                 let normal = |v: &u32| smooth.normals[*v as usize];
@@ -82,26 +82,6 @@ pub fn refined(
 }
 
 const CHUNK: usize = 1 << 14;
-
-/// The smooth vertices at the ends of an edge, smaller first, where all faces beside it agree.
-fn smooth_ends(mesh: &Mesh, smooth: &SmoothNormals, edge: usize) -> Option<[u32; 2]> {
-    let of_face = |face: u32| {
-        let corners = smooth.corners_of(face)?;
-        let triangle = mesh.triangles[face as usize];
-        let corner = |v: u32| triangle.iter().position(|t| *t == v).map(|k| corners[k]);
-        let [a, b] = mesh.edges.vertices[edge];
-        let (a, b) = (corner(a)?, corner(b)?);
-        Some([a.min(b), a.max(b)])
-    };
-    match mesh.edges.faces(edge) {
-        EdgeFaces::One(face) => of_face(face),
-        EdgeFaces::Two { faces: [first, second], same_way } => {
-            let ends = of_face(first)?;
-            (!same_way && of_face(second)? == ends).then_some(ends)
-        }
-        EdgeFaces::Many(_) => None,
-    }
-}
 
 struct Work {
     /// All vertices, the new ones behind those of the mesh.
@@ -273,7 +253,15 @@ impl Work {
             cleaning: mesh.cleaning,
             ..Mesh::default()
         };
-        (finer, SmoothNormals { normals: self.normals, vertices: self.vertices, corners })
+        (
+            finer,
+            SmoothNormals {
+                normals: self.normals,
+                vertices: self.vertices,
+                corners,
+                seamless: smooth.seamless,
+            },
+        )
     }
 }
 

@@ -25,6 +25,8 @@ pub struct SmoothNormals {
     /// The smooth vertices at the corners of each face, [`NO_NORMAL`] at all three where the face
     /// is flat. One per face, or empty where all faces are flat.
     pub corners: Vec<[u32; 3]>,
+    /// Whether all faces are rounded and no edge is hard, so that smooth vertices are vertices.
+    pub seamless: bool,
 }
 
 impl SmoothNormals {
@@ -59,6 +61,7 @@ impl SmoothNormals {
             normals: parts.concat(),
             vertices: (0..count as u32).collect(),
             corners: mesh.triangles.clone(),
+            seamless: true,
         }
     }
 
@@ -105,7 +108,31 @@ impl SmoothNormals {
         self.corners.get(face as usize).copied().filter(|corners| corners[0] != NO_NORMAL)
     }
 
-    /// Whether any face is rounded.
+    /// The smooth vertices at the ends of an edge, smaller first, where the surface runs on across it:
+    /// all faces beside it are rounded and agree.
+    #[inline]
+    #[must_use]
+    pub fn across(&self, mesh: &Mesh, edge: usize) -> Option<[u32; 2]> {
+        let ends = mesh.edges.vertices[edge];
+        let of_face = |face: u32| {
+            let corners = self.corners_of(face)?;
+            let triangle = mesh.triangles[face as usize];
+            let corner = |v: u32| triangle.iter().position(|t| *t == v).map(|k| corners[k]);
+            let (a, b) = (corner(ends[0])?, corner(ends[1])?);
+            Some([a.min(b), a.max(b)])
+        };
+        match mesh.edges.faces(edge) {
+            EdgeFaces::Two { same_way: true, .. } | EdgeFaces::Many(_) => None,
+            _ if self.seamless => Some(ends),
+            EdgeFaces::One(face) => of_face(face),
+            EdgeFaces::Two { faces: [first, second], .. } => {
+                let ends = of_face(first)?;
+                (of_face(second)? == ends).then_some(ends)
+            }
+        }
+    }
+
+    /// Whether no face is rounded.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()

@@ -14,7 +14,7 @@ pub use stage::Stage;
 
 use crate::chain;
 use crate::drawing::{Drawing, Page, Unit};
-use crate::lines;
+use crate::lines::{self, Surface};
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
 use crate::scene::{Camera, Scene};
@@ -58,14 +58,15 @@ pub fn render_reported(
     let mut watch = Stopwatch::start();
 
     let mesh = Mesh::build(scene.to_soup());
-    let view = View::new(&mesh, camera);
+    let surface = Surface::new(mesh, &style.lines).finer_for(camera);
+    let mesh = &surface.mesh;
+    let view = View::new(mesh, camera);
     report.stages_ms.topology = watch.lap_ms();
 
-    let hard = lines::hard_edges(&mesh, &style.lines);
-    let feature_lines = lines::extract(&mesh, &hard, &view, &style.lines);
+    let feature_lines = lines::extract(&surface, &view, &style.lines);
     report.stages_ms.features = watch.lap_ms();
 
-    let mut map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
+    let mut map = viewmap::build(mesh, &view, &feature_lines, &style.lines);
     centre_on_page(&mut map, camera, &page);
     report.stages_ms.visibility = watch.lap_ms();
 
@@ -81,7 +82,7 @@ pub fn render_reported(
         None => stroke::ink(&chains, &context, &style.stroke),
         Some(Stage::Chains) => stage_drawing::of_chains(&chains, page.unit),
         Some(Stage::ViewMap) => stage_drawing::of_view_map(&map, page.unit),
-        Some(Stage::Lines) => stage_drawing::of_lines(&mesh, &view, &feature_lines, &page),
+        Some(Stage::Lines) => stage_drawing::of_lines(mesh, &view, &feature_lines, &page),
     };
     report.stages_ms.strokes = watch.lap_ms();
 
@@ -91,7 +92,7 @@ pub fn render_reported(
     report.counts.ray_tests = map.tests;
     report.counts.chains = chains.len() as u64;
     report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
-    report.warnings = defects::of_mesh(&mesh, scene).lines();
+    report.warnings = defects::of_mesh(mesh, scene).lines();
     (Drawing { title: title(scene), page, layers }, report)
 }
 

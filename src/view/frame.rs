@@ -93,6 +93,13 @@ impl Frame {
         }
     }
 
+    /// Unit vector from a local point to the eye.
+    #[inline]
+    #[must_use]
+    pub fn to_eye(&self, p: DVec3) -> DVec3 {
+        if self.perspective { (self.eye - p).normalize_or_zero() } else { -self.forward }
+    }
+
     /// Depth of an image-space nearness.
     #[inline]
     #[must_use]

@@ -7,8 +7,10 @@ use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::layers::Layer;
 use super::occlude::{Interval, Limits};
 use super::project::{ImageSegment, project};
-use super::visibility::{Visibility, decide};
+use super::rounded::{self, Rounded};
+use super::visibility::{Visibility, decide, grid_over};
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions};
+use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -30,7 +32,13 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     let limits = Limits::new(mesh.size, &view.frame);
     let segments = project(mesh, view, lines);
     let hidden = if options.hidden == HiddenLines::None { HiddenPieces::Contours } else { HiddenPieces::All };
-    let seen = decide(mesh, view, &segments, &limits, hidden == HiddenPieces::All);
+    let counting = hidden == HiddenPieces::All;
+    let (seen, rounded) = if lines.curves.is_empty() {
+        (decide(mesh, view, &segments, &limits, counting), None)
+    } else {
+        let (seen, rounded) = decide_rounded(mesh, view, lines, &segments, &limits, counting);
+        (seen, Some(rounded))
+    };
     let mut builder = Builder {
         view,
         lines,
@@ -38,14 +46,51 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
         vertex_of_end: vec![UNSET; mesh.positions.len() + lines.points.len()],
         hidden,
     };
+    let mut of_arcs: Vec<Layer> = Vec::new();
+    let mut probe = segments.len();
     for (i, segment) in segments.iter().enumerate() {
-        builder.add(segment, Seen::of(&seen, i), limits.piece);
+        let mut seen_here = Seen { hidden: seen.hidden(i), backed: seen.backed(i) };
+        let beside: Vec<Interval>;
+        if let Some(rounded) = rounded.as_ref().filter(|_| segment.is_rounded()) {
+            of_arcs.clear();
+            of_arcs.extend(rounded.of(i as u32));
+            beside = seen.hidden(probe).iter().map(|layer| layer.interval).collect();
+            probe += 1;
+            seen_here = Seen { hidden: &of_arcs, backed: &beside };
+        }
+        builder.add(segment, seen_here, limits.piece);
     }
     let mut map = builder.map;
     map.tests = seen.tests;
+    map.arcs = rounded.map(|rounded| rounded.counts).unwrap_or_default();
     doubles::remove(&mut map, limits.double, view.frame.perspective);
     map
 }
+
+/// Visibility where there are contours of rounded surfaces: these are lifted out of the faces around
+/// them, and each gets a probe behind the others that tells what lies beside it.
+fn decide_rounded(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+    limits: &Limits,
+    counting: bool,
+) -> (Visibility, Rounded) {
+    let aside = tolerance::BESIDE_ROUNDED_PX * limits.px;
+    let farthest = view.points.iter().map(|p| p.z).filter(|q| q.is_finite()).fold(f64::INFINITY, f64::min);
+    let behind = if view.frame.perspective { farthest / 2.0 } else { farthest - mesh.size };
+    let lifted = segments.iter().map(ImageSegment::lifted);
+    let rounded = segments.iter().filter(|s| s.is_rounded());
+    let asked: Vec<ImageSegment> = lifted.chain(rounded.map(|s| s.probe(aside, behind))).collect();
+    let seen = decide(mesh, view, &asked, limits, counting);
+    let grid = grid_over(segments, GRID);
+    let rounded = rounded::decide(mesh, view, lines, segments, &seen, &grid, limits.px);
+    (seen, rounded)
+}
+
+/// Tiles across the page in which lines are sought that meet.
+const GRID: u32 = 256;
 
 struct Builder<'a> {
     view: &'a View,
@@ -60,12 +105,6 @@ struct Builder<'a> {
 struct Seen<'a> {
     hidden: &'a [Layer],
     backed: &'a [Interval],
-}
-
-impl<'a> Seen<'a> {
-    fn of(visibility: &'a Visibility, segment: usize) -> Self {
-        Self { hidden: visibility.hidden(segment), backed: visibility.backed(segment) }
-    }
 }
 
 /// A piece of a segment between two parameters.

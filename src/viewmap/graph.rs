@@ -26,6 +26,8 @@ pub enum ViewVertexKind {
     TJunction,
     /// The line pierces a surface, or two lines on the surface cross.
     Piercing,
+    /// The contour of a rounded surface turns back in the image, and goes on behind the surface.
+    Cusp,
     /// Something behind the line begins or ends here; visibility does not change.
     Backdrop,
     /// The frame or the near plane cuts the line.
@@ -83,4 +85,23 @@ pub struct ViewMap {
     pub edges: Vec<ViewEdge>,
     /// How many times a feature segment was compared with a triangle to decide all this.
     pub tests: u64,
+    /// How the contours of rounded surfaces were decided.
+    pub arcs: ArcCounts,
+}
+
+/// How the contours of rounded surfaces were decided (see [`super::arcs`]).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ArcCounts {
+    /// Pieces between places where visibility may change.
+    pub arcs: u64,
+    /// Breaks inside of arcs, where faces hide a long stretch and leave another.
+    pub broken: u64,
+}
+
+impl ArcCounts {
+    /// The sum of two counts.
+    #[must_use]
+    pub const fn plus(self, other: Self) -> Self {
+        Self { arcs: self.arcs + other.arcs, broken: self.broken + other.broken }
+    }
 }

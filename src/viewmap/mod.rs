@@ -1,8 +1,10 @@
 //! [`ViewMap`]: the planar graph of the projected feature lines, cut where visibility changes.
 
+pub mod arcs;
 pub mod build;
 pub mod cover;
 pub mod doubles;
+pub mod events;
 pub mod graph;
 pub mod grid;
 mod grouped;
@@ -10,8 +12,9 @@ pub mod layers;
 pub mod occlude;
 pub mod occluders;
 pub mod project;
+mod rounded;
 mod tile;
 pub mod visibility;
 
 pub use build::build;
-pub use graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+pub use graph::{ArcCounts, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};

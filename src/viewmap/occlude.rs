@@ -49,6 +49,8 @@ pub struct Limits {
     pub beside: f64,
     /// Lines nearer to each other than this are one, user units.
     pub double: f64,
+    /// What counts as a px: a thousandth of the longer side of the frame, user units.
+    pub px: f64,
 }
 
 impl Limits {
@@ -65,6 +67,7 @@ impl Limits {
             piece: tolerance::PIECE_PX * px,
             beside: tolerance::BESIDE_PX * px,
             double: tolerance::DOUBLE_PX * px,
+            px,
         }
     }
 }

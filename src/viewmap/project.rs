@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::lines::{FeatureLines, FeatureSegment, LineKind};
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE};
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -24,6 +24,9 @@ pub struct ImageSegment {
     pub source: u32,
     /// Whether it bounds a surface in the image, so that there may be background beside it.
     pub bounds: bool,
+    /// By how much nearer visibility is asked at its two ends, in nearness; 0 but for contours of
+    /// rounded surfaces.
+    pub lift: [f64; 2],
 }
 
 impl ImageSegment {
@@ -38,6 +41,31 @@ impl ImageSegment {
         } else {
             self.a + (self.b - self.a) * t
         }
+    }
+
+    /// The segment as visibility is asked of it: nearer by its lift.
+    #[must_use]
+    pub fn lifted(&self) -> Self {
+        let [a, b] = self.lift.map(|lift| DVec3::new(0.0, 0.0, lift));
+        Self { a: self.a + a, b: self.b + b, ..*self }
+    }
+
+    /// A segment far behind everything, `aside` user units away on the outer side of a contour of a
+    /// rounded surface, whose surface lies on the left in the image: where it is hidden, something lies
+    /// beside the contour.
+    #[must_use]
+    pub fn probe(&self, aside: f64, farthest: f64) -> Self {
+        // y points down, so that the right is where `perp` points.
+        let shift = (self.b - self.a).truncate().perp().normalize_or_zero() * aside;
+        let move_out = |p: DVec3| DVec3::new(p.x + shift.x, p.y + shift.y, farthest);
+        Self { a: move_out(self.a), b: move_out(self.b), ends: [u32::MAX; 2], hosts: [NO_FACE; 2], ..*self }
+    }
+
+    /// Whether it is a contour of a rounded surface.
+    #[inline]
+    #[must_use]
+    pub fn is_rounded(&self) -> bool {
+        self.lift[0] > 0.0
     }
 
     /// Length in the image, user units.
@@ -91,6 +119,9 @@ fn project_one(
         a += d * start;
         cut[0] = true;
     }
-    let bounds = segment.kind == LineKind::Contour || segment.kind == LineKind::Border;
-    Some(ImageSegment { a, b, ends: segment.ends, cut, hosts: segment.hosts, source, bounds })
+    // Beside contours of rounded surfaces background is sought in another way.
+    let bounds =
+        segment.lift == 0.0 && (segment.kind == LineKind::Contour || segment.kind == LineKind::Border);
+    let lift = [a.z, b.z].map(|q| view.frame.nearness_step(q, f64::from(segment.lift)));
+    Some(ImageSegment { a, b, ends: segment.ends, cut, hosts: segment.hosts, source, bounds, lift })
 }

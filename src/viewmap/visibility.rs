@@ -121,7 +121,7 @@ pub fn decide(
 }
 
 /// A grid over the box around all segments.
-fn grid_over(segments: &[ImageSegment], across: u32) -> Grid {
+pub(super) fn grid_over(segments: &[ImageSegment], across: u32) -> Grid {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) =
         segments.iter().fold(nothing, |(low, high), s| (low.min(s.a).min(s.b), high.max(s.a).max(s.b)));

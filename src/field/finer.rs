@@ -1,0 +1,41 @@
+//! Coarse rounded surfaces get finer triangles where the contour may pass, so that it is round on
+//! the page; the rest of the model stays as it is.
+//!
+//! The idea of refining near the contour alone is that of Hertzmann and Zorin 2000, section 4.3.
+
+use glam::DVec3;
+
+use crate::math::tolerance;
+use crate::mesh::{EdgeArc, Mesh, SmoothNormals, refine};
+use crate::view::Frame;
+
+/// To vanish in between two values of one sign, the field has to fall from both: half of what the
+/// ends turn is the most, and a little for arcs that are longer than their chords.
+const REACH: f64 = 0.55;
+
+/// The mesh with its edges cut near the contour of a view until none is farther from its arc than
+/// [`tolerance::ARC_PX`]; `None` where they are short enough already.
+#[must_use]
+pub fn finer_near_contours(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    frame: &Frame,
+) -> Option<(Mesh, SmoothNormals)> {
+    let px = frame.width.max(frame.height) / 1000.0;
+    let wanted = |ends: [DVec3; 2], normals: [DVec3; 2]| {
+        let to_eye = ends.map(|p| frame.to_eye(p));
+        let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
+        // Between the ends the field varies by no more than normal and line of sight turn.
+        let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
+        let nearest = facing[0].abs().min(facing[1].abs());
+        if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > REACH * turn {
+            return false;
+        }
+        let depth = if frame.perspective { frame.depth(ends[0]).min(frame.depth(ends[1])) } else { 1.0 };
+        let page = frame.scale / (px * depth);
+        depth > 0.0
+            && ends[0].distance(ends[1]) * page > tolerance::SHORT_EDGE_PX
+            && EdgeArc::new(ends, normals).height().length() * page > tolerance::ARC_PX
+    };
+    refine::refined(mesh, smooth, wanted)
+}

@@ -1,0 +1,55 @@
+//! Which parts are closed surfaces that are wound outward, so that nobody sees their inside.
+
+use super::{EdgeFaces, FaceId, Mesh};
+
+/// For each part, whether all its edges have two faces that run against each other and its volume is
+/// positive. A part with a hole, however small, is not closed.
+#[must_use]
+pub fn solid_parts(mesh: &Mesh) -> Vec<bool> {
+    let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
+    let mut closed = vec![true; parts];
+    for edge in 0..mesh.edges.len() {
+        let open = match mesh.edges.faces(edge) {
+            EdgeFaces::One(face) => Some(face),
+            EdgeFaces::Two { faces, same_way } => same_way.then_some(faces[0]),
+            EdgeFaces::Many(_) => None,
+        };
+        if let Some(face) = open {
+            closed[mesh.face_part[face as usize].index()] = false;
+        }
+    }
+    let mut volume = vec![0.0; parts];
+    for (face, part) in mesh.face_part.iter().enumerate() {
+        let [a, b, c] = mesh.corners(FaceId(face as u32));
+        volume[part.index()] += a.dot(b.cross(c));
+    }
+    closed.iter().zip(volume).map(|(closed, volume)| *closed && volume > 0.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::{PartId, Soup};
+
+    #[test]
+    fn a_box_is_solid_an_open_one_and_one_inside_out_are_not() {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let outward = [[0u32, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+        let mut soup = Soup::default();
+        for (part, shift) in [0.0, 3.0, 6.0].into_iter().enumerate() {
+            let first = soup.positions.len() as u32;
+            soup.positions.extend(positions.iter().map(|p| *p + DVec3::X * shift));
+            for (k, t) in outward.iter().enumerate() {
+                let [a, b, c] = t.map(|v| v + first);
+                if part == 1 && k == 3 {
+                    continue;
+                }
+                soup.triangles.push(if part == 2 { [a, c, b] } else { [a, b, c] });
+                soup.triangle_part.push(PartId(part as u32));
+            }
+        }
+        assert_eq!(solid_parts(&Mesh::build(soup)), [true, false, false]);
+    }
+}

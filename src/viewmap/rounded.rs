@@ -1,0 +1,90 @@
+//! Visibility of the contours of rounded surfaces, put in the place of what single faces say.
+
+use rayon::prelude::*;
+
+use super::arcs::{self, Judge, Run};
+use super::events::{self, Scene};
+use super::graph::ArcCounts;
+use super::grid::Grid;
+use super::layers::Layer;
+use super::project::ImageSegment;
+use super::visibility::Visibility;
+use crate::lines::FeatureLines;
+use crate::mesh::Mesh;
+use crate::mesh::solid::solid_parts;
+use crate::view::View;
+
+const NONE: u32 = u32::MAX;
+
+/// The hidden pieces of all contours of rounded surfaces: one list per image segment, ascending, for
+/// those that `is_rounded`.
+pub(super) struct Rounded {
+    /// Hidden pieces by image segment.
+    pub hidden: Vec<(u32, Layer)>,
+    /// How they were decided.
+    pub counts: ArcCounts,
+}
+
+/// Decides them, from what faces hide of the lifted segments.
+pub(super) fn decide(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+    seen: &Visibility,
+    grid: &Grid,
+    px: f64,
+) -> Rounded {
+    let mut image_of = vec![NONE; lines.segments.len()];
+    for (i, segment) in segments.iter().enumerate() {
+        image_of[segment.source as usize] = i as u32;
+    }
+    let mut advance = vec![0.0; segments.len()];
+    for curve in &lines.curves {
+        for (source, value) in curve.segments.clone().zip(&curve.advance) {
+            if let Some(of_image) = advance.get_mut(image_of[source as usize] as usize) {
+                *of_image = *value;
+            }
+        }
+    }
+    let scene = Scene { mesh, view, segments, sources: &lines.segments, advance: &advance };
+    let events = events::find(&scene, grid);
+    let solid = solid_parts(mesh);
+    let runs: Vec<Run> = lines
+        .curves
+        .iter()
+        .flat_map(|curve| {
+            let part = lines.segments[curve.segments.start as usize].part;
+            let image = |source: u32| Some(image_of[source as usize]).filter(|id| *id != NONE);
+            arcs::runs(curve, solid.get(part.index()) == Some(&true), segments, image)
+        })
+        .collect();
+    let judge = Judge { scene: &scene, events: &events, seen, px };
+    let decided: Vec<(arcs::Decided, ArcCounts)> = runs
+        .par_iter()
+        .with_min_len(8)
+        .map(|run| {
+            let mut counts = ArcCounts::default();
+            (judge.decide(run, &mut counts), counts)
+        })
+        .collect();
+    let mut counts = ArcCounts::default();
+    let mut hidden = Vec::new();
+    for (own, of_run) in decided {
+        counts = counts.plus(of_run);
+        hidden.extend(own);
+    }
+    if std::env::var_os("ARCS").is_some() {
+        eprintln!("{counts:?}");
+    }
+    hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
+    Rounded { hidden, counts }
+}
+
+impl Rounded {
+    /// The hidden pieces of an image segment.
+    pub(super) fn of(&self, segment: u32) -> impl Iterator<Item = Layer> + '_ {
+        let first = self.hidden.partition_point(|(s, _)| *s < segment);
+        self.hidden[first..].iter().take_while(move |(s, _)| *s == segment).map(|(_, layer)| *layer)
+    }
+}
