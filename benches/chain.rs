@@ -19,6 +19,7 @@ fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
     map.vertices.extend(points.iter().map(|position| ViewVertex {
         position: *position,
         depth: 1.0,
+        strength: 1.0,
         kind: ViewVertexKind::Vertex,
     }));
     let count = points.len() as u32;

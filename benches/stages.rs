@@ -4,8 +4,9 @@ use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
-use ligne::lines::{self, FeatureLines};
-use ligne::mesh::{Edges, HardEdges, Mesh, weld};
+use ligne::field;
+use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
+use ligne::mesh::{Edges, HardEdges, Mesh, SmoothNormals, weld};
 use ligne::render;
 use ligne::scene::{Camera, Geometry, Part, Scene};
 use ligne::style::Style;
@@ -43,9 +44,8 @@ struct Made {
     scene: Scene,
     camera: Camera,
     style: Style,
-    mesh: Mesh,
+    surface: Surface,
     view: View,
-    hard: HardEdges,
     lines: FeatureLines,
 }
 
@@ -53,16 +53,15 @@ fn made(name: &str) -> Made {
     let scene = scene(name);
     let camera = Camera::three_quarter().fit(&scene);
     let style = Style::preset("ink").unwrap_or_default();
-    let mesh = Mesh::build(scene.to_soup());
-    let view = View::new(&mesh, &camera);
-    let hard = lines::hard_edges(&mesh, &style.lines);
-    let lines = lines::extract(&mesh, &hard, &view, &style.lines);
-    Made { scene, camera, style, mesh, view, hard, lines }
+    let surface = Surface::new(Mesh::build(scene.to_soup()), &style.lines).finer_for(&camera);
+    let view = View::new(&surface.mesh, &camera);
+    let lines = lines::extract(&surface, &view, &style.lines);
+    Made { scene, camera, style, surface, view, lines }
 }
 
 impl Made {
     fn view_map(&self) -> ViewMap {
-        viewmap::build(&self.mesh, &self.view, &self.lines, &self.style.lines)
+        viewmap::build(&self.surface.mesh, &self.view, &self.lines, &self.style.lines)
     }
 
     fn drawing(&self) -> Drawing {
@@ -103,26 +102,48 @@ fn mesh(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn view(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| View::new(black_box(&made.mesh), &made.camera));
+    bencher.bench(|| View::new(black_box(&made.surface.mesh), &made.camera));
 }
 
 #[divan::bench(args = SCENES)]
 fn hard_edges(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| HardEdges::find(black_box(&made.mesh), made.style.lines.crease_deg));
+    bencher.bench(|| HardEdges::find(black_box(&made.surface.mesh), made.style.lines.crease_deg));
 }
 
 #[divan::bench(args = SCENES)]
 fn edge_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher
-        .bench(|| lines::edge_lines::find(black_box(&made.mesh), &made.hard, &made.view, &made.style.lines));
+    let facing = field::facing(&made.surface.mesh, &made.surface.smooth, &made.view.frame);
+    bencher.bench(|| {
+        lines::edge_lines::find(black_box(&made.surface), &made.view, &facing, &made.style.lines).segments
+    });
+}
+
+#[divan::bench(args = SCENES)]
+fn curvature(bencher: Bencher, name: &str) {
+    let made = made(name);
+    let smooth = SmoothNormals::rounded(&made.surface.mesh);
+    bencher.bench(|| inside::curvature(black_box(&made.surface.mesh), &smooth, &InsideOptions::default()));
+}
+
+#[divan::bench(args = SCENES)]
+fn suggestive_contours(bencher: Bencher, name: &str) {
+    let made = made(name);
+    let smooth = SmoothNormals::rounded(&made.surface.mesh);
+    let options = LineOptions { kinds: vec![LineKind::Suggestive], ..LineOptions::default() };
+    let curvature = inside::curvature(&made.surface.mesh, &smooth, &options.inside);
+    bencher.bench(|| {
+        let mut lines = FeatureLines::default();
+        inside::find(black_box(&made.surface.mesh), &made.view, &smooth, &curvature, &options, &mut lines);
+        lines
+    });
 }
 
 #[divan::bench(args = SCENES)]
 fn all_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| lines::extract(black_box(&made.mesh), &made.hard, &made.view, &made.style.lines));
+    bencher.bench(|| lines::extract(black_box(&made.surface), &made.view, &made.style.lines));
 }
 
 #[divan::bench(args = SCENES)]

@@ -6,7 +6,7 @@
 
 use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{self, HiddenLines, LineOptions};
+use ligne::lines::{self, HiddenLines, LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::view::View;
 use ligne::{Camera, Error, Scene, viewmap};
@@ -14,11 +14,11 @@ use ligne::{Camera, Error, Scene, viewmap};
 fn main() -> Result<(), Error> {
     let teapot = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/teapot.obj");
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| teapot.to_owned()))?;
-    let mesh = Mesh::build(scene.to_soup());
-    let view = View::new(&mesh, &Camera::three_quarter_of(scene.up).fit(&scene));
     let options = LineOptions::default();
-    let hard = lines::hard_edges(&mesh, &options);
-    let map = viewmap::build(&mesh, &view, &lines::extract(&mesh, &hard, &view, &options), &options);
+    let camera = Camera::three_quarter_of(scene.up).fit(&scene);
+    let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
+    let view = View::new(&surface.mesh, &camera);
+    let map = viewmap::build(&surface.mesh, &view, &lines::extract(&surface, &view, &options), &options);
     let visible = map.edges.iter().filter(|edge| edge.invisibility == 0).count();
     println!("{visible} visible view edges");
 

@@ -4,7 +4,7 @@
 //! cargo run --example feature_lines [-- MODEL]
 //! ```
 
-use ligne::lines::{self, LineKind, LineOptions};
+use ligne::lines::{self, LineKind, LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::NamedView;
 use ligne::view::View;
@@ -23,11 +23,11 @@ fn main() -> Result<(), Error> {
     kinds.iter().for_each(|kind| print!("{:>14}", kind.name()));
     println!();
     let options = LineOptions { crease_deg: 30.0, ..LineOptions::default() };
-    let hard = lines::hard_edges(&mesh, &options);
+    let surface = Surface::new(mesh.clone(), &options);
     for named in [NamedView::Front, NamedView::Right, NamedView::Top, NamedView::Iso] {
         let camera = Camera::named(named, scene.up).fit(&scene);
-        let view = View::new(&mesh, &camera);
-        let found = lines::extract(&mesh, &hard, &view, &options);
+        let view = View::new(&surface.mesh, &camera);
+        let found = lines::extract(&surface, &view, &options);
 
         print!("{:12}", named.name());
         for kind in kinds {
@@ -40,8 +40,8 @@ fn main() -> Result<(), Error> {
     let view = View::new(&mesh, &Camera::named(NamedView::Iso, scene.up).fit(&scene));
     for crease_deg in [20.0, 40.0, 80.0] {
         let options = LineOptions { kinds: vec![LineKind::Crease], crease_deg, ..LineOptions::default() };
-        let hard = lines::hard_edges(&mesh, &options);
-        let found = lines::extract(&mesh, &hard, &view, &options);
+        let surface = Surface::new(mesh.clone(), &options);
+        let found = lines::extract(&surface, &view, &options);
         println!("{} edges are creases of more than {crease_deg} degrees", found.segments.len());
     }
     Ok(())

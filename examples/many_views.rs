@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ligne::drawing::{Drawing, Page, Unit};
+use ligne::lines::Surface;
 use ligne::mesh::Mesh;
 use ligne::scene::NamedView;
 use ligne::stroke::{self, InkContext};
@@ -20,8 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let style = Style::load("technical", &["lines.hidden=none".to_owned()])?;
 
     // What all views share.
-    let mesh = Mesh::build(scene.to_soup());
-    let hard = lines::hard_edges(&mesh, &style.lines);
+    let surface = Surface::new(Mesh::build(scene.to_soup()), &style.lines);
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| part.name.as_str().into()).collect();
     let materials: Vec<_> = scene.materials.iter().map(|m| (m.name.as_str().into(), m.colour)).collect();
     let hidden = style.lines.hidden;
@@ -38,9 +38,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     for named in six {
         let camera = Camera::named(named, scene.up).with_frame(page.width, page.height).fit(&scene);
-        let view = View::new(&mesh, &camera);
-        let feature_lines = lines::extract(&mesh, &hard, &view, &style.lines);
-        let map = viewmap::build(&mesh, &view, &feature_lines, &style.lines);
+        let surface = surface.clone().finer_for(&camera);
+        let view = View::new(&surface.mesh, &camera);
+        let feature_lines = lines::extract(&surface, &view, &style.lines);
+        let map = viewmap::build(&surface.mesh, &view, &feature_lines, &style.lines);
         let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
         let layers = stroke::ink(&chains, &context, &style.stroke);
 

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ligne::lines::{self, HiddenLines, LineOptions};
+use ligne::lines::{self, HiddenLines, LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::view::View;
 use ligne::viewmap::{self, ViewVertexKind};
@@ -15,14 +15,14 @@ use ligne::{Camera, Error, Scene};
 fn main() -> Result<(), Error> {
     let bracket = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/bracket.stl");
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| bracket.to_owned()))?;
-    let mesh = Mesh::build(scene.to_soup());
-    let view = View::new(&mesh, &Camera::three_quarter_of(scene.up).fit(&scene));
 
     // Unless hidden lines are asked for, what is hidden is left out and not counted.
     let options = LineOptions { hidden: HiddenLines::Solid, ..LineOptions::default() };
-    let hard = lines::hard_edges(&mesh, &options);
-    let feature_lines = lines::extract(&mesh, &hard, &view, &options);
-    let map = viewmap::build(&mesh, &view, &feature_lines, &options);
+    let camera = Camera::three_quarter_of(scene.up).fit(&scene);
+    let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
+    let view = View::new(&surface.mesh, &camera);
+    let feature_lines = lines::extract(&surface, &view, &options);
+    let map = viewmap::build(&surface.mesh, &view, &feature_lines, &options);
 
     // Each edge of the map is a straight piece of one line, behind so many surfaces throughout.
     let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();

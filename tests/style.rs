@@ -46,7 +46,7 @@ fn set(changes: &[&str]) -> Result<Style, ligne::Error> {
 #[test]
 fn every_built_in_style_loads_and_states_its_idea() {
     let names: Vec<&str> = Style::names().collect();
-    assert_eq!(names, ["ink", "plotter", "technical"]);
+    assert_eq!(names, ["ink", "plotter", "suggestive", "technical"]);
     for name in names {
         Style::load(name, &[]).unwrap_or_else(|error| panic!("{error}"));
         assert!(Style::idea(name).unwrap().ends_with('.'), "{name}");
@@ -231,7 +231,7 @@ fn a_missing_sheet_is_named() {
     let error = Style::load("nowhere/my.toml", &[]).unwrap_err().to_string();
     assert!(error.starts_with("nowhere/my.toml: cannot read the style sheet"), "{error}");
     let error = Style::load("watercolour", &[]).unwrap_err().to_string();
-    assert!(error.contains("built-in styles: ink, plotter, technical"), "{error}");
+    assert!(error.contains("built-in styles: ink, plotter, suggestive, technical"), "{error}");
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn the_defaults_of_the_documentation_are_those_of_the_code() {
     let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
     assert_eq!(style.stroke.pen, ligne::stroke::Pen::default());
     assert_eq!(style.background, Some(Colour::WHITE));
-    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncrease_deg = 40\nhidden = \"none\"\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n";
+    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncrease_deg = 40\nhidden = \"none\"\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n";
     let sheets = Sheets::new("documented", &[("all.toml", documented)]);
     assert_eq!(Style::load(&sheets.path("all.toml"), &[]).unwrap(), style);
 }

@@ -27,6 +27,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
         kind: LineKind::Intersection,
         both_seen: true,
         smooth: false,
+        lift: 0.0,
         strength: 180.0,
         part: mesh.face_part[s.faces[0] as usize],
         material: mesh.face_material[s.faces[0] as usize],
@@ -34,6 +35,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
     let lines = FeatureLines {
         points: curves.points.clone(),
         segments: curves.segments.iter().map(segment).collect(),
+        ..FeatureLines::default()
     };
     let map = viewmap::build(mesh, view, &lines, &LineOptions::default());
     let place = |vertex: viewmap::ViewVertexId| map.vertices[vertex.0 as usize].position;

@@ -13,6 +13,13 @@ const DOT: f64 = 0.3;
 /// A contour of a scan that hangs on nothing must be this many times longer.
 const FLOATING: f64 = 2.5;
 
+/// A line inside must be this many times longer than a crumb where it is as strong as can be; the
+/// weaker, the longer.
+const INSIDE: f64 = 5.0;
+
+/// Strength that a line inside must reach somewhere.
+const INSIDE_PEAK: f64 = 0.25;
+
 /// Leaves out every line that is a crumb.
 pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &[bool], tidy: f64) {
     // All are judged before any goes, so that no order matters.
@@ -35,6 +42,9 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
     let scanned = organic.get(raw.class.part.index()).copied().unwrap_or(false);
     if scanned && raw.class.kind == LineKind::Crease {
         return raw.pronounced < NOISE * tidy;
+    }
+    if raw.class.kind.is_inside() {
+        return raw.line.strength() < INSIDE * tidy || raw.line.peak() < INSIDE_PEAK;
     }
     if length >= FLOATING * tidy {
         return false;

@@ -16,7 +16,7 @@ const MOST_POINTS: usize = 40;
 
 /// Adds cubics through `points` to `path`, which stands at the first of them. Tangents point along
 /// the line. No point is left farther away than `tolerance`.
-pub(super) fn fit(points: &[Point], start: Vec2, end: Vec2, tolerance: f64, path: &mut BezPath) {
+pub(crate) fn fit(points: &[Point], start: Vec2, end: Vec2, tolerance: f64, path: &mut BezPath) {
     let last = points.len().saturating_sub(1);
     let mut from = 0;
     let mut tangent = start;
@@ -58,7 +58,7 @@ pub(super) fn fit(points: &[Point], start: Vec2, end: Vec2, tolerance: f64, path
 }
 
 /// Direction of the line at an inner point.
-pub(super) fn tangent_of(points: &[Point], i: usize) -> Vec2 {
+pub(crate) fn tangent_of(points: &[Point], i: usize) -> Vec2 {
     let last = points.len().saturating_sub(1);
     let (a, b) = (i.saturating_sub(2), (i + 2).min(last));
     unit(points[b] - points[a])
@@ -66,7 +66,7 @@ pub(super) fn tangent_of(points: &[Point], i: usize) -> Vec2 {
 
 /// Direction in which points set out, by the circle through the first, one farther on, and one in
 /// between.
-pub(super) fn end_tangent(points: impl Fn(usize) -> Point, count: usize) -> Vec2 {
+pub(crate) fn end_tangent(points: impl Fn(usize) -> Point, count: usize) -> Vec2 {
     let reach = (count - 1).min(6);
     if reach < 2 {
         return unit(points(reach) - points(0));
@@ -80,7 +80,7 @@ pub(super) fn end_tangent(points: impl Fn(usize) -> Point, count: usize) -> Vec2
     unit(unit(a) * (1.0 + la / (lb - la).max(0.1 * lb)) - unit(b) * (la / (lb - la).max(0.1 * lb)))
 }
 
-pub(super) fn unit(v: Vec2) -> Vec2 {
+pub(crate) fn unit(v: Vec2) -> Vec2 {
     let length = length(v);
     if length > 0.0 { v / length } else { Vec2::ZERO }
 }

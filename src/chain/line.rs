@@ -2,15 +2,16 @@
 
 use kurbo::Point;
 
+use super::Sample;
 use super::link::Step;
-use crate::viewmap::ViewMap;
+use crate::viewmap::{ViewMap, ViewVertex};
 
 /// A polyline in user units. A closed one does not repeat its first point.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Line {
     pub points: Vec<Point>,
-    /// Depth, one a point.
-    pub depths: Vec<f64>,
+    /// One a point.
+    pub samples: Vec<Sample>,
     /// Whether the piece that follows each point lies on a smooth surface; one a point (the last
     /// of an open line repeats the one before).
     pub soft: Vec<bool>,
@@ -27,12 +28,12 @@ impl Line {
         for step in steps {
             let vertex = &map.vertices[step.from(map).index()];
             let edge = &map.edges[step.edge as usize];
-            line.push(vertex.position, vertex.depth, noisy || edge.smooth, edge.silhouette);
+            line.push(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette);
         }
         if let (false, Some(last)) = (closed, steps.last()) {
             let vertex = &map.vertices[last.to(map).index()];
             let edge = &map.edges[last.edge as usize];
-            line.push(vertex.position, vertex.depth, noisy || edge.smooth, edge.silhouette);
+            line.push(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette);
         }
         while closed && line.points.len() > 1 && line.points.first() == line.points.last() {
             line.pop();
@@ -43,7 +44,7 @@ impl Line {
     fn with_capacity(count: usize) -> Self {
         Self {
             points: Vec::with_capacity(count),
-            depths: Vec::with_capacity(count),
+            samples: Vec::with_capacity(count),
             soft: Vec::with_capacity(count),
             silhouette: Vec::with_capacity(count),
             closed: false,
@@ -51,7 +52,7 @@ impl Line {
     }
 
     /// Adds a point, or renews the last one if it lies there already.
-    pub fn push(&mut self, point: Point, depth: f64, soft: bool, silhouette: bool) {
+    pub fn push(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool) {
         if self.points.last() == Some(&point) {
             if let (Some(was_soft), Some(was)) = (self.soft.last_mut(), self.silhouette.last_mut()) {
                 *was_soft = soft;
@@ -60,7 +61,7 @@ impl Line {
             return;
         }
         self.points.push(point);
-        self.depths.push(depth);
+        self.samples.push(sample);
         self.soft.push(soft);
         self.silhouette.push(silhouette);
     }
@@ -68,7 +69,7 @@ impl Line {
     /// Takes the last point away.
     pub fn pop(&mut self) {
         self.points.pop();
-        self.depths.pop();
+        self.samples.pop();
         self.soft.pop();
         self.silhouette.pop();
     }
@@ -80,6 +81,23 @@ impl Line {
     /// Whether any of it lies on a smooth surface.
     pub fn is_soft(&self) -> bool {
         self.soft.iter().any(|soft| *soft)
+    }
+
+    /// Its length, each part weighted by its strength.
+    pub fn strength(&self) -> f64 {
+        let n = self.len();
+        let sides = if self.closed { n } else { n.saturating_sub(1) };
+        let side = |i: usize| {
+            let j = (i + 1) % n;
+            let mean = (self.samples[i].strength + self.samples[j].strength) / 2.0;
+            mean * length(self.points[j] - self.points[i])
+        };
+        (0..sides).map(side).sum()
+    }
+
+    /// Its greatest strength.
+    pub fn peak(&self) -> f64 {
+        self.samples.iter().map(|sample| sample.strength).fold(0.0, f64::max)
     }
 
     /// The line cut open at point `start`, which is repeated at the end.
@@ -94,7 +112,7 @@ impl Line {
     pub fn slice(&self, first: usize, last: usize) -> Self {
         Self {
             points: self.points[first..=last].to_vec(),
-            depths: self.depths[first..=last].to_vec(),
+            samples: self.samples[first..=last].to_vec(),
             soft: self.soft[first..=last].to_vec(),
             silhouette: self.silhouette[first..=last].to_vec(),
             closed: false,
@@ -105,12 +123,16 @@ impl Line {
     pub fn pick(&self, index: &[usize]) -> Self {
         Self {
             points: index.iter().map(|i| self.points[*i]).collect(),
-            depths: index.iter().map(|i| self.depths[*i]).collect(),
+            samples: index.iter().map(|i| self.samples[*i]).collect(),
             soft: index.iter().map(|i| self.soft[*i]).collect(),
             silhouette: index.iter().map(|i| self.silhouette[*i]).collect(),
             closed: self.closed,
         }
     }
+}
+
+fn sample(vertex: &ViewVertex) -> Sample {
+    Sample { depth: vertex.depth, strength: f64::from(vertex.strength) }
 }
 
 /// Distance from a point to a segment, squared.

@@ -5,7 +5,7 @@ mod crumbs;
 mod curve;
 mod doubles;
 mod finish;
-mod fit;
+pub(crate) mod fit;
 mod gaps;
 mod line;
 mod link;
@@ -40,6 +40,20 @@ use tidy::tidied;
 pub struct Sample {
     /// Distance from the eye along the optical axis, world units.
     pub depth: f64,
+    /// How strong the line is here, 0 to 1. Only suggestive contours, ridges and valleys are ever
+    /// weaker than 1.
+    pub strength: f64,
+}
+
+impl Sample {
+    /// What lies between two points of a line, at part `t` of the way.
+    #[must_use]
+    pub fn lerp(self, to: Self, t: f64) -> Self {
+        Self {
+            depth: self.depth + (to.depth - self.depth) * t,
+            strength: self.strength + (to.strength - self.strength) * t,
+        }
+    }
 }
 
 /// View edges of one kind joined end to end.
@@ -95,10 +109,17 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLin
     raws.into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
 }
 
-fn chain(raw: Raw, t: Tolerances) -> Chain {
+/// Lines inside lie where noise puts them, more than contours do: smoothing may move them this many
+/// times farther.
+const INSIDE_SMOOTH: f64 = 3.0;
+
+fn chain(raw: Raw, mut t: Tolerances) -> Chain {
+    if raw.class.kind.is_inside() {
+        t.smooth *= INSIDE_SMOOTH;
+    }
     let (line, path) = finish(&raw.line, t);
     Chain {
-        samples: line.depths.iter().map(|depth| Sample { depth: *depth }).collect(),
+        samples: line.samples,
         points: line.points,
         closed: line.closed,
         kind: raw.class.kind,

@@ -18,7 +18,7 @@ pub(super) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
     let last = if line.closed { count } else { count + 1 };
     let mut even = Line {
         points: Vec::with_capacity(last),
-        depths: Vec::with_capacity(last),
+        samples: Vec::with_capacity(last),
         soft: Vec::with_capacity(last),
         silhouette: Vec::with_capacity(last),
         closed: line.closed,
@@ -33,7 +33,7 @@ pub(super) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
         let (i, j) = (side, (side + 1) % n);
         let t = if lengths[side] > 0.0 { ((at - before) / lengths[side]).clamp(0.0, 1.0) } else { 0.0 };
         even.points.push(line.points[i].lerp(line.points[j], t));
-        even.depths.push(line.depths[i] + (line.depths[j] - line.depths[i]) * t);
+        even.samples.push(line.samples[i].lerp(line.samples[j], t));
         even.soft.push(line.soft[i]);
         even.silhouette.push(line.silhouette[i]);
     }

@@ -9,6 +9,9 @@ use super::line::{Line, distance2};
 /// Points this near to the straight line between their neighbours, in user units, are rounding.
 const COLLINEAR: f64 = 1e-9;
 
+/// How much the strength of a line may be off where points are left out.
+const STRENGTH: f64 = 0.08;
+
 /// Leaves out the points that lie in line between their neighbours, and no others: a line that
 /// turns back stays as long as it is.
 pub(super) fn straighten(line: &Line) -> Line {
@@ -22,6 +25,7 @@ pub(super) fn straighten(line: &Line) -> Line {
         if let &[.., a, b] = &kept[..]
             && line.soft[a] == line.soft[b]
             && between(a, b, c)
+            && strength_off(line, b, a, c) <= STRENGTH
         {
             kept.pop();
         }
@@ -70,7 +74,8 @@ fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
     while let Some((a, b)) = open.pop() {
         let mut worst = (tolerance2, None);
         for i in a + 1..b {
-            let d = distance2(line.points[i], line.points[a], line.points[b]);
+            let off = strength_off(line, i, a, b) / STRENGTH;
+            let d = distance2(line.points[i], line.points[a], line.points[b]).max(off * off * tolerance2);
             if d > worst.0 {
                 worst = (d, Some(i));
             }
@@ -82,4 +87,16 @@ fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
         }
     }
     (0..n).filter(|i| stays[*i]).collect()
+}
+
+/// How much the strength at point `i` differs from what lies on the way from point `a` to `b`.
+fn strength_off(line: &Line, i: usize, a: usize, b: usize) -> f64 {
+    let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);
+    if from == to {
+        return (at - from).abs();
+    }
+    let way = line.points[b] - line.points[a];
+    let t =
+        ((line.points[i] - line.points[a]).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (at - (from + (to - from) * t)).abs()
 }

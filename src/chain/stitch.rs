@@ -7,6 +7,7 @@
 
 use kurbo::{Point, Vec2};
 
+use super::Sample;
 use super::line::{Line, distance2, length};
 use super::raw::{Degrees, Raw};
 
@@ -51,7 +52,7 @@ struct Stitch {
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     point: Point,
-    depth: f64,
+    sample: Sample,
     next: usize,
     trimmed: f64,
 }
@@ -245,10 +246,10 @@ impl<'a> Walk<'a> {
 
     /// The cut at part `t` of the side after point `k`.
     fn cut(&self, k: usize, t: f64, trimmed: f64) -> Cut {
-        let depth = |k: usize| self.line.depths[self.index(k)];
+        let sample = |k: usize| self.line.samples[self.index(k)];
         let point = if t > 0.0 { self.point(k).lerp(self.point(k + 1), t) } else { self.point(k) };
-        let depth = if t > 0.0 { depth(k) + (depth(k + 1) - depth(k)) * t } else { depth(k) };
-        Cut { point, depth, next: k + 1, trimmed }
+        let sample = if t > 0.0 { sample(k).lerp(sample(k + 1), t) } else { sample(k) };
+        Cut { point, sample, next: k + 1, trimmed }
     }
 
     /// The cut nearest to `p` within the first `reach` of the line, but for its very end.
@@ -307,14 +308,14 @@ fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<Cut>, end: 
     let first = begin.map_or(0, |cut| cut.next);
     let last = n - end.map_or(0, |cut| cut.next);
     if let Some(cut) = begin {
-        whole.push(cut.point, cut.depth, true, line.silhouette[index(first.min(n - 1))]);
+        whole.push(cut.point, cut.sample, true, line.silhouette[index(first.min(n - 1))]);
     }
     for k in first..last.max(first) {
         // Walked backwards, the side after a point is the one before it.
         let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
-        whole.push(line.points[index(k)], line.depths[index(k)], line.soft[side], line.silhouette[side]);
+        whole.push(line.points[index(k)], line.samples[index(k)], line.soft[side], line.silhouette[side]);
     }
     if let Some(cut) = end {
-        whole.push(cut.point, cut.depth, true, line.silhouette[index(last.max(1) - 1)]);
+        whole.push(cut.point, cut.sample, true, line.silhouette[index(last.max(1) - 1)]);
     }
 }

@@ -21,7 +21,12 @@ fn map_of(lines: &[Polyline]) -> ViewMap {
                 let position = Point::new(*x, *y);
                 let found = map.vertices.iter().position(|v| v.position == position);
                 let id = found.unwrap_or_else(|| {
-                    map.vertices.push(ViewVertex { position, depth: 1.0, kind: ViewVertexKind::Vertex });
+                    map.vertices.push(ViewVertex {
+                        position,
+                        depth: 1.0,
+                        strength: 1.0,
+                        kind: ViewVertexKind::Vertex,
+                    });
                     map.vertices.len() - 1
                 });
                 ViewVertexId(id as u32)
@@ -407,7 +412,7 @@ proptest! {
     fn simplifying_twice_is_simplifying_once(lines in walks(), tolerance in 0.1_f64..9.0) {
         for (points, ..) in lines {
             let mut line = line::Line::default();
-            points.iter().for_each(|(x, y)| line.push(Point::new(*x, *y), 1.0, true, false));
+            points.iter().for_each(|(x, y)| line.push(Point::new(*x, *y), Sample { depth: 1.0, strength: 1.0 }, true, false));
             let once = simplify::simplify(&line, tolerance);
             prop_assert_eq!(simplify::simplify(&once, tolerance), once);
         }

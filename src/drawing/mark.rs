@@ -48,6 +48,19 @@ pub struct StrokePaint {
     pub dash_offset: f64,
 }
 
+/// Ink of a line of varying width, whose outline is the mark's path; lengths in user units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutlinePaint {
+    /// Colour and opacity.
+    pub colour: Colour,
+    /// The middle of the line.
+    pub axis: BezPath,
+    /// Mean width.
+    pub width: f64,
+    /// Width where the line is strongest: that of its pen.
+    pub pen_width: f64,
+}
+
 /// How a mark is painted.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Paint {
@@ -55,6 +68,8 @@ pub enum Paint {
     Stroke(StrokePaint),
     /// A filled outline.
     Fill(Colour),
+    /// A line of varying width: the filled outline of a line.
+    Outline(OutlinePaint),
 }
 
 /// Where a mark comes from, as plain text: becomes classes and `data-` attributes in SVG, and is

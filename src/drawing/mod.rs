@@ -5,7 +5,7 @@ pub mod mark;
 pub mod page;
 
 pub use length::Length;
-pub use mark::{Cap, Join, Mark, Paint, Provenance, StrokePaint};
+pub use mark::{Cap, Join, Mark, OutlinePaint, Paint, Provenance, StrokePaint};
 pub use page::{Page, Unit};
 
 /// The layers of a drawing, back to front.

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::number::Decimals;
-use crate::drawing::{Cap, Join, Mark, Paint};
+use crate::drawing::{Cap, Join, Mark, OutlinePaint, Paint};
 use crate::math::colour::Colour;
 
 /// Value of one attribute.
@@ -24,7 +24,7 @@ enum Value {
 }
 
 /// Decimals of widths, finer than those of coordinates: 0.25 mm is 0.945 px.
-const WIDTH_DECIMALS: u8 = 3;
+pub(super) const WIDTH_DECIMALS: u8 = 3;
 
 const NAMES: [&str; 7] =
     ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linecap", "stroke-linejoin"];
@@ -58,7 +58,7 @@ impl Attributes {
                 Value::Cap(stroke.cap),
                 Value::Join(stroke.join),
             ]),
-            Paint::Fill(colour) => Self([
+            Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => Self([
                 Value::Colour(opaque(*colour)),
                 Value::Opacity(colour.a),
                 Value::None,
@@ -152,6 +152,7 @@ pub(super) fn alike(a: &Mark, b: &Mark) -> bool {
             a.width == b.width && a.colour == b.colour && a.cap == b.cap && a.join == b.join
         }
         (Paint::Fill(a), Paint::Fill(b)) => a == b,
+        (Paint::Outline(a), Paint::Outline(b)) => a.colour == b.colour,
         _ => false,
     }
 }

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::SvgOptions;
 use super::number::Decimals;
 use super::pdf_content::{Writer, state_name};
-use crate::drawing::{Drawing, LayerKind, Mark, Paint, Unit};
+use crate::drawing::{Drawing, LayerKind, Mark, OutlinePaint, Paint, Unit};
 
 /// Points, of which there are 72 to the inch, in a user unit.
 const POINTS_PER_PX: f64 = 0.75;
@@ -177,7 +177,7 @@ impl Drawing {
         let marks = self.layers.iter().flat_map(|layer| &layer.marks);
         let of_marks = marks.map(|mark| match &mark.paint {
             Paint::Stroke(stroke) => stroke.colour.a,
-            Paint::Fill(colour) => colour.a,
+            Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => colour.a,
         });
         of_marks.chain(self.page.background.map(|colour| colour.a)).collect()
     }

@@ -5,7 +5,7 @@
 use kurbo::{PathEl, Point};
 
 use super::number::Decimals;
-use crate::drawing::{Cap, Join, Mark, Paint, StrokePaint};
+use crate::drawing::{Cap, Join, Mark, OutlinePaint, Paint, StrokePaint};
 use crate::math::colour::Colour;
 
 /// Decimals of widths and dashes, as in SVG, and of the channels of colours.
@@ -40,7 +40,7 @@ impl Writer {
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"S\n");
             }
-            Paint::Fill(colour) => {
+            Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => {
                 self.set_opacity(colour.a);
                 self.set_fill(*colour);
                 self.path(mark.path.elements());

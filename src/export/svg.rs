@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::attributes::{Attributes, alike, hex};
+use super::attributes::{Attributes, WIDTH_DECIMALS, alike, hex};
 use super::number::Decimals;
 use super::path_data;
 use super::xml::{Ids, escape};
@@ -247,6 +247,14 @@ fn write_mark(
     }
     if provenance.invisibility > 0 {
         named(b" data-invisibility=\"", &provenance.invisibility.to_string());
+    }
+    if let Paint::Outline(outline) = &mark.paint {
+        out.extend_from_slice(b" data-axis=\"");
+        path_data::write(out, &outline.axis, decimals);
+        out.extend_from_slice(b"\" data-width=\"");
+        let fine = Decimals::new(WIDTH_DECIMALS);
+        fine.write(out, fine.round(outline.width));
+        out.push(b'"');
     }
     attributes.write_over(outer, out);
     if let Paint::Stroke(stroke) = &mark.paint

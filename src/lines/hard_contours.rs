@@ -53,6 +53,6 @@ fn contour(surface: &Surface, edge: &PartedEdge, ends: [u32; 2], facing: [bool; 
     let ends = if along.contains(&edge.ends) { ends } else { [ends[1], ends[0]] };
     let mut segment = surface.segment(ends, [edge.hosts[near], edge.hosts[far]], false);
     segment.strength = edge.turn;
-    // Which side is nearer is not asked: what hides a hollow edge is seldom near.
-    Piece { segment, advance: 0.0 }
+    // Taken as running forward: what hides a hollow edge is seldom near, and faces tell.
+    Piece { segment, advance: 1.0 }
 }

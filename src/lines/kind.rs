@@ -53,6 +53,12 @@ impl LineKind {
         Self::Motion,
     ];
 
+    /// Whether lines of this kind lie on a surface that does not turn away there, and may be weak.
+    #[must_use]
+    pub const fn is_inside(self) -> bool {
+        matches!(self, Self::Suggestive | Self::Ridge | Self::Valley)
+    }
+
     /// The class name in SVG and style sheets.
     #[must_use]
     pub const fn name(self) -> &'static str {

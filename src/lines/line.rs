@@ -28,7 +28,8 @@ pub struct FeatureSegment {
     /// By how much nearer to the eye its visibility is asked, world units: 0 but for contours of
     /// rounded surfaces, which lie among faces that stand for the same surface.
     pub lift: f32,
-    /// The angle by which the surface turns across the line, degrees; 180 where there is none.
+    /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
+    /// where it does not turn.
     pub strength: f32,
     /// The part of the nearer surface.
     pub part: PartId,
@@ -75,6 +76,9 @@ pub struct FeatureLines {
     pub segments: Vec<FeatureSegment>,
     /// Ends that are no vertices of the mesh, in local space.
     pub points: Vec<DVec3>,
+    /// How strong the lines are at the first of these points, 0 to 1; at all other ends they are as
+    /// strong as can be.
+    pub strengths: Vec<f32>,
     /// The contours of rounded surfaces among the pieces, in ascending order.
     pub curves: Vec<ContourCurve>,
 }
@@ -87,5 +91,12 @@ impl FeatureLines {
         let end = end as usize;
         let vertices = mesh.positions.len();
         if end < vertices { mesh.positions[end] } else { self.points[end - vertices] }
+    }
+    /// How strong the lines are at an end, 0 to 1.
+    #[inline]
+    #[must_use]
+    pub fn strength(&self, mesh: &Mesh, end: u32) -> f32 {
+        let point = (end as usize).checked_sub(mesh.positions.len());
+        point.and_then(|point| self.strengths.get(point)).copied().unwrap_or(1.0)
     }
 }

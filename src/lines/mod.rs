@@ -2,6 +2,7 @@
 
 pub mod edge_lines;
 mod hard_contours;
+pub mod inside;
 pub mod intersections;
 pub mod kind;
 pub mod line;
@@ -10,6 +11,7 @@ pub mod smooth_contours;
 pub mod surface;
 pub mod zero_set;
 
+pub use inside::InsideOptions;
 pub use kind::LineKind;
 pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE};
 pub use options::{Contours, HiddenLines, LineOptions};
@@ -25,7 +27,7 @@ pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> Feature
     if !options.enabled {
         return lines;
     }
-    let Surface { mesh, smooth, .. } = surface;
+    let Surface { mesh, hard, smooth } = surface;
     let mut facing = field::facing(mesh, smooth, &view.frame);
     field::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
     let edges = edge_lines::find(surface, view, &facing, options);
@@ -35,6 +37,13 @@ pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> Feature
     }
     if options.kinds.contains(&LineKind::Intersection) {
         intersections::find(mesh, view, options.hidden, &mut lines);
+    }
+    if inside::wanted(options) {
+        // Contours along edges of the mesh need no normals, lines inside always do.
+        let own = smooth.is_empty().then(|| surface::normals(mesh, hard, options.contours));
+        let smooth = own.as_ref().unwrap_or(smooth);
+        let curvature = inside::curvature(mesh, smooth, &options.inside);
+        inside::find(mesh, view, smooth, &curvature, options, &mut lines);
     }
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));

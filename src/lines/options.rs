@@ -3,7 +3,7 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::LineKind;
+use super::{InsideOptions, LineKind};
 
 /// What becomes of lines behind surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -47,6 +47,8 @@ pub struct LineOptions {
     pub crease_deg: f64,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
+    /// How suggestive contours, ridges and valleys are found.
+    pub inside: InsideOptions,
 }
 
 impl Default for LineOptions {
@@ -64,6 +66,7 @@ impl Default for LineOptions {
             contours: Contours::Auto,
             crease_deg: 40.0,
             hidden: HiddenLines::None,
+            inside: InsideOptions::default(),
         }
     }
 }

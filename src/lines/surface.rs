@@ -40,10 +40,7 @@ impl Surface {
             let hard = HardEdges::above(&mesh, options.crease_deg);
             return Self { mesh, hard, smooth: SmoothNormals::default() };
         }
-        let rounded = match options.contours {
-            Contours::Smooth => vec![true; mesh.triangles.len()],
-            _ => rounded_faces(&mesh),
-        };
+        let rounded = rounded(&mesh, options.contours);
         let hard = hard_edges(&mesh, &rounded, options.crease_deg);
         let smooth = SmoothNormals::new(&mesh, |f| rounded[f as usize], |e| is_hard(&mesh, e, &hard));
         Self { mesh, hard, smooth }
@@ -59,6 +56,20 @@ impl Surface {
             Some((mesh, smooth)) => Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth },
         }
     }
+}
+
+/// The faces of the parts that are meant to be round, or all with [`Contours::Smooth`].
+fn rounded(mesh: &Mesh, contours: Contours) -> Vec<bool> {
+    match contours {
+        Contours::Smooth => vec![true; mesh.triangles.len()],
+        _ => rounded_faces(mesh),
+    }
+}
+
+/// The normals of the rounded parts, whatever the options say of contours.
+pub(super) fn normals(mesh: &Mesh, hard: &HardEdges, contours: Contours) -> SmoothNormals {
+    let rounded = rounded(mesh, contours);
+    SmoothNormals::new(mesh, |f| rounded[f as usize], |e| is_hard(mesh, e, hard))
 }
 
 /// Creases: on rounded parts, whose faces turn at every edge, they turn by more than elsewhere.

@@ -2,4 +2,5 @@
 
 pub mod colour;
 pub mod function;
+pub mod linear;
 pub mod tolerance;

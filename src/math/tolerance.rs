@@ -69,3 +69,7 @@ pub const SHORT_EDGE_PX: f64 = 2.5;
 
 /// A contour that turns back in the image for no longer than this (px) has no cusp there.
 pub const CUSP_PX: f64 = 1.0;
+
+/// A threshold of lines inside below this counts as this; thresholds are pure numbers, measured by
+/// the size of features.
+pub const LEAST_THRESHOLD: f64 = 1e-9;

@@ -58,6 +58,8 @@ pub fn render_reported(
     let mut watch = Stopwatch::start();
 
     let mesh = Mesh::build(scene.to_soup());
+    report.counts.vertices = mesh.positions.len() as u64;
+    report.counts.edges = mesh.edges.len() as u64;
     let surface = Surface::new(mesh, &style.lines).finer_for(camera);
     let mesh = &surface.mesh;
     let view = View::new(mesh, camera);
@@ -86,10 +88,10 @@ pub fn render_reported(
     };
     report.stages_ms.strokes = watch.lap_ms();
 
-    report.counts.vertices = mesh.positions.len() as u64;
-    report.counts.edges = mesh.edges.len() as u64;
     report.counts.feature_edges = feature_lines.segments.len() as u64;
     report.counts.ray_tests = map.tests;
+    report.counts.contour_arcs = map.arcs.arcs;
+    report.counts.contour_breaks = map.arcs.broken;
     report.counts.chains = chains.len() as u64;
     report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
     report.warnings = defects::of_mesh(mesh, scene).lines();

@@ -42,6 +42,10 @@ pub struct Counts {
     pub feature_edges: u64,
     /// Rays that decided what is hidden.
     pub ray_tests: u64,
+    /// Pieces of contours of rounded surfaces between places where visibility may change.
+    pub contour_arcs: u64,
+    /// Places within such a piece where it is broken all the same.
+    pub contour_breaks: u64,
     /// Chains.
     pub chains: u64,
     /// Paths of the drawing.
@@ -116,7 +120,7 @@ mod tests {
         let json = report.to_json();
         let names = [
             "stages_ms load topology pose features visibility chains strokes regions hatching write",
-            "counts triangles vertices edges feature_edges ray_tests chains paths points regions bytes_out",
+            "counts triangles vertices edges feature_edges ray_tests contour_arcs contour_breaks chains paths points regions bytes_out",
             "warnings",
         ];
         let mut rest = json.as_str();

@@ -3,6 +3,7 @@
 pub mod dash;
 pub mod glob;
 pub mod options;
+mod outline;
 pub mod pen;
 pub mod travel;
 
@@ -16,9 +17,10 @@ pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions}
 pub use pen::{Ink, Pen, PenChange};
 
 use crate::chain::Chain;
-use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, StrokePaint, Unit};
+use crate::drawing::{Layer, LayerKind, Length, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
 use crate::lines::HiddenLines;
 use crate::math::colour::Colour;
+use outline::Swell;
 
 /// What strokes need of the scene and the page: names, colours and the unit.
 #[derive(Debug, Clone, Copy)]
@@ -81,6 +83,21 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
     };
     colour.a = (f64::from(colour.a) * pen.opacity).round() as u8;
     let solid = pen.dash.is_empty() || (chain.invisibility > 0 && context.hidden == HiddenLines::Solid);
+    if solid
+        && pen.fade > 0.0
+        && outline::varies(chain)
+        && let Some(outline) = outline::outline(
+            chain,
+            &Swell { width, fade: pen.fade, cap: pen.cap, px: Length::px(1.0).in_unit(context.unit) },
+        )
+    {
+        let axis = chain.path.clone();
+        return Some(Mark {
+            path: outline.path,
+            paint: Paint::Outline(OutlinePaint { colour, axis, width: outline.width, pen_width: width }),
+            provenance: provenance(chain, context),
+        });
+    }
     let (dash, dash_offset) = if solid {
         (Vec::new(), 0.0)
     } else {
@@ -117,6 +134,7 @@ fn by_pen(kind: LayerKind, marks: Vec<Mark>, unit: Unit) -> Vec<Layer> {
     for mark in marks {
         let pen = match &mark.paint {
             Paint::Stroke(stroke) => (stroke.width, stroke.colour),
+            Paint::Outline(outline) => (outline.pen_width, outline.colour),
             Paint::Fill(colour) => (0.0, *colour),
         };
         let index = pens.iter().position(|known| *known == pen).unwrap_or_else(|| {

@@ -31,6 +31,9 @@ pub struct Pen {
     pub dash: Vec<Length>,
     /// 0 = invisible, 1 = opaque; multiplies the colour's own. Default: 1.
     pub opacity: f64,
+    /// How much of its width a line loses where it is weakest: 0 = none, 1 = all. Only suggestive
+    /// contours, ridges and valleys are ever weak. Default: 1.
+    pub fade: f64,
 }
 
 impl Default for Pen {
@@ -42,6 +45,7 @@ impl Default for Pen {
             join: Join::Round,
             dash: Vec::new(),
             opacity: 1.0,
+            fade: 1.0,
         }
     }
 }
@@ -64,6 +68,9 @@ pub struct PenChange {
     /// Opacity, 0 to 1.
     #[serde(deserialize_with = "fraction")]
     pub opacity: Option<f64>,
+    /// Part of the width that is lost where a line is weakest, 0 to 1.
+    #[serde(deserialize_with = "fraction")]
+    pub fade: Option<f64>,
 }
 
 impl PenChange {
@@ -86,6 +93,9 @@ impl PenChange {
         }
         if let Some(opacity) = self.opacity {
             pen.opacity = opacity;
+        }
+        if let Some(fade) = self.fade {
+            pen.fade = fade;
         }
     }
 }

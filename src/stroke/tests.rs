@@ -11,7 +11,7 @@ fn chain(kind: LineKind, x: f64) -> Chain {
     path.move_to(points[0]);
     path.line_to(points[1]);
     Chain {
-        samples: vec![Sample { depth: 1.0 }; 2],
+        samples: vec![Sample { depth: 1.0, strength: 1.0 }; 2],
         points,
         closed: false,
         kind,
@@ -38,7 +38,7 @@ fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
 fn stroke(mark: &Mark) -> &StrokePaint {
     match &mark.paint {
         Paint::Stroke(stroke) => stroke,
-        Paint::Fill(_) => panic!("a fill"),
+        Paint::Fill(_) | Paint::Outline(_) => panic!("no stroke"),
     }
 }
 

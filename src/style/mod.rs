@@ -33,9 +33,10 @@ impl Default for Style {
 }
 
 /// The built-in sheets, by name: the file styles/NAME.toml.
-const BUILT_IN: [(&str, &str); 3] = [
+const BUILT_IN: [(&str, &str); 4] = [
     ("ink", include_str!("../../styles/ink.toml")),
     ("plotter", include_str!("../../styles/plotter.toml")),
+    ("suggestive", include_str!("../../styles/suggestive.toml")),
     ("technical", include_str!("../../styles/technical.toml")),
 ];
 

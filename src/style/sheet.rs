@@ -52,6 +52,8 @@ struct PenTable {
     dash: Option<Vec<Length>>,
     #[serde(deserialize_with = "fraction")]
     opacity: Option<f64>,
+    #[serde(deserialize_with = "fraction")]
+    fade: Option<f64>,
 
     contour: PenChange,
     border: PenChange,
@@ -94,8 +96,8 @@ impl PenTable {
     /// whether it is thick or thin, then whether it is a silhouette, then whether it is hidden.
     fn into_options(self) -> StrokeOptions {
         let mut pen = Pen::default();
-        let Self { width, colour, cap, join, dash, opacity, .. } = self;
-        PenChange { width, colour, cap, join, dash, opacity }.apply(&mut pen);
+        let Self { width, colour, cap, join, dash, opacity, fade, .. } = self;
+        PenChange { width, colour, cap, join, dash, opacity, fade }.apply(&mut pen);
 
         let kinds = [
             (LineKind::Contour, self.contour),

@@ -76,36 +76,6 @@ impl Judge<'_> {
                 continue;
             }
             let length = self.length(run, arc.from, arc.to);
-            if std::env::var_os("ARCS").is_some() && length > self.px {
-                let mid = (arc.from + arc.to) / 2.0;
-                let mut seen = 0.0;
-                each_part_at(run, arc.from, arc.to, |k, _, f, t| {
-                    let l = self.segment_length(run, k);
-                    seen += (t - f) * l;
-                    for la in self.seen.hidden(run.segments[k] as usize) {
-                        seen -= (la.interval.end.min(t) - la.interval.start.max(f)).max(0.0) * l;
-                    }
-                });
-                let p = |at| {
-                    let s = &self.scene.segments[run.segments[run_index(at, n)] as usize];
-                    s.a
-                };
-                let (a, b, c) = (p(arc.from), p(mid), p(arc.to - 1e-9));
-                eprintln!(
-                    "arc {:.0},{:.0} {:.0},{:.0} {:.0},{:.0} len {length:.1} share {:.2} cov {:?} kinds {:?} back {} solid {}",
-                    a.x,
-                    a.y,
-                    b.x,
-                    b.y,
-                    c.x,
-                    c.y,
-                    seen / length,
-                    arc.covered,
-                    arc.kinds,
-                    backward[run_index(mid, n)],
-                    run.solid
-                );
-            }
             let cusp = arc.kinds.contains(&ViewVertexKind::Cusp);
             if cusp && length < SPUR_PX * self.px && (arc.covered[0] || arc.covered[1]) {
                 self.hide(run, arc.from, arc.to, arc.kinds, &mut decided);

@@ -40,6 +40,7 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
         (seen, Some(rounded))
     };
     let mut builder = Builder {
+        mesh,
         view,
         lines,
         map: ViewMap::default(),
@@ -93,6 +94,7 @@ fn decide_rounded(
 const GRID: u32 = 256;
 
 struct Builder<'a> {
+    mesh: &'a Mesh,
     view: &'a View,
     lines: &'a FeatureLines,
     map: ViewMap,
@@ -148,25 +150,29 @@ impl Builder<'_> {
     /// The node at an end of a segment: shared by all segments that end there.
     fn end_vertex(&mut self, segment: &ImageSegment, end: usize) -> ViewVertexId {
         let point = if end == 0 { segment.a } else { segment.b };
+        let source = &self.lines.segments[segment.source as usize];
+        let strength = self.lines.strength(self.mesh, source.ends[end]);
         if segment.cut[end] {
-            return self.push_vertex(point, ViewVertexKind::Frame);
+            return self.push_vertex(point, strength, ViewVertexKind::Frame);
         }
         let slot = segment.ends[end] as usize;
         if self.vertex_of_end[slot] == UNSET {
             self.vertex_of_end[slot] = self.map.vertices.len() as u32;
-            self.push_vertex(point, ViewVertexKind::Vertex);
+            self.push_vertex(point, strength, ViewVertexKind::Vertex);
         }
         ViewVertexId(self.vertex_of_end[slot])
     }
 
     fn cut_vertex(&mut self, segment: &ImageSegment, t: f64, kind: ViewVertexKind) -> ViewVertexId {
-        self.push_vertex(segment.at(t), kind)
+        let ends = self.lines.segments[segment.source as usize].ends;
+        let [from, to] = ends.map(|end| self.lines.strength(self.mesh, end));
+        self.push_vertex(segment.at(t), from + (to - from) * t as f32, kind)
     }
 
-    fn push_vertex(&mut self, point: glam::DVec3, kind: ViewVertexKind) -> ViewVertexId {
+    fn push_vertex(&mut self, point: glam::DVec3, strength: f32, kind: ViewVertexKind) -> ViewVertexId {
         let id = ViewVertexId(self.map.vertices.len() as u32);
         let depth = self.view.frame.depth_of(point.z);
-        self.map.vertices.push(ViewVertex { position: Point::new(point.x, point.y), depth, kind });
+        self.map.vertices.push(ViewVertex { position: Point::new(point.x, point.y), depth, strength, kind });
         id
     }
 }

@@ -189,6 +189,7 @@ fn cut(
             } else {
                 a.depth + (b.depth - a.depth) * t
             },
+            strength: a.strength + (b.strength - a.strength) * t as f32,
             kind: ViewVertexKind::TJunction,
         });
         id
@@ -223,7 +224,12 @@ mod tests {
         for (i, (a, b, kind)) in lines.iter().enumerate() {
             for p in [a, b] {
                 let position = Point::new(p.0, p.1);
-                map.vertices.push(ViewVertex { position, depth: 1.0, kind: ViewVertexKind::Vertex });
+                map.vertices.push(ViewVertex {
+                    position,
+                    depth: 1.0,
+                    strength: 1.0,
+                    kind: ViewVertexKind::Vertex,
+                });
             }
             map.edges.push(ViewEdge {
                 start: ViewVertexId(2 * i as u32),

@@ -41,6 +41,8 @@ pub struct ViewVertex {
     pub position: Point,
     /// Distance from the eye along the optical axis, world units.
     pub depth: f64,
+    /// How strong the lines are here, 0 to 1: only lines inside are ever weaker than 1.
+    pub strength: f32,
     /// Why there is a node here.
     pub kind: ViewVertexKind,
 }

@@ -74,9 +74,6 @@ pub(super) fn decide(
         counts = counts.plus(of_run);
         hidden.extend(own);
     }
-    if std::env::var_os("ARCS").is_some() {
-        eprintln!("{counts:?}");
-    }
     hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
     Rounded { hidden, counts }
 }

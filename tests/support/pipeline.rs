@@ -3,7 +3,7 @@
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
-use ligne::lines::{self, FeatureLines, HiddenLines, LineKind, LineOptions};
+use ligne::lines::{self, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
 use ligne::view::View;
@@ -25,12 +25,11 @@ pub fn counting() -> LineOptions {
 }
 
 pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
-    let mesh = Mesh::build(scene.to_soup());
-    let view = View::new(&mesh, camera);
-    let hard = lines::hard_edges(&mesh, options);
-    let lines = lines::extract(&mesh, &hard, &view, options);
-    let map = viewmap::build(&mesh, &view, &lines, options);
-    Stages { mesh, view, lines, map }
+    let surface = Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera);
+    let view = View::new(&surface.mesh, camera);
+    let lines = lines::extract(&surface, &view, options);
+    let map = viewmap::build(&surface.mesh, &view, &lines, options);
+    Stages { mesh: surface.mesh, view, lines, map }
 }
 
 impl Stages {
