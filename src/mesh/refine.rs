@@ -11,6 +11,10 @@ use rustc_hash::FxHashMap;
 use super::smooth_normals::NO_NORMAL;
 use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
 
+/// A mesh of which no more than one edge in so many is wanted is dense enough as it is: what is left
+/// are slivers, and building all of it anew would cost more than they show.
+const FEW: usize = 1000;
+
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
 
@@ -57,7 +61,7 @@ pub fn refined(
         })
         .collect();
     let marked = marked.concat();
-    if marked.is_empty() {
+    if marked.len() <= mesh.edges.len() / FEW {
         return None;
     }
     let mut work = Work::new(mesh, smooth);
