@@ -18,7 +18,9 @@ use ligne::lines::{HiddenLines, LineKind, LineOptions};
 use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
 use ligne::viewmap::ViewVertexKind;
-use pipeline::{Stages, counting, exact, geometry, orthographic, perspective, scene, scene_of_geometries, stages};
+use pipeline::{
+    Stages, counting, exact, geometry, orthographic, perspective, scene, scene_of_geometries, stages,
+};
 use segments::{cover_alike, distance, doubled, length};
 use solids::{Solid, cuboid, sphere, torus};
 
