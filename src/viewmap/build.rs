@@ -70,7 +70,7 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
 
 /// Visibility where there are contours of rounded surfaces: these are lifted out of the faces around
 /// them, and each gets a probe behind the others that tells what lies beside it.
-fn decide_rounded(
+pub(super) fn decide_rounded(
     mesh: &Mesh,
     view: &View,
     lines: &FeatureLines,
@@ -91,7 +91,7 @@ fn decide_rounded(
 }
 
 /// Tiles across the page in which lines are sought that meet.
-const GRID: u32 = 256;
+pub(super) const GRID: u32 = 256;
 
 struct Builder<'a> {
     mesh: &'a Mesh,
