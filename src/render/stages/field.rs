@@ -31,8 +31,14 @@ const COLOURS: [Colour; 10] = [
     Colour::rgb(0xfd, 0xee, 0xd9),
 ];
 
-/// Flat faces have no field: averted and facing.
-const FLAT: [Colour; 2] = [Colour::rgb(0x9a, 0xa3, 0xad), Colour::rgb(0xe4, 0xe4, 0xe2)];
+/// Flat faces have no field; greys tell how much they turn to the eye, bluish ones are averted.
+const FLAT: [Colour; 4] = [
+    Colour::rgb(0xb4, 0xb4, 0xb0),
+    Colour::rgb(0xcc, 0xcc, 0xc8),
+    Colour::rgb(0xde, 0xde, 0xda),
+    Colour::rgb(0xee, 0xee, 0xea),
+];
+const FLAT_AVERTED: Colour = Colour::rgb(0x86, 0x94, 0xa6);
 
 /// By how much a piece is widened, px: neighbours overlap by a hair, so that no paper shines through.
 const WIDEN_PX: f64 = 0.4;
@@ -48,17 +54,9 @@ pub(super) fn draw(made: &Made) -> Vec<Layer> {
     for face in &order {
         let pieces = cut.of_face(*face);
         if pieces.is_empty() {
-            let facing = view.facing[*face as usize];
-            let class = ["field", "flat"];
-            paint(
-                &mut fills,
-                made,
-                &cut,
-                &mesh.triangles[*face as usize],
-                FLAT[usize::from(facing)],
-                &class,
-                "flat",
-            );
+            let colour = flat_colour(made, *face);
+            let corners = &mesh.triangles[*face as usize];
+            paint(&mut fills, made, &cut, corners, colour, &["field", "flat"], "a flat face");
         }
         for piece in pieces {
             let band = usize::from(piece.band);
@@ -71,6 +69,16 @@ pub(super) fn draw(made: &Made) -> Vec<Layer> {
     let zero = zero_set(made, &cut, &buffer)
         .map(|path| line(path, dark, made.px(1.2), &["zero-set"], Some("the zero set of n·v")));
     layers([(LayerKind::Fills, fills), (LayerKind::Lines, zero.into_iter().collect())])
+}
+
+fn flat_colour(made: &Made, face: u32) -> Colour {
+    if !made.view.facing[face as usize] {
+        return FLAT_AVERTED;
+    }
+    let mesh = &made.surface.mesh;
+    let normal = glam::Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
+    let cosine = normal.dot(made.view.frame.to_eye(mesh.corners(crate::mesh::FaceId(face))[0]));
+    FLAT[((cosine.max(0.0) * FLAT.len() as f64) as usize).min(FLAT.len() - 1)]
 }
 
 /// Paints a polygon; what is painted alike in turn is one mark.

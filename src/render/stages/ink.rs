@@ -20,7 +20,7 @@ pub(super) const HUES: [Colour; 8] = [
 ];
 
 /// What lies there for orientation only.
-pub(super) const PALE: Colour = Colour::rgb(0xc8, 0xc8, 0xc8);
+pub(super) const PALE: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
 
 /// A line of constant width.
 pub(super) fn line(

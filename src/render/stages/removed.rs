@@ -40,14 +40,14 @@ pub(super) fn draw(made: &Made) -> Vec<Layer> {
     }
     let hidden = "arc: hidden with its whole arc, though no face is found before it";
     let classes = ["contour", "removed", "arc"];
-    marks.extend(runs.finish().map(|path| line(path, OVERRULED, made.px(1.4), &classes, Some(hidden))));
+    marks.extend(runs.finish().map(|path| line(path, OVERRULED, made.px(2.4), &classes, Some(hidden))));
     for removed in &removed {
         let mut path = polyline(&removed.points);
         if removed.closed {
             path.close_path();
         }
         let classes = [removed.kind.name(), "removed", removed.reason.name()];
-        marks.push(line(path, colour(removed.reason), made.px(2.0), &classes, Some(note(removed.reason))));
+        marks.push(line(path, colour(removed.reason), made.px(3.5), &classes, Some(note(removed.reason))));
     }
     layers([(LayerKind::Lines, marks)])
 }

@@ -41,14 +41,21 @@ pub(super) fn draw(made: &Made) -> Vec<Layer> {
         }
     }
     let mut others = Vec::new();
-    for (i, segment) in made.lines.segments.iter().enumerate().filter(|(i, _)| !on_curve[*i]) {
-        let Some(ends) = made.segment(i as u32) else { continue };
-        if segment.kind.is_inside() {
-            let colour = inside_colour(segment.kind);
-            let name = segment.kind.name();
-            lines.push(line(polyline(&ends), colour, made.px(1.0), &[name], Some(name)));
+    for kind in LineKind::ALL {
+        let mut runs = Runs::default();
+        for (i, segment) in made.lines.segments.iter().enumerate() {
+            if segment.kind == kind
+                && !on_curve[i]
+                && let Some(ends) = made.segment(i as u32)
+            {
+                runs.push(ends);
+            }
+        }
+        let Some(path) = runs.finish() else { continue };
+        if kind.is_inside() {
+            lines.push(line(path, inside_colour(kind), made.px(1.0), &[kind.name()], Some(kind.name())));
         } else {
-            others.push(line(polyline(&ends), PALE, made.px(0.6), &[segment.kind.name()], None));
+            others.push(line(path, PALE, made.px(0.6), &[kind.name()], None));
         }
     }
     others.extend(lines);
