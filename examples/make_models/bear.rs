@@ -11,27 +11,26 @@ use glam::{DVec3, IVec3};
 use crate::solid::Solid;
 
 /// Edge of a cell.
-const CELL: f64 = 0.205;
+const CELL: f64 = 0.25;
 /// Where the sum of all blobs is this, the surface lies.
 const LEVEL: f64 = 0.3;
 
 /// A blob: middle and half-axes of what it reaches.
 type Blob = ([f64; 3], [f64; 3]);
 
-/// Blobs in the plane of symmetry.
+/// Blobs in the plane of symmetry: body, head, snout.
 const MIDDLE: [Blob; 3] = [
-    ([0.0, 0.05, 0.85], [1.02, 0.92, 1.2]),
-    ([0.0, -0.08, 2.08], [0.92, 0.84, 0.84]),
-    ([0.0, -0.6, 1.95], [0.46, 0.5, 0.42]),
+    ([0.0, 0.05, 0.85], [1.05, 0.92, 1.25]),
+    ([0.0, -0.08, 2.1], [0.95, 0.86, 0.86]),
+    ([0.0, -0.62, 1.95], [0.5, 0.56, 0.46]),
 ];
-/// Blobs to the right; each has its twin on the left.
-const RIGHT: [Blob; 6] = [
-    ([0.52, 0.05, 2.6], [0.38, 0.3, 0.38]),
-    ([0.76, -0.2, 1.3], [0.46, 0.46, 0.46]),
-    ([0.9, -0.52, 1.02], [0.42, 0.46, 0.42]),
-    ([0.6, -0.42, 0.36], [0.6, 0.66, 0.56]),
-    ([0.76, -0.95, 0.36], [0.5, 0.6, 0.5]),
-    ([0.8, -1.25, 0.52], [0.46, 0.4, 0.6]),
+/// Blobs to the right, an ear, an arm and a leg; each has its twin on the left.
+const RIGHT: [Blob; 5] = [
+    ([0.56, 0.05, 2.64], [0.46, 0.38, 0.46]),
+    ([0.84, -0.12, 1.36], [0.62, 0.5, 0.5]),
+    ([1.22, -0.2, 1.5], [0.5, 0.5, 0.5]),
+    ([0.55, -0.5, 0.3], [0.66, 0.8, 0.6]),
+    ([0.72, -1.1, 0.38], [0.56, 0.56, 0.66]),
 ];
 
 /// All blobs with the gradient of their sum; both in one, since the one follows from the other.
