@@ -3,7 +3,8 @@
 //!
 //! Every face falls into bands between one level and the next. Where a level crosses an edge lies one
 //! point, on the arc over that edge, and the pieces on all sides of it have it as a corner: between
-//! neighbours there is neither gap nor overlap. Cut at zero alone, n·v gives the facing and the
+//! neighbours there is neither gap nor overlap. (Across a hard edge each side has its own normals, and
+//! so its own points.) Cut at zero alone, n·v gives the facing and the
 //! averted side of the surface, and the border between them is the contour as it is traced.
 //!
 //! Source: Johan Claes and others, "Fast 3D cartoon rendering with improved quality by exploiting
