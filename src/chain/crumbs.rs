@@ -35,7 +35,7 @@ pub(super) fn drop_crumbs(
     raws.retain(|raw| {
         let goes = crumb.next().unwrap_or(false);
         if goes {
-            bin.put(raw, || Reason::of_crumb(raw, degrees));
+            bin.put(raw, || Reason::of_crumb(raw, degrees, organic));
             degrees.leave_out(raw);
         }
         !goes

@@ -2,7 +2,7 @@
 
 use kurbo::Point;
 
-use super::ink::{PALE, Runs, dot, fill, line, polyline, square};
+use super::ink::{PALE, Runs, dot, fill, line, square};
 use super::{Made, layers};
 use crate::drawing::{Layer, LayerKind};
 use crate::lines::LineKind;
