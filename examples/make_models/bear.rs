@@ -11,7 +11,7 @@ use glam::{DVec3, IVec3};
 use crate::solid::Solid;
 
 /// Edge of a cell.
-const CELL: f64 = 0.25;
+const CELL: f64 = 0.27;
 /// Where the sum of all blobs is this, the surface lies.
 const LEVEL: f64 = 0.3;
 
@@ -20,17 +20,17 @@ type Blob = ([f64; 3], [f64; 3]);
 
 /// Blobs in the plane of symmetry: body, head, snout.
 const MIDDLE: [Blob; 3] = [
-    ([0.0, 0.05, 0.85], [1.05, 0.92, 1.25]),
-    ([0.0, -0.08, 2.1], [0.95, 0.86, 0.86]),
-    ([0.0, -0.62, 1.95], [0.5, 0.56, 0.46]),
+    ([0.0, 0.05, 0.88], [1.02, 0.92, 1.3]),
+    ([0.0, -0.08, 2.22], [0.95, 0.86, 0.86]),
+    ([0.0, -0.64, 2.06], [0.5, 0.56, 0.46]),
 ];
 /// Blobs to the right, an ear, an arm and a leg; each has its twin on the left.
 const RIGHT: [Blob; 5] = [
-    ([0.56, 0.05, 2.64], [0.46, 0.38, 0.46]),
-    ([0.84, -0.12, 1.36], [0.62, 0.5, 0.5]),
-    ([1.22, -0.2, 1.5], [0.5, 0.5, 0.5]),
-    ([0.55, -0.5, 0.3], [0.66, 0.8, 0.6]),
-    ([0.72, -1.1, 0.38], [0.56, 0.56, 0.66]),
+    ([0.58, 0.05, 2.78], [0.5, 0.46, 0.5]),
+    ([0.8, -0.12, 1.3], [0.62, 0.5, 0.46]),
+    ([1.2, -0.2, 1.42], [0.5, 0.5, 0.48]),
+    ([0.62, -0.45, 0.26], [0.66, 0.8, 0.56]),
+    ([0.88, -1.02, 0.34], [0.58, 0.58, 0.68]),
 ];
 
 /// All blobs with the gradient of their sum; both in one, since the one follows from the other.
