@@ -43,6 +43,9 @@ const FLAT_AVERTED: Colour = Colour::rgb(0x86, 0x94, 0xa6);
 /// By how much a piece is widened, px: neighbours overlap by a hair, so that no paper shines through.
 const WIDEN_PX: f64 = 0.4;
 
+/// Corners whose sides turn by more than this cosine (120 degrees) are cut off when widened.
+const SHARP_COSINE: f64 = -0.5;
+
 /// The faces in front, painted from back to front, and the zero set over them.
 pub(super) fn draw(made: &Made) -> Vec<Layer> {
     let (mesh, view) = (&made.surface.mesh, made.view);
@@ -75,9 +78,9 @@ fn flat_colour(made: &Made, face: u32) -> Colour {
     if !made.view.facing[face as usize] {
         return FLAT_AVERTED;
     }
-    let mesh = &made.surface.mesh;
-    let normal = glam::Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
-    let cosine = normal.dot(made.view.frame.to_eye(mesh.corners(crate::mesh::FaceId(face))[0]));
+    // Along the axis of view, so that the triangles of one plane are alike.
+    let normal = glam::Vec3::from_array(made.surface.mesh.face_normals[face as usize]).as_dvec3();
+    let cosine = -normal.dot(made.view.frame.forward);
     FLAT[((cosine.max(0.0) * FLAT.len() as f64) as usize).min(FLAT.len() - 1)]
 }
 
@@ -131,14 +134,17 @@ fn widened(points: &[Point], by: f64) -> Vec<Point> {
         let length = side.hypot2().sqrt();
         if length > 0.0 { Vec2::new(side.y, -side.x) / length } else { Vec2::ZERO }
     };
-    (0..n)
-        .map(|k| {
-            let (before, after) = (outward((k + n - 1) % n), outward(k));
-            // At sharp corners no farther than twice.
-            let sum = (before + after) / (1.0 + before.dot(after)).max(0.5);
-            points[k] + sum * by
-        })
-        .collect()
+    let mut out = Vec::with_capacity(2 * n);
+    for k in 0..n {
+        let (before, after) = (outward((k + n - 1) % n), outward(k));
+        let cosine = before.dot(after);
+        if cosine > SHARP_COSINE {
+            out.push(points[k] + (before + after) * (by / (1.0 + cosine)));
+        } else {
+            out.extend([points[k] + before * by, points[k] + after * by]);
+        }
+    }
+    out
 }
 
 /// The zero set where the face that it crosses is in front, or no other face is.
