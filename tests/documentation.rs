@@ -4,12 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 6] = [
+const DOCUMENTS: [&str; 8] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "docs/styles.md",
     "docs/exactness.md",
+    "docs/smooth.md",
+    "docs/stages.md",
     "examples/README.md",
 ];
 
@@ -82,7 +84,8 @@ fn options_that_the_readme_names_are_there() {
     let help = String::from_utf8(help.stdout).unwrap();
     let known = ["--release", "--path", "--open", "--json", "--example"];
     let mut options = 0;
-    for document in ["README.md", "docs/styles.md", "examples/README.md"] {
+    for document in ["README.md", "docs/styles.md", "docs/smooth.md", "docs/stages.md", "examples/README.md"]
+    {
         let text = read(document);
         let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
         for option in words.filter(|word| word.starts_with("--") && word.chars().any(char::is_alphabetic)) {

@@ -241,6 +241,16 @@ fn knot_is_one_solid() {
 }
 
 #[test]
+fn bear_is_one_coarse_solid() {
+    let part = read_ply("bear.ply");
+    assert_solid(&part);
+    assert_eq!(pieces(&part).len(), 1);
+    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(part.points.len() as i64 - edges + faces, 2);
+    assert!((500..900).contains(&faces), "{faces} faces");
+}
+
+#[test]
 fn castle_is_made_of_named_solids() {
     let parts = read_obj("castle.obj");
     parts.iter().for_each(assert_solid);
@@ -314,7 +324,16 @@ fn stress_scenes_have_their_size() {
 
 #[test]
 fn all_models_together_are_small() {
-    let names = ["teapot.obj", "gear.obj", "bracket.stl", "knot.ply", "castle.obj", "castle.mtl", "pump.glb"];
+    let names = [
+        "teapot.obj",
+        "gear.obj",
+        "bracket.stl",
+        "knot.ply",
+        "bear.ply",
+        "castle.obj",
+        "castle.mtl",
+        "pump.glb",
+    ];
     let sum: usize = names.iter().map(|name| bytes(name).len()).sum();
     assert!(sum < 2_700_000, "{sum} bytes");
 }

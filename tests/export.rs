@@ -29,6 +29,7 @@ fn mark(data: &str, paint: Paint, classes: &[&'static str], part: Option<&str>) 
             part: part.map(Arc::from),
             material: None,
             invisibility: 0,
+            note: None,
         },
     }
 }

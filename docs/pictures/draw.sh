@@ -15,3 +15,18 @@ pictures=docs/pictures
 "$ligne" draw $models/teapot.obj $pictures/teapot.svg --size 480x360 --azimuth 20 --precision 1
 "$ligne" draw $models/knot.ply $pictures/knot.svg --size 480x360 --azimuth 0 --elevation 30 --precision 1
 "$ligne" draw $models/bracket.stl $pictures/bracket.svg --size 480x480 --azimuth 140 --style technical --precision 1
+
+# docs/smooth.md: along edges of the mesh, smooth, and with suggestive contours.
+smooth() {
+    "$ligne" draw "$1" "$2-mesh.svg" --set lines.contours=mesh "${@:3}"
+    "$ligne" draw "$1" "$2.svg" "${@:3}"
+    "$ligne" draw "$1" "$2-suggestive.svg" --style suggestive "${@:3}"
+}
+smooth $models/bear.ply $pictures/smooth-bear --size 320x400 --azimuth 25 --elevation 12 --precision 1
+smooth $models/teapot.obj $pictures/smooth-teapot --size 320x240 --azimuth 20 --precision 1
+
+# docs/stages.md
+"$ligne" draw $models/bear.ply $pictures/stage-field.png --stage field --size 400x480 --azimuth 25 --elevation 12
+"$ligne" draw $models/knot.ply $pictures/stage-zeros.svg --stage zeros --size 480x400 --precision 1
+"$ligne" draw $models/pump.glb $pictures/stage-strengths.png --stage strengths --size 640x450
+"$ligne" draw $models/bear.ply $pictures/stage-removed.svg --stage removed --style suggestive --size 400x480 --azimuth 25 --elevation 12 --precision 1

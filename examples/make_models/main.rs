@@ -2,6 +2,7 @@
 //!
 //! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
 
+mod bear;
 mod bracket;
 mod castle;
 mod castle_parts;
@@ -54,5 +55,7 @@ fn main() -> std::io::Result<()> {
     write("castle.obj", obj::text(title, Some("castle.mtl"), &castle, &[]).as_bytes())?;
     write("castle.mtl", obj::library(title, &castle).as_bytes())?;
     let (knot, normals) = knot::knot();
-    write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))
+    write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))?;
+    let (bear, normals) = bear::bear();
+    write("bear.ply", &ply::bytes("a bear of soft blobs", &bear, &normals))
 }

@@ -1,6 +1,7 @@
 //! Drops what no illustrator would draw: crumbs, spurs, tiny loops and creases that are noise.
 
 use super::raw::{Degrees, Raw};
+use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
 
 /// A crease of a scan must be this many times longer than a crumb if it turns by a right angle; the
@@ -24,13 +25,20 @@ const INSIDE: f64 = 5.0;
 const INSIDE_PEAK: f64 = 0.25;
 
 /// Leaves out every line that is a crumb.
-pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &[bool], tidy: f64) {
+pub(super) fn drop_crumbs(
+    raws: &mut Vec<Raw>,
+    degrees: &mut Degrees,
+    organic: &[bool],
+    tidy: f64,
+    bin: &mut Bin,
+) {
     // All are judged before any goes, so that no order matters.
     let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, organic, tidy)).collect();
     let mut crumb = crumbs.into_iter();
     raws.retain(|raw| {
         let goes = crumb.next().unwrap_or(false);
         if goes {
+            bin.put(raw, || Reason::of_crumb(raw, degrees, organic));
             degrees.leave_out(raw);
         }
         !goes

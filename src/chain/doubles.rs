@@ -6,6 +6,7 @@ use kurbo::{Point, Vec2};
 
 use super::line::{Line, distance2, length};
 use super::raw::{Degrees, Raw};
+use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
@@ -49,7 +50,13 @@ struct Buckets {
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within
 /// `distance`, shortest first.
-pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: &[bool], distance: f64) {
+pub(super) fn drop_doubles(
+    raws: &mut Vec<Raw>,
+    degrees: &mut Degrees,
+    organic: &[bool],
+    distance: f64,
+    bin: &mut Bin,
+) {
     let mut suspects: Vec<u32> =
         (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize], organic)).collect();
     if suspects.is_empty() {
@@ -98,6 +105,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, organic: 
     raws.retain(|raw| {
         let goes = doubles.next().copied().unwrap_or(false);
         if goes {
+            bin.put(raw, || Reason::Double);
             degrees.leave_out(raw);
         }
         !goes

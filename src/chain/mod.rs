@@ -11,6 +11,7 @@ mod line;
 mod link;
 pub mod options;
 mod raw;
+pub mod removed;
 mod resample;
 mod silhouette;
 mod simplify;
@@ -22,6 +23,7 @@ mod tidy;
 mod unfold;
 
 pub use options::ChainOptions;
+pub use removed::{Reason, Removed};
 
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
@@ -32,6 +34,7 @@ use crate::mesh::{MaterialId, PartId};
 use crate::viewmap::ViewMap;
 use finish::{Tolerances, finish};
 use raw::Raw;
+use removed::Bin;
 use tidy::tidied;
 
 /// What a chain knows of the world at one of its points; travels with the chain so that strokes
@@ -97,6 +100,29 @@ const DIRECTION_PX: f64 = 3.0;
 /// with.
 #[must_use]
 pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
+    link_with(map, options, unit, hidden, &mut Bin::default())
+}
+
+/// The same chains, and what tidying left out, in the order in which it went.
+#[must_use]
+pub fn link_and_keep(
+    map: &ViewMap,
+    options: &ChainOptions,
+    unit: Unit,
+    hidden: HiddenLines,
+) -> (Vec<Chain>, Vec<Removed>) {
+    let mut bin = Bin::kept();
+    let chains = link_with(map, options, unit, hidden, &mut bin);
+    (chains, bin.emptied())
+}
+
+fn link_with(
+    map: &ViewMap,
+    options: &ChainOptions,
+    unit: Unit,
+    hidden: HiddenLines,
+    bin: &mut Bin,
+) -> Vec<Chain> {
     let px = Length::px(1.0).in_unit(unit);
     let t = Tolerances {
         px,
@@ -105,7 +131,7 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLin
         tidy: options.tidy.in_unit(unit).max(0.0),
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
     };
-    let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px);
+    let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, bin);
     raws.into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
 }
 

@@ -10,6 +10,7 @@ use kurbo::{Point, Vec2};
 use super::Sample;
 use super::line::{Line, distance2, length};
 use super::raw::{Degrees, Raw};
+use super::removed::{Bin, Reason};
 
 /// Tidy lengths that a stitch may jump when nothing is trimmed, and when a stub is.
 const JUMP: f64 = 2.5;
@@ -58,7 +59,7 @@ struct Cut {
 }
 
 /// Sews what can be sewn; lines keep the order and sense of the first of those they are made of.
-pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64) -> Vec<Raw> {
+pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
     let stitches = choose(&raws, degrees, tidy);
     if stitches.is_empty() {
         return raws;
@@ -67,6 +68,9 @@ pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64) -> Ve
     for s in stitches {
         for (end, cut) in [(s.a, s.cut_a), (s.b, s.cut_b)] {
             if cut.trimmed > 0.0 {
+                let walk = Walk::new(&raws[end / 2].line, end % 2);
+                let stub = || (0..cut.next).map(|k| walk.point(k)).chain([cut.point]).collect();
+                bin.put_part(&raws[end / 2], Reason::Stub, stub);
                 degrees.cut_off(raws[end / 2].ends[end % 2]);
             }
         }

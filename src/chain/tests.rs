@@ -130,6 +130,11 @@ fn a_jagged_circle_becomes_a_round_one_of_few_cubics() {
     let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     assert!(chains[0].closed);
+    let (kept, removed) = link_and_keep(&map, &ChainOptions::default(), Unit::Px, HiddenLines::Solid);
+    assert_eq!(kept, chains);
+    let reasons: Vec<_> = removed.iter().map(|r| (r.kind, r.reason)).collect();
+    assert_eq!(reasons, [(LineKind::Contour, Reason::Spur), (LineKind::Crease, Reason::Noise)]);
+    assert_eq!(removed[1].points, [Point::new(300.0, 300.0), Point::new(302.0, 300.5)]);
     let cubics = chains[0].path.elements().iter().filter(|e| matches!(e, PathEl::CurveTo(..))).count();
     assert!((3..=12).contains(&cubics), "{cubics} cubics");
     for p in samples(&chains[0].path) {
@@ -243,6 +248,10 @@ fn a_flake_beside_an_outline_goes_and_a_line_apart_stays() {
         linked(&map_of(&lines), &ChainOptions::default(), Unit::Px).len()
     };
     assert_eq!((count(53.0), count(62.0)), (1, 2));
+    let lines = [(outline.clone(), LineKind::Contour, true), (beside(53.0), LineKind::Contour, true)];
+    let map = map_of(&lines);
+    let (_, removed) = link_and_keep(&map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
+    assert_eq!(removed.iter().map(|r| r.reason).collect::<Vec<_>>(), [Reason::Double]);
 }
 
 #[test]

@@ -12,6 +12,7 @@ use super::gaps::bridge;
 use super::line::length;
 use super::link::{Class, routes};
 use super::raw::{Degrees, Raw};
+use super::removed::{Bin, Reason};
 use super::silhouette;
 use super::stitch::stitch;
 use crate::lines::{HiddenLines, LineKind};
@@ -33,8 +34,9 @@ const POINT: f64 = 0.1;
 /// Rounds of dropping and sewing; each may free the ends of others.
 const ROUNDS: usize = 3;
 
-/// The tidied lines of a view map. Hidden ones are left out where they are not drawn.
-pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64) -> Vec<Raw> {
+/// The tidied lines of a view map. Hidden ones are left out where they are not drawn; what else is
+/// left out goes to the bin.
+pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64, bin: &mut Bin) -> Vec<Raw> {
     let mut classes: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of(e))).collect();
     let mut organic = Vec::new();
     if tidy > 0.0 {
@@ -59,9 +61,9 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64)
     let mut degrees = Degrees::new(map, &classes);
     for _ in 0..ROUNDS {
         let count = raws.len();
-        raws = stitch(raws, &mut degrees, tidy);
-        drop_doubles(&mut raws, &mut degrees, &organic, DOUBLE * tidy);
-        drop_crumbs(&mut raws, &mut degrees, &organic, tidy);
+        raws = stitch(raws, &mut degrees, tidy, bin);
+        drop_doubles(&mut raws, &mut degrees, &organic, DOUBLE * tidy, bin);
+        drop_crumbs(&mut raws, &mut degrees, &organic, tidy, bin);
         if raws.len() == count {
             break;
         }
@@ -69,6 +71,7 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64)
     let mut parts = Vec::with_capacity(raws.len());
     for raw in raws {
         if !raw.class.hidden && raw.length() < POINT * tidy {
+            bin.put(&raw, || Reason::Point);
             continue;
         }
         silhouette::cut(raw, SILHOUETTE * tidy, &mut parts);

@@ -129,7 +129,7 @@ pub(super) struct DrawArgs {
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) report: Option<PathBuf>,
 
-    /// Draw what a stage of the pipeline made
+    /// Draw what a stage of the pipeline made, each thing in its own colour: docs/stages.md
     #[arg(long, value_name = "NAME", help_heading = "Output",
         value_parser = PossibleValuesParser::new(Stage::ALL.map(Stage::name))
             .try_map(|name| Stage::parse(&name).ok_or("no such stage")))]

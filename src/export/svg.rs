@@ -277,5 +277,12 @@ fn write_mark(
     }
     out.extend_from_slice(b" d=\"");
     path_data::write(out, &mark.path, decimals);
-    out.extend_from_slice(b"\"/>\n");
+    match &provenance.note {
+        None => out.extend_from_slice(b"\"/>\n"),
+        Some(note) => {
+            out.extend_from_slice(b"\"><title>");
+            escape(out, note);
+            out.extend_from_slice(b"</title></path>\n");
+        }
+    }
 }

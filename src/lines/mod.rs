@@ -20,6 +20,15 @@ pub use surface::Surface;
 use crate::field;
 use crate::view::View;
 
+/// n·v as contours are traced from it, one per smooth vertex: averaged where it is near zero.
+#[must_use]
+pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
+    let Surface { mesh, smooth, .. } = surface;
+    let mut facing = field::facing(mesh, smooth, &view.frame);
+    field::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
+    facing
+}
+
 /// All feature lines of a view of a surface that the options ask for.
 #[must_use]
 pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
@@ -28,8 +37,7 @@ pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> Feature
         return lines;
     }
     let Surface { mesh, hard, smooth } = surface;
-    let mut facing = field::facing(mesh, smooth, &view.frame);
-    field::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
+    let facing = facing(surface, view);
     let edges = edge_lines::find(surface, view, &facing, options);
     lines.segments = edges.segments;
     if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {

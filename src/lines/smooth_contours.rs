@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 
 use super::edge_lines::PartedEdge;
 use super::hard_contours;
-use super::zero_set::{self, EdgePoint, ZeroSet};
+use super::zero_set::{self, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind};
 use crate::mesh::{EdgeArc, FaceId, Mesh, SmoothNormals};
 use crate::view::View;
@@ -57,7 +57,7 @@ pub fn find(
     // Faces without area have no side, but the curve passes through them.
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = (mesh.positions.len() + lines.points.len()) as u32;
-    lines.points.extend(set.points.iter().map(|p| on_arc(mesh, smooth, p)));
+    lines.points.extend(set.points.iter().map(|p| EdgeArc::over(mesh, smooth, p.between).at(p.t)));
     let position = |end: u32| lines.position(mesh, end);
     let mut pieces: Vec<Piece> =
         set.segments.iter().map(|s| surface.piece(&set, s, first, position)).collect();
@@ -72,13 +72,6 @@ pub fn find(
         let advance = order.iter().map(|p| pieces[*p as usize].advance).collect();
         lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, advance });
     }
-}
-
-/// The point of the rounded surface over an edge.
-fn on_arc(mesh: &Mesh, smooth: &SmoothNormals, point: &EdgePoint) -> DVec3 {
-    let position = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
-    let normal = |v: u32| smooth.normals[v as usize];
-    EdgeArc::new(point.between.map(position), point.between.map(normal)).at(point.t)
 }
 
 impl Surface<'_> {

@@ -9,6 +9,8 @@
 
 use glam::DVec3;
 
+use super::{Mesh, SmoothNormals};
+
 /// The largest sine of the angle at which a curve leaves its edge: steeper ones come from normals that
 /// no surface through the ends has.
 const STEEPEST: f64 = 0.72;
@@ -40,6 +42,15 @@ impl EdgeArc {
         let reach = length * 2.0 / (3.0 * (1.0 + half));
         let handles = [tangents[0] * reach, -tangents[1] * reach];
         Self { ends, normals, handles }
+    }
+
+    /// The curve from one smooth vertex to another. What lies on an edge asks for it with the smaller
+    /// id first, so that both faces beside the edge get the same points to the bit.
+    #[must_use]
+    pub fn over(mesh: &Mesh, smooth: &SmoothNormals, between: [u32; 2]) -> Self {
+        let position = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
+        let normal = |v: u32| smooth.normals[v as usize];
+        Self::new(between.map(position), between.map(normal))
     }
 
     /// The point at `t`, 0 to 1.

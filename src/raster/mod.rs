@@ -1,6 +1,7 @@
 //! Buffers of a view: they propose, exact geometry decides.
 
 pub mod face_buffer;
+pub mod painter;
 pub mod screen;
 pub mod strangers;
 

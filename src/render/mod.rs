@@ -3,7 +3,7 @@
 pub mod defects;
 pub mod report;
 pub mod stage;
-mod stage_drawing;
+mod stages;
 
 use std::sync::Arc;
 
@@ -22,6 +22,7 @@ use crate::stroke::{self, InkContext};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, ViewMap};
+use stages::Made;
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
 ///
@@ -82,9 +83,11 @@ pub fn render_reported(
         InkContext { unit: page.unit, parts: &parts, materials: &materials, hidden: style.lines.hidden };
     let layers = match stage {
         None => stroke::ink(&chains, &context, &style.stroke),
-        Some(Stage::Chains) => stage_drawing::of_chains(&chains, page.unit),
-        Some(Stage::ViewMap) => stage_drawing::of_view_map(&map, page.unit),
-        Some(Stage::Lines) => stage_drawing::of_lines(mesh, &view, &feature_lines, &page),
+        Some(stage) => {
+            let (surface, view, lines) = (&surface, &view, &feature_lines);
+            let made = Made { surface, view, lines, map: &map, chains: &chains, style, page: &page };
+            stages::draw(stage, &made)
+        }
     };
     report.stages_ms.strokes = watch.lap_ms();
 

@@ -45,10 +45,11 @@ const STRETCH_PX: f64 = 6.0;
 
 /// A place along a run.
 #[derive(Debug, Clone, Copy)]
-struct Stop {
+pub(super) struct Stop {
     /// Index of the segment in the run, plus the parameter on it.
-    at: f64,
-    kind: ViewVertexKind,
+    pub at: f64,
+    /// What is there.
+    pub kind: ViewVertexKind,
     covered: Option<bool>,
 }
 
@@ -242,7 +243,7 @@ fn each_part_at(run: &Run, from: f64, to: f64, mut visit: impl FnMut(usize, f64,
 }
 
 /// The places where a run may change, in order.
-fn stops(run: &Run, events: &[Event], backward: &[bool]) -> Vec<Stop> {
+pub(super) fn stops(run: &Run, events: &[Event], backward: &[bool]) -> Vec<Stop> {
     let mut stops = Vec::new();
     for (k, id) in run.segments.iter().enumerate() {
         let before = if k > 0 { Some(k - 1) } else { run.closed.then(|| backward.len() - 1) };
@@ -258,7 +259,7 @@ fn stops(run: &Run, events: &[Event], backward: &[bool]) -> Vec<Stop> {
 
 /// Whether each segment of a run lies between cusps. Stretches that turn back for less than `cusp`
 /// user units are ripples of the mesh: the shortest is made even first.
-fn even_backward(run: &Run, scene: &Scene, cusp: f64) -> Vec<bool> {
+pub(super) fn even_backward(run: &Run, scene: &Scene, cusp: f64) -> Vec<bool> {
     let mut backward: Vec<bool> = run.segments.iter().map(|s| scene.advance[*s as usize] < 0.0).collect();
     let n = backward.len();
     // What a segment says weighs as much as is drawn of it.

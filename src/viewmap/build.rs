@@ -70,7 +70,7 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
 
 /// Visibility where there are contours of rounded surfaces: these are asked beside the faces around
 /// them, and each gets a probe behind everything that tells whether there is background.
-fn decide_rounded(
+pub(super) fn decide_rounded(
     mesh: &Mesh,
     view: &View,
     lines: &FeatureLines,
@@ -91,7 +91,7 @@ fn decide_rounded(
 }
 
 /// Tiles across the page in which lines are sought that meet.
-const GRID: u32 = 256;
+pub(super) const GRID: u32 = 256;
 
 struct Builder<'a> {
     mesh: &'a Mesh,

@@ -11,6 +11,8 @@ mod grouped;
 pub mod layers;
 pub mod occlude;
 pub mod occluders;
+pub mod overruled;
+pub mod places;
 pub mod project;
 mod rounded;
 mod tile;
@@ -18,3 +20,5 @@ pub mod visibility;
 
 pub use build::build;
 pub use graph::{ArcCounts, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+pub use overruled::{Overruled, overruled};
+pub use places::{Place, places};

@@ -35,30 +35,11 @@ pub(super) fn decide(
     grid: &Grid,
     px: f64,
 ) -> Rounded {
-    let mut image_of = vec![NONE; lines.segments.len()];
-    for (i, segment) in segments.iter().enumerate() {
-        image_of[segment.source as usize] = i as u32;
-    }
-    let mut advance = vec![0.0; segments.len()];
-    for curve in &lines.curves {
-        for (source, value) in curve.segments.clone().zip(&curve.advance) {
-            if let Some(of_image) = advance.get_mut(image_of[source as usize] as usize) {
-                *of_image = *value;
-            }
-        }
-    }
+    let image_of = image_of(lines, segments);
+    let advance = advance(lines, segments, &image_of);
     let scene = Scene { mesh, view, segments, sources: &lines.segments, advance: &advance };
     let events = events::find(&scene, grid);
-    let solid = solid_parts(mesh);
-    let runs: Vec<Run> = lines
-        .curves
-        .iter()
-        .flat_map(|curve| {
-            let part = lines.segments[curve.segments.start as usize].part;
-            let image = |source: u32| Some(image_of[source as usize]).filter(|id| *id != NONE);
-            arcs::runs(curve, solid.get(part.index()) == Some(&true), segments, image)
-        })
-        .collect();
+    let runs = runs(mesh, lines, segments, &image_of);
     let judge = Judge { scene: &scene, events: &events, seen, px };
     let decided: Vec<(arcs::Decided, ArcCounts)> = runs
         .par_iter()
@@ -76,6 +57,45 @@ pub(super) fn decide(
     }
     hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
     Rounded { hidden, counts }
+}
+
+/// The image segment of each feature segment, where it has one.
+pub(super) fn image_of(lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<u32> {
+    let mut image_of = vec![NONE; lines.segments.len()];
+    for (i, segment) in segments.iter().enumerate() {
+        image_of[segment.source as usize] = i as u32;
+    }
+    image_of
+}
+
+/// [`crate::lines::ContourCurve::advance`] by image segment; 0 for all that is no such contour.
+pub(super) fn advance(lines: &FeatureLines, segments: &[ImageSegment], image_of: &[u32]) -> Vec<f32> {
+    let mut advance = vec![0.0; segments.len()];
+    for curve in &lines.curves {
+        for (source, value) in curve.segments.clone().zip(&curve.advance) {
+            if let Some(of_image) = advance.get_mut(image_of[source as usize] as usize) {
+                *of_image = *value;
+            }
+        }
+    }
+    advance
+}
+
+/// What the image shows of each contour curve.
+pub(super) fn runs(
+    mesh: &Mesh,
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+    image_of: &[u32],
+) -> Vec<Run> {
+    let solid = solid_parts(mesh);
+    let of_curve = |curve| {
+        let curve: &crate::lines::ContourCurve = curve;
+        let part = lines.segments[curve.segments.start as usize].part;
+        let image = |source: u32| Some(image_of[source as usize]).filter(|id| *id != NONE);
+        arcs::runs(curve, solid.get(part.index()) == Some(&true), segments, image)
+    };
+    lines.curves.iter().flat_map(of_curve).collect()
 }
 
 impl Rounded {

@@ -1,0 +1,127 @@
+//! The painter's order: the faces in front somewhere, each after those that it covers.
+//!
+//! Source: Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972; here the
+//! buffer tells at each pixel which face must come last, and depth only breaks ties.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rayon::prelude::*;
+
+use super::{FaceBuffer, Screen};
+
+/// Triangles handled by one task.
+const TASK: usize = 1 << 13;
+
+/// The faces that are in front at some pixel, in an order that paints what `buffer` shows. Where
+/// faces cover each other in turn, the farthest comes first.
+#[must_use]
+pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
+    let mut shown: Vec<u32> =
+        (0..buffer.columns * buffer.rows).filter_map(|pixel| buffer.front(pixel)).collect();
+    shown.par_sort_unstable();
+    shown.dedup();
+    let slot = |face: u32| shown.binary_search(&face).ok();
+    // The nearness of each face, as bits that order positive numbers, and who is painted over whom.
+    let count = screen.triangle_count();
+    let tasks: Vec<(Vec<(usize, u32)>, Vec<[u32; 2]>)> = (0..count.div_ceil(TASK))
+        .into_par_iter()
+        .map(|task| {
+            let (mut near, mut over) = (Vec::new(), Vec::new());
+            for id in task * TASK..((task + 1) * TASK).min(count) {
+                let (corners, face) = screen.triangle(id);
+                let Some(own) = slot(face) else { continue };
+                near.push((own, ((corners[0][2] + corners[1][2] + corners[2][2]) / 3.0).max(0.0).to_bits()));
+                screen.cover(&corners, |pixel, _| {
+                    if let Some(front) = buffer.front(pixel).filter(|front| *front != face)
+                        && let Some(front) = slot(front)
+                    {
+                        over.push([own as u32, front as u32]);
+                    }
+                });
+                over.dedup();
+            }
+            (near, over)
+        })
+        .collect();
+    let mut nearness = vec![0; shown.len()];
+    let mut over: Vec<[u32; 2]> = Vec::new();
+    for (near, pairs) in tasks {
+        for (own, bits) in near {
+            nearness[own] = bits.max(nearness[own]);
+        }
+        over.extend(pairs);
+    }
+    over.par_sort_unstable();
+    over.dedup();
+    sorted(&nearness, &over).into_iter().map(|slot| shown[slot as usize]).collect()
+}
+
+/// Every slot once, the first of each pair before the second, the farthest first where none of a
+/// pair is left to wait for.
+fn sorted(nearness: &[u32], over: &[[u32; 2]]) -> Vec<u32> {
+    let mut awaited = vec![0_u32; nearness.len()];
+    for [_, above] in over {
+        awaited[*above as usize] += 1;
+    }
+    let key = |slot: u32| (nearness[slot as usize], slot);
+    let mut by_depth: Vec<u32> = (0..nearness.len() as u32).collect();
+    by_depth.sort_unstable_by_key(|slot| key(*slot));
+    let free = by_depth.iter().filter(|slot| awaited[**slot as usize] == 0);
+    let mut ready: BinaryHeap<Reverse<(u32, u32)>> = free.map(|slot| Reverse(key(*slot))).collect();
+    let mut done = vec![false; nearness.len()];
+    let mut order = Vec::with_capacity(nearness.len());
+    let mut left = by_depth.into_iter();
+    while order.len() < nearness.len() {
+        let next = match ready.pop() {
+            Some(Reverse((_, slot))) => Some(slot),
+            None => left.by_ref().find(|slot| !done[*slot as usize]),
+        };
+        let Some(slot) = next else { break };
+        if std::mem::replace(&mut done[slot as usize], true) {
+            continue;
+        }
+        order.push(slot);
+        let first = over.partition_point(|pair| pair[0] < slot);
+        for [_, above] in over[first..].iter().take_while(|pair| pair[0] == slot) {
+            let waits = &mut awaited[*above as usize];
+            *waits -= 1;
+            if *waits == 0 && !done[*above as usize] {
+                ready.push(Reverse(key(*above)));
+            }
+        }
+    }
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::{Mesh, Soup};
+    use crate::scene::{Camera, UpAxis};
+    use crate::view::View;
+
+    #[test]
+    fn the_farthest_of_a_circle_comes_first() {
+        assert_eq!(sorted(&[3, 2, 1], &[[0, 1], [1, 2], [2, 0]]), [2, 0, 1]);
+        assert_eq!(sorted(&[3, 2, 1], &[[0, 2]]), [1, 0, 2]);
+        assert_eq!(sorted(&[5, 5, 5], &[]), [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_plate_comes_before_what_stands_on_its_far_end() {
+        // The middle of the plate is nearer to the eye than the small triangle above its far corner.
+        let corners = [[0., 0., 0.], [90., 0., 40.], [0., 90., 0.], [1., 1., 5.], [6., 1., 5.], [1., 6., 5.]];
+        let positions: Vec<DVec3> = corners.iter().map(|p| DVec3::from(*p)).collect();
+        let soup =
+            Soup { positions: positions.clone(), triangles: vec![[0, 1, 2], [3, 4, 5]], ..Soup::default() };
+        let mesh = Mesh::build(soup);
+        let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.0);
+        let view = View::new(&mesh, &camera);
+        let screen = Screen::new(&mesh, &view);
+        let buffer = FaceBuffer::new(&screen);
+        assert_eq!(back_to_front(&screen, &buffer), [0, 1]);
+    }
+}
