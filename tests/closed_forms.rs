@@ -18,7 +18,9 @@ use ligne::lines::{HiddenLines, LineKind, LineOptions};
 use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
 use ligne::viewmap::ViewVertexKind;
-use pipeline::{Stages, counting, geometry, orthographic, perspective, scene, scene_of_geometries, stages};
+use pipeline::{
+    Stages, counting, exact, geometry, orthographic, perspective, scene, scene_of_geometries, stages,
+};
 use segments::{cover_alike, distance, doubled, length};
 use solids::{Solid, cuboid, sphere, torus};
 
@@ -191,7 +193,7 @@ fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
         let (s, c) = (sin(elevation.to_radians()), cos(elevation.to_radians()));
         let thick = tube > s * s;
         let camera = orthographic(at(0.0, -10.0 * c, 10.0 * s), DVec3::ZERO, 4.0);
-        let drawn = stages(&scene([torus(128, 64, 1.0, tube)]), &camera, &LineOptions::default());
+        let drawn = stages(&scene([torus(128, 64, 1.0, tube)]), &camera, &exact());
         let chains = chain::link(&drawn.map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
         let open: Vec<_> = chains.iter().filter(|c| !c.closed && c.invisibility == 0).collect();
         let ends: Vec<Point> =

@@ -19,7 +19,7 @@ use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
 use ligne::lines::{HiddenLines, LineOptions};
 use ligne::scene::{Camera, Projection, Scene};
-use pipeline::{counting, orthographic, perspective, scene, stages};
+use pipeline::{counting, exact, orthographic, perspective, scene, stages};
 use scenes::{random_camera, random_scene};
 use segments::{cover_alike, doubled, length, uncovered};
 use solids::cuboid;
@@ -28,7 +28,7 @@ const KINDS: [&str; 5] = ["boxes", "tori", "soup", "interpenetrating", "mixture"
 const CAMERAS: [&str; 3] = ["perspective", "orthographic", "cutting"];
 
 fn visible(scene: &Scene, camera: &Camera) -> Vec<[Point; 2]> {
-    stages(scene, camera, &LineOptions::default()).visible()
+    stages(scene, camera, &exact()).visible()
 }
 
 /// Runs a check on one random scene of each kind and camera.

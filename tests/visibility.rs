@@ -20,7 +20,7 @@ use ligne::lines::{HiddenLines, LineOptions};
 use ligne::math::tolerance;
 use ligne::mesh::FaceId;
 use ligne::scene::{Camera, Scene};
-use pipeline::{Stages, counting, stages};
+use pipeline::{Stages, counting, exact, stages};
 use scenes::{CAMERAS, SCENES, random_camera, random_scene};
 use segments::{cover_alike, distance, length, uncovered};
 
@@ -243,7 +243,7 @@ fn counting_changes_nothing_visible() {
             let mut dice = Dice::new(5);
             let (scene, camera) = (random_scene(kind, &mut dice), random_camera(camera_kind, &mut dice));
             let with = stages(&scene, &camera, &counting());
-            let none = LineOptions { hidden: HiddenLines::None, ..LineOptions::default() };
+            let none = LineOptions { hidden: HiddenLines::None, ..exact() };
             let without = stages(&scene, &camera, &none);
             let (with, without) = (with.visible(), without.visible());
             seen += length(&with);

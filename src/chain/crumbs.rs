@@ -11,7 +11,7 @@ const NOISE: f64 = 5.0;
 const DOT: f64 = 0.3;
 
 /// A contour of a scan that hangs on nothing must be this many times longer.
-const FLOATING: f64 = 2.5;
+const FLOATING: f64 = 6.0;
 
 /// A line inside must be this many times longer than a crumb where it is as strong as can be; the
 /// weaker, the longer.

@@ -22,6 +22,12 @@ pub fn finer_near_contours(
     frame: &Frame,
 ) -> Option<(Mesh, SmoothNormals)> {
     let px = frame.width.max(frame.height) / 1000.0;
+    // How long a world length is on the page where it is nearest to the eye, seen square on.
+    let page = |[a, b]: [DVec3; 2]| {
+        let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
+        if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
+    };
+    let is_long = |a: DVec3, b: DVec3| a.distance(b) * page([a, b]) > tolerance::SHORT_EDGE_PX;
     let wanted = |ends: [DVec3; 2], normals: [DVec3; 2]| {
         let to_eye = ends.map(|p| frame.to_eye(p));
         let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
@@ -31,11 +37,7 @@ pub fn finer_near_contours(
         if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > REACH * turn {
             return false;
         }
-        let depth = if frame.perspective { frame.depth(ends[0]).min(frame.depth(ends[1])) } else { 1.0 };
-        let page = frame.scale / (px * depth);
-        depth > 0.0
-            && ends[0].distance(ends[1]) * page > tolerance::SHORT_EDGE_PX
-            && EdgeArc::new(ends, normals).height().length() * page > tolerance::ARC_PX
+        EdgeArc::new(ends, normals).height().length() * page(ends) > tolerance::ARC_PX
     };
-    refine::refined(mesh, smooth, wanted)
+    refine::refined(mesh, smooth, is_long, wanted)
 }

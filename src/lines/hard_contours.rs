@@ -33,7 +33,9 @@ pub(super) fn add(
     let mut from = edge.ends[0];
     let stops = cuts.iter().map(|(_, point, which)| (*point, Some(*which)));
     for (to, turns) in stops.chain([(edge.ends[1], None)]) {
-        if (facing[0] != facing[1]) != edge.same_way {
+        // Both sides turn in one point where the edge ends within a surface.
+        if from == to {
+        } else if (facing[0] != facing[1]) != edge.same_way {
             contours.push(contour(surface, edge, [from, to], facing));
         } else {
             others.extend(edge.else_line.map(|line| FeatureSegment { ends: [from, to], ..line }));

@@ -72,9 +72,10 @@ pub(super) fn normals(mesh: &Mesh, hard: &HardEdges, contours: Contours) -> Smoo
     SmoothNormals::new(mesh, |f| rounded[f as usize], |e| is_hard(mesh, e, hard))
 }
 
-/// Creases: on rounded parts, whose faces turn at every edge, they turn by more than elsewhere.
+/// Creases: every sharp edge of exact parts; on rounded parts, whose faces turn at every edge, only
+/// chains that turn by more and stand out from what is around them.
 fn hard_edges(mesh: &Mesh, rounded: &[bool], crease_deg: f64) -> HardEdges {
-    let blunt = || HardEdges::find(mesh, crease_deg);
+    let blunt = || HardEdges::above(mesh, crease_deg);
     let sharp = || HardEdges::find(mesh, (ROUNDED * crease_deg).min(180.0));
     match (rounded.contains(&true), rounded.contains(&false)) {
         (false, _) => blunt(),

@@ -1,7 +1,7 @@
 //! [`Folds`]: the edges where a surface turns noticeably, and the chains they make end to end.
 //!
 //! Source: Hubeli and Gross, "Multiresolution feature extraction from unstructured meshes", IEEE
-//! Visualization 2001, section 3: edges are given weights, thinned and joined to lines by
+//! Visualization 2001: edges are given weights, thinned and joined to lines by
 //! hysteresis. Here lines are followed straight on through junctions, and never from a ridge into
 //! a valley.
 

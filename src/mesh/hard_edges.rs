@@ -15,9 +15,12 @@ use super::{EdgeMark, Mesh};
 pub const LOW_OF_HIGH: f64 = 0.5;
 
 /// A chain is a crease if n²·t/σ is as large as this (see `stands_out`): one right angle by itself
-/// where the surface around is flat within a degree, six edges of 45 degrees on a scan whose
-/// triangles turn by twenty at random.
+/// where the surface around is flat within a degree, five straight edges of 40 degrees on a
+/// scan whose triangles turn by ten or so at random.
 const EVIDENCE: f64 = 80.0;
+
+/// A mean turn of this many deviations is clear of the noise.
+const CLEAR: f64 = 4.0;
 
 /// A chain that comes back to where it began counts as so many times as long.
 const LOOP: f64 = 2.0;
@@ -51,7 +54,8 @@ impl HardEdges {
         let folds = Folds::new(mesh, folds(mesh, LOW_OF_HIGH * crease_deg));
         let chains = folds.chains(crease_deg);
         let roughness = Roughness::new(mesh, crease_deg);
-        let kept: Vec<&Chain> = chains.par_iter().filter(|c| stands_out(mesh, c, &roughness)).collect();
+        let kept: Vec<&Chain> =
+            chains.par_iter().filter(|c| stands_out(mesh, c, crease_deg, &roughness)).collect();
         let edges = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize));
         Self::of_edges(mesh, edges).with_marks(mesh)
     }
@@ -133,20 +137,25 @@ fn count(bits: &[u64]) -> usize {
     bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
-/// Whether a chain is a feature and not noise: n²·t/σ, where it is n edges long, turns by t on
-/// average, and σ is the spread of the turns around it.
+/// Whether a chain is a feature and not noise: n²·t/σ is large, where n is its length in edges, σ
+/// the spread of the turns around it, and t its mean turn, stretched so that the low threshold
+/// counts nothing and the high one itself.
 ///
-/// The mean of n turns of noise spreads by σ/√n only, and noise does not go straight on: a line of
-/// it ends after two or three edges. Hence length counts for more than sharpness.
-fn stands_out(mesh: &Mesh, chain: &Chain, roughness: &Roughness) -> bool {
+/// The mean of n turns of noise spreads by σ/√n only, and noise does not go straight on: most lines
+/// of it end after two or three edges. Hence length counts for more than sharpness, unless the mean
+/// turn is within a few deviations: such lines noise makes too, and they count for less.
+fn stands_out(mesh: &Mesh, chain: &Chain, crease_deg: f64, roughness: &Roughness) -> bool {
     let around = roughness.around(chain);
     let n = chain.folds.len() as f64;
-    let turn = chain.folds.iter().map(|f| f64::from(f.turn).min(FULL_TURN_DEG)).sum::<f64>() / n;
+    let most = FULL_TURN_DEG.max(crease_deg);
+    let mean = chain.folds.iter().map(|f| f64::from(f.turn).min(most)).sum::<f64>() / n;
+    let turn = (mean - LOW_OF_HIGH * crease_deg).max(0.0) / (1.0 - LOW_OF_HIGH);
     let ends = chain.folds.iter().map(|f| mesh.edges.vertices[f.edge as usize]);
     let length: f64 =
         ends.map(|[a, b]| mesh.positions[a as usize].distance(mesh.positions[b as usize])).sum();
     // Many tiny edges are no more than one that is as long.
     let edges = (TINY * length / around.edge_length.max(f64::MIN_POSITIVE)).clamp(1.0, n);
     let straight = edges * chain.straightness * if chain.closed { LOOP } else { 1.0 };
-    straight * straight * turn >= EVIDENCE * around.deviation
+    let clear = (turn / (CLEAR * around.deviation).max(f64::MIN_POSITIVE)).min(1.0);
+    straight * straight * turn * clear * clear >= EVIDENCE * around.deviation
 }

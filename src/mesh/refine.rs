@@ -11,6 +11,10 @@ use rustc_hash::FxHashMap;
 use super::smooth_normals::NO_NORMAL;
 use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
 
+/// A mesh of which no more than one edge in so many is wanted is dense enough as it is: what is left
+/// are slivers, and building all of it anew would cost more than they show.
+const FEW: usize = 1000;
+
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
 
@@ -27,12 +31,13 @@ struct Piece {
 
 /// The mesh and its normals with all edges of rounded surfaces cut that `wanted` names, or `None`
 /// where it names none. `wanted` is given positions and unit normals of the ends of an edge, always
-/// in the same order. Edges that part surfaces are never cut. Faces that were cut lose their texture
+/// in the same order, if `is_long`, which is quickly told, holds for its ends. Edges that part surfaces are never cut. Faces that were cut lose their texture
 /// coordinates and the file's normals.
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
     smooth: &SmoothNormals,
+    is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync,
 ) -> Option<(Mesh, SmoothNormals)> {
     if smooth.is_empty() {
@@ -42,7 +47,11 @@ pub fn refined(
         .into_par_iter()
         .map(|k| {
             let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
-            let ends = edges.filter_map(|edge| smooth.across(mesh, edge));
+            let long = edges.filter(|edge| {
+                let [a, b] = mesh.edges.vertices[*edge];
+                is_long(mesh.positions[a as usize], mesh.positions[b as usize])
+            });
+            let ends = long.filter_map(|edge| smooth.across(mesh, edge));
             ends.filter(|[a, b]| {
                 let position = |v: &u32| mesh.positions[smooth.vertices[*v as usize] as usize];
                 let normal = |v: &u32| smooth.normals[*v as usize];
@@ -52,7 +61,7 @@ pub fn refined(
         })
         .collect();
     let marked = marked.concat();
-    if marked.is_empty() {
+    if marked.len() <= mesh.edges.len() / FEW {
         return None;
     }
     let mut work = Work::new(mesh, smooth);
@@ -65,7 +74,7 @@ pub fn refined(
         let mut next = Vec::with_capacity(open.len() * 2);
         for piece in &open {
             if cuts > 0 {
-                work.decide(piece, &wanted);
+                work.decide(piece, &|ends, normals| is_long(ends[0], ends[1]) && wanted(ends, normals));
             }
             work.split(piece, &mut next);
         }
@@ -253,15 +262,14 @@ impl Work {
             cleaning: mesh.cleaning,
             ..Mesh::default()
         };
-        (
-            finer,
-            SmoothNormals {
-                normals: self.normals,
-                vertices: self.vertices,
-                corners,
-                seamless: smooth.seamless,
-            },
-        )
+        let finer_smooth = SmoothNormals {
+            normals: self.normals,
+            vertices: self.vertices,
+            corners,
+            parting: smooth.parting.carried(mesh, &finer),
+            seamless: smooth.seamless,
+        };
+        (finer, finer_smooth)
     }
 }
 
@@ -303,7 +311,8 @@ mod tests {
         let wanted = |ends: [DVec3; 2], _: [DVec3; 2]| {
             ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4 && ends[0].distance(ends[1]) > 0.1
         };
-        let (finer, normals) = refined(&mesh, &smooth, wanted).expect("edges are longer than that");
+        let (finer, normals) =
+            refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
         assert!(finer.triangles.len() > 500);
         assert_eq!((finer.edges.border_count(), finer.edges.non_manifold_count()), (0, 0));
         let euler = finer.positions.len() as i64 - finer.edges.len() as i64 + finer.triangles.len() as i64;
@@ -321,7 +330,7 @@ mod tests {
     #[test]
     fn what_nobody_wants_is_left() {
         let mesh = octahedron();
-        assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| false).is_none());
-        assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true).is_none());
+        assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| true, |_, _| false).is_none());
+        assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true, |_, _| true).is_none());
     }
 }

@@ -1,7 +1,7 @@
 //! [`Roughness`]: by how much a surface turns at the edges around a line, where nothing is meant.
 //!
 //! The median of absolute turns estimates the spread of noise, whatever the few edges that are
-//! features do to the mean (Huber and Ronchetti, "Robust Statistics", section 5.1). So does their
+//! features do to the mean (Huber and Ronchetti, "Robust Statistics"). So does their
 //! lower quartile. Noise spares no edge, so there both agree; a tessellated cylinder turns at two
 //! edges of three, and its diagonals are flat: there the quartile is 0. The geometric mean of both
 //! is taken.

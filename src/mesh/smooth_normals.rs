@@ -4,10 +4,11 @@
 //! Graphics Tools 4(2), 1999: the weights that give the true normals of every polyhedron inscribed
 //! in a sphere.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{EdgeFaces, Mesh};
+use super::edge_set::EdgeSet;
+use super::{EdgeFaces, Mesh, parting};
 
 /// In [`SmoothNormals::corners`]: the face is flat.
 pub const NO_NORMAL: u32 = u32::MAX;
@@ -25,7 +26,9 @@ pub struct SmoothNormals {
     /// The smooth vertices at the corners of each face, [`NO_NORMAL`] at all three where the face
     /// is flat. One per face, or empty where all faces are flat.
     pub corners: Vec<[u32; 3]>,
-    /// Whether all faces are rounded and no edge is hard, so that smooth vertices are vertices.
+    /// Edges that part rounded surfaces from each other or from flat faces.
+    pub parting: EdgeSet,
+    /// Whether all faces are rounded and no edge parts them, so that smooth vertices are vertices.
     pub seamless: bool,
 }
 
@@ -33,34 +36,11 @@ impl SmoothNormals {
     /// The normals of a mesh all of which is one rounded surface without hard edges.
     #[must_use]
     pub fn rounded(mesh: &Mesh) -> Self {
-        let count = mesh.positions.len();
-        // Each worker owns a range of vertices, so that sums do not depend on the number of workers.
-        let workers = if count < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
-        let bounds: Vec<usize> = (0..=workers).map(|k| count * k / workers).collect();
-        let parts: Vec<Vec<DVec3>> = bounds
-            .par_windows(2)
-            .map(|range| {
-                let mut sums = vec![DVec3::ZERO; range[1] - range[0]];
-                for triangle in &mesh.triangles {
-                    let slots = triangle.map(|v| (v as usize).wrapping_sub(range[0]));
-                    if slots.iter().all(|slot| *slot >= sums.len()) {
-                        continue;
-                    }
-                    let weighted = weighted_normals(triangle.map(|v| mesh.positions[v as usize]));
-                    for (slot, normal) in slots.into_iter().zip(weighted) {
-                        if let Some(sum) = sums.get_mut(slot) {
-                            *sum += normal;
-                        }
-                    }
-                }
-                sums.iter_mut().for_each(|sum| *sum = sum.normalize_or_zero());
-                sums
-            })
-            .collect();
         Self {
-            normals: parts.concat(),
-            vertices: (0..count as u32).collect(),
+            normals: vertex_normals(mesh, |_| true),
+            vertices: (0..mesh.positions.len() as u32).collect(),
             corners: mesh.triangles.clone(),
+            parting: EdgeSet::default(),
             seamless: true,
         }
     }
@@ -77,28 +57,30 @@ impl SmoothNormals {
         if !rounded.contains(&true) {
             return Self::default();
         }
-        let parts = |edge: &usize| match mesh.edges.faces(*edge) {
+        let parting = EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
             EdgeFaces::One(_) => false,
             EdgeFaces::Two { faces, same_way } => {
-                let both = faces.iter().all(|f| rounded[*f as usize]);
-                !both || same_way || is_hard(*edge)
+                let count = faces.iter().filter(|f| rounded[**f as usize]).count();
+                count == 1 || (count == 2 && (same_way || is_hard(edge)))
             }
-            EdgeFaces::Many(_) => true,
+            EdgeFaces::Many(faces) => faces.iter().any(|f| rounded[*f as usize]),
+        });
+        let all = !rounded.contains(&false);
+        let corners = if all {
+            mesh.triangles.clone()
+        } else {
+            let of = |(t, rounded): (&[u32; 3], &bool)| if *rounded { *t } else { [NO_NORMAL; 3] };
+            mesh.triangles.iter().zip(&rounded).map(of).collect()
         };
-        let parting: Vec<bool> =
-            (0..mesh.edges.len()).into_par_iter().with_min_len(1 << 13).map(|e| parts(&e)).collect();
-        if mesh.corner_normals.is_empty() && !rounded.contains(&false) && !parting.contains(&true) {
-            return Self::rounded(mesh);
-        }
-        let mut fans = Fans::new(mesh.triangles.len());
-        for edge in (0..mesh.edges.len()).filter(|e| !parting[*e]) {
-            if let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) {
-                for vertex in mesh.edges.vertices[edge] {
-                    fans.join(corner(mesh, first, vertex), corner(mesh, second, vertex));
-                }
-            }
-        }
-        fans.normals(mesh, &rounded)
+        let mut smooth = Self {
+            normals: vertex_normals(mesh, |face| rounded[face]),
+            vertices: (0..mesh.positions.len() as u32).collect(),
+            corners,
+            seamless: all && parting.is_empty(),
+            parting,
+        };
+        parting::part(mesh, &mut smooth);
+        smooth
     }
 
     /// The smooth vertices at the corners of a face; none where it is flat.
@@ -108,28 +90,27 @@ impl SmoothNormals {
         self.corners.get(face as usize).copied().filter(|corners| corners[0] != NO_NORMAL)
     }
 
-    /// The smooth vertices at the ends of an edge, smaller first, where the surface runs on across it:
-    /// all faces beside it are rounded and agree.
+    /// The smooth vertices at the ends of an edge, smaller first, where the surface runs on across it
+    /// or ends there: no face beside it is flat or of another surface.
     #[inline]
     #[must_use]
     pub fn across(&self, mesh: &Mesh, edge: usize) -> Option<[u32; 2]> {
         let ends = mesh.edges.vertices[edge];
-        let of_face = |face: u32| {
-            let corners = self.corners_of(face)?;
-            let triangle = mesh.triangles[face as usize];
-            let corner = |v: u32| triangle.iter().position(|t| *t == v).map(|k| corners[k]);
-            let (a, b) = (corner(ends[0])?, corner(ends[1])?);
-            Some([a.min(b), a.max(b)])
-        };
-        match mesh.edges.faces(edge) {
-            EdgeFaces::Two { same_way: true, .. } | EdgeFaces::Many(_) => None,
-            _ if self.seamless => Some(ends),
-            EdgeFaces::One(face) => of_face(face),
-            EdgeFaces::Two { faces: [first, second], .. } => {
-                let ends = of_face(first)?;
-                (of_face(second)? == ends).then_some(ends)
-            }
+        if self.seamless {
+            return Some(ends);
         }
+        if self.parting.contains(edge) {
+            return None;
+        }
+        let face = match mesh.edges.faces(edge) {
+            EdgeFaces::One(face) | EdgeFaces::Two { faces: [face, _], .. } => face,
+            EdgeFaces::Many(_) => return None,
+        };
+        let corners = self.corners_of(face)?;
+        let triangle = mesh.triangles[face as usize];
+        let corner = |v: u32| triangle.iter().position(|t| *t == v).map(|k| corners[k]);
+        let (a, b) = (corner(ends[0])?, corner(ends[1])?);
+        Some([a.min(b), a.max(b)])
     }
 
     /// Whether no face is rounded.
@@ -139,77 +120,60 @@ impl SmoothNormals {
     }
 }
 
-/// The corner of a face at one of its vertices, numbered through all faces.
-fn corner(mesh: &Mesh, face: u32, vertex: u32) -> u32 {
-    let triangle = mesh.triangles[face as usize];
-    3 * face + triangle.iter().position(|v| *v == vertex).unwrap_or(0) as u32
-}
-
-/// Corners that belong to one smooth vertex: a forest in which every corner knows one before it.
-struct Fans {
-    before: Vec<u32>,
-}
-
-impl Fans {
-    fn new(faces: usize) -> Self {
-        Self { before: (0..3 * faces as u32).collect() }
-    }
-
-    fn first(&mut self, mut corner: u32) -> u32 {
-        while self.before[corner as usize] != corner {
-            let skip = self.before[self.before[corner as usize] as usize];
-            self.before[corner as usize] = skip;
-            corner = skip;
-        }
-        corner
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.first(a), self.first(b));
-        self.before[a.max(b) as usize] = a.min(b);
-    }
-
-    /// Numbers the fans in the order of their first corners and sums their normals.
-    fn normals(mut self, mesh: &Mesh, rounded: &[bool]) -> SmoothNormals {
-        let mut smooth =
-            SmoothNormals { corners: vec![[NO_NORMAL; 3]; rounded.len()], ..SmoothNormals::default() };
-        let mut id_of = vec![NO_NORMAL; 3 * rounded.len()];
-        let mut from_file: Vec<DVec3> = Vec::new();
-        for face in (0..rounded.len()).filter(|f| rounded[*f]) {
-            let weighted = weighted_normals(mesh.corners(super::FaceId(face as u32)));
-            let own = file_normals(mesh, face);
-            for k in 0..3 {
-                let first = self.first((3 * face + k) as u32) as usize;
-                if id_of[first] == NO_NORMAL {
-                    id_of[first] = smooth.normals.len() as u32;
-                    smooth.normals.push(DVec3::ZERO);
-                    smooth.vertices.push(mesh.triangles[face][k]);
-                    from_file.push(DVec3::ZERO);
+/// The normal of each vertex from the faces with `counts` around it, or those that the file has
+/// there.
+fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
+    let count = mesh.positions.len();
+    // Each worker owns a range of vertices, so that sums do not depend on the number of workers.
+    let workers = if count < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
+    let bounds: Vec<usize> = (0..=workers).map(|k| count * k / workers).collect();
+    let parts: Vec<Vec<DVec3>> = bounds
+        .par_windows(2)
+        .map(|range| {
+            let mut sums = vec![DVec3::ZERO; range[1] - range[0]];
+            let mut own = vec![DVec3::ZERO; if mesh.corner_normals.is_empty() { 0 } else { sums.len() }];
+            for (face, triangle) in mesh.triangles.iter().enumerate() {
+                let slots = triangle.map(|v| (v as usize).wrapping_sub(range[0]));
+                if slots.iter().all(|slot| *slot >= sums.len()) || !counts(face) {
+                    continue;
                 }
-                let id = id_of[first];
-                smooth.corners[face][k] = id;
-                smooth.normals[id as usize] += weighted[k];
-                from_file[id as usize] += own[k];
+                let weighted = weighted_normals(triangle.map(|v| mesh.positions[v as usize]));
+                for (slot, normal) in slots.iter().zip(weighted) {
+                    if let Some(sum) = sums.get_mut(*slot) {
+                        *sum += normal;
+                    }
+                }
+                if !own.is_empty() {
+                    for (slot, normal) in slots.iter().zip(file_normals(mesh, face)) {
+                        if let Some(sum) = own.get_mut(*slot) {
+                            *sum += normal;
+                        }
+                    }
+                }
             }
-        }
-        for (normal, own) in smooth.normals.iter_mut().zip(from_file) {
-            let geometric = normal.normalize_or_zero();
-            let own = own.normalize_or_zero();
-            // A file's normal that leaves the surface altogether is worth less than none.
-            *normal = if own.dot(geometric) > 0.5 { own } else { geometric };
-        }
-        smooth
-    }
+            for (k, sum) in sums.iter_mut().enumerate() {
+                *sum = chosen(*sum, own.get(k).copied().unwrap_or_default());
+            }
+            sums
+        })
+        .collect();
+    parts.concat()
+}
+
+/// The direction of the file's normals, or where they leave the surface altogether, of those of the
+/// faces.
+pub(super) fn chosen(of_faces: DVec3, of_file: DVec3) -> DVec3 {
+    let (of_faces, of_file) = (of_faces.normalize_or_zero(), of_file.normalize_or_zero());
+    if of_file.dot(of_faces) > 0.5 { of_file } else { of_faces }
 }
 
 /// The file's normals at the corners of a face, turned to the face's own side; zero where there
 /// are none.
-fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
+pub(super) fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
     let Some(ids) = mesh.corner_normals.get(face) else { return [DVec3::ZERO; 3] };
-    let own = glam::Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+    let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
     ids.map(|id| {
-        let normal =
-            mesh.normals.get(id as usize).map_or(DVec3::ZERO, |n| glam::Vec3::from_array(*n).as_dvec3());
+        let normal = mesh.normals.get(id as usize).map_or(DVec3::ZERO, |n| Vec3::from_array(*n).as_dvec3());
         if normal.dot(own) < 0.0 { -normal } else { normal }
     })
 }

@@ -68,8 +68,8 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     map
 }
 
-/// Visibility where there are contours of rounded surfaces: these are lifted out of the faces around
-/// them, and each gets a probe behind the others that tells what lies beside it.
+/// Visibility where there are contours of rounded surfaces: these are asked beside the faces around
+/// them, and each gets a probe behind everything that tells whether there is background.
 fn decide_rounded(
     mesh: &Mesh,
     view: &View,
@@ -81,9 +81,9 @@ fn decide_rounded(
     let aside = tolerance::BESIDE_ROUNDED_PX * limits.px;
     let farthest = view.points.iter().map(|p| p.z).filter(|q| q.is_finite()).fold(f64::INFINITY, f64::min);
     let behind = if view.frame.perspective { farthest / 2.0 } else { farthest - mesh.size };
-    let lifted = segments.iter().map(ImageSegment::lifted);
+    let own = segments.iter().map(|s| s.asked(aside));
     let rounded = segments.iter().filter(|s| s.is_rounded());
-    let asked: Vec<ImageSegment> = lifted.chain(rounded.map(|s| s.probe(aside, behind))).collect();
+    let asked: Vec<ImageSegment> = own.chain(rounded.map(|s| s.probe(aside, behind))).collect();
     let seen = decide(mesh, view, &asked, limits, counting);
     let grid = grid_over(segments, GRID);
     let rounded = rounded::decide(mesh, view, lines, segments, &seen, &grid, limits.px);

@@ -1,6 +1,6 @@
 //! Feature segments in image space, cut to the near plane and the page.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE};
@@ -43,22 +43,32 @@ impl ImageSegment {
         }
     }
 
-    /// The segment as visibility is asked of it: nearer by its lift.
+    /// The segment as visibility is asked of it. A contour of a rounded surface is asked `aside` user
+    /// units to its outer side and nearer by its lift, where none of the faces around it, which stand
+    /// for the same surface, is in the way, while what truly hides it still is.
     #[must_use]
-    pub fn lifted(&self) -> Self {
-        let [a, b] = self.lift.map(|lift| DVec3::new(0.0, 0.0, lift));
-        Self { a: self.a + a, b: self.b + b, ..*self }
+    pub fn asked(&self, aside: f64) -> Self {
+        if !self.is_rounded() {
+            return *self;
+        }
+        let shift = self.outward(aside);
+        let [a, b] = self.lift.map(|lift| shift.extend(lift));
+        Self { a: self.a + a, b: self.b + b, ends: [u32::MAX; 2], ..*self }
     }
 
-    /// A segment far behind everything, `aside` user units away on the outer side of a contour of a
-    /// rounded surface, whose surface lies on the left in the image: where it is hidden, something lies
-    /// beside the contour.
+    /// The same far behind everything: where it is hidden, something lies beside the contour.
     #[must_use]
     pub fn probe(&self, aside: f64, farthest: f64) -> Self {
-        // y points down, so that the right is where `perp` points.
-        let shift = (self.b - self.a).truncate().perp().normalize_or_zero() * aside;
-        let move_out = |p: DVec3| DVec3::new(p.x + shift.x, p.y + shift.y, farthest);
+        let shift = self.outward(aside);
+        let move_out = |p: DVec3| (p.truncate() + shift).extend(farthest);
         Self { a: move_out(self.a), b: move_out(self.b), ends: [u32::MAX; 2], hosts: [NO_FACE; 2], ..*self }
+    }
+
+    /// A vector `aside` long to the outer side of a contour of a rounded surface, whose surface lies
+    /// on the left in the image.
+    fn outward(&self, aside: f64) -> DVec2 {
+        // y points down, so that the right is where `perp` points.
+        (self.b - self.a).truncate().perp().normalize_or_zero() * aside
     }
 
     /// Whether it is a contour of a rounded surface.

@@ -3,7 +3,7 @@
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
-use ligne::lines::{self, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
+use ligne::lines::{self, Contours, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
 use ligne::view::View;
@@ -19,9 +19,14 @@ pub struct Stages {
     pub map: ViewMap,
 }
 
-/// Hidden lines kept and counted.
+/// Contours along edges of the mesh and every crease by itself: the exact drawing of a polyhedron.
+pub fn exact() -> LineOptions {
+    LineOptions { contours: Contours::Mesh, ..LineOptions::default() }
+}
+
+/// The same, hidden lines kept and counted.
 pub fn counting() -> LineOptions {
-    LineOptions { hidden: HiddenLines::Dashed, ..LineOptions::default() }
+    LineOptions { hidden: HiddenLines::Dashed, ..exact() }
 }
 
 pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {

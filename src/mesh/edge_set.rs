@@ -1,0 +1,58 @@
+//! [`EdgeSet`]: some edges of a mesh, one bit each.
+
+use rayon::prelude::*;
+
+use super::Mesh;
+
+/// A set of edges of one mesh.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct EdgeSet {
+    /// Empty if the set is.
+    words: Vec<u64>,
+}
+
+impl EdgeSet {
+    /// The edges below `count` with `holds`.
+    #[must_use]
+    pub fn collect(count: usize, holds: impl Fn(usize) -> bool + Sync) -> Self {
+        let word = |k: usize| {
+            let edges = 64 * k..(64 * (k + 1)).min(count);
+            edges.fold(0u64, |word, edge| word | u64::from(holds(edge)) << (edge % 64))
+        };
+        let words: Vec<u64> = (0..count.div_ceil(64)).into_par_iter().with_min_len(256).map(word).collect();
+        if words.iter().all(|word| *word == 0) { Self::default() } else { Self { words } }
+    }
+
+    /// Whether an edge is in it.
+    #[inline]
+    #[must_use]
+    pub fn contains(&self, edge: usize) -> bool {
+        self.words.get(edge / 64).is_some_and(|word| word >> (edge % 64) & 1 == 1)
+    }
+
+    /// Whether it holds no edge.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+
+    /// Its edges, ascending.
+    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+        self.words.iter().enumerate().flat_map(|(k, word)| {
+            (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)
+        })
+    }
+
+    /// The edges with the same vertices in another mesh.
+    #[must_use]
+    pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {
+        let ends = self.iter().map(|edge| from.edges.vertices[edge]);
+        let mut words = vec![0u64; to.edges.len().div_ceil(64)];
+        let mut any = false;
+        for edge in ends.filter_map(|ends| to.edges.vertices.binary_search(&ends).ok()) {
+            words[edge / 64] |= 1 << (edge % 64);
+            any = true;
+        }
+        if any { Self { words } } else { Self::default() }
+    }
+}
