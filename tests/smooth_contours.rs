@@ -26,9 +26,9 @@ use ligne::chain::{self, Chain, ChainOptions};
 use ligne::drawing::{Length, Unit};
 use ligne::lines::{Contours, HiddenLines, LineKind, LineOptions};
 use ligne::math::function::{cos, sin};
-use ligne::scene::{Camera, Geometry, Scene};
+use ligne::scene::{Camera, Projection};
 use ligne::viewmap::ViewVertexKind;
-use pipeline::{Stages, geometry, orthographic, perspective, scene, scene_of_geometries, stages};
+use pipeline::{Stages, orthographic, perspective, scene, scene_of_geometries, stages};
 use round_solids::{cylinder, globe, icosphere, octasphere, saddle};
 use solids::{Solid, torus};
 use torus_truth::{Piece, visible_pieces};
@@ -64,7 +64,7 @@ fn cameras(seed: u64, count: usize, reach: f64) -> Vec<Camera> {
 /// How far lines lie from where they should, and what should be drawn from lines, at most, px.
 fn apart(drawn: &[[Point; 2]], truth: &[[Point; 2]]) -> [f64; 2] {
     let farthest = |of: &[[Point; 2]], from: &[[Point; 2]]| {
-        let ink = Ink::new(from.to_vec(), 20.0);
+        let ink = Ink::new(from.to_vec(), 8.0);
         samples(of, 0.5).iter().map(|(p, _)| ink.distance(*p)).fold(0.0, f64::max)
     };
     [farthest(drawn, truth), farthest(truth, drawn)]
@@ -73,7 +73,7 @@ fn apart(drawn: &[[Point; 2]], truth: &[[Point; 2]]) -> [f64; 2] {
 /// A closed curve through the images of points.
 fn ring(camera: &Camera, point: impl Fn(f64) -> DVec3) -> Vec<[Point; 2]> {
     let eye = Eye::new(camera);
-    let count = 4000;
+    let count = 2000;
     let at = |k: usize| eye.image(point(std::f64::consts::TAU * k as f64 / f64::from(count)));
     (0..count as usize).map(|k| [at(k), at(k + 1)]).collect()
 }
@@ -178,7 +178,8 @@ fn drawn_pieces(drawn: &Stages) -> Vec<DrawnPiece> {
         piece.length += (b - a).hypot();
         for end in [edge.start, edge.end].iter().filter(|v| degree[&v.0] == 1) {
             piece.ends += 1;
-            piece.cusps += usize::from(drawn.map.vertices[end.index()].kind == ViewVertexKind::Cusp);
+            let kind = drawn.map.vertices[end.index()].kind;
+            piece.cusps += usize::from(kind != ViewVertexKind::TJunction);
         }
     }
     pieces.into_values().collect()
@@ -230,8 +231,12 @@ fn torus_views(around: usize, along: usize, radius: f64, tube: f64, within: f64)
     let solid = scene([torus(around, along, radius, tube)]);
     let mut tally = TorusTally::default();
     for camera in cameras(9, 30, radius + tube) {
+        let is_parallel = matches!(camera.projection, Projection::Orthographic { .. });
+        if !is_parallel && camera.eye.z.abs() < 1.2 * tube {
+            continue;
+        }
         let drawn = stages(&solid, &camera, &with(Contours::Smooth));
-        let loops = torus_truth::contours(radius, tube, &camera, 20_000);
+        let loops = torus_truth::contours(radius, tube, &camera, 8000);
         let truth = visible_pieces(&loops);
         let should: Vec<[Point; 2]> = truth.iter().flat_map(Piece::segments).collect();
         let whole = loops.iter().flat_map(|l| {

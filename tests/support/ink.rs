@@ -1,34 +1,28 @@
 //! Lines of a picture as a set of segments, and how far a place is from the nearest.
 #![allow(dead_code)] // each test uses some of it
 
-use std::collections::HashMap;
-
 use kurbo::Point;
 use ligne::chain::Chain;
-
-/// Side of a tile, px.
-const TILE: f64 = 4.0;
+use rustc_hash::FxHashMap;
 
 /// Segments, sorted into square tiles.
 pub struct Ink {
     segments: Vec<[Point; 2]>,
-    tiles: HashMap<(i64, i64), Vec<u32>>,
-    /// Distances are told up to here, px.
+    tiles: FxHashMap<(i64, i64), Vec<u32>>,
+    /// Distances are told up to here, px; the side of a tile.
     reach: f64,
 }
 
 impl Ink {
     pub fn new(segments: Vec<[Point; 2]>, reach: f64) -> Self {
-        let mut tiles: HashMap<(i64, i64), Vec<u32>> = HashMap::new();
+        let mut tiles: FxHashMap<(i64, i64), Vec<u32>> = FxHashMap::default();
         for (i, [a, b]) in segments.iter().enumerate() {
             // Long segments are put into tiles piece by piece.
-            let pieces = ((*b - *a).hypot() / TILE).ceil().max(1.0) as usize;
+            let pieces = ((*b - *a).hypot() / reach).ceil().max(1.0) as usize;
             for k in 0..pieces {
-                let [p, q] = [k, k + 1].map(|k| a.lerp(*b, k as f64 / pieces as f64));
-                let low = tile(p.x.min(q.x) - reach, p.y.min(q.y) - reach);
-                let high = tile(p.x.max(q.x) + reach, p.y.max(q.y) + reach);
-                for x in low.0..=high.0 {
-                    for y in low.1..=high.1 {
+                let [p, q] = [k, k + 1].map(|k| tile(a.lerp(*b, k as f64 / pieces as f64), reach));
+                for x in p.0.min(q.0)..=p.0.max(q.0) {
+                    for y in p.1.min(q.1)..=p.1.max(q.1) {
                         let own = tiles.entry((x, y)).or_default();
                         if own.last() != Some(&(i as u32)) {
                             own.push(i as u32);
@@ -40,10 +34,12 @@ impl Ink {
         Self { segments, tiles, reach }
     }
 
-    /// The segments that may be within reach of a place.
+    /// The segments that may be within reach of a place; some of them more than once.
     pub fn near(&self, p: Point) -> impl Iterator<Item = (usize, [Point; 2])> + '_ {
-        let own = self.tiles.get(&tile(p.x, p.y)).map_or(&[][..], Vec::as_slice);
-        own.iter().map(|i| (*i as usize, self.segments[*i as usize]))
+        let (x, y) = tile(p, self.reach);
+        let around = (x - 1..=x + 1).flat_map(move |x| (y - 1..=y + 1).map(move |y| (x, y)));
+        let ids = around.filter_map(|at| self.tiles.get(&at)).flatten();
+        ids.map(|i| (*i as usize, self.segments[*i as usize]))
     }
 
     /// The distance to the nearest segment; infinite beyond the reach.
@@ -53,8 +49,8 @@ impl Ink {
     }
 }
 
-fn tile(x: f64, y: f64) -> (i64, i64) {
-    ((x / TILE).floor() as i64, (y / TILE).floor() as i64)
+fn tile(p: Point, side: f64) -> (i64, i64) {
+    ((p.x / side).floor() as i64, (p.y / side).floor() as i64)
 }
 
 /// The distance from a place to a segment.

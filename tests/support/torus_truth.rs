@@ -3,7 +3,7 @@
 //! With the centre of the tube at R c(u) and the normal n = c cos v + z sin v, a point is on the contour
 //! where n points as far to the eye as the tube is thick: two values of v for each u. A line of sight
 //! touches the torus there, so that two of its four meetings are known and the others are roots of a
-//! quadratic.
+//! quadratic. An eye between the two planes that the torus lies between sees other contours: not for those.
 #![allow(dead_code)] // each test uses some of it
 
 use glam::DVec3;
