@@ -32,7 +32,7 @@ fn main() -> Result<(), ligne::Error> {
             let found = check(&view_map(&surface, &camera, &options));
             let from = (camera.eye - camera.target).normalize();
             for stop in &found.unexplained {
-                println!("{path} from {from:.2}, {:?}: {stop:.1?}", camera.projection);
+                println!("{path} from {from:.2}, {:?}: {stop}", camera.projection);
             }
             tally.add(found);
             if tally.views % 4 == 1 {

@@ -31,7 +31,7 @@ fn main() -> Result<(), ligne::Error> {
             let mut pops = found.pops.clone();
             pops.sort_by(|a, b| b.gone.total_cmp(&a.gone));
             for pop in pops.iter().take(6) {
-                println!("    {pop:.0?}");
+                println!("    {pop}");
             }
             all.add(found);
         }

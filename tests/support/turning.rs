@@ -44,6 +44,15 @@ pub struct Pop {
     pub first: bool,
 }
 
+impl std::fmt::Display for Pop {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { kind, gone, length, place, first } = self;
+        let which = if *first { "first" } else { "second" };
+        let (kind, x, y) = (kind.name(), place.x, place.y);
+        write!(f, "{gone:.1} of {length:.1} px of a {kind} of the {which} drawing at ({x:.1}, {y:.1})")
+    }
+}
+
 impl Stability {
     /// Percent.
     pub fn share(&self) -> f64 {

@@ -18,6 +18,11 @@ const NEAR_PX: f64 = 0.75;
 /// A contour's own line is no explanation this far back along it, px.
 const OWN_PX: f64 = 2.5;
 
+/// Nothing is sought farther off than this, px.
+const FAR_PX: f64 = 8.0;
+/// Loose pieces shorter than this are not drawn, px.
+const CRUMB_PX: f64 = 4.0;
+
 /// What one or more views came to.
 #[derive(Debug, Clone, Default)]
 pub struct Tally {
@@ -32,6 +37,10 @@ pub struct Tally {
     pub cusps: usize,
     pub at_lines: usize,
     pub at_frame: usize,
+    /// Across a gap from another such place, not wider than [`NEAR_PX`]; at the end of a piece so short
+    /// that it is not drawn by itself.
+    pub slits: usize,
+    pub crumbs: usize,
     /// The rest.
     pub unexplained: Vec<Stop>,
 }
@@ -43,6 +52,18 @@ pub struct Stop {
     pub kind: ViewVertexKind,
     /// Whether a hidden contour goes on there.
     pub goes_on: bool,
+    /// How far it is to the next place where a visible contour stops; infinite beyond [`FAR_PX`].
+    pub gap: f64,
+    /// Length of the piece that stops, up to [`FAR_PX`].
+    pub length: f64,
+}
+
+impl std::fmt::Display for Stop {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { position, kind, goes_on, gap, length } = self;
+        let on = if *goes_on { "goes on hidden" } else { "nothing goes on" };
+        write!(f, "({:.2}, {:.2}) {kind:?}, {on}, gap {gap:.2}, after {length:.1} px", position.x, position.y)
+    }
 }
 
 impl Tally {
@@ -55,6 +76,8 @@ impl Tally {
         self.cusps += other.cusps;
         self.at_lines += other.at_lines;
         self.at_frame += other.at_frame;
+        self.slits += other.slits;
+        self.crumbs += other.crumbs;
         self.unexplained.extend(other.unexplained);
     }
 
@@ -70,15 +93,15 @@ impl Tally {
 
     pub fn header() -> String {
         format!(
-            "{:24} {:>5} {:>7} {:>6} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>7} {:>8}",
+            "{:24} {:>5} {:>7} {:>6} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>8}",
             "model", "views", "arcs", "broken", "whole %", "stops", "under", "cusps", "lines", "frame",
-            "unexpl.", "expl. %"
+            "slits", "crumbs", "unexpl.", "expl. %"
         )
     }
 
     pub fn row(&self, name: &str) -> String {
         format!(
-            "{name:24} {:5} {:7} {:6} {:8.3} {:7} {:6} {:6} {:6} {:6} {:7} {:8.3}",
+            "{name:24} {:5} {:7} {:6} {:8.3} {:7} {:6} {:6} {:6} {:6} {:6} {:6} {:7} {:8.3}",
             self.views,
             self.arcs,
             self.broken,
@@ -88,6 +111,8 @@ impl Tally {
             self.cusps,
             self.at_lines,
             self.at_frame,
+            self.slits,
+            self.crumbs,
             self.unexplained.len(),
             self.explained()
         )
@@ -139,56 +164,68 @@ pub fn check(map: &ViewMap) -> Tally {
         }
     }
     let ink = Ink::new(seen.iter().map(|e| ends(*e).map(place)).collect(), NEAR_PX);
-    for &e in seen.iter().filter(|e| map.edges[**e].kind == LineKind::Contour && map.edges[**e].smooth) {
-        for v in ends(e) {
-            // Where a line meets another by identity it does not stop in the open.
-            if at[&v].len() > 1 {
-                continue;
-            }
-            tally.stops += 1;
-            let vertex = map.vertices[v as usize];
-            let own = behind(v, e, &at, &ends, &place);
-            let others = ink.near(vertex.position).filter(|(_, s)| {
-                let t = nearest_on(vertex.position, *s);
-                (vertex.position - s[0].lerp(s[1], t)).hypot() <= NEAR_PX
-            });
-            let others: Vec<(usize, f64)> = others
-                .map(|(i, s)| (seen[i], nearest_on(vertex.position, s)))
-                .filter(|(other, _)| !own.contains(other))
-                .collect();
-            let depth = |e: usize, t: f64| {
-                let [a, b] = ends(e).map(|v| map.vertices[v as usize].depth);
-                a + (b - a) * t
-            };
-            let bounds = |e: usize| matches!(map.edges[e].kind, LineKind::Contour | LineKind::Border);
-            let kind = vertex.kind;
-            let nearer = others.iter().any(|(o, t)| bounds(*o) && depth(*o, *t) < vertex.depth);
-            let line = others.iter().any(|(o, _)| map.edges[*o].kind != LineKind::Contour);
-            if kind == ViewVertexKind::Frame {
-                tally.at_frame += 1;
-            } else if kind == ViewVertexKind::TJunction && nearer {
-                tally.junctions += 1;
-            } else if line {
-                tally.at_lines += 1;
-            } else if kind == ViewVertexKind::Cusp || turns_back(map, v, e, &ends) {
-                tally.cusps += 1;
-            } else {
-                let goes_on = hidden_at.contains(&v);
-                tally.unexplained.push(Stop { position: vertex.position, kind, goes_on });
-            }
+    let is_smooth = |e: &&usize| map.edges[**e].kind == LineKind::Contour && map.edges[**e].smooth;
+    // Where a line meets another by identity it does not stop in the open.
+    let stops: Vec<(usize, u32)> = seen
+        .iter()
+        .filter(is_smooth)
+        .flat_map(|e| ends(*e).map(|v| (*e, v)))
+        .filter(|(_, v)| at[v].len() == 1)
+        .collect();
+    let others = Ink::new(stops.iter().map(|(_, v)| [place(*v); 2]).collect(), FAR_PX);
+    tally.stops = stops.len();
+    for (stop, &(e, v)) in stops.iter().enumerate() {
+        let vertex = map.vertices[v as usize];
+        let (own, _) = behind(v, e, OWN_PX, &at, &ends, &place);
+        let lines: Vec<(usize, f64)> = ink
+            .near(vertex.position)
+            .map(|(i, s)| (seen[i], nearest_on(vertex.position, s), s))
+            .filter(|(_, t, s)| (vertex.position - s[0].lerp(s[1], *t)).hypot() <= NEAR_PX)
+            .filter(|(e, _, _)| !own.contains(e))
+            .map(|(e, t, _)| (e, t))
+            .collect();
+        let depth = |e: usize, t: f64| {
+            let [a, b] = ends(e).map(|v| map.vertices[v as usize].depth);
+            a + (b - a) * t
+        };
+        let bounds = |e: usize| matches!(map.edges[e].kind, LineKind::Contour | LineKind::Border);
+        let nearer = lines.iter().any(|(o, t)| bounds(*o) && depth(*o, *t) < vertex.depth);
+        let line = lines.iter().any(|(o, _)| map.edges[*o].kind != LineKind::Contour);
+        let from = |(i, [p, _]): (usize, [Point; 2])| {
+            if i == stop { f64::INFINITY } else { (p - vertex.position).hypot() }
+        };
+        let gap = others.near(vertex.position).map(from).fold(f64::INFINITY, f64::min);
+        let (_, length) = behind(v, e, FAR_PX, &at, &ends, &place);
+        let kind = vertex.kind;
+        if kind == ViewVertexKind::Frame {
+            tally.at_frame += 1;
+        } else if kind == ViewVertexKind::TJunction && nearer {
+            tally.junctions += 1;
+        } else if line {
+            tally.at_lines += 1;
+        } else if kind == ViewVertexKind::Cusp || turns_back(map, v, e, &ends) {
+            tally.cusps += 1;
+        } else if gap <= NEAR_PX {
+            tally.slits += 1;
+        } else if length < CRUMB_PX {
+            tally.crumbs += 1;
+        } else {
+            let (position, goes_on) = (vertex.position, hidden_at.contains(&v));
+            tally.unexplained.push(Stop { position, kind, goes_on, gap, length });
         }
     }
     tally
 }
 
-/// The visible line that ends at `v` with edge `e`, some px back.
+/// The visible line that ends at `v` with edge `e`, at least `reach` px back, and its length so far.
 fn behind(
     v: u32,
     e: usize,
+    reach: f64,
     at: &FxHashMap<u32, Vec<usize>>,
     ends: &impl Fn(usize) -> [u32; 2],
     place: &impl Fn(u32) -> Point,
-) -> FxHashSet<usize> {
+) -> (FxHashSet<usize>, f64) {
     let mut own = FxHashSet::default();
     let (mut from, mut edge, mut length) = (v, e, 0.0);
     loop {
@@ -198,8 +235,8 @@ fn behind(
         length += (place(b) - place(a)).hypot();
         let next = at[&to].iter().copied().find(|o| !own.contains(o));
         match next {
-            Some(next) if length < OWN_PX => (from, edge) = (to, next),
-            _ => return own,
+            Some(next) if length < reach => (from, edge) = (to, next),
+            _ => return (own, length),
         }
     }
 }
