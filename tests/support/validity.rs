@@ -94,8 +94,20 @@ impl Tally {
     pub fn header() -> String {
         format!(
             "{:24} {:>5} {:>7} {:>6} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>8}",
-            "model", "views", "arcs", "broken", "whole %", "stops", "under", "cusps", "lines", "frame",
-            "slits", "crumbs", "unexpl.", "expl. %"
+            "model",
+            "views",
+            "arcs",
+            "broken",
+            "whole %",
+            "stops",
+            "under",
+            "cusps",
+            "lines",
+            "frame",
+            "slits",
+            "crumbs",
+            "unexpl.",
+            "expl. %"
         )
     }
 
