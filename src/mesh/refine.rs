@@ -13,7 +13,7 @@ use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
 
 /// A mesh of which no more than one edge in so many is wanted is dense enough as it is: what is left
 /// are slivers, and building all of it anew would cost more than they show.
-const FEW: usize = 1000;
+const FEW: usize = 250;
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
