@@ -14,6 +14,9 @@ const DOT: f64 = 0.3;
 /// A contour of a scan that hangs on nothing must be this many times longer.
 const FLOATING: f64 = 6.0;
 
+/// The same for one that comes out from under something at one of its ends.
+const PARTLY_COVERED: f64 = 2.5;
+
 /// A line inside must be this many times longer than a crumb where it is as strong as can be; the
 /// weaker, the longer.
 const INSIDE: f64 = 5.0;
@@ -76,7 +79,11 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
     match raw.class.kind {
         LineKind::Contour if raw.smooth => {
             let floating = scanned && ends[0] && ends[1];
-            let least = if floating { FLOATING * tidy } else { tidy };
+            let least = match (floating, free[0] && free[1]) {
+                (true, true) => FLOATING * tidy,
+                (true, false) => PARTLY_COVERED * tidy,
+                (false, _) => tidy,
+            };
             // Where it is the last piece of another line, round a corner, that line needs it.
             let spur = [0, 1].map(|side| !ends[side] && degrees.is_junction(raw.ends[side]));
             length < least && ((ends[0] && (ends[1] || spur[1])) || (ends[1] && spur[0]))
@@ -86,7 +93,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
             length < tidy && [0, 1].iter().all(|side| free[*side] && !raw.covered[*side])
         }
         // A slit in a scan is a defect of its mesh.
-        LineKind::Border if scanned => ends[0] && ends[1],
+        LineKind::Border if scanned => free[0] && free[1],
         LineKind::Wire | LineKind::Border | LineKind::Motion => false,
         _ => length < 0.25 * tidy && free[0] && free[1],
     }

@@ -242,7 +242,7 @@ fn lines_that_pass_each_other_are_one_line() {
 #[test]
 fn a_flake_beside_an_outline_goes_and_a_line_apart_stays() {
     let outline: Vec<(f64, f64)> = (0..200).map(|k| (f64::from(k), 50.0)).collect();
-    let beside = |y: f64| (80..100).map(|k| (f64::from(k), y)).collect::<Vec<_>>();
+    let beside = |y: f64| (80..110).map(|k| (f64::from(k), y)).collect::<Vec<_>>();
     let count = |y: f64| {
         let lines = [(outline.clone(), LineKind::Contour, true), (beside(y), LineKind::Contour, true)];
         linked(&map_of(&lines), &ChainOptions::default(), Unit::Px).len()

@@ -13,7 +13,7 @@ use super::{Mesh, SmoothNormals};
 
 /// The largest sine of the angle at which a curve leaves its edge: steeper ones come from normals that
 /// no surface through the ends has.
-const STEEPEST: f64 = 0.7;
+const STEEPEST: f64 = 0.72;
 
 /// A cubic over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
