@@ -17,6 +17,9 @@ const FLAT_COSINE: f32 = 0.999_998_5;
 const SHARP_COSINE: f32 = 0.5;
 /// With at most this share of flat edges a surface is rounded, however many are sharp.
 const FEW_FLAT: f64 = 0.25;
+/// The same where the file has normals: then armour and tools are shaded round over sharp edges, and
+/// their flats tell them from figures.
+const FEW_FLAT_SHADED: f64 = 0.08;
 /// With more than this share of flat edges it is not, however few are sharp.
 const MANY_FLAT: f64 = 0.45;
 /// In between, it is with at most this share of sharp edges.
@@ -55,9 +58,9 @@ impl Count {
         let share = |of: u32, all: u32| f64::from(of) / f64::from(all.max(1));
         let (flat, sharp) = (share(self.flat, self.edges), share(self.sharp, self.edges));
         let faceted = self.with_normals == self.faces && share(self.curved, self.faces) < FEW_CURVED;
-        self.edges >= LEAST_EDGES
-            && !faceted
-            && (flat <= FEW_FLAT || (flat <= MANY_FLAT && sharp <= FEW_SHARP))
+        let shaded = share(self.with_normals, self.faces) > 0.5;
+        let few = if shaded { FEW_FLAT_SHADED } else { FEW_FLAT };
+        self.edges >= LEAST_EDGES && !faceted && (flat <= few || (flat <= MANY_FLAT && sharp <= FEW_SHARP))
     }
 }
 
