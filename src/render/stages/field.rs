@@ -154,8 +154,8 @@ fn zero_set(made: &Made, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPat
     let in_front = |face: u32, middle: Point| {
         let own = mesh.triangles[face as usize];
         let (column, row) = ((middle.x * per_unit).floor() as isize, (middle.y * per_unit).floor() as isize);
-        let beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
-        beside.into_iter().any(|(x, y)| {
+        let mut beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
+        beside.any(|(x, y)| {
             if x < 0 || y < 0 || x as usize >= buffer.columns || y as usize >= buffer.rows {
                 return false;
             }
