@@ -135,13 +135,13 @@ fn widened(points: &[Point], by: f64) -> Vec<Point> {
         if length > 0.0 { Vec2::new(side.y, -side.x) / length } else { Vec2::ZERO }
     };
     let mut out = Vec::with_capacity(2 * n);
-    for k in 0..n {
+    for (k, point) in points.iter().enumerate() {
         let (before, after) = (outward((k + n - 1) % n), outward(k));
         let cosine = before.dot(after);
         if cosine > SHARP_COSINE {
-            out.push(points[k] + (before + after) * (by / (1.0 + cosine)));
+            out.push(*point + (before + after) * (by / (1.0 + cosine)));
         } else {
-            out.extend([points[k] + before * by, points[k] + after * by]);
+            out.extend([*point + before * by, *point + after * by]);
         }
     }
     out
