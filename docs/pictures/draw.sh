@@ -28,5 +28,5 @@ smooth $models/teapot.obj $pictures/smooth-teapot --size 320x240 --azimuth 20 --
 # docs/stages.md
 "$ligne" draw $models/bear.ply $pictures/stage-field.png --stage field --size 400x480 --azimuth 25 --elevation 12
 "$ligne" draw $models/knot.ply $pictures/stage-zeros.svg --stage zeros --size 480x400 --precision 1
-"$ligne" draw $models/pump.glb $pictures/stage-strengths.png --stage strengths --size 640x450
+"$ligne" draw $models/pump.glb $pictures/stage-strengths.svg --stage strengths --size 560x400 --precision 1
 "$ligne" draw $models/bear.ply $pictures/stage-removed.svg --stage removed --style suggestive --size 400x480 --azimuth 25 --elevation 12 --precision 1

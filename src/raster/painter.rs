@@ -24,7 +24,8 @@ pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
     let slot = |face: u32| shown.binary_search(&face).ok();
     // The nearness of each face, as bits that order positive numbers, and who is painted over whom.
     let count = screen.triangle_count();
-    let tasks: Vec<(Vec<(usize, u32)>, Vec<[u32; 2]>)> = (0..count.div_ceil(TASK))
+    type Task = (Vec<(usize, u32)>, Vec<[u32; 2]>);
+    let tasks: Vec<Task> = (0..count.div_ceil(TASK))
         .into_par_iter()
         .map(|task| {
             let (mut near, mut over) = (Vec::new(), Vec::new());

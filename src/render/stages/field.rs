@@ -135,13 +135,13 @@ fn widened(points: &[Point], by: f64) -> Vec<Point> {
         if length > 0.0 { Vec2::new(side.y, -side.x) / length } else { Vec2::ZERO }
     };
     let mut out = Vec::with_capacity(2 * n);
-    for k in 0..n {
+    for (k, point) in points.iter().enumerate() {
         let (before, after) = (outward((k + n - 1) % n), outward(k));
         let cosine = before.dot(after);
         if cosine > SHARP_COSINE {
-            out.push(points[k] + (before + after) * (by / (1.0 + cosine)));
+            out.push(*point + (before + after) * (by / (1.0 + cosine)));
         } else {
-            out.extend([points[k] + before * by, points[k] + after * by]);
+            out.extend([*point + before * by, *point + after * by]);
         }
     }
     out
@@ -154,8 +154,8 @@ fn zero_set(made: &Made, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPat
     let in_front = |face: u32, middle: Point| {
         let own = mesh.triangles[face as usize];
         let (column, row) = ((middle.x * per_unit).floor() as isize, (middle.y * per_unit).floor() as isize);
-        let beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
-        beside.into_iter().any(|(x, y)| {
+        let mut beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
+        beside.any(|(x, y)| {
             if x < 0 || y < 0 || x as usize >= buffer.columns || y as usize >= buffer.rows {
                 return false;
             }
