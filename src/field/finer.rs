@@ -28,16 +28,16 @@ pub fn finer_near_contours(
         if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
     };
     let is_long = |a: DVec3, b: DVec3| a.distance(b) * page([a, b]) > tolerance::SHORT_EDGE_PX;
-    let wanted = |ends: [DVec3; 2], normals: [DVec3; 2]| {
+    let want = |ends: [DVec3; 2], normals: [DVec3; 2]| {
         let to_eye = ends.map(|p| frame.to_eye(p));
         let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
         // Between the ends the field varies by no more than normal and line of sight turn.
         let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
         let nearest = facing[0].abs().min(facing[1].abs());
         if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > REACH * turn {
-            return false;
+            return 0.0;
         }
-        EdgeArc::new(ends, normals).height().length() * page(ends) > tolerance::ARC_PX
+        EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::ARC_PX
     };
-    refine::refined(mesh, smooth, is_long, wanted)
+    refine::refined(mesh, smooth, is_long, want)
 }

@@ -11,9 +11,13 @@ use rustc_hash::FxHashMap;
 use super::smooth_normals::NO_NORMAL;
 use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
 
-/// A mesh of which no more than one edge in so many is wanted is dense enough as it is: what is left
-/// are slivers, and building all of it anew would cost more than they show.
-const FEW: usize = 250;
+/// A surface of which no more than one edge in so many is wanted is dense enough as it is: what is
+/// left are slivers, and building all of it anew would cost more than they show.
+const FEW: usize = 50;
+/// Unless so many edges are wanted badly: a coarse part beside dense ones.
+const MANY: usize = 24;
+/// Wanted badly is what is wanted so many times over.
+const BADLY: f64 = 12.0;
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
@@ -29,21 +33,22 @@ struct Piece {
     face: u32,
 }
 
-/// The mesh and its normals with all edges of rounded surfaces cut that `wanted` names, or `None`
-/// where it names none. `wanted` is given positions and unit normals of the ends of an edge, always
-/// in the same order, if `is_long`, which is quickly told, holds for its ends. Edges that part surfaces are never cut. Faces that were cut lose their texture
-/// coordinates and the file's normals.
+/// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
+/// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
+/// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
+/// than 1. Edges that part surfaces are never cut. The mesh loses its texture coordinates and the
+/// file's normals.
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
-    wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync,
+    want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<(Mesh, SmoothNormals)> {
     if smooth.is_empty() {
         return None;
     }
-    let marked: Vec<Vec<[u32; 2]>> = (0..mesh.edges.len().div_ceil(CHUNK))
+    let marked: Vec<Vec<([u32; 2], f64)>> = (0..mesh.edges.len().div_ceil(CHUNK))
         .into_par_iter()
         .map(|k| {
             let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
@@ -52,20 +57,22 @@ pub fn refined(
                 is_long(mesh.positions[a as usize], mesh.positions[b as usize])
             });
             let ends = long.filter_map(|edge| smooth.across(mesh, edge));
-            ends.filter(|[a, b]| {
-                let position = |v: &u32| mesh.positions[smooth.vertices[*v as usize] as usize];
-                let normal = |v: &u32| smooth.normals[*v as usize];
-                wanted([position(a), position(b)], [normal(a), normal(b)])
-            })
-            .collect()
+            let wants = ends.map(|ends| {
+                let position = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
+                let normal = |v: u32| smooth.normals[v as usize];
+                (ends, want(ends.map(position), ends.map(normal)))
+            });
+            wants.filter(|(_, want)| *want > 1.0).collect()
         })
         .collect();
     let marked = marked.concat();
-    if marked.len() <= mesh.edges.len() / FEW {
+    let badly = marked.iter().filter(|(_, want)| *want > BADLY).count();
+    let faces = smooth.corners.iter().filter(|corners| corners[0] != NO_NORMAL).count();
+    if marked.is_empty() || (marked.len() <= faces * 3 / 2 / FEW && badly < MANY) {
         return None;
     }
     let mut work = Work::new(mesh, smooth);
-    for ends in marked {
+    for (ends, _) in marked {
         work.cut(ends);
     }
     let (kept, mut open) = work.affected(mesh, smooth);
@@ -74,7 +81,7 @@ pub fn refined(
         let mut next = Vec::with_capacity(open.len() * 2);
         for piece in &open {
             if cuts > 0 {
-                work.decide(piece, &|ends, normals| is_long(ends[0], ends[1]) && wanted(ends, normals));
+                work.decide(piece, &|ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
             }
             work.split(piece, &mut next);
         }
@@ -309,7 +316,8 @@ mod tests {
         let smooth = SmoothNormals::rounded(&mesh);
         // Only one half is refined, so that all patterns occur.
         let wanted = |ends: [DVec3; 2], _: [DVec3; 2]| {
-            ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4 && ends[0].distance(ends[1]) > 0.1
+            let half = ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4;
+            if half { ends[0].distance(ends[1]) * 10.0 } else { 0.0 }
         };
         let (finer, normals) =
             refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
@@ -330,7 +338,7 @@ mod tests {
     #[test]
     fn what_nobody_wants_is_left() {
         let mesh = octahedron();
-        assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| true, |_, _| false).is_none());
-        assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true, |_, _| true).is_none());
+        assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| true, |_, _| 0.0).is_none());
+        assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true, |_, _| 2.0).is_none());
     }
 }

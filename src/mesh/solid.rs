@@ -35,7 +35,7 @@ mod tests {
 
     #[test]
     fn a_box_is_solid_an_open_one_and_one_inside_out_are_not() {
-        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let outward = [[0u32, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
         let mut soup = Soup::default();
         for (part, shift) in [0.0, 3.0, 6.0].into_iter().enumerate() {
