@@ -14,7 +14,7 @@ use glam::DVec3;
 use kurbo::Point;
 use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{HiddenLines, LineKind, LineOptions};
+use ligne::lines::{HiddenLines, LineKind};
 use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
 use ligne::viewmap::ViewVertexKind;

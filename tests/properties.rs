@@ -17,7 +17,7 @@ use glam::{DMat3, DVec3};
 use kurbo::Point;
 use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{HiddenLines, LineOptions};
+use ligne::lines::HiddenLines;
 use ligne::scene::{Camera, Projection, Scene};
 use pipeline::{counting, exact, orthographic, perspective, scene, stages};
 use scenes::{random_camera, random_scene};

@@ -51,8 +51,9 @@ fn visible(solid: &Solid, camera: &Camera) -> Vec<[Point; 2]> {
     stages(&scene([solid.clone()]), camera, &options).visible()
 }
 
-/// Twice what a written coordinate may be off, px.
-const WRITTEN_PX: f64 = 0.02;
+/// Where an edge is cut turns on whether its arc is higher than 0.08 px, and rounding may decide that
+/// differently where a symmetrical solid has many edges at that height.
+const ARC_PX: f64 = 0.1;
 
 /// Compares each solid with what `change` makes of it and of the camera.
 fn unchanged(change: impl Fn(&Solid, &Camera, &mut Dice) -> (Solid, Camera)) {
@@ -63,7 +64,7 @@ fn unchanged(change: impl Fn(&Solid, &Camera, &mut Dice) -> (Solid, Camera)) {
             let (other, camera_there) = change(&solid, &camera, &mut dice);
             let (here, there) = (visible(&solid, &camera), visible(&other, &camera_there));
             assert!(here.len() > 40, "{name}: hardly anything is drawn");
-            if let Err(message) = cover_alike(&here, &there, WRITTEN_PX, 0.5) {
+            if let Err(message) = cover_alike(&here, &there, ARC_PX, 0.5) {
                 faults.push(format!("{name} from {}: {message}", camera.eye));
             }
         }

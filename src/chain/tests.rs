@@ -164,16 +164,16 @@ fn a_tessellated_rim_becomes_a_curve_and_an_octagon_stays_one() {
 
 #[test]
 fn a_hidden_dip_is_bridged_and_hidden_lines_stay_apart() {
-    let line: Vec<(f64, f64)> = (0..60).map(|k| (f64::from(k), 50.0)).collect();
+    let line: Vec<(f64, f64)> = (0..100).map(|k| (f64::from(k), 50.0)).collect();
     let mut map = map_of(&[(line, LineKind::Contour, true)]);
-    map.edges[20].invisibility = 1;
+    map.edges[30].invisibility = 1;
     let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     assert_eq!(chains[0].invisibility, 0);
-    for edge in &mut map.edges[20..40] {
+    for edge in &mut map.edges[40..60] {
         edge.invisibility = 2;
     }
-    map.edges[30].invisibility = 1;
+    map.edges[50].invisibility = 1;
     let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     let hidden: Vec<u16> = chains.iter().map(|c| c.invisibility).collect();
     assert_eq!(hidden, [0, 1, 0]);
@@ -242,13 +242,13 @@ fn lines_that_pass_each_other_are_one_line() {
 #[test]
 fn a_flake_beside_an_outline_goes_and_a_line_apart_stays() {
     let outline: Vec<(f64, f64)> = (0..200).map(|k| (f64::from(k), 50.0)).collect();
-    let beside = |y: f64| (80..110).map(|k| (f64::from(k), y)).collect::<Vec<_>>();
-    let count = |y: f64| {
-        let lines = [(outline.clone(), LineKind::Contour, true), (beside(y), LineKind::Contour, true)];
+    let beside = |y: f64, end: u32| (80..end).map(|k| (f64::from(k), y)).collect::<Vec<_>>();
+    let count = |y: f64, end: u32| {
+        let lines = [(outline.clone(), LineKind::Contour, true), (beside(y, end), LineKind::Contour, true)];
         linked(&map_of(&lines), &ChainOptions::default(), Unit::Px).len()
     };
-    assert_eq!((count(53.0), count(62.0)), (1, 2));
-    let lines = [(outline.clone(), LineKind::Contour, true), (beside(53.0), LineKind::Contour, true)];
+    assert_eq!((count(53.0, 100), count(62.0, 110)), (1, 2));
+    let lines = [(outline.clone(), LineKind::Contour, true), (beside(53.0, 100), LineKind::Contour, true)];
     let map = map_of(&lines);
     let (_, removed) = link_and_keep(&map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
     assert_eq!(removed.iter().map(|r| r.reason).collect::<Vec<_>>(), [Reason::Double]);

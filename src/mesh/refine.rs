@@ -11,9 +11,11 @@ use rustc_hash::FxHashMap;
 use super::smooth_normals::NO_NORMAL;
 use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
 
-/// A surface of which no more than one edge in so many is wanted is dense enough as it is: what is
-/// left are slivers, and building all of it anew would cost more than they show.
-const FEW: usize = 50;
+/// Meshes up to so many rounded faces are built anew in no time.
+const SMALL: usize = 20_000;
+/// A larger surface of which no more than one edge in so many is wanted is dense enough as it is: what
+/// is left are slivers, and building all of it anew would cost more than they show.
+const FEW: usize = 25;
 /// Unless so many edges are wanted badly: a coarse part beside dense ones.
 const MANY: usize = 24;
 /// Wanted badly is what is wanted so many times over.
@@ -68,7 +70,8 @@ pub fn refined(
     let marked = marked.concat();
     let badly = marked.iter().filter(|(_, want)| *want > BADLY).count();
     let faces = smooth.corners.iter().filter(|corners| corners[0] != NO_NORMAL).count();
-    if marked.is_empty() || (marked.len() <= faces * 3 / 2 / FEW && badly < MANY) {
+    let dense = faces > SMALL && marked.len() <= faces * 3 / 2 / FEW && badly < MANY;
+    if marked.is_empty() || dense {
         return None;
     }
     let mut work = Work::new(mesh, smooth);

@@ -9,8 +9,8 @@
 //! - hidden, if it runs backward on a closed surface, whose nearer side then is its inside;
 //! - hidden, if it is a short spur from a cusp to where it comes out from under the line it meets;
 //! - else as the greater part of its length is, compared with all faces that are nearer than those
-//!   around it (the segment is lifted towards the eye by their size). Only where faces leave long
-//!   stretches of both kinds is an arc broken, and that is counted.
+//!   around it (the segment is lifted towards the eye by their size). Only on open surfaces, where
+//!   faces leave long stretches of both kinds, is an arc broken, and that is counted.
 //!
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section
 //! 4.4 (one decision for each piece between cusps and crossings); Pierre Bénard and Aaron Hertzmann,
@@ -150,6 +150,14 @@ impl Judge<'_> {
                 length: 0.0,
                 kinds: arc.kinds,
             });
+        }
+        if run.solid && stretches.len() > 1 {
+            // On a closed surface nothing else can break an arc: the greater part has it.
+            let of =
+                |hidden: bool| stretches.iter().filter(|s| s.hidden == hidden).map(|s| s.length).sum::<f64>();
+            let (visible, hidden) = (of(false), of(true));
+            let (length, kinds) = (visible + hidden, arc.kinds);
+            return vec![Stretch { hidden: hidden > visible, from: arc.from, to: arc.to, length, kinds }];
         }
         while stretches.len() > 1 {
             let by_length = |a: &(usize, &Stretch), b: &(usize, &Stretch)| a.1.length.total_cmp(&b.1.length);
