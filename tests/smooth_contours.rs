@@ -318,7 +318,7 @@ fn a_saddle_has_its_contour_and_borders() {
             }
             astray += off;
             all += length(&is);
-            assert!(missing.iter().all(|m| *m <= 0.04), "saddle {cells} from {}: {missing:?}", camera.eye);
+            assert!(missing.iter().all(|m| *m <= 0.045), "saddle {cells} from {}: {missing:?}", camera.eye);
         }
         let share = 100.0 * (1.0 - astray / all);
         println!("saddle {cells}: {share:.2} % of the contours within {SADDLE_PX} px");
