@@ -106,7 +106,7 @@ fn zeros_have_cusps_where_contours_turn_back() {
     assert!(count(&knot, "forward") > 0 && count(&knot, "backward") > 0);
     assert!(count(&knot, "t-junction") > 4);
     let cusps = count(&knot, "cusp");
-    assert!(cusps > 0 && cusps % 2 == 0, "{cusps} cusps");
+    assert!(cusps > 0 && cusps.is_multiple_of(2), "{cusps} cusps");
 }
 
 #[test]

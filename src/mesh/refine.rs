@@ -9,17 +9,13 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::smooth_normals::NO_NORMAL;
-use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
+use super::{EdgeArc, EdgeFaces, EdgeMark, Edges, Mesh, SmoothNormals};
 
-/// Meshes up to so many rounded faces are built anew in no time.
+/// Parts up to so many rounded faces are cut in no time.
 const SMALL: usize = 20_000;
-/// A larger surface of which no more than one edge in so many is wanted is dense enough as it is: what
-/// is left are slivers, and building all of it anew would cost more than they show.
+/// A larger part of which no more than one edge in so many is wanted is dense enough as it is: what is
+/// left are slivers, and building all of it anew would cost more than they show.
 const FEW: usize = 25;
-/// Unless so many edges are wanted badly: a coarse part beside dense ones.
-const MANY: usize = 24;
-/// Wanted badly is what is wanted so many times over.
-const BADLY: f64 = 12.0;
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
@@ -38,8 +34,8 @@ struct Piece {
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
 /// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
 /// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
-/// than 1. Edges that part surfaces are never cut. The mesh loses its texture coordinates and the
-/// file's normals.
+/// than 1. Edges that part surfaces are never cut, nor those of large parts that are dense enough. The
+/// mesh loses its texture coordinates and the file's normals.
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
@@ -50,7 +46,7 @@ pub fn refined(
     if smooth.is_empty() {
         return None;
     }
-    let marked: Vec<Vec<([u32; 2], f64)>> = (0..mesh.edges.len().div_ceil(CHUNK))
+    let marked: Vec<Vec<(usize, [u32; 2])>> = (0..mesh.edges.len().div_ceil(CHUNK))
         .into_par_iter()
         .map(|k| {
             let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
@@ -58,24 +54,21 @@ pub fn refined(
                 let [a, b] = mesh.edges.vertices[*edge];
                 is_long(mesh.positions[a as usize], mesh.positions[b as usize])
             });
-            let ends = long.filter_map(|edge| smooth.across(mesh, edge));
-            let wants = ends.map(|ends| {
+            let ends = long.filter_map(|edge| Some((edge, smooth.across(mesh, edge)?)));
+            ends.filter(|(_, ends)| {
                 let position = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
                 let normal = |v: u32| smooth.normals[v as usize];
-                (ends, want(ends.map(position), ends.map(normal)))
-            });
-            wants.filter(|(_, want)| *want > 1.0).collect()
+                want(ends.map(position), ends.map(normal)) > 1.0
+            })
+            .collect()
         })
         .collect();
-    let marked = marked.concat();
-    let badly = marked.iter().filter(|(_, want)| *want > BADLY).count();
-    let faces = smooth.corners.iter().filter(|corners| corners[0] != NO_NORMAL).count();
-    let dense = faces > SMALL && marked.len() <= faces * 3 / 2 / FEW && badly < MANY;
-    if marked.is_empty() || dense {
+    let marked = without_dense_parts(mesh, smooth, marked.concat());
+    if marked.is_empty() {
         return None;
     }
     let mut work = Work::new(mesh, smooth);
-    for (ends, _) in marked {
+    for ends in marked {
         work.cut(ends);
     }
     let (kept, mut open) = work.affected(mesh, smooth);
@@ -101,6 +94,27 @@ pub fn refined(
 }
 
 const CHUNK: usize = 1 << 14;
+
+/// The ends of the marked edges, but for those of parts that are dense enough.
+fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, marked: Vec<(usize, [u32; 2])>) -> Vec<[u32; 2]> {
+    if marked.is_empty() || mesh.triangles.len() <= SMALL {
+        return marked.into_iter().map(|(_, ends)| ends).collect();
+    }
+    let part_of = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::One(face) | EdgeFaces::Two { faces: [face, _], .. } => {
+            mesh.face_part[face as usize].index()
+        }
+        EdgeFaces::Many(faces) => mesh.face_part[faces[0] as usize].index(),
+    };
+    let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
+    let (mut faces, mut wanted) = (vec![0usize; parts], vec![0usize; parts]);
+    for (part, corners) in mesh.face_part.iter().zip(&smooth.corners) {
+        faces[part.index()] += usize::from(corners[0] != NO_NORMAL);
+    }
+    marked.iter().for_each(|(edge, _)| wanted[part_of(*edge)] += 1);
+    let is_dense = |part: usize| faces[part] > SMALL && wanted[part] <= faces[part] * 3 / 2 / FEW;
+    marked.into_iter().filter(|(edge, _)| !is_dense(part_of(*edge))).map(|(_, ends)| ends).collect()
+}
 
 struct Work {
     /// All vertices, the new ones behind those of the mesh.
