@@ -65,7 +65,7 @@ pub const ZERO_SET_OF_EDGE: f64 = 1e-6;
 pub const ARC_PX: f64 = 0.08;
 
 /// Edges no longer than this (px, seen square on) are never cut: lines over them are smooth already.
-pub const SHORT_EDGE_PX: f64 = 8.0;
+pub const SHORT_EDGE_PX: f64 = 2.5;
 
 /// A contour that turns back in the image for no longer than this (px) has no cusp there.
 pub const CUSP_PX: f64 = 1.0;

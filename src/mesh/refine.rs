@@ -15,7 +15,7 @@ use super::{EdgeArc, EdgeFaces, EdgeMark, Edges, Mesh, SmoothNormals};
 const SMALL: usize = 20_000;
 /// A larger part of which no more than one edge in so many is wanted is dense enough as it is: what is
 /// left are slivers, and building all of it anew would cost more than they show.
-const FEW: usize = 25;
+const FEW: usize = 500;
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
