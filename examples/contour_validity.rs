@@ -36,7 +36,7 @@ fn main() -> Result<(), ligne::Error> {
             }
             tally.add(found);
             if tally.views % 4 == 1 {
-                far.extend(both.distances(&camera));
+                far.extend(both.distances(&camera).unwrap_or_default());
             }
         }
         let name = path.rsplit('/').next().unwrap_or(&path);

@@ -26,15 +26,19 @@ impl Both {
         Self { auto, polygon }
     }
 
-    /// The distances of a view in px, ascending, one for each half px of smooth contour.
-    pub fn distances(&self, camera: &Camera) -> Vec<f64> {
+    /// The distances of a view in px, ascending, one for each half px of smooth contour; `None` where the
+    /// model is not taken as rounded, so that both contours are one.
+    pub fn distances(&self, camera: &Camera) -> Option<Vec<f64>> {
         let smooth = view_map(&self.auto, camera, &options(Contours::Auto));
+        if smooth.arcs.arcs == 0 {
+            return None;
+        }
         let polygon = view_map(&self.polygon, camera, &options(Contours::Mesh));
         let truth = Ink::new(contours(&polygon, |_, _| true), REACH);
         let drawn = contours(&smooth, |smooth, seen| smooth && seen);
         let mut found: Vec<f64> = samples(&drawn, 0.5).iter().map(|(p, _)| truth.distance(*p)).collect();
         found.sort_by(f64::total_cmp);
-        found
+        Some(found)
     }
 }
 
