@@ -3,7 +3,7 @@
 //! Source: Szymon Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes",
 //! 3DPVT 2004: a tensor for each face from the differences of the normals at its corners, averaged
 //! over the faces around each vertex in frames that are turned into one plane. Here the normals
-//! are smoothed beforehand (see [`super::diffusion`]).
+//! are smoothed beforehand (see `diffusion.rs`).
 
 use glam::DVec3;
 use rayon::prelude::*;
