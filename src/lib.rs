@@ -45,6 +45,7 @@ pub mod lines;
 pub mod math;
 pub mod mesh;
 pub mod raster;
+pub mod region;
 pub mod render;
 pub mod scene;
 pub mod stroke;

@@ -1,11 +1,13 @@
-//! Fields: one number a smooth vertex, from which lines are traced.
+//! Fields: numbers that vary over the surface, from which lines and regions are traced.
 
 pub mod cut;
 pub mod facing;
 pub mod finer;
+pub mod shading;
 pub mod smoothing;
 
 pub use cut::{SurfaceCut, cut};
 pub use facing::facing;
 pub use finer::finer_near_contours;
+pub use shading::{Shading, SurfacePoint};
 pub use smoothing::smooth_near_zero;

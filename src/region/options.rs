@@ -1,0 +1,44 @@
+//! How regions are gathered and painted: part of the `[fills]` table of a style sheet.
+
+use serde::{Deserialize, Serialize};
+
+use crate::drawing::Length;
+
+/// What lies under the border of two regions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Seams {
+    /// The region painted first reaches a little under its neighbour, so that no paper shines
+    /// through where both are anti-aliased.
+    #[default]
+    Underlap,
+    /// Regions end at their borders.
+    Exact,
+}
+
+/// How regions are gathered and painted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RegionOptions {
+    /// Whether regions are painted at all. Default: false.
+    pub enabled: bool,
+    /// What lies under borders. Default: underlap.
+    pub seams: Seams,
+    /// How far a region reaches under its neighbour. Default: 0.6 px.
+    pub underlap: Length,
+    /// Regions of less area than a square with this side go to a neighbour. Default: 2 px.
+    pub crumb: Length,
+    /// How far a fitted border may lie from the exact one. Default: 0.1 px.
+    pub fit_tolerance: Length,
+}
+
+impl Default for RegionOptions {
+    fn default() -> Self {
+        Self {
+            enabled: false,
+            seams: Seams::Underlap,
+            underlap: Length::px(0.6),
+            crumb: Length::px(2.0),
+            fit_tolerance: Length::px(0.1),
+        }
+    }
+}
