@@ -1,7 +1,7 @@
 //! Findings sorted back to the segments they are about.
 
 /// Findings in the order of their segments.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Grouped<T> {
     starts: Vec<u32>,
     findings: Vec<T>,

@@ -5,6 +5,7 @@ pub mod build;
 pub mod cover;
 pub mod doubles;
 pub mod events;
+pub mod front;
 pub mod graph;
 pub mod grid;
 mod grouped;
@@ -19,6 +20,7 @@ mod tile;
 pub mod visibility;
 
 pub use build::build;
+pub use front::{Front, front_faces};
 pub use graph::{ArcCounts, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 pub use overruled::{Overruled, overruled};
 pub use places::{Place, places};
