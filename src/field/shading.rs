@@ -40,6 +40,13 @@ impl Shading {
         1
     }
 
+    /// Whether a channel varies over a flat face: with distance from a light, or with the direction
+    /// to the eye.
+    #[must_use]
+    pub fn is_local(&self, _channel: usize) -> bool {
+        false
+    }
+
     /// The rising levels of a channel on a material.
     #[must_use]
     pub fn levels(&self, _material: MaterialId, _channel: usize) -> &[f64] {

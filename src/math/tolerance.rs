@@ -73,3 +73,19 @@ pub const CUSP_PX: f64 = 1.0;
 /// A threshold of lines inside below this counts as this; thresholds are pure numbers, measured by
 /// the size of features.
 pub const LEAST_THRESHOLD: f64 = 1e-9;
+
+/// Faces are cut until a tone border lies no farther than this (px) from where it ought to be.
+pub const ISOPHOTE_PX: f64 = 0.03;
+
+/// Where a tone is this near to a level (of tones from 0 to 1), its border is found.
+pub const ISOPHOTE_VALUE: f64 = 1e-9;
+
+/// Regions are cut on a grid of this many steps along the longer side of the frame.
+pub const REGION_STEPS: f64 = 1_048_576.0;
+
+/// Points of borders nearer than this (steps of that grid) to the line between their neighbours are
+/// there by rounding.
+pub const REGION_SNAP: f64 = 1.5;
+
+/// What looks different from the rest of its cell over more than this (px) is not there by rounding.
+pub const LEAK_PX: f64 = 1.2;

@@ -120,6 +120,7 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         classes,
+        tone: None,
         part: context.parts.get(chain.part.index()).and_then(name),
         material: context.materials.get(chain.material.index()).and_then(|(text, _)| name(text)),
         invisibility: chain.invisibility,

@@ -8,6 +8,7 @@ use crate::chain::ChainOptions;
 use crate::error::Error;
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
+use crate::region::RegionOptions;
 use crate::stroke::StrokeOptions;
 
 /// The options of every stage.
@@ -21,6 +22,8 @@ pub struct Style {
     pub chain: ChainOptions,
     /// Pens, and which lines they draw.
     pub stroke: StrokeOptions,
+    /// How regions are gathered and painted.
+    pub region: RegionOptions,
     /// The hand: seeds everything that varies by chance, and changes nothing else. Default: 0.
     pub seed: u64,
 }

@@ -86,6 +86,7 @@ impl Sheet {
             lines: self.lines,
             chain: self.chain,
             stroke,
+            region: crate::region::RegionOptions::default(),
             seed: self.seed,
         }
     }
