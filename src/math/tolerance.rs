@@ -89,3 +89,6 @@ pub const REGION_SNAP: f64 = 1.5;
 
 /// What looks different from the rest of its cell over more than this (px) is not there by rounding.
 pub const LEAK_PX: f64 = 1.2;
+
+/// A border that ends this near (px) to another one goes on to it.
+pub const BRIDGE_PX: f64 = 1.0;

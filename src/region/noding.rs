@@ -42,17 +42,18 @@ const MOST_TILES: usize = 400;
 /// A point this near to a piece (steps of the grid, squared) lies on it.
 const ON_PIECE: f64 = 0.5;
 
-/// Cuts segments of a grid.
-pub(super) fn node(segments: &[([GridPoint; 2], bool)]) -> Noded {
+/// Cuts segments of a grid. Ends that hang free, but no farther than `reach` from another piece, are
+/// led on to it: tone borders end at the faces' own contour, which lies a little inside or outside of
+/// the smooth one.
+pub(super) fn node(segments: &[([GridPoint; 2], bool)], reach: f64) -> Noded {
     let mut noded = Noder::default();
     for ([a, b], soft) in segments {
         let ends = [noded.point(*a), noded.point(*b)];
         noded.add(ends, *soft);
     }
-    for _ in 0..MOST_ROUNDS {
-        if !noded.cut() {
-            break;
-        }
+    noded.cut_all();
+    if noded.bridge(reach) {
+        noded.cut_all();
     }
     let mut pieces: Vec<Piece> = noded.pieces;
     // Where a hard and a soft piece coincide, the hard one stays.
@@ -85,6 +86,48 @@ impl Noder {
             self.pieces.push(Piece { ends: [a.min(b), a.max(b)], soft });
             self.fresh.push(true);
         }
+    }
+
+    fn cut_all(&mut self) {
+        for _ in 0..MOST_ROUNDS {
+            if !self.cut() {
+                break;
+            }
+        }
+    }
+
+    /// Leads free ends on to the nearest piece; whether there were any.
+    fn bridge(&mut self, reach: f64) -> bool {
+        let mut uses = vec![0u32; self.points.len()];
+        for end in self.pieces.iter().flat_map(|piece| piece.ends) {
+            uses[end as usize] += 1;
+        }
+        let free = (0..uses.len() as u32).filter(|p| uses[*p as usize] == 1);
+        let asked: Vec<(u32, GridPoint)> = free.map(|p| (p, self.points[p as usize])).collect();
+        if asked.is_empty() || reach <= 0.0 {
+            return false;
+        }
+        let tiles = Tiles::new(&self.points, &self.pieces);
+        let found: Vec<Option<GridPoint>> = asked
+            .par_iter()
+            .map(|(end, p)| {
+                let near = tiles.around(*p, reach).flatten().filter_map(|k| {
+                    let piece = self.pieces[*k as usize];
+                    let [a, b] = piece.ends.map(|end| self.points[end as usize]);
+                    (!piece.ends.contains(end)).then(|| foot(a, b, *p))
+                });
+                let near = near.filter(|(distance2, _)| *distance2 <= reach * reach);
+                near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|(_, foot)| foot)
+            })
+            .collect();
+        let before = self.pieces.len();
+        for ((end, _), foot) in asked.iter().zip(found) {
+            if let Some(foot) = foot {
+                let foot = self.point(foot);
+                self.add([*end, foot], true);
+            }
+        }
+        self.pieces.len() > before
     }
 
     /// One round; whether anything was cut.
@@ -193,9 +236,21 @@ fn lies_on(a: GridPoint, b: GridPoint, p: GridPoint) -> bool {
     along > 0 && along < length2 && off * off <= ON_PIECE * length2 as f64
 }
 
+/// The point of a piece that is nearest to a point, on the grid, and its distance squared.
+fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint) {
+    let t = (dot(a, b, p) as f64 / (dot(a, b, b) as f64).max(1.0)).clamp(0.0, 1.0);
+    let at = |k: usize| a[k] + ((b[k] - a[k]) as f64 * t).round() as i64;
+    let foot = [at(0), at(1)];
+    let (x, y) = ((foot[0] - p[0]) as f64, (foot[1] - p[1]) as f64);
+    (x * x + y * y, foot)
+}
+
 /// Pieces by the tiles of the page that they pass.
 struct Tiles {
     pieces: Vec<Vec<u32>>,
+    low: GridPoint,
+    size: GridPoint,
+    across: i64,
 }
 
 impl Tiles {
@@ -227,7 +282,18 @@ impl Tiles {
                 }
             }
         }
-        Self { pieces: tiles }
+        Self { pieces: tiles, low, size, across }
+    }
+
+    /// The tiles within `reach` of a point.
+    fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = &Vec<u32>> {
+        let reach = reach.ceil() as i64;
+        let tile = |x: i64, k: usize| ((x - self.low[k]) / self.size[k]).clamp(0, self.across - 1);
+        let range = |k: usize| tile(p[k] - reach, k)..=tile(p[k] + reach, k);
+        let columns = range(0);
+        let tiles =
+            range(1).flat_map(move |row| columns.clone().map(move |column| row * self.across + column));
+        tiles.map(|tile| &self.pieces[tile as usize])
     }
 }
 
@@ -260,14 +326,15 @@ mod tests {
 
     #[test]
     fn a_crossing_becomes_a_point() {
-        let noded = node(&[([[0, 0], [10, 10]], true), ([[0, 10], [10, 0]], true)]);
+        let noded = node(&[([[0, 0], [10, 10]], true), ([[0, 10], [10, 0]], true)], 0.0);
         assert_eq!(noded.pieces.len(), 4);
         assert!(noded.points.contains(&[5, 5]));
     }
 
     #[test]
     fn a_point_on_a_piece_cuts_it_and_what_lies_twice_stays_once() {
-        let noded = node(&[([[0, 0], [10, 0]], true), ([[4, 0], [20, 0]], false), ([[5, 7], [5, 0]], true)]);
+        let noded =
+            node(&[([[0, 0], [10, 0]], true), ([[4, 0], [20, 0]], false), ([[5, 7], [5, 0]], true)], 0.0);
         let sorted: Vec<[GridPoint; 2]> =
             noded.pieces.iter().map(|piece| piece.ends.map(|end| noded.points[end as usize])).collect();
         assert_eq!(sorted.len(), 5, "{sorted:?}");
@@ -276,12 +343,21 @@ mod tests {
     }
 
     #[test]
+    fn a_free_end_is_led_on_to_what_is_near() {
+        let segments = [([[0, 0], [100, 0]], false), ([[50, 4], [50, 90]], true)];
+        assert_eq!(node(&segments, 3.0).pieces.len(), 2);
+        let noded = node(&segments, 5.0);
+        assert_eq!(noded.pieces.len(), 4, "{noded:?}");
+        assert!(noded.points.contains(&[50, 0]));
+    }
+
+    #[test]
     fn crowds_meet_in_shared_points_only() {
         for (count, size) in [(60, 40), (120, 1000), (200, 100_000)] {
             let points = scattered(count, size);
             let segments: Vec<([GridPoint; 2], bool)> =
                 points.chunks_exact(2).map(|pair| ([pair[0], pair[1]], true)).collect();
-            meets_in_points_only(&node(&segments));
+            meets_in_points_only(&node(&segments, 0.0));
         }
     }
 }

@@ -130,31 +130,26 @@ fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
     }
 }
 
-/// A path moved by `reach` to its left as the page is seen (y down), which is outward; corners are
-/// kept to twice that.
+/// A path moved by `reach` to its left as the page is seen (y down), which is outward. Sharp corners
+/// are cut off or crossed over, so that their sides stay as far away as all others.
 fn pushed(path: &BezPath, reach: f64, closed: bool) -> BezPath {
     let segments: Vec<PathSeg> = path.segments().collect();
-    let n = segments.len();
-    if n == 0 {
-        return path.clone();
-    }
     let directions: Vec<[Vec2; 2]> = segments.iter().map(ends).collect();
-    // How far the point before each segment moves; one more for the end.
-    let shift = |k: usize| {
-        let before = if k > 0 { Some(k - 1) } else { closed.then_some(n - 1) };
-        let after = if k < n { Some(k) } else { closed.then_some(0) };
-        match (before, after) {
-            (Some(b), Some(a)) => mitre(directions[b][1], directions[a][0]) * reach,
-            (Some(b), None) => normal(directions[b][1]) * reach,
-            (None, Some(a)) => normal(directions[a][0]) * reach,
-            (None, None) => Vec2::ZERO,
-        }
-    };
+    let n = segments.len();
+    // How far the start and the end of a segment move, given the direction of the one next to it.
+    let shift =
+        |own: Vec2, next: Option<Vec2>| next.and_then(|next| mitre(own, next)).unwrap_or(normal(own)) * reach;
     let mut out = BezPath::new();
     for (k, segment) in segments.iter().enumerate() {
-        let (from, to) = (shift(k), shift(k + 1));
+        let before = if k > 0 { Some(k - 1) } else { closed.then_some(n - 1) };
+        let after = if k + 1 < n { Some(k + 1) } else { closed.then_some(0) };
+        let from = shift(directions[k][0], before.map(|b| directions[b][1]));
+        let to = shift(directions[k][1], after.map(|a| directions[a][0]));
+        let start = segment.start() + from;
         if k == 0 {
-            out.move_to(segment.start() + from);
+            out.move_to(start);
+        } else if out.elements().last().and_then(PathEl::end_point) != Some(start) {
+            out.line_to(start);
         }
         match *segment {
             PathSeg::Line(line) => out.line_to(line.p1 + to),
@@ -162,7 +157,7 @@ fn pushed(path: &BezPath, reach: f64, closed: bool) -> BezPath {
             PathSeg::Cubic(cubic) => out.curve_to(cubic.p1 + from, cubic.p2 + to, cubic.p3 + to),
         }
     }
-    if closed {
+    if closed && n > 0 {
         out.close_path();
     }
     out
@@ -193,12 +188,11 @@ fn normal(way: Vec2) -> Vec2 {
     Vec2::new(way.y, -way.x)
 }
 
-/// The shift of a corner between two directions by which both sides move by one.
-fn mitre(before: Vec2, after: Vec2) -> Vec2 {
-    let (a, b) = (normal(before), normal(after));
-    let middle = unit(a + b);
-    let cosine = middle.dot(a);
-    if cosine > 0.5 { middle / cosine } else { middle * 2.0 * cosine.max(0.0) }
+/// The shift of a blunt corner between two directions by which both its sides move by one.
+fn mitre(a: Vec2, b: Vec2) -> Option<Vec2> {
+    let middle = unit(normal(a) + normal(b));
+    let cosine = middle.dot(normal(a));
+    (cosine > 0.5).then(|| middle / cosine)
 }
 
 #[cfg(test)]
