@@ -29,6 +29,8 @@ pub struct Lit<'a> {
     pub shading: &'a Shading,
     /// How much of the sky each vertex of the mesh sees, or empty.
     pub openness: &'a [f64],
+    /// The parts nobody sees the inside of, by their number; none if empty.
+    pub solid: &'a [bool],
 }
 
 impl Lit<'_> {
@@ -52,6 +54,13 @@ impl Lit<'_> {
         }
     }
 
+    /// Whether the eye may see a face: not the averted ones of solid parts.
+    #[inline]
+    fn may_be_seen(&self, face: usize) -> bool {
+        let solid = || self.solid.get(self.mesh.face_part[face].index()).copied().unwrap_or_default();
+        self.view.facing[face] || !solid()
+    }
+
     /// The tone of a point, for lights of which those in `shadowed` do not reach it.
     #[must_use]
     pub fn tone(&self, material: MaterialId, point: &SurfacePoint, shadowed: u32) -> u16 {
@@ -72,12 +81,13 @@ const MOST_CHANNELS: usize = 8;
 pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
     const CHUNK: usize = 1 << 11;
     let count = lit.mesh.triangles.len();
+    let ready = Ready::new(lit, shadowed);
     let found: Vec<Vec<(u32, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
-            let mut tracer = Tracer::new(lit);
+            let mut tracer = Tracer::new(lit, &ready);
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
-                if !lit.mesh.is_degenerate(FaceId(face as u32)) {
+                if lit.may_be_seen(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
                     tracer.trace(face as u32, shadowed);
                 }
             }
@@ -135,12 +145,65 @@ struct Band<'a> {
 
 struct Tracer<'a> {
     lit: &'a Lit<'a>,
+    ready: &'a Ready,
     segments: Vec<(u32, [DVec3; 2])>,
 }
 
+/// What is the same for all faces.
+struct Ready {
+    /// A CSS px in user units.
+    px: f64,
+    /// For each channel and each set of shadowed lights the values at all normals of a surface that
+    /// turns its outside to the eye, then its inside; empty where values vary from place to place.
+    values: Vec<Vec<[Vec<f64>; 2]>>,
+}
+
+impl Ready {
+    fn new(lit: &Lit, shadowed: &[u32]) -> Self {
+        let frame = &lit.view.frame;
+        // Channels that are not local look at no material.
+        let material = MaterialId(0);
+        let value = |channel: usize, normal: DVec3, shadowed: u32| {
+            let point = SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
+            lit.shading.value(channel, material, &point, shadowed)
+        };
+        let of = |channel: usize, shadowed: u32| {
+            if lit.shading.is_local(channel) {
+                return [Vec::new(), Vec::new()];
+            }
+            [1.0, -1.0].map(|side| {
+                let normals = lit.normals.normals.par_iter().with_min_len(1 << 12);
+                normals.map(|normal| value(channel, *normal * side, shadowed)).collect()
+            })
+        };
+        let channels = 0..lit.shading.channels();
+        Self {
+            px: frame.width.max(frame.height) / PAGE_PX,
+            values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
+        }
+    }
+}
+
 impl<'a> Tracer<'a> {
-    fn new(lit: &'a Lit<'a>) -> Self {
-        Self { lit, segments: Vec::new() }
+    fn new(lit: &'a Lit<'a>, ready: &'a Ready) -> Self {
+        Self { lit, ready, segments: Vec::new() }
+    }
+
+    /// Whether no level can be crossed on a face, told from the values at its corners: inside, they
+    /// differ from what lies between by no more than the normals turn.
+    fn is_even(&self, face: u32, levels: &[f64], channel: usize, shadow: usize) -> bool {
+        let [outside, inside] = &self.ready.values[channel][shadow];
+        let values = if self.lit.view.facing[face as usize] { outside } else { inside };
+        if values.is_empty() {
+            return false;
+        }
+        let corners = self.lit.normals.corners[face as usize];
+        let [a, b, c] = corners.map(|id| values[id as usize]);
+        let [n, m, o] = self.lit.normals.of(face);
+        let turn2 = n.distance_squared(m).max(m.distance_squared(o)).max(o.distance_squared(n));
+        let off = turn2 * self.lit.shading.steepness();
+        let (low, high) = (a.min(b).min(c) - off, a.max(b).max(c) + off);
+        levels.partition_point(|level| *level < low) == levels.partition_point(|level| *level <= high)
     }
 
     fn trace(&mut self, face: u32, shadowed: &[u32]) {
@@ -165,7 +228,10 @@ impl<'a> Tracer<'a> {
             if levels.is_empty() || (is_flat && !shading.is_local(channel)) {
                 continue;
             }
-            for shadowed in shadowed {
+            for (shadow, shadowed) in shadowed.iter().enumerate() {
+                if self.is_even(face, levels, channel, shadow) {
+                    continue;
+                }
                 let band = Band { face, channel, shadowed: *shadowed, levels, sides, turns };
                 let nodes = UNIT.map(|weights| self.node(&band, weights));
                 self.cut(&band, nodes, 0);
@@ -214,15 +280,15 @@ impl<'a> Tracer<'a> {
     fn is_bent(&self, band: &Band, a: Node, middle: Node, b: Node) -> bool {
         let length = extent(&band.sides, a.weights, b.weights);
         let nodes = [a, b];
-        let far_reaching = length > LONGEST_PX * self.px() && self.lit.shading.is_local(band.channel);
+        let far_reaching = length > LONGEST_PX * self.ready.px && self.lit.shading.is_local(band.channel);
         let turning = extent(&band.turns, a.weights, b.weights) > MOST_TURN;
-        ((far_reaching || turning) && length > SHORTEST_PX * self.px())
+        ((far_reaching || turning) && length > SHORTEST_PX * self.ready.px)
             || self.is_off(band, &nodes, middle.value, f64::midpoint(a.value, b.value), length)
     }
 
     /// Whether a value differs from the linear one so much that a level would be displaced.
     fn is_off(&self, band: &Band, nodes: &[Node], value: f64, linear: f64, length: f64) -> bool {
-        if length <= SHORTEST_PX * self.px() {
+        if length <= SHORTEST_PX * self.ready.px {
             return false;
         }
         let off = (value - linear).abs();
@@ -233,12 +299,7 @@ impl<'a> Tracer<'a> {
         }
         let crossed = band.levels.partition_point(|level| *level < low - off)
             < band.levels.partition_point(|level| *level <= high + off);
-        crossed && off * length > tolerance::ISOPHOTE_PX * self.px() * (high - low)
-    }
-
-    /// A CSS px in user units.
-    fn px(&self) -> f64 {
-        self.lit.view.frame.width.max(self.lit.view.frame.height) / PAGE_PX
+        crossed && off * length > tolerance::ISOPHOTE_PX * self.ready.px * (high - low)
     }
 
     fn draw(&mut self, band: &Band, nodes: [Node; 3]) {

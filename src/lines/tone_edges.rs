@@ -6,29 +6,46 @@ use rustc_hash::FxHashSet;
 
 use super::isophotes::{Lit, segment};
 use super::{FeatureLines, FeatureSegment};
-use crate::mesh::{EdgeFaces, FaceId, MaterialId, PartId};
+use crate::field::ShadedNormals;
+use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PartId};
 
 /// Places along an edge where both its sides are looked at. What differs between them only ends
 /// there: the border runs on to the end of the edge, with the same look on both sides.
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// Adds the edges that part two looks, for any of these sets of lights that are in shadow, and are
-/// no lines yet.
-pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
-    const CHUNK: usize = 1 << 13;
-    let known: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
-    let count = lit.mesh.edges.len();
-    let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let edges = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
-            edges.filter_map(|edge| parting(lit, edge, shadowed, &known)).collect()
-        })
-        .collect();
-    lines.segments.extend(found.into_iter().flatten());
+/// The edges across which a surface may look different, whatever the light: where parts, materials or
+/// normals differ. The same for all views.
+#[must_use]
+pub fn candidates(mesh: &Mesh, normals: &ShadedNormals) -> EdgeSet {
+    let differ = |[first, second]: [u32; 2], ends: [u32; 2]| {
+        let owner = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
+        let normal = |face: u32, v: u32| {
+            let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
+            normals.normals[normals.corners[face as usize][corner] as usize]
+        };
+        owner(first) != owner(second) || ends.iter().any(|v| normal(first, *v) != normal(second, *v))
+    };
+    EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
+        EdgeFaces::One(_) => false,
+        EdgeFaces::Two { faces, .. } => differ(faces, mesh.edges.vertices[edge]),
+        EdgeFaces::Many(_) => true,
+    })
 }
 
-fn parting(lit: &Lit, edge: usize, shadowed: &[u32], known: &FxHashSet<[u32; 2]>) -> Option<FeatureSegment> {
+/// Adds those of the candidates that part two looks, for any of these sets of lights that are in
+/// shadow, and are no lines yet.
+pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) {
+    let edges: Vec<usize> = candidates.iter().collect();
+    let mut found: Vec<FeatureSegment> =
+        edges.par_iter().with_min_len(1 << 9).filter_map(|edge| parting(lit, *edge, shadowed)).collect();
+    if !found.is_empty() {
+        let known: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
+        found.retain(|segment| !known.contains(&segment.ends));
+        lines.segments.extend(found);
+    }
+}
+
+fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<FeatureSegment> {
     let mesh = lit.mesh;
     let ends = mesh.edges.vertices[edge];
     let is_real = |face: &u32| !mesh.is_degenerate(FaceId(*face));
@@ -43,7 +60,7 @@ fn parting(lit: &Lit, edge: usize, shadowed: &[u32], known: &FxHashSet<[u32; 2]>
         }
     };
     let faces = [first, second];
-    let parts = faces.iter().all(is_real) && differ(lit, ends, faces, shadowed) && !known.contains(&ends);
+    let parts = faces.iter().all(is_real) && differ(lit, ends, faces, shadowed);
     parts.then(|| segment(mesh, first, faces, ends))
 }
 

@@ -92,3 +92,14 @@ pub const LEAK_PX: f64 = 1.2;
 
 /// A border that ends this near (px) to another one goes on to it.
 pub const BRIDGE_PX: f64 = 1.0;
+
+/// Light of a model's lamp grows no more nearer to it than this fraction of the model.
+pub const LAMP_OF_MODEL: f64 = 1e-3;
+
+/// Highlights fade where light falls at less than this cosine, so that they end without a jump
+/// where the surface turns away from the light.
+pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
+
+/// The border of a spot light's cone is at least this soft (difference of cosines), as
+/// KHR_lights_punctual advises.
+pub const LEAST_CONE: f64 = 1e-3;

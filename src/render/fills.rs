@@ -8,6 +8,8 @@ use kurbo::Vec2;
 use crate::drawing::{Layer, Page};
 use crate::field::{ShadedNormals, Shading};
 use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
+use crate::mesh::EdgeSet;
+use crate::mesh::solid::solid_parts;
 use crate::region::{self, Regions, paint::PaintContext};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
@@ -40,44 +42,70 @@ pub(super) fn keep_inked(map: &mut ViewMap, style: &Style) {
     map.edges.retain(|edge| style.lines.enabled && style.lines.kinds.contains(&edge.kind));
 }
 
+/// What regions need of a surface beside its lines; the same for all views.
+pub(super) struct Paintable {
+    normals: ShadedNormals,
+    /// Edges across which it may look different.
+    edges: EdgeSet,
+    /// Parts whose inside nobody sees.
+    solid: Vec<bool>,
+}
+
+impl Paintable {
+    pub fn new(surface: &Surface) -> Self {
+        let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
+        let edges = tone_edges::candidates(&surface.mesh, &normals);
+        Self { normals, edges, solid: solid_parts(&surface.mesh) }
+    }
+}
+
 /// A lit surface on its way to regions.
 pub(super) struct Fills<'a> {
     surface: &'a Surface,
+    paintable: &'a Paintable,
     view: &'a View,
-    normals: ShadedNormals,
     shading: Shading,
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
 }
 
 impl<'a> Fills<'a> {
-    pub fn new(surface: &'a Surface, view: &'a View, scene: &Scene, _style: &Style) -> Self {
-        let frame = &view.frame;
-        let towards = frame.right * -0.4 + frame.up * 0.6 - frame.forward * 0.7;
+    pub fn new(
+        surface: &'a Surface,
+        paintable: &'a Paintable,
+        view: &'a View,
+        scene: &Scene,
+        style: &Style,
+        warnings: &mut Vec<String>,
+    ) -> Self {
+        let (mesh, frame) = (&surface.mesh, &view.frame);
         Self {
             surface,
+            paintable,
             view,
-            normals: ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth),
-            shading: Shading::from_direction(towards, vec![0.5]),
+            shading: Shading::new(scene, mesh, frame, &style.light, &style.tones, warnings),
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
         }
     }
 
     fn lit(&self) -> Lit<'_> {
+        // Where the near plane cuts a part open, its inside is seen.
+        let is_cut = !self.view.clipped.is_empty() || self.view.points.iter().any(|p| p.z.is_nan());
         Lit {
             mesh: &self.surface.mesh,
             view: self.view,
-            normals: &self.normals,
+            normals: &self.paintable.normals,
             shading: &self.shading,
             openness: &[],
+            solid: if is_cut { &[] } else { &self.paintable.solid },
         }
     }
 
     /// Adds where the tone changes to the lines whose visibility is decided.
     pub fn add_tone_borders(&self, lines: &mut FeatureLines) {
         let lit = self.lit();
-        tone_edges::find(&lit, &[0], lines);
+        tone_edges::find(&lit, &self.paintable.edges, &[0], lines);
         isophotes::find(&lit, &[0], lines);
     }
 

@@ -23,7 +23,7 @@ use crate::stroke::{self, InkContext};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, ViewMap};
-use fills::Fills;
+use fills::{Fills, Paintable};
 use stages::Made;
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
@@ -66,11 +66,13 @@ pub fn render_reported(
     let sought = fills::sought(style);
     let surface = Surface::new(mesh, &sought).finer_for(camera);
     let mesh = &surface.mesh;
+    let paintable = style.region.enabled.then(|| Paintable::new(&surface));
     let view = View::new(mesh, camera);
     report.stages_ms.topology = watch.lap_ms();
 
     let mut feature_lines = lines::extract(&surface, &view, &sought);
-    let fills = style.region.enabled.then(|| Fills::new(&surface, &view, scene, style));
+    let mut warnings = Vec::new();
+    let fills = paintable.as_ref().map(|p| Fills::new(&surface, p, &view, scene, style, &mut warnings));
     if let Some(fills) = &fills {
         fills.add_tone_borders(&mut feature_lines);
     }
@@ -115,6 +117,7 @@ pub fn render_reported(
     report.counts.chains = chains.len() as u64;
     report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
     report.warnings = defects::of_mesh(mesh, scene).lines();
+    report.warnings.extend(warnings);
     (Drawing { title: title(scene), page, layers }, report)
 }
 

@@ -1,7 +1,6 @@
 //! Strokes: chains with their ink, as the line layers of a drawing.
 
 pub mod dash;
-pub mod glob;
 pub mod options;
 mod outline;
 pub mod pen;
@@ -12,7 +11,7 @@ use std::sync::Arc;
 use kurbo::BezPath;
 use rayon::prelude::*;
 
-pub use glob::Glob;
+pub use crate::math::glob::Glob;
 pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
 pub use pen::{Ink, Pen, PenChange};
 
