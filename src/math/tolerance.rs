@@ -103,3 +103,6 @@ pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
 /// The border of a spot light's cone is at least this soft (difference of cosines), as
 /// KHR_lights_punctual advises.
 pub const LEAST_CONE: f64 = 1e-3;
+
+/// Tone borders move from faces to the curved surface where that is less than this (px) away.
+pub const LIFT_PX: f64 = 0.6;
