@@ -255,9 +255,19 @@ impl<'a> Tracer<'a> {
                     continue;
                 }
                 let band = Band { face, channel, shadowed: *shadowed, levels, sides, spans, turns };
-                let nodes = UNIT.map(|weights| self.node(&band, weights));
+                let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
                 self.cut(&band, nodes, 0);
             }
+        }
+    }
+
+    /// A corner of a face.
+    fn corner(&self, band: &Band, k: usize, shadow: usize) -> Node {
+        let [outside, inside] = &self.ready.values[band.channel][shadow];
+        let values = if self.lit.view.facing[band.face as usize] { outside } else { inside };
+        match values.get(self.lit.normals.corners[band.face as usize][k] as usize) {
+            Some(value) => Node { weights: UNIT[k], value: *value },
+            None => self.node(band, UNIT[k]),
         }
     }
 
@@ -276,6 +286,9 @@ impl<'a> Tracer<'a> {
         }
         if depth < DEEPEST {
             let middle = |i: usize, j: usize| {
+                if self.is_straight(band, nodes[i], nodes[j]) {
+                    return None;
+                }
                 let middle = self.node(band, mean(nodes[i].weights, nodes[j].weights));
                 self.is_bent(band, nodes[i], middle, nodes[j]).then_some(middle)
             };
@@ -284,6 +297,10 @@ impl<'a> Tracer<'a> {
                 for piece in pieces(nodes, middles).iter().flatten() {
                     self.cut(band, *piece, depth + 1);
                 }
+                return;
+            }
+            if (0..3).all(|k| self.is_straight(band, nodes[k], nodes[(k + 1) % 3])) {
+                self.draw(band, nodes);
                 return;
             }
             let third = |k: usize| (nodes[0].weights[k] + nodes[1].weights[k] + nodes[2].weights[k]) / 3.0;
@@ -322,6 +339,19 @@ impl<'a> Tracer<'a> {
         };
         band.levels.partition_point(|level| *level < low)
             == band.levels.partition_point(|level| *level <= high)
+    }
+
+    /// Whether normals turn so little along a side that the value must be all but linear there.
+    fn is_straight(&self, band: &Band, a: Node, b: Node) -> bool {
+        if self.lit.shading.is_local(band.channel) {
+            return false;
+        }
+        let turn = extent(&band.turns, a.weights, b.weights);
+        // What a cosine is off its chord at most.
+        let off = turn * turn / 8.0 * self.lit.shading.steepness();
+        let length = extent(&band.sides, a.weights, b.weights);
+        turn <= MOST_TURN
+            && off * length <= tolerance::ISOPHOTE_PX * self.ready.px * (a.value - b.value).abs()
     }
 
     /// Whether the value along a side bends so much that a level would cross it elsewhere.

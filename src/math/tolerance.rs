@@ -78,7 +78,7 @@ pub const LEAST_THRESHOLD: f64 = 1e-9;
 pub const ISOPHOTE_PX: f64 = 0.03;
 
 /// Where a tone is this near to a level (of tones from 0 to 1), its border is found.
-pub const ISOPHOTE_VALUE: f64 = 1e-9;
+pub const ISOPHOTE_VALUE: f64 = 1e-7;
 
 /// Regions are cut on a grid of this many steps along the longer side of the frame.
 pub const REGION_STEPS: f64 = 1_048_576.0;
