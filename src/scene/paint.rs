@@ -61,7 +61,7 @@ impl Paints {
             .collect();
 
         // Colours of all triangles that have one, with the material, geometry and triangle.
-        let mut coloured: Vec<Vec<(Colour, usize, usize)>> = vec![Vec::new(); materials.len()];
+        let mut coloured: Vec<Vec<Coloured>> = vec![Vec::new(); materials.len()];
         for (index, geometry) in scene.geometries.iter().enumerate() {
             let last = materials.len() - 1;
             let material_of = |triangle: usize| {
@@ -74,7 +74,7 @@ impl Paints {
                 let base = materials.get(id).map_or(Colour::WHITE, |material| material.colour);
                 Some((id, colour_of(geometry, triangle, texture, base, scene.format == "glTF")?))
             };
-            let found: Vec<Option<(usize, Colour)>> =
+            let found: Vec<Option<(usize, (Colour, bool))>> =
                 (0..geometry.triangles.len()).into_par_iter().with_min_len(1 << 12).map(colour).collect();
             for (triangle, (id, colour)) in
                 found.into_iter().enumerate().filter_map(|(triangle, found)| Some((triangle, found?)))
@@ -98,8 +98,8 @@ impl Paints {
     }
 
     /// Adds the paints of a material's triangles.
-    fn add(&mut self, scene: &Scene, material: usize, triangles: &[(Colour, usize, usize)]) {
-        let colours: Vec<Colour> = triangles.iter().map(|(colour, ..)| *colour).collect();
+    fn add(&mut self, scene: &Scene, material: usize, triangles: &[Coloured]) {
+        let colours: Vec<(Colour, bool)> = triangles.iter().map(|(colour, ..)| *colour).collect();
         let mut known: FxHashMap<Colour, PaintId> = FxHashMap::default();
         if let Some(own) = self.list.get(material) {
             known.insert(own.colour, PaintId::from(material));
@@ -125,7 +125,10 @@ impl Paints {
     }
 }
 
-/// The colour of a triangle, where a texture or its corners give it. In glTF they multiply the
+/// The colour of a triangle and whether it is of one colour; its geometry and its number there.
+type Coloured = ((Colour, bool), usize, usize);
+
+/// The colour of a triangle and whether it is of one colour, where a texture or its corners give it. In glTF they multiply the
 /// material's, elsewhere they stand in for it.
 fn colour_of(
     geometry: &Geometry,
@@ -133,7 +136,7 @@ fn colour_of(
     texture: Option<&Texture>,
     base: Colour,
     multiplies: bool,
-) -> Option<Colour> {
+) -> Option<(Colour, bool)> {
     let uvs = geometry.corner_uvs.get(triangle).and_then(|corners| {
         let [a, b, c] = corners.map(|corner| geometry.uvs.get(corner as usize).copied());
         Some([a?, b?, c?])
@@ -151,10 +154,11 @@ fn colour_of(
         let [r, g, b] = [colour.r, colour.g, colour.b].map(|c| linear(f32::from(c) / 255.0));
         Vec3::new(r, g, b)
     };
-    let factors = [shown.map(light), painted, multiplies.then(|| light(base))];
+    let factors = [shown.map(|(colour, _)| light(colour)), painted, multiplies.then(|| light(base))];
     let product = factors.into_iter().flatten().fold(Vec3::ONE, |product, factor| product * factor);
     let opacity = f32::from(base.a) / 255.0;
-    Some(Colour::from_linear([product.x, product.y, product.z, opacity]))
+    let flat = shown.is_none_or(|(_, flat)| flat);
+    Some((Colour::from_linear([product.x, product.y, product.z, opacity]), flat))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::open::read_beside;
+use super::swatches::ALIKE;
 use super::{Material, Scene};
 use crate::math::colour::Colour;
 use crate::math::picture::Picture;
@@ -27,8 +28,8 @@ impl Texture {
     }
 
     /// The colour that stands for a triangle: of its centroid and three points between that and
-    /// its corners, the one that differs least from the others.
-    pub fn of_triangle(&self, corners: [[f32; 2]; 3]) -> Colour {
+    /// its corners, the one that differs least from the others; and whether all are alike.
+    pub fn of_triangle(&self, corners: [[f32; 2]; 3]) -> (Colour, bool) {
         let [a, b, c] = corners.map(|uv| uv.map(f64::from));
         let at = |wa: f64, wb: f64, wc: f64| {
             self.at([wa * a[0] + wb * b[0] + wc * c[0], wa * a[1] + wb * b[1] + wc * c[1]])
@@ -36,7 +37,8 @@ impl Texture {
         let third = 1.0 / 3.0;
         let samples = [at(third, third, third), at(0.8, 0.1, 0.1), at(0.1, 0.8, 0.1), at(0.1, 0.1, 0.8)];
         let strange = |sample: &Colour| samples.iter().map(|other| difference(*sample, *other)).sum::<u32>();
-        samples.into_iter().min_by_key(strange).unwrap_or(samples[0])
+        let colour = samples.into_iter().min_by_key(strange).unwrap_or(samples[0]);
+        (colour, samples.iter().all(|sample| difference(*sample, colour) < ALIKE))
     }
 
     /// The nearest pixel.
@@ -77,8 +79,8 @@ mod tests {
         );
         texture.upward = true;
         assert_eq!([[0.1, 0.1], [0.9, 0.9]].map(|uv| texture.at(uv)), [c, b]);
-        assert_eq!(texture.of_triangle([[0.6, 0.6], [0.9, 0.6], [0.6, 0.9]]), b);
+        assert_eq!(texture.of_triangle([[0.6, 0.6], [0.9, 0.6], [0.6, 0.9]]), (b, true));
         // One corner beyond the border does not count.
-        assert_eq!(texture.of_triangle([[0.2, 0.6], [0.9, 0.6], [0.9, 0.9]]), b);
+        assert_eq!(texture.of_triangle([[0.2, 0.6], [0.9, 0.6], [0.9, 0.9]]).0, b);
     }
 }

@@ -8,6 +8,9 @@ use super::uri;
 use crate::math::colour::Colour;
 use crate::scene::{Material, Warnings};
 
+/// The path of a texture beside the model, or its bytes.
+type TextureSource = (Option<String>, Option<Arc<[u8]>>);
+
 /// Bytes of an image that are looked at to tell whether it is one.
 const HEAD: usize = 32;
 
@@ -59,7 +62,7 @@ fn image(
     buffers: &Buffers,
     fetch: &Fetch,
     warnings: &mut Warnings,
-) -> Option<(Option<String>, Option<Arc<[u8]>>)> {
+) -> Option<TextureSource> {
     let root = buffers.root;
     let mut broken = |number: usize, what: String| {
         warnings.note(format!("texture {number}: {what}; the plain colour is drawn instead"));
