@@ -46,7 +46,23 @@ fn set(changes: &[&str]) -> Result<Style, ligne::Error> {
 #[test]
 fn every_built_in_style_loads_and_states_its_idea() {
     let names: Vec<&str> = Style::names().collect();
-    assert_eq!(names, ["ink", "plotter", "suggestive", "technical"]);
+    assert_eq!(
+        names,
+        [
+            "comic-flats",
+            "flat",
+            "gooch",
+            "gradient",
+            "ink",
+            "noir",
+            "plotter",
+            "rim",
+            "suggestive",
+            "technical",
+            "toon",
+            "toon-highlight"
+        ]
+    );
     for name in names {
         Style::load(name, &[]).unwrap_or_else(|error| panic!("{error}"));
         assert!(Style::idea(name).unwrap().ends_with('.'), "{name}");
@@ -221,9 +237,11 @@ fn errors_of_changes_name_the_change() {
         let error = set(&[change]).unwrap_err().to_string();
         assert!(error.starts_with("--set "), "{change}: {error}");
     }
-    // Keys that belong to what is not drawn yet are unknown, with the known ones listed.
-    let error = set(&["fills.enabled=false"]).unwrap_err().to_string();
-    assert!(error.contains("unknown key `fills`; known keys: extends, seed, page, lines, chain"), "{error}");
+    let error = set(&["hatching.enabled=false"]).unwrap_err().to_string();
+    assert!(
+        error.contains("unknown key `hatching`; known keys: extends, seed, page, lines, chain"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -231,7 +249,7 @@ fn a_missing_sheet_is_named() {
     let error = Style::load("nowhere/my.toml", &[]).unwrap_err().to_string();
     assert!(error.starts_with("nowhere/my.toml: cannot read the style sheet"), "{error}");
     let error = Style::load("watercolour", &[]).unwrap_err().to_string();
-    assert!(error.contains("built-in styles: ink, plotter, suggestive, technical"), "{error}");
+    assert!(error.contains("built-in styles: comic-flats, flat, gooch"), "{error}");
 }
 
 #[test]
@@ -254,7 +272,7 @@ fn the_defaults_of_the_documentation_are_those_of_the_code() {
     let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
     assert_eq!(style.stroke.pen, ligne::stroke::Pen::default());
     assert_eq!(style.background, Some(Colour::WHITE));
-    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncontours = \"auto\"\ncrease_deg = 40\nhidden = \"none\"\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n";
+    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncontours = \"auto\"\ncrease_deg = 40\nhidden = \"none\"\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n[light]\nfrom_model = true\nsources = []\nambient = 0\nwrap = 0\nocclusion = 0\n[fills]\nenabled = false\nthresholds = [0.5]\nlit = 1\ncast_shadows = false\nseams = \"underlap\"\nunderlap = 0.6\ncrumb = 2\nfit_tolerance = 0.1\n[fills.highlight]\nenabled = false\nthresholds = [0.5]\nexponent = 40\ncolour = \"#ffffff\"\nstrength = 0.7\n[fills.gooch]\nenabled = false\ncool = \"#00008c\"\nwarm = \"#4d4d00\"\ncool_share = 0.25\nwarm_share = 0.5\n";
     let sheets = Sheets::new("documented", &[("all.toml", documented)]);
     assert_eq!(Style::load(&sheets.path("all.toml"), &[]).unwrap(), style);
 }

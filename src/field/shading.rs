@@ -7,8 +7,8 @@ use super::lighting::{Caster, Lighting, SurfacePoint};
 use super::tone_options::{Scale, ToneOptions};
 use super::tones::{Channel, Look, Tones};
 use crate::math::colour::Colour;
-use crate::mesh::{MaterialId, Mesh};
-use crate::scene::{Material, Scene};
+use crate::mesh::{Mesh, PaintId};
+use crate::scene::{Material, Paint, Scene};
 use crate::view::Frame;
 
 /// How a view is lit, and into which tones its surface falls.
@@ -25,16 +25,18 @@ pub struct Shading {
     lighting: Lighting,
     channels: Vec<Channel>,
     exponent: f64,
-    /// Tones of each material; the last are those of surfaces without one.
+    /// Tones of each paint.
+    // The last stand in for paints that are unknown.
     tones: Vec<Tones>,
 }
 
 impl Shading {
-    /// The shading of a scene, whose mesh is seen by a camera. What had to be mended is added to
-    /// the warnings.
+    /// The shading of a scene, whose mesh is seen by a camera; without paints, each material is one.
+    /// What had to be mended is added to the warnings.
     #[must_use]
     pub fn new(
         scene: &Scene,
+        paints: &[Paint],
         mesh: &Mesh,
         frame: &Frame,
         light: &LightOptions,
@@ -64,13 +66,19 @@ impl Shading {
             channels.push(Channel::Highlight);
         }
         let tint = lighting.tint();
-        let of = |(own, material, colour): &(ToneOptions, &Material, Option<Colour>)| {
-            let colour = colour.unwrap_or(material.colour);
+        let of = |index: usize, colour: Option<Colour>| {
+            let (own, material, instead) = materials.get(index).or(materials.last())?;
+            let colour = instead.or(colour).unwrap_or(material.colour);
             let look = Look { colour, emissive: material.emissive, ambient: light.ambient, tint };
-            Tones::new(own, &look, &channels)
+            Some(Tones::new(own, &look, &channels))
+        };
+        let tones_of_paints = if paints.is_empty() {
+            (0..materials.len()).filter_map(|index| of(index, None)).collect()
+        } else {
+            paints.iter().filter_map(|paint| of(paint.material.index(), Some(paint.colour))).collect()
         };
         let exponent = tones.highlight.exponent;
-        Self { tones: materials.iter().map(of).collect(), lighting, channels, exponent }
+        Self { tones: tones_of_paints, lighting, channels, exponent }
     }
 
     /// Light from one direction on light grey, with levels on max(L·n, 0).
@@ -133,16 +141,16 @@ impl Shading {
         self.lighting.steepness()
     }
 
-    /// The rising levels of a channel on a material.
+    /// The rising levels of a channel on a paint.
     #[must_use]
-    pub fn levels(&self, material: MaterialId, channel: usize) -> &[f64] {
-        self.tones_of(material).map_or(&[], |tones| tones.levels(channel))
+    pub fn levels(&self, paint: PaintId, channel: usize) -> &[f64] {
+        self.tones_of(paint).map_or(&[], |tones| tones.levels(channel))
     }
 
     /// The value of a channel at a point that those lights do not reach whose bits are set in
     /// `shadowed`.
     #[must_use]
-    pub fn value(&self, channel: usize, _material: MaterialId, point: &SurfacePoint, shadowed: u32) -> f64 {
+    pub fn value(&self, channel: usize, _paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
             Some(Channel::Diffuse) => self.lighting.diffuse(point, shadowed),
             Some(Channel::Light(lamp)) => self.lighting.diffuse_by(*lamp, point, shadowed),
@@ -153,17 +161,17 @@ impl Shading {
 
     /// The tone of a point, 0 the darkest, from how many levels of each channel its values reach.
     #[must_use]
-    pub fn tone(&self, material: MaterialId, bands: &[u16]) -> u16 {
-        self.tones_of(material).map_or(0, |tones| tones.tone(&self.channels, bands))
+    pub fn tone(&self, paint: PaintId, bands: &[u16]) -> u16 {
+        self.tones_of(paint).map_or(0, |tones| tones.tone(&self.channels, bands))
     }
 
-    /// The colour of a tone on a material.
+    /// The colour of a tone on a paint.
     #[must_use]
-    pub fn colour(&self, material: MaterialId, tone: u16) -> Colour {
-        self.tones_of(material).map_or(Colour::WHITE, |tones| tones.colour(tone))
+    pub fn colour(&self, paint: PaintId, tone: u16) -> Colour {
+        self.tones_of(paint).map_or(Colour::WHITE, |tones| tones.colour(tone))
     }
 
-    fn tones_of(&self, material: MaterialId) -> Option<&Tones> {
-        self.tones.get(material.index()).or(self.tones.last())
+    fn tones_of(&self, paint: PaintId) -> Option<&Tones> {
+        self.tones.get(paint.index()).or(self.tones.last())
     }
 }

@@ -22,7 +22,7 @@ pub struct ToneOptions {
     /// the tones; empty = even steps. Default: empty.
     pub tones: Vec<f64>,
     /// What is left of the material's colour in the shadow, a_l of Lake et al. 2000, eq. 1.
-    /// Default: (0.62, 0.6, 0.72), somewhat cooler than the material.
+    /// Default: (0.7, 0.66, 0.78), somewhat cooler than the material.
     pub shadow: Factor,
     /// What is left of the material's colour where it is lit; eq. 1's d_l is this less `shadow`.
     /// Default: 1.
@@ -131,7 +131,7 @@ impl Default for ToneOptions {
             scale: Scale::Thresholds(vec![0.5]),
             colours: Colours::Material,
             tones: Vec::new(),
-            shadow: Factor([0.62, 0.6, 0.72]),
+            shadow: Factor([0.7, 0.66, 0.78]),
             lit: Factor::ALL,
             modulate: None,
             highlight: Highlight::default(),

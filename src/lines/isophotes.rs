@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use super::{FeatureLines, FeatureSegment, LineKind, NO_FACE};
 use crate::field::{ShadedNormals, Shading, SurfacePoint};
 use crate::math::tolerance;
-use crate::mesh::{FaceId, MaterialId, Mesh};
+use crate::mesh::{FaceId, Mesh, PaintId};
 use crate::view::View;
 
 /// A lit surface, seen by an eye.
@@ -81,14 +81,14 @@ impl Lit<'_> {
 
     /// The tone of a point, for lights of which those in `shadowed` do not reach it.
     #[must_use]
-    pub fn tone(&self, material: MaterialId, point: &SurfacePoint, shadowed: u32) -> u16 {
+    pub fn tone(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> u16 {
         let channels = self.shading.channels();
         let mut bands = [0u16; MOST_CHANNELS];
         for (channel, band) in bands.iter_mut().enumerate().take(channels) {
-            let value = self.shading.value(channel, material, point, shadowed);
-            *band = self.shading.levels(material, channel).partition_point(|level| *level <= value) as u16;
+            let value = self.shading.value(channel, paint, point, shadowed);
+            *band = self.shading.levels(paint, channel).partition_point(|level| *level <= value) as u16;
         }
-        self.shading.tone(material, &bands[..channels.min(MOST_CHANNELS)])
+        self.shading.tone(paint, &bands[..channels.min(MOST_CHANNELS)])
     }
 }
 
@@ -181,11 +181,11 @@ struct Ready {
 impl Ready {
     fn new(lit: &Lit, shadowed: &[u32]) -> Self {
         let frame = &lit.view.frame;
-        // Channels that are not local look at no material.
-        let material = MaterialId(0);
+        // Values are the same for all paints.
+        let paint = PaintId(0);
         let value = |channel: usize, normal: DVec3, shadowed: u32| {
             let point = SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
-            lit.shading.value(channel, material, &point, shadowed)
+            lit.shading.value(channel, paint, &point, shadowed)
         };
         let of = |channel: usize, shadowed: u32| {
             if lit.shading.is_local(channel) {
@@ -228,7 +228,7 @@ impl<'a> Tracer<'a> {
 
     fn trace(&mut self, face: u32, shadowed: &[u32]) {
         let Lit { mesh, view, normals, shading, .. } = self.lit;
-        let material = mesh.face_material[face as usize];
+        let paint = mesh.paint(FaceId(face));
         let corners = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
         let length = |i: usize, j: usize| {
             let way = corners[j].truncate() - corners[i].truncate();
@@ -246,7 +246,7 @@ impl<'a> Tracer<'a> {
         let turns = [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])];
         let is_flat = turns.iter().all(|turn| *turn == 0.0);
         for channel in 0..shading.channels() {
-            let levels = shading.levels(material, channel);
+            let levels = shading.levels(paint, channel);
             if levels.is_empty() || (is_flat && !shading.is_local(channel)) {
                 continue;
             }
@@ -273,8 +273,8 @@ impl<'a> Tracer<'a> {
 
     fn node(&self, band: &Band, weights: [f64; 3]) -> Node {
         let point = self.lit.point(band.face, weights);
-        let material = self.lit.mesh.face_material[band.face as usize];
-        Node { weights, value: self.lit.shading.value(band.channel, material, &point, band.shadowed) }
+        let paint = self.lit.mesh.paint(FaceId(band.face));
+        Node { weights, value: self.lit.shading.value(band.channel, paint, &point, band.shadowed) }
     }
 
     /// Cuts a piece until the value is all but linear in it, then draws the levels through it.

@@ -7,7 +7,7 @@ use rustc_hash::FxHashSet;
 use super::isophotes::{Lit, segment};
 use super::{FeatureLines, FeatureSegment};
 use crate::field::ShadedNormals;
-use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PartId};
+use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
 
 /// Places along an edge where both its sides are looked at. What differs between them only ends
 /// there: the border runs on to the end of the edge, with the same look on both sides.
@@ -18,7 +18,7 @@ const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 #[must_use]
 pub fn candidates(mesh: &Mesh, normals: &ShadedNormals) -> EdgeSet {
     let differ = |[first, second]: [u32; 2], ends: [u32; 2]| {
-        let owner = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
+        let owner = |face: u32| owner(mesh, face);
         let normal = |face: u32, v: u32| {
             let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
             normals.normals[normals.corners[face as usize][corner] as usize]
@@ -64,10 +64,15 @@ fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<FeatureSegment> {
     parts.then(|| segment(mesh, first, faces, ends))
 }
 
+/// What a face belongs to, and its paint.
+fn owner(mesh: &Mesh, face: u32) -> (PartId, MaterialId, PaintId) {
+    (mesh.face_part[face as usize], mesh.face_material[face as usize], mesh.paint(FaceId(face)))
+}
+
 /// Whether two faces look different anywhere along their edge.
 fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool {
     let mesh = lit.mesh;
-    let owner = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
+    let owner = |face: u32| owner(mesh, face);
     if owner(faces[0]) != owner(faces[1]) {
         return true;
     }
@@ -78,12 +83,12 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
     if (0..2).all(|k| normals[0][a[k]] == normals[1][b[k]]) {
         return false;
     }
-    let look = |face: u32, at: [usize; 2], t: f64, shadowed: u32| -> (PartId, MaterialId, u16) {
+    // Both sides belong to the same and have the same paint: only their tones may differ.
+    let look = |face: u32, at: [usize; 2], t: f64, shadowed: u32| {
         let mut weights = [0.0; 3];
         weights[at[0]] = 1.0 - t;
         weights[at[1]] = t;
-        let (part, material) = owner(face);
-        (part, material, lit.tone(material, &lit.point(face, weights), shadowed))
+        lit.tone(mesh.paint(FaceId(face)), &lit.point(face, weights), shadowed)
     };
     let differs = |t: f64, shadowed: u32| look(faces[0], a, t, shadowed) != look(faces[1], b, t, shadowed);
     shadowed.iter().any(|shadowed| PLACES.iter().any(|t| differs(*t, *shadowed)))

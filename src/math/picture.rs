@@ -30,7 +30,7 @@ impl Picture {
         let mut reader = image::ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(|error| format!("is damaged ({error})"))?;
-        if reader.format().is_none() {
+        if !matches!(reader.format(), Some(image::ImageFormat::Png | image::ImageFormat::Jpeg)) {
             return Err("is neither PNG nor JPEG".to_owned());
         }
         let mut limits = image::Limits::default();

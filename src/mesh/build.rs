@@ -59,6 +59,7 @@ impl Mesh {
             face_normals,
             face_part: soup.triangle_part,
             face_material: soup.triangle_material,
+            face_paint: soup.triangle_paint,
             normals: soup.normals,
             corner_normals: soup.corner_normals,
             uvs: soup.uvs,

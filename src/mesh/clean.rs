@@ -29,6 +29,7 @@ pub(super) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     filter(&mut soup.triangles, keep);
     filter(&mut soup.triangle_part, keep);
     filter(&mut soup.triangle_material, keep);
+    filter(&mut soup.triangle_paint, keep);
     filter(&mut soup.corner_normals, keep);
     filter(&mut soup.corner_uvs, keep);
     filter(&mut soup.edge_marks, keep);

@@ -45,3 +45,14 @@ id!(
     /// A material of the scene.
     MaterialId
 );
+id!(
+    /// A paint of the scene: a material in one of its colours. The first paints are the materials.
+    PaintId
+);
+
+impl From<MaterialId> for PaintId {
+    #[inline]
+    fn from(material: MaterialId) -> Self {
+        Self(material.0)
+    }
+}

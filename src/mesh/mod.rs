@@ -37,7 +37,7 @@ pub use edge_arc::EdgeArc;
 pub use edge_set::EdgeSet;
 pub use edges::{EdgeFaces, Edges};
 pub use hard_edges::HardEdges;
-pub use ids::{EdgeId, FaceId, MaterialId, PartId, VertexId};
+pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use smooth_normals::SmoothNormals;
 pub use soup::{EdgeMark, Soup, Wire};
 
@@ -62,6 +62,8 @@ pub struct Mesh {
     pub face_part: Vec<PartId>,
     /// Material of each face.
     pub face_material: Vec<MaterialId>,
+    /// Paint of each face, or empty where each has that of its material: see [`Mesh::paint`].
+    pub face_paint: Vec<PaintId>,
     /// Unit normals to which `corner_normals` points.
     pub normals: Vec<[f32; 3]>,
     /// Normals of the corners of each face (`u32::MAX` = none), or empty.
@@ -86,6 +88,13 @@ impl Mesh {
     #[must_use]
     pub fn is_degenerate(&self, face: FaceId) -> bool {
         self.face_normals[face.index()] == [0.0; 3]
+    }
+
+    /// The paint of a face.
+    #[inline]
+    #[must_use]
+    pub fn paint(&self, face: FaceId) -> PaintId {
+        self.face_paint.get(face.index()).copied().unwrap_or(self.face_material[face.index()].into())
     }
 
     /// Positions of the three corners of a face.

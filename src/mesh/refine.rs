@@ -278,6 +278,7 @@ impl Work {
             face_normals: super::build::face_normals(&self.positions, &triangles, mesh.size),
             face_part: faces().map(|f| mesh.face_part[f as usize]).collect(),
             face_material: faces().map(|f| mesh.face_material[f as usize]).collect(),
+            face_paint: faces().filter_map(|f| mesh.face_paint.get(f as usize).copied()).collect(),
             edges: Edges::build(self.positions.len(), &triangles),
             positions: self.positions,
             triangles,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{MaterialId, PartId};
+use super::{MaterialId, PaintId, PartId};
 
 /// What a file says about one side of a triangle (EXT_mesh_primitive_edge_visibility).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,6 +43,8 @@ pub struct Soup {
     pub triangle_part: Vec<PartId>,
     /// Material of each triangle.
     pub triangle_material: Vec<MaterialId>,
+    /// Paint of each triangle; empty: that of its material.
+    pub triangle_paint: Vec<PaintId>,
     /// Unit normals in world space, to which `corner_normals` points.
     pub normals: Vec<[f32; 3]>,
     /// For each triangle the normals of its corners (`u32::MAX` = none), or empty.

@@ -24,7 +24,7 @@ use crate::chain::{self, ChainOptions};
 use crate::drawing::{Length, Unit};
 use crate::lines::{LineKind, Lit};
 use crate::math::tolerance;
-use crate::mesh::{FaceId, MaterialId, PartId};
+use crate::mesh::{FaceId, MaterialId, PaintId, PartId};
 use crate::viewmap::{ViewMap, front_faces};
 use arcs::{OUTSIDE_PATCH, RawArc};
 use cells::Triangulation;
@@ -37,6 +37,8 @@ pub struct Look {
     pub part: PartId,
     /// Its material.
     pub material: MaterialId,
+    /// What it is painted with: its material, or that in the colour of its texture.
+    pub paint: PaintId,
     /// Its tone, 0 the darkest.
     pub tone: u16,
     /// Whether it is as dark as it is because something else is between it and a light.
@@ -173,16 +175,16 @@ fn seen(
 /// What a face looks like at a point of it.
 fn look(lit: &Lit, face: u32, at: glam::DVec3, shadowed: u32) -> Look {
     let mesh = lit.mesh;
-    let material = mesh.face_material[face as usize];
+    let (material, paint) = (mesh.face_material[face as usize], mesh.paint(FaceId(face)));
     let [a, b, c] = mesh.corners(FaceId(face));
     let normal = (b - a).cross(c - a);
     let whole = normal.length_squared();
     let part = |p: glam::DVec3, q: glam::DVec3| (p - at).cross(q - at).dot(normal) / whole;
     let weights = if whole > 0.0 { [part(b, c), part(c, a), part(a, b)] } else { [1.0, 0.0, 0.0] };
     let point = lit.point(face, weights);
-    let tone = lit.tone(material, &point, shadowed);
-    let cast = shadowed != 0 && lit.tone(material, &point, 0) != tone;
-    Look { part: mesh.face_part[face as usize], material, tone, cast }
+    let tone = lit.tone(paint, &point, shadowed);
+    let cast = shadowed != 0 && lit.tone(paint, &point, 0) != tone;
+    Look { part: mesh.face_part[face as usize], material, paint, tone, cast }
 }
 
 /// How borders are drawn.

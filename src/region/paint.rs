@@ -67,7 +67,7 @@ fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Mark {
         path,
-        paint: Paint::Fill(context.shading.colour(look.material, look.tone)),
+        paint: Paint::Fill(context.shading.colour(look.paint, look.tone)),
         provenance: Provenance {
             classes: Vec::new(),
             tone: Some(look.tone),

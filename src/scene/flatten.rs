@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::coordinate::is_drawable;
-use super::{Geometry, Part, Scene};
-use crate::mesh::{EdgeMark, MaterialId, PartId, Soup, Wire};
+use super::{Geometry, Paints, Part, Scene};
+use crate::mesh::{EdgeMark, MaterialId, PaintId, PartId, Soup, Wire};
 
 const NONE: u32 = u32::MAX;
 
@@ -18,11 +18,24 @@ impl Scene {
     /// that are scaled to nothing (or beyond all numbers) are left out.
     #[must_use]
     pub fn to_soup(&self) -> Soup {
+        self.flattened(None)
+    }
+
+    /// The same with the paint of each triangle.
+    #[must_use]
+    pub fn to_painted_soup(&self, paints: &Paints) -> Soup {
+        self.flattened(Some(paints))
+    }
+
+    fn flattened(&self, paints: Option<&Paints>) -> Soup {
         let mut soup = Soup::default();
         let default_material = self.materials.len() as u32;
         for (id, part) in self.parts.iter().enumerate() {
             if let Some(geometry) = self.geometry_of(part) {
                 append(&mut soup, geometry, &part.world_from_part, PartId::from(id), default_material);
+                if let Some(paints) = paints {
+                    append_paints(&mut soup, paints.of_geometry(part.geometry));
+                }
             }
         }
         soup
@@ -135,6 +148,14 @@ fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, defa
         material: MaterialId(material),
     }));
     soup.single_precision |= from.single_precision;
+}
+
+/// Appends the paints of the triangles that were appended last; without any, those of their materials.
+fn append_paints(soup: &mut Soup, paints: &[PaintId]) {
+    let own = soup.triangle_material.iter().skip(soup.triangle_paint.len()).enumerate();
+    let of = own.map(|(i, material)| paints.get(i).copied().unwrap_or((*material).into()));
+    let of: Vec<PaintId> = of.collect();
+    soup.triangle_paint.extend(of);
 }
 
 fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned: bool) {

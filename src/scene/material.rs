@@ -1,5 +1,7 @@
 //! Materials, as far as a drawing needs them.
 
+use std::sync::Arc;
+
 use crate::math::colour::Colour;
 
 /// How a surface looks.
@@ -16,6 +18,8 @@ pub struct Material {
     pub double_sided: bool,
     /// Path of the base-colour texture relative to the model, if it is a file.
     pub texture: Option<String>,
+    /// The base-colour texture, still encoded, if it is inside the model's file.
+    pub picture: Option<Arc<[u8]>>,
 }
 
 impl Default for Material {
@@ -26,6 +30,7 @@ impl Default for Material {
             emissive: Colour::BLACK,
             double_sided: false,
             texture: None,
+            picture: None,
         }
     }
 }

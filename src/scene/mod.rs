@@ -11,11 +11,14 @@ pub mod light;
 pub mod material;
 pub mod obj;
 pub mod open;
+pub mod paint;
 pub mod ply;
 pub mod polygon;
 pub mod select;
 pub mod stl;
+mod swatches;
 mod text;
+mod texture;
 pub mod views;
 pub mod warnings;
 
@@ -25,6 +28,7 @@ pub use camera::{Camera, Projection};
 pub use geometry::{Geometry, Part};
 pub use light::{Light, LightKind};
 pub use material::Material;
+pub use paint::{Paint, Paints};
 pub use views::NamedView;
 pub use warnings::Warnings;
 

@@ -161,7 +161,7 @@ pub(super) fn set_aside(below: &mut toml::Table, above: &toml::Table) {
     };
     for ways in WAYS {
         if ways.iter().any(|way| is_used(way)) {
-            below.retain(|key, _| !ways.iter().any(|way| *way == key) || above.contains_key(key));
+            below.retain(|key, _| !ways.contains(&key) || above.contains_key(key));
         }
     }
 }

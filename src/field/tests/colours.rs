@@ -2,17 +2,17 @@
 
 use glam::DVec3;
 
-use super::{near, point, shading};
+use super::{frame, mesh, near, point, shading};
 use crate::field::ramp::{Strip, Table};
 use crate::field::tone_options::{Colours, Gooch, Highlight, MaterialChange, Scale};
 use crate::field::{LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
-use crate::mesh::MaterialId;
-use crate::scene::{Material, Scene};
+use crate::mesh::{MaterialId, PaintId};
+use crate::scene::{Material, Paint, Scene};
 
-const FIRST: MaterialId = MaterialId(0);
+const FIRST: PaintId = PaintId(0);
 const ORANGE: Colour = Colour::rgb(200, 120, 40);
 
 fn scene(materials: &[(&str, Colour)]) -> Scene {
@@ -28,8 +28,22 @@ fn toned(options: &ToneOptions) -> Shading {
     shading(&scene(&[("body", ORANGE)]), &LightOptions::default(), options).0
 }
 
-fn colours(shading: &Shading, material: MaterialId, count: u16) -> Vec<Colour> {
+fn colours(shading: &Shading, material: PaintId, count: u16) -> Vec<Colour> {
     (0..count).map(|tone| shading.colour(material, tone)).collect()
+}
+
+fn unchanged(name: &str) -> MaterialChange {
+    MaterialChange {
+        name: Glob::new(name),
+        colour: None,
+        scale: None,
+        colours: None,
+        tones: None,
+        shadow: None,
+        lit: None,
+        modulate: None,
+        highlight: None,
+    }
 }
 
 fn grey(shadow: f64, scale: Scale) -> ToneOptions {
@@ -166,32 +180,36 @@ fn a_strip_brings_levels_and_colours() {
 
 #[test]
 fn materials_are_changed_by_name() {
-    let change = |name: &str| MaterialChange {
-        name: Glob::new(name),
-        colour: None,
-        scale: None,
-        colours: None,
-        tones: None,
-        shadow: None,
-        lit: None,
-        modulate: None,
-        highlight: None,
-    };
     let mut options = grey(0.5, Scale::Thresholds(vec![0.5]));
     options.materials = vec![
-        MaterialChange { scale: Some(Scale::Steps(4)), highlight: Some(true), ..change("glass*") },
-        MaterialChange { colour: Some(Colour::WHITE), ..change("*blue") },
+        MaterialChange { scale: Some(Scale::Steps(4)), highlight: Some(true), ..unchanged("glass*") },
+        MaterialChange { colour: Some(Colour::WHITE), ..unchanged("*blue") },
     ];
     let scene = scene(&[("body", ORANGE), ("glass blue", ORANGE)]);
     let (shading_, _) = shading(&scene, &LightOptions::default(), &options);
     assert_eq!(shading_.levels(FIRST, 0), [0.5]);
-    assert_eq!(shading_.levels(MaterialId(1), 0), [0.25, 0.5, 0.75]);
-    assert_eq!((shading_.levels(FIRST, 1).len(), shading_.levels(MaterialId(1), 1).len()), (0, 1));
-    assert_eq!((shading_.colour(FIRST, 1), shading_.colour(MaterialId(1), 3)), (ORANGE, Colour::WHITE));
+    assert_eq!(shading_.levels(PaintId(1), 0), [0.25, 0.5, 0.75]);
+    assert_eq!((shading_.levels(FIRST, 1).len(), shading_.levels(PaintId(1), 1).len()), (0, 1));
+    assert_eq!((shading_.colour(FIRST, 1), shading_.colour(PaintId(1), 3)), (ORANGE, Colour::WHITE));
     // What has no material is light grey, whatever its number.
-    for without in [2, 77].map(MaterialId) {
+    for without in [2, 77].map(PaintId) {
         assert_eq!(shading_.colour(without, 1), Colour::rgb(204, 204, 204));
     }
+}
+
+#[test]
+fn paints_of_a_material_have_its_tones_in_their_colours() {
+    let scene = scene(&[("body", Colour::WHITE)]);
+    let paint = |colour| Paint { material: MaterialId(0), colour };
+    let paints = [paint(Colour::WHITE), paint(Colour::BLACK), paint(ORANGE)];
+    let mut options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let painted = |options: &ToneOptions| {
+        let (light, frame) = (LightOptions::default(), frame(DVec3::X));
+        Shading::new(&scene, &paints, &mesh(), &frame, &light, options, &mut Vec::new())
+    };
+    assert_eq!(colours(&painted(&options), PaintId(2), 2), [Colour::rgb(100, 60, 20), ORANGE]);
+    options.materials = vec![MaterialChange { colour: Some(Colour::WHITE), ..unchanged("body") }];
+    assert_eq!(painted(&options).colour(PaintId(2), 1), Colour::WHITE);
 }
 
 #[test]
@@ -201,7 +219,7 @@ fn colours_from_cool_to_warm() {
     let shading = toned(&options);
     let (cool, warm) = (Colour::rgb(50, 30, 150), Colour::rgb(177, 137, 20));
     assert_eq!((shading.colour(FIRST, 0), shading.colour(FIRST, 2)), (cool, warm));
-    assert_eq!(shading.colour(FIRST, 1).g, 84);
+    assert_eq!(shading.colour(FIRST, 1).b, 85);
 }
 
 #[test]
@@ -211,7 +229,7 @@ fn black_and_shining_materials_keep_their_tones_apart() {
     let options = grey(0.5, Scale::Thresholds(vec![0.5]));
     let (shading_, _) = shading(&scene, &LightOptions::default(), &options);
     assert_eq!(colours(&shading_, FIRST, 2), [Colour::rgb(24, 24, 24), Colour::rgb(48, 48, 48)]);
-    assert_eq!(shading_.colour(MaterialId(1), 0), Colour::rgb(180, 60, 20));
+    assert_eq!(shading_.colour(PaintId(1), 0), Colour::rgb(180, 60, 20));
     let flat = grey(0.5, Scale::Thresholds(Vec::new()));
     assert_eq!(shading(&scene, &LightOptions::default(), &flat).0.colour(FIRST, 0), Colour::BLACK);
 }
@@ -219,7 +237,7 @@ fn black_and_shining_materials_keep_their_tones_apart() {
 #[test]
 fn shadows_are_cooler_and_darker() {
     let shading = toned(&ToneOptions::default());
-    let (shadow, lit) = (shading.colour(MaterialId(9), 0), shading.colour(MaterialId(9), 1));
+    let (shadow, lit) = (shading.colour(PaintId(9), 0), shading.colour(PaintId(9), 1));
     assert!(shadow.luma() < 0.75 * lit.luma());
     assert!(i16::from(shadow.b) - i16::from(shadow.r) > 10, "{shadow:?}");
 }

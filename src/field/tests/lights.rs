@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::{frame, mesh, near, point, shading};
 use crate::field::{Caster, LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
 use crate::math::function::{cos, sin};
-use crate::mesh::MaterialId;
+use crate::mesh::PaintId;
 use crate::scene::{Light, LightKind, Scene};
 
-const ANY: MaterialId = MaterialId(0);
+const ANY: PaintId = PaintId(0);
 
 fn directional(direction: DVec3) -> LightSource {
     LightSource { kind: SourceKind::Directional { direction }, space: Space::World, ..LightSource::default() }
@@ -81,7 +81,8 @@ fn lights_of_the_camera_turn_with_it() {
         let light = lit_by(vec![LightSource { space: Space::Camera, ..source }]);
         let [first, second] = eyes.map(|eye| {
             let frame = frame(eye);
-            let shading = Shading::new(&Scene::default(), &mesh(), &frame, &light, &tones, &mut Vec::new());
+            let shading =
+                Shading::new(&Scene::default(), &[], &mesh(), &frame, &light, &tones, &mut Vec::new());
             // A point that stands the same to either camera.
             let normal = frame.right * 0.36 + frame.up * 0.48 - frame.forward * 0.8;
             let position = frame.eye + frame.forward * 5.0 - frame.right;

@@ -33,7 +33,7 @@ fn mesh() -> Mesh {
 fn shading(scene: &Scene, light: &LightOptions, tones: &ToneOptions) -> (Shading, Vec<String>) {
     let mut warnings = Vec::new();
     let frame = frame(DVec3::new(0.0, -9.0, 0.0));
-    (Shading::new(scene, &mesh(), &frame, light, tones, &mut warnings), warnings)
+    (Shading::new(scene, &[], &mesh(), &frame, light, tones, &mut warnings), warnings)
 }
 
 fn point(position: DVec3, normal: DVec3) -> SurfacePoint {

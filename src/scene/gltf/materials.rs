@@ -1,4 +1,6 @@
-//! Materials: base colour, own light, and the file of the base-colour texture.
+//! Materials: base colour, own light, and the base-colour texture: its file or its bytes.
+
+use std::sync::Arc;
 
 use super::buffers::{Buffers, Fetch};
 use super::json;
@@ -6,12 +8,17 @@ use super::uri;
 use crate::math::colour::Colour;
 use crate::scene::{Material, Warnings};
 
+/// The path of a texture beside the model, or its bytes.
+type TextureSource = (Option<String>, Option<Arc<[u8]>>);
+
 /// Bytes of an image that are looked at to tell whether it is one.
 const HEAD: usize = 32;
 
 /// All materials of a file; whatever is wrong with their textures is only a warning.
 pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> Vec<Material> {
     let read = |material: &json::Material| {
+        let texture = base_texture(material).and_then(|texture| image(texture, buffers, fetch, warnings));
+        let (texture, picture) = texture.unwrap_or_default();
         let base = base_colour(material);
         let [r, g, b] = material.emissive_factor;
         Material {
@@ -19,7 +26,8 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
             colour: Colour::from_linear(with_alpha_mode(base, material)),
             emissive: Colour::from_linear([r, g, b, 1.0]),
             double_sided: material.double_sided,
-            texture: base_texture(material).and_then(|texture| image(texture, buffers, fetch, warnings)),
+            texture,
+            picture,
         }
     };
     buffers.root.materials.iter().map(read).collect()
@@ -47,13 +55,14 @@ fn with_alpha_mode([r, g, b, a]: [f32; 4], material: &json::Material) -> [f32; 4
     [r, g, b, alpha]
 }
 
-/// The path of a texture that is a file; looks whether it is there and begins as images do.
+/// The path of a texture that is a file, or its bytes if it is in the model's file; looks whether it is
+/// there and begins as images do.
 fn image(
     texture: &json::TextureUse,
     buffers: &Buffers,
     fetch: &Fetch,
     warnings: &mut Warnings,
-) -> Option<String> {
+) -> Option<TextureSource> {
     let root = buffers.root;
     let mut broken = |number: usize, what: String| {
         warnings.note(format!("texture {number}: {what}; the plain colour is drawn instead"));
@@ -83,7 +92,7 @@ fn image(
             },
         },
         (None, Some(view)) => match buffers.view(view) {
-            Ok((bytes, _)) => (bytes.iter().take(HEAD).copied().collect(), None),
+            Ok((bytes, _)) => (bytes.to_vec(), None),
             Err(error) => return broken(number, error.to_string()),
         },
         (None, None) => return None,
@@ -91,7 +100,8 @@ fn image(
     if !is_image(&bytes) {
         return broken(number, format!("image {source} is damaged or of an unknown format"));
     }
-    path
+    let inside = path.is_none().then(|| Arc::from(bytes));
+    Some((path, inside))
 }
 
 /// Whether bytes begin as PNG, JPEG, WebP, KTX2, DDS or AVIF images do.

@@ -1,0 +1,171 @@
+//! The keys of light and fills: what they stand for, what replaces what, and pictures of tones.
+
+use std::path::PathBuf;
+
+use ligne::drawing::Length;
+use ligne::field::tone_options::{Colours, Scale};
+use ligne::field::{SourceKind, Space};
+use ligne::math::colour::Colour;
+use ligne::math::factor::Factor;
+use ligne::region::Seams;
+use ligne::style::Style;
+
+/// A folder that is removed at the end of the test.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("ligne-fills-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(folder.join("tones")).unwrap();
+        Self(folder)
+    }
+
+    fn write(&self, file: &str, bytes: &[u8]) -> String {
+        let path = self.0.join(file);
+        std::fs::write(&path, bytes).unwrap();
+        path.to_str().unwrap().to_owned()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn changed(style: &str, changes: &[&str]) -> Result<Style, ligne::Error> {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    Style::load(style, &changes)
+}
+
+fn png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().unwrap().write_image_data(pixels).unwrap();
+    bytes
+}
+
+fn grey(value: u8) -> Colour {
+    Colour::rgb(value, value, value)
+}
+
+#[test]
+fn the_keys_other_programs_use_can_be_set() {
+    let style = changed(
+        "ink",
+        &[
+            "fills.enabled=1",
+            "fills.thresholds=[0.3, 0.7]",
+            "fills.palette=[\"#000\", \"#888\", \"#fff\"]",
+            "light.from_model=false",
+            "light.sources=[{ kind = \"directional\", direction = [0, 0, 1], space = \"camera\", color = \"#fff\", brightness = 1 }]",
+        ],
+    )
+    .unwrap();
+    assert!(style.region.enabled && !Style::default().region.enabled);
+    assert_eq!(style.tones.scale, Scale::Thresholds(vec![0.3, 0.7]));
+    assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0), grey(0x88), grey(255)]));
+    assert!(!style.light.from_model);
+    assert_eq!(style.light.sources[0].space, Space::Camera);
+    assert!(matches!(style.light.sources[0].kind, SourceKind::Directional { .. }));
+    let style = changed(
+        "ink",
+        &["fills.seams=exact", "fills.crumb=1mm", "fills.shadow=#808080", "fills.cast_shadows=1"],
+    )
+    .unwrap();
+    assert_eq!((style.region.seams, style.region.crumb), (Seams::Exact, Length::mm(1.0)));
+    assert_eq!(style.tones.shadow, Factor::from(grey(128)));
+    assert!(style.tones.cast_shadows);
+}
+
+#[test]
+fn built_in_styles_paint_as_they_say() {
+    let of = |name: &str| Style::preset(name).unwrap();
+    for name in ["toon", "toon-highlight", "noir", "rim", "gradient", "flat", "gooch", "comic-flats"] {
+        assert!(of(name).region.enabled, "{name}");
+        assert!(of(name).stroke == Style::default().stroke, "{name} inks as `ink`");
+    }
+    for name in ["ink", "plotter", "suggestive", "technical"] {
+        assert!(!of(name).region.enabled, "{name}");
+    }
+    assert_eq!(of("gradient").tones.scale, Scale::Steps(128));
+    assert_eq!(of("flat").tones.scale, Scale::Thresholds(Vec::new()));
+    assert!(matches!(of("gooch").tones.colours, Colours::Gooch(_)));
+    assert!(of("comic-flats").tones.cast_shadows && of("toon-highlight").tones.highlight.enabled);
+}
+
+#[test]
+fn a_new_way_to_make_tones_replaces_the_old_one() {
+    let style = changed("gradient", &["fills.thresholds=[0.4]"]).unwrap();
+    assert_eq!(style.tones.scale, Scale::Thresholds(vec![0.4]));
+    let style = changed("toon", &["fills.steps=9"]).unwrap();
+    assert_eq!(style.tones.scale, Scale::Steps(9));
+    let style = changed("gooch", &["fills.palette=[\"#000\", \"#fff\"]"]).unwrap();
+    assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0), grey(255)]));
+    assert_eq!(style.tones.scale, Scale::Steps(24));
+    let ramp = "fills.ramp=[\"#000\", \"#fff\"]";
+    let style = changed("gradient", &[ramp, "fills.palette=[\"#888\"]"]).unwrap();
+    assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0x88)]));
+    let style = changed("gradient", &["fills.gooch.enabled=true", "fills.gooch.warm=#fff"]).unwrap();
+    assert!(matches!(style.tones.colours, Colours::Gooch(gooch) if gooch.warm == grey(255)));
+    let style = changed("toon", &["fills.palette=[\"#888\"]", "fills.gooch.enabled=false"]).unwrap();
+    assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0x88)]));
+}
+
+#[test]
+fn pictures_of_tones_are_found_beside_the_sheet() {
+    let folder = Folder::new("strip");
+    folder.write("tones/strip.png", &png(8, 1, &[40, 40, 40, 40, 40, 40, 200, 255]));
+    folder.write("tones/table.png", &png(2, 2, &[0, 100, 100, 200]));
+    folder.write("tones/strip.toml", b"fills.ramp = \"strip.png\"");
+    let sheet = folder.write("a.toml", b"extends = \"tones/strip.toml\"\nfills.enabled = true\n");
+    let Scale::Ramp(strip) = Style::load(&sheet, &[]).unwrap().tones.scale else { panic!() };
+    assert_eq!(strip.levels, [0.75, 0.875]);
+    assert_eq!(strip.colours, [grey(40), grey(200), grey(255)]);
+
+    let sheet = folder.write("b.toml", b"[[fills.material]]\nname = \"a*\"\ntable = \"tones/table.png\"\n");
+    let materials = Style::load(&sheet, &[]).unwrap().tones.materials;
+    let Some(Scale::Table(table)) = &materials[0].scale else { panic!() };
+    assert_eq!((table.tone(0, 0), table.tone(1, 0), table.tone(1, 1)), (0, 1, 2));
+}
+
+#[test]
+fn materials_of_sheets_add_up() {
+    let folder = Folder::new("materials");
+    folder.write("a.toml", b"[[fills.material]]\nname = \"a\"\nsteps = 3\n");
+    let sheet =
+        folder.write("b.toml", b"extends = \"a.toml\"\n[[fills.material]]\nname = \"a\"\nshadow = 0.1\n");
+    let style = Style::load(&sheet, &[]).unwrap();
+    let (own, _) = style.tones.for_material("a");
+    assert_eq!((own.scale, own.shadow), (Scale::Steps(3), Factor([0.1; 3])));
+    assert_eq!(style.tones.for_material("b").0.scale, Scale::Thresholds(vec![0.5]));
+}
+
+#[test]
+fn mistakes_are_named() {
+    let folder = Folder::new("errors");
+    for (text, wanted) in [
+        ("[fills]\nthreshold = [0.5]\n", "line 2: unknown key `threshold`; did you mean `thresholds`?"),
+        ("fills.thresholds = [0.7, 0.5]\n", "line 1: thresholds are rising numbers above 0; write"),
+        ("fills.steps = 0\n", "line 1: 0 is not a number of tones; write a whole number"),
+        ("fills.palette = []\n", "line 1: a palette has a colour for each tone"),
+        ("fills.palette = [\"#12\"]\n", "line 1: `#12` is not a colour"),
+        ("fills.table = [[\"#000\"], []]\n", "line 1: the table needs rows"),
+        ("fills.highlight.exponent = 0\n", "line 1: 0 is not the exponent"),
+        ("fills.lit = 9\n", "line 1: 9 is not a factor of colours"),
+        ("[[fills.material]]\nshadow = 1\n", "missing field `name`"),
+        ("light.sources = [{ kind = \"point\" }]\n", "line 1: a point light needs a `position`"),
+        ("light.oclusion = 1\n", "did you mean `occlusion`?"),
+    ] {
+        let sheet = folder.write("bad.toml", text.as_bytes());
+        let error = Style::load(&sheet, &[]).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{text}: {error}");
+    }
+    let sheet = folder.write("lost.toml", b"fills.ramp = \"tones/lost.png\"");
+    let error = Style::load(&sheet, &[]).unwrap_err().to_string();
+    assert!(error.contains("tones/lost.png: cannot read the picture of tones"), "{error}");
+    folder.write("tones/lost.png", b"GIF89a");
+    let error = Style::load(&sheet, &[]).unwrap_err().to_string();
+    assert!(error.contains("neither PNG nor JPEG"), "{error}");
+}
