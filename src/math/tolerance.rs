@@ -28,6 +28,10 @@ pub const PARALLEL_SINE: f64 = 1e-9;
 /// edge-on, and counts as averted.
 pub const EDGE_ON_COSINE: f64 = 1e-10;
 
+/// A plane whose distance from the eye, as a fraction of how far they may be apart, is no more than
+/// this may be seen edge-on: twice what [`EDGE_ON_COSINE`] says, for rounding.
+pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_COSINE;
+
 /// A surface this near in depth (fraction of the model) touches a line rather than hiding it.
 pub const CONTACT_OF_MODEL: f64 = 5e-7;
 
