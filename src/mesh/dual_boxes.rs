@@ -100,67 +100,91 @@ pub(super) struct DualBoxes {
     ids: Vec<u32>,
 }
 
-/// An item with the cube it belongs to.
-#[derive(Clone, Copy)]
-struct Placed {
-    /// Morton number of the cube, with zeros below its level.
-    cube: u64,
+/// Where an item stands in the tree: the Morton number of its cube, with zeros below its level, then
+/// the level, then the Morton number of its middle, as far as there is room.
+///
+/// A cube comes before its children and they come one after another.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Place(u128);
+
+impl Place {
+    fn of(item: &Item) -> Self {
+        let (low, high) = (morton(item.low), morton(item.high));
+        let level = (low ^ high).leading_zeros() / 4;
+        let cube = if level == 0 { 0 } else { low & u64::MAX << (64 - 4 * level) };
+        let middle = morton((item.low + item.high) / 2.0);
+        Self(u128::from(cube) << 64 | u128::from(level) << 59 | u128::from(middle >> 5))
+    }
+
     /// How often the whole was halved.
-    level: u32,
-    /// Morton number of the middle.
-    middle: u64,
-    item: Item,
+    fn level(self) -> u32 {
+        (self.0 >> 59) as u32 & 31
+    }
+
+    /// Which of the sixteen children of its ancestor at a level it lies in.
+    fn child(self, level: u32) -> u32 {
+        (self.0 >> (64 + 4 * (LEVELS - 1 - level))) as u32 & 15
+    }
+}
+
+/// Items in the order of the tree.
+struct Sorted<'a> {
+    items: &'a [Item],
+    places: &'a [(Place, u32)],
 }
 
 impl DualBoxes {
     /// The tree of some items; the result does not depend on their order.
-    pub fn new(items: Vec<Item>) -> Self {
-        let mut placed: Vec<Placed> = items
-            .into_par_iter()
+    pub fn new(mut items: Vec<Item>) -> Self {
+        items.par_sort_unstable_by_key(|item| item.id);
+        let mut places: Vec<(Place, u32)> = items
+            .par_iter()
             .with_min_len(1 << 10)
-            .map(|item| {
-                let (low, high) = (morton(item.low), morton(item.high));
-                let level = (low ^ high).leading_zeros() / 4;
-                Placed { cube: low & upper(level), level, middle: morton((item.low + item.high) / 2.0), item }
-            })
+            .enumerate()
+            .map(|(i, item)| (Place::of(item), i as u32))
             .collect();
-        // A cube comes before its children and they come one after another.
-        placed.par_sort_unstable_by_key(|p| (p.cube, p.level, p.middle, p.item.id));
+        places.par_sort_unstable();
         let mut tree = Self::default();
-        if !placed.is_empty() {
-            tree.add(&placed, 0);
+        tree.ids.reserve_exact(items.len());
+        if !items.is_empty() {
+            tree.add(&Sorted { items: &items, places: &places }, 0);
         }
         tree.blocks.push((Box4::EMPTY, tree.ids.len() as u32));
         tree
     }
 
     /// Adds a cube of this level and all in it, and returns the box around it.
-    fn add(&mut self, placed: &[Placed], level: u32) -> Box4 {
-        let own = if placed.len() <= BLOCK || level == LEVELS {
-            placed.len()
+    fn add(&mut self, Sorted { items, places }: &Sorted, level: u32) -> Box4 {
+        let own = if places.len() <= BLOCK || level == LEVELS {
+            places.len()
         } else {
-            placed.iter().take_while(|p| p.level == level).count()
+            places.iter().take_while(|(place, _)| place.level() == level).count()
         };
-        let child = |p: &Placed| p.cube >> (4 * (LEVELS - 1 - level)) & 15;
-        if own == 0 && child(&placed[0]) == child(&placed[placed.len() - 1]) {
+        let child = |(place, _): &(Place, u32)| place.child(level);
+        if own == 0 && child(&places[0]) == child(&places[places.len() - 1]) {
             // A cube with nothing of its own and one child is that child.
-            return self.add(placed, level + 1);
+            return self.add(&Sorted { items, places }, level + 1);
         }
         let cube = self.cubes.len();
         let first_block = self.blocks.len() as u32;
         self.cubes.push(Cube { children: Box4::EMPTY, own: Box4::EMPTY, first_block, after: 0 });
         let mut around = Box4::EMPTY;
-        for block in placed[..own].chunks(BLOCK) {
-            let sum = block.iter().fold(Box4::EMPTY, |sum, p| sum.union(Box4::of(&p.item)));
-            self.blocks.push((sum, self.ids.len() as u32));
-            self.ids.extend(block.iter().map(|p| p.item.id));
+        for block in places[..own].chunks(BLOCK) {
+            let mut sum = Box4::EMPTY;
+            let first = self.ids.len() as u32;
+            for (_, index) in block {
+                let item = &items[*index as usize];
+                sum = sum.union(Box4::of(item));
+                self.ids.push(item.id);
+            }
+            self.blocks.push((sum, first));
             around = around.union(sum);
         }
         self.cubes[cube].own = around;
         let mut children = Box4::EMPTY;
-        if own < placed.len() {
-            for part in placed[own..].chunk_by(|a, b| child(a) == child(b)) {
-                children = children.union(self.add(part, level + 1));
+        if own < places.len() {
+            for places in places[own..].chunk_by(|a, b| child(a) == child(b)) {
+                children = children.union(self.add(&Sorted { items, places }, level + 1));
             }
         }
         self.cubes[cube].children = children;
@@ -197,11 +221,6 @@ impl DualBoxes {
         found.items.sort_unstable();
         found
     }
-}
-
-/// A mask of the bits of a Morton number that tell the cubes of a level apart.
-fn upper(level: u32) -> u64 {
-    if level == 0 { 0 } else { u64::MAX << (64 - 4 * level) }
 }
 
 /// Position along the Morton curve of a point in the cube from −1 to 1: four bits a level.

@@ -47,6 +47,9 @@ impl DualTree {
             let unit = normal / square.sqrt();
             Some(unit.extend(-unit.dot(a) / radius))
         };
+        let planes: Vec<Option<DVec4>> =
+            (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(1 << 10).map(plane).collect();
+        let plane = |face: u32| planes[face as usize];
         let placed: Vec<Result<Item, u32>> = (0..mesh.edges.len())
             .into_par_iter()
             .with_min_len(1 << 10)
