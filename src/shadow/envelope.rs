@@ -66,30 +66,29 @@ pub(super) fn envelope(mut candidates: Vec<Candidate>, shortest: f64) -> Vec<Run
 
 /// The nearest of candidates all of which reach from one parameter to another.
 fn nearest_over(active: &[Candidate], from: f64, to: f64, winners: &mut Vec<(Candidate, f64, f64)>) {
-    let mut at = from;
-    // Each crossing has a steeper winner, so there are fewer than candidates.
-    for _ in 0..=active.len() {
-        let key = |c: &Candidate| (c.at(at), c.at(to), c.touches, std::cmp::Reverse(c.face));
-        let better = |a: &&Candidate, b: &&Candidate| {
-            let (a, b) = (key(a), key(b));
-            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)).then(a.3.cmp(&b.3))
-        };
-        let Some(best) = active.iter().max_by(better) else { return };
+    let ahead = |a: &Candidate, b: &Candidate| {
+        (a.at(to).total_cmp(&b.at(to))).then(a.touches.cmp(&b.touches)).then(b.face.cmp(&a.face))
+    };
+    let first = active.iter().max_by(|a, b| a.at(from).total_cmp(&b.at(from)).then(ahead(a, b)));
+    let (Some(mut best), mut at) = (first, from) else { return };
+    // Each that takes over is nearer at the end than the one before, so this comes to an end.
+    loop {
         let mut end = to;
+        let mut heir: Option<&Candidate> = None;
         for other in active {
-            let (lead_here, lead_there) = (best.at(at) - other.at(at), best.at(to) - other.at(to));
-            if lead_there < 0.0 && lead_here > 0.0 {
-                let crossing = at + (to - at) * (lead_here / (lead_here - lead_there));
-                if crossing > at {
-                    end = end.min(crossing);
-                }
+            let (lead, lag) = (best.at(at) - other.at(at), other.at(to) - best.at(to));
+            if lag <= 0.0 {
+                continue;
+            }
+            let crossing = at + (to - at) * (lead.max(0.0) / (lead.max(0.0) + lag));
+            let sooner = crossing < end || crossing == end && heir.is_some_and(|h| ahead(other, h).is_gt());
+            if sooner {
+                (end, heir) = (crossing, Some(other));
             }
         }
         winners.push((*best, at, end));
-        if end >= to {
-            return;
-        }
-        at = end;
+        let Some(next) = heir else { return };
+        (best, at) = (next, end);
     }
 }
 
@@ -170,6 +169,18 @@ mod tests {
         assert_eq!(found(&[rising, falling, level]), [(2, 0.0, 0.5), (1, 0.5, 1.0)]);
         let high = candidate(4, 0.0, 1.0, [0.75, 0.75]);
         assert_eq!(found(&[rising, falling, high]), [(2, 0.0, 0.25), (4, 0.25, 0.75), (1, 0.75, 1.0)]);
+    }
+
+    #[test]
+    fn rounding_at_a_crossing_does_not_bring_the_loser_back() {
+        for k in 1..2000 {
+            let at = f64::from(k) * 0.000_37 + 0.01;
+            let near = candidate(1, 0.0, 1.0, [at, 0.0]);
+            let far = candidate(2, 0.0, 1.0, [0.0, 1.0 - at]);
+            let runs = found(&[near, far]);
+            assert_eq!(runs.iter().map(|r| r.0).collect::<Vec<_>>(), [1, 2], "{at}");
+            assert!((runs[0].2 - at).abs() < 1e-12 && runs[1].1 == runs[0].2);
+        }
     }
 
     #[test]

@@ -25,8 +25,8 @@ pub use lines::{ShadowLines, ShadowSegment};
 
 use crate::lines::Surface;
 use crate::mesh::Mesh;
-use crate::mesh::solid::solid_parts;
 use light::LightView;
+use test_points::Outside;
 
 /// No more lights than this cast shadows: as many as a mask has bits.
 pub const MOST_CASTERS: usize = 32;
@@ -39,8 +39,8 @@ pub struct Shadows {
     casters: Vec<Caster>,
     /// The views of each light.
     views: Vec<Vec<LightView>>,
-    /// Whether each part is a closed solid, of which nobody sees the inside.
-    solid: Vec<bool>,
+    /// On which side of its faces each part has its outside.
+    outside: Vec<Outside>,
 }
 
 impl Shadows {
@@ -61,7 +61,7 @@ impl Shadows {
             lines.add(k as u32, join::joined(&surface.mesh, cast));
             views.push(of_caster);
         }
-        Self { lines, casters, views, solid: solid_parts(mesh) }
+        Self { lines, casters, views, outside: test_points::outside(mesh) }
     }
 
     /// The lights that casts these shadows; bit k of a mask is the k-th of them.
@@ -85,7 +85,7 @@ impl Shadows {
     pub fn shadowed(&self, mesh: &Mesh, points: &[(u32, DVec3)]) -> Vec<u32> {
         let mut masks = vec![0; points.len()];
         for (k, (caster, views)) in self.casters.iter().zip(&self.views).enumerate() {
-            test_points::mark(mesh, caster, views, &self.solid, points, 1 << k, &mut masks);
+            test_points::mark(mesh, caster, views, &self.outside, points, 1 << k, &mut masks);
         }
         masks
     }

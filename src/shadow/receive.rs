@@ -150,14 +150,12 @@ impl Tester<'_> {
         let corners = &face.corners;
         let (p, q) = (edge.at(item.start).truncate(), edge.at(item.end).truncate());
         let at = |t: f64| if t >= 1.0 { item.end } else { item.start + (item.end - item.start) * t };
-        // How much nearer than the edge the face is, where more than touching counts.
         let neighbour = shared[0].is_some() || shared[1].is_some();
         let step = if neighbour { self.limits.neighbour } else { self.limits.contact };
         let nearness = |t: f64| nearness(corners, edge.at(t), shared[0].or(shared[1]).unwrap_or(0));
-        let lead = |t: f64| {
-            let p = edge.at(t);
-            nearness(t) - p.z + self.view.frame.nearness_step(p.z, step)
-        };
+        // How much farther than the edge the face is.
+        let depth = |t: f64| edge.at(t).z - nearness(t);
+        let is_behind = |t: f64| depth(t) > self.view.frame.nearness_step(edge.at(t).z, step);
         let candidate = |start: f64, end: f64, touches: bool| Candidate {
             face: face.face,
             start,
@@ -165,16 +163,18 @@ impl Tester<'_> {
             nearness: [nearness(start), nearness(end)],
             touches,
         };
+        // The part of an interval over which the face is farther, or if not `behind`, nearer; touching is
+        // no reason to cut.
+        let part = |start: f64, end: f64, behind: bool| {
+            let [at_start, at_end] = [start, end].map(|t| if behind { depth(t) } else { -depth(t) });
+            let crossing = start + (end - start) * (at_start / (at_start - at_end));
+            (if at_start >= 0.0 { start } else { crossing }, if at_end >= 0.0 { end } else { crossing })
+        };
         if let Some((start, end)) = covered(p, q, corners, self.limits) {
             let (start, end) = (at(start), at(end));
-            let (at_start, at_end) = (lead(start), lead(end));
-            let crossing = start + (end - start) * (at_start / (at_start - at_end));
-            // From a shared corner the surface falls back at once.
-            let at_corner = |k: usize, t: f64| shared[k].is_some() && edge.whole[k] && t == k as f64;
-            if at_start < 0.0 || at_end < 0.0 {
-                let from = if at_start < 0.0 || at_corner(0, start) { start } else { crossing };
-                let to = if at_end < 0.0 || at_corner(1, end) { end } else { crossing };
-                push(candidate(from, to, false));
+            if is_behind(start) || is_behind(end) {
+                let (start, end) = part(start, end, true);
+                push(candidate(start, end, false));
             }
         }
         if neighbour {
@@ -184,12 +184,13 @@ impl Tester<'_> {
         let shift = edge.outward * self.limits.beside;
         let Some((start, end)) = covered(p + shift, q + shift, corners, self.limits) else { return };
         let (start, end) = (at(start), at(end));
-        let (at_start, at_end) = (lead(start), lead(end));
-        let crossing = start + (end - start) * (at_start / (at_start - at_end));
-        if at_start >= 0.0 || at_end >= 0.0 {
-            let from = if at_start >= 0.0 { start } else { crossing };
-            let to = if at_end >= 0.0 { end } else { crossing };
-            push(candidate(from, to, true));
+        match (is_behind(start), is_behind(end)) {
+            (true, true) => {}
+            (false, false) => push(candidate(start, end, true)),
+            _ => {
+                let (start, end) = part(start, end, false);
+                push(candidate(start, end, true));
+            }
         }
     }
 }
