@@ -16,7 +16,7 @@ mod solids;
 use dice::Dice;
 use glam::DVec3;
 use ligne::lines::{FeatureLines, LineKind, NO_FACE};
-use ligne::mesh::{EdgeFaces, FaceId, Mesh};
+use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::Scene;
 use ligne::shadow::{Caster, Shadows};
 use pipeline::scene;
@@ -206,6 +206,21 @@ fn nothing_in_the_way_casts_nothing() {
 }
 
 #[test]
+fn faces_of_solids_that_are_turned_away_are_not_in_a_cast_shadow_but_sheets_are() {
+    let mesh = mesh([
+        cuboid(DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, 2.0)),
+        sheet([-1.0, -1.0], [1.0, 1.0], 0.0),
+        sheet([-1.0, -1.0], [1.0, 1.0], -1.0).moved(|p| DVec3::new(-p.x, p.y, p.z)),
+    ]);
+    let shadows = Shadows::new(&mesh, &[Caster::Directional { towards: DVec3::Z }]);
+    let asked: Vec<(u32, DVec3)> = (0..mesh.triangles.len() as u32).map(|f| (f, middle(&mesh, f))).collect();
+    for ((face, p), mask) in asked.iter().zip(shadows.shadowed(&mesh, &asked)) {
+        // Both sheets lie in the shadow of the box, whichever way they are wound.
+        assert_eq!(mask, u32::from((p + mesh.origin).z < 0.5), "{face}");
+    }
+}
+
+#[test]
 fn sheets_side_by_side_cast_no_seam() {
     // Two sheets that touch along x = 0 without sharing a vertex, over a ground.
     let mesh = mesh([
@@ -300,7 +315,7 @@ fn on_face(mesh: &Mesh, face: u32, dice: &mut Dice) -> DVec3 {
     a + (b - a) * u + (c - a) * v
 }
 
-/// 1 for closed parts whose normals point outward, -1 for such that are inside out, 0 for others.
+/// 1 for parts whose normals point outward, -1 for such that are inside out.
 fn outward(mesh: &Mesh) -> Vec<f64> {
     let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
     let mut volumes = vec![0.0; parts];
@@ -308,15 +323,7 @@ fn outward(mesh: &Mesh) -> Vec<f64> {
         let [a, b, c] = mesh.corners(FaceId(face as u32));
         volumes[part.index()] += a.dot(b.cross(c));
     }
-    for edge in 0..mesh.edges.len() {
-        let face = match mesh.edges.faces(edge) {
-            EdgeFaces::One(face) => face,
-            EdgeFaces::Two { faces, same_way: true } => faces[0],
-            _ => continue,
-        };
-        volumes[mesh.face_part[face as usize].index()] = 0.0;
-    }
-    volumes.into_iter().map(|v| if v == 0.0 { 0.0 } else { v.signum() }).collect()
+    volumes.into_iter().map(f64::signum).collect()
 }
 
 fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
@@ -332,14 +339,19 @@ fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
     for ((face, p), mask) in asked.iter().zip(masks) {
         let [a, b, c] = mesh.corners(FaceId(*face));
         for (k, caster) in shadows.casters().iter().enumerate() {
-            let outward = outward[mesh.face_part[*face as usize].index()];
-            let attached = outward != 0.0 && (b - a).cross(c - a).dot(caster.towards(*p)) * outward <= 0.0;
             let Some(blocked) = surely_blocked(mesh, caster, *face, *p, 1e-5 * mesh.size) else { continue };
+            // Faces of solids that are turned away are not asked.
+            let outward = outward[mesh.face_part[*face as usize].index()];
+            let attached = (b - a).cross(c - a).dot(caster.towards(*p)) * outward <= 0.0;
+            let dark = mask >> k & 1 == 1;
+            if attached && !dark {
+                continue;
+            }
             sure += 1;
-            assert_eq!(mask >> k & 1 == 1, blocked && !attached, "light {k}, face {face} at {p}");
+            assert_eq!(dark, blocked, "light {k}, face {face} at {p}");
         }
     }
-    assert!(sure * 10 > count * shadows.casters().len() * 9, "{sure} of {count}");
+    assert!(sure * 3 > count * shadows.casters().len(), "{sure} of {count}");
 }
 
 /// Checks that lines lie on their faces and part light from shadow; returns how many were checked.

@@ -14,6 +14,7 @@ mod envelope;
 mod join;
 mod light;
 pub mod lines;
+mod outside;
 mod receive;
 mod test_points;
 
@@ -26,7 +27,7 @@ pub use lines::{ShadowLines, ShadowSegment};
 use crate::lines::Surface;
 use crate::mesh::Mesh;
 use light::LightView;
-use test_points::Outside;
+use outside::Outside;
 
 /// No more lights than this cast shadows: as many as a mask has bits.
 pub const MOST_CASTERS: usize = 32;
@@ -39,7 +40,7 @@ pub struct Shadows {
     casters: Vec<Caster>,
     /// The views of each light.
     views: Vec<Vec<LightView>>,
-    /// On which side of its faces each part has its outside.
+    /// On which side of each face it is outside.
     outside: Vec<Outside>,
 }
 
@@ -61,7 +62,7 @@ impl Shadows {
             lines.add(k as u32, join::joined(&surface.mesh, cast));
             views.push(of_caster);
         }
-        Self { lines, casters, views, outside: test_points::outside(mesh) }
+        Self { lines, casters, views, outside: outside::outside(mesh) }
     }
 
     /// The lights that casts these shadows; bit k of a mask is the k-th of them.
@@ -73,8 +74,8 @@ impl Shadows {
     /// Which lights do not reach a point (local space) on a face: bit k is set where another face
     /// stands between it and light k.
     ///
-    /// Faces of closed parts that are turned away from a light are dark by themselves; for them its
-    /// bit is never set. For many points, [`Shadows::shadowed`] is much faster.
+    /// Faces of solids that are turned away from a light are dark by themselves; for them its bit is
+    /// never set. On sheets, of which either side may be seen, it is. For many points, [`Shadows::shadowed`] is much faster.
     #[must_use]
     pub fn unlit(&self, mesh: &Mesh, face: u32, point: DVec3) -> u32 {
         self.shadowed(mesh, &[(face, point)])[0]

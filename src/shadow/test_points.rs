@@ -5,8 +5,9 @@ use rayon::prelude::*;
 
 use super::Caster;
 use super::light::LightView;
+use super::outside::Outside;
 use crate::math::tolerance;
-use crate::mesh::{EdgeFaces, FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh};
 use crate::viewmap::front_faces;
 
 /// Sets a bit in the masks of those points that another face keeps from a light.
@@ -47,49 +48,11 @@ pub(super) fn mark(
     }
 }
 
-/// On which side of its faces a part has its outside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Outside {
-    /// Where their normals point.
-    Front,
-    /// Behind them: the part is closed, and wound inside out.
-    Back,
-    /// The part is open, or wound both ways.
-    Unknown,
-}
-
-/// Where each part has its outside, as far as it has one.
-pub(super) fn outside(mesh: &Mesh) -> Vec<Outside> {
-    let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
-    let mut closed = vec![true; parts];
-    for edge in 0..mesh.edges.len() {
-        let open = match mesh.edges.faces(edge) {
-            EdgeFaces::One(face) => Some(face),
-            EdgeFaces::Two { faces, same_way } => same_way.then_some(faces[0]),
-            EdgeFaces::Many(_) => None,
-        };
-        if let Some(face) = open {
-            closed[mesh.face_part[face as usize].index()] = false;
-        }
-    }
-    let mut volume = vec![0.0; parts];
-    for (face, part) in mesh.face_part.iter().enumerate() {
-        let [a, b, c] = mesh.corners(FaceId(face as u32));
-        volume[part.index()] += a.dot(b.cross(c));
-    }
-    let of = |(closed, volume): (bool, f64)| match closed {
-        true if volume > 0.0 => Outside::Front,
-        true if volume < 0.0 => Outside::Back,
-        _ => Outside::Unknown,
-    };
-    closed.into_iter().zip(volume).map(of).collect()
-}
-
-/// Whether a face of a closed part turns its inside to the light.
+/// Whether a face of a solid turns its inside to the light.
 fn is_averted(mesh: &Mesh, caster: &Caster, outside: &[Outside], face: u32, point: DVec3) -> bool {
     let [a, b, c] = mesh.corners(FaceId(face));
     let fall = (b - a).cross(c - a).dot(caster.towards(point));
-    match outside[mesh.face_part[face as usize].index()] {
+    match outside[face as usize] {
         Outside::Front => fall <= 0.0,
         Outside::Back => fall >= 0.0,
         Outside::Unknown => false,
