@@ -33,6 +33,7 @@ use crate::lines::{HiddenLines, LineKind};
 use crate::mesh::{MaterialId, PartId};
 use crate::viewmap::ViewMap;
 use finish::{Tolerances, finish};
+use line::Line;
 use raw::Raw;
 use removed::Bin;
 use tidy::tidied;
@@ -133,6 +134,33 @@ fn link_with(
     };
     let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, bin);
     raws.into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
+}
+
+/// The curve through a line that is drawn like chains are: smooth and fitted where `soft` says that
+/// the piece after a point lies on a smooth surface, exact elsewhere. It begins and ends in the
+/// line's ends; points nearer than `merge` to the line between their neighbours are passed over.
+pub(crate) fn curve(
+    points: &[Point],
+    soft: &[bool],
+    closed: bool,
+    merge: f64,
+    options: &ChainOptions,
+    unit: Unit,
+) -> BezPath {
+    let px = Length::px(1.0).in_unit(unit);
+    let t = Tolerances {
+        px,
+        smooth: options.smooth.in_unit(unit).max(0.0),
+        simplify: options.simplify.in_unit(unit).max(0.0),
+        tidy: 0.0,
+        fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
+    };
+    let sample = Sample { depth: 0.0, strength: 1.0 };
+    let mut line = Line { closed, ..Line::default() };
+    for (point, soft) in points.iter().zip(soft) {
+        line.push(*point, sample, *soft, false);
+    }
+    finish(&simplify::simplify(&line, merge), t).1
 }
 
 /// Lines inside lie where noise puts them, more than contours do: smoothing may move them this many

@@ -78,6 +78,8 @@ pub enum Paint {
 pub struct Provenance {
     /// Classes: the line kind first, then `silhouette`.
     pub classes: Vec<&'static str>,
+    /// The tone of a region, 0 the darkest.
+    pub tone: Option<u16>,
     /// Name of the part of the model.
     pub part: Option<std::sync::Arc<str>>,
     /// Name of the material.

@@ -225,13 +225,11 @@ fn write_mark(
 ) {
     let provenance = &mark.provenance;
     out.extend_from_slice(b"<path");
-    if let Some((first, others)) = provenance.classes.split_first() {
+    let tone = provenance.tone.map(|tone| format!("tone-{tone}"));
+    let classes: Vec<&str> = provenance.classes.iter().copied().chain(tone.as_deref()).collect();
+    if !classes.is_empty() {
         out.extend_from_slice(b" class=\"");
-        out.extend_from_slice(first.as_bytes());
-        for class in others {
-            out.push(b' ');
-            out.extend_from_slice(class.as_bytes());
-        }
+        out.extend_from_slice(classes.join(" ").as_bytes());
         out.push(b'"');
     }
     let mut named = |name: &[u8], text: &str| {
@@ -244,6 +242,9 @@ fn write_mark(
     }
     if let (Paint::Fill(_), Some(material)) = (&mark.paint, &provenance.material) {
         named(b" data-material=\"", material);
+    }
+    if let Some(tone) = provenance.tone {
+        named(b" data-tone=\"", &tone.to_string());
     }
     if provenance.invisibility > 0 {
         named(b" data-invisibility=\"", &provenance.invisibility.to_string());

@@ -3,11 +3,26 @@
 pub mod cut;
 pub mod facing;
 pub mod finer;
+mod lamp;
+pub mod light_options;
+pub mod lighting;
+pub mod ramp;
+pub mod shaded_normals;
 pub mod shading;
 pub mod smoothing;
+pub mod specular;
+pub mod tone_options;
+mod tones;
+
+#[cfg(test)]
+mod tests;
 
 pub use cut::{SurfaceCut, cut};
 pub use facing::facing;
 pub use finer::finer_near_contours;
-pub use shading::{Shading, SurfacePoint};
+pub use light_options::{LightOptions, LightSource, SourceKind, Space};
+pub use lighting::{Caster, SurfacePoint};
+pub use shaded_normals::ShadedNormals;
+pub use shading::Shading;
 pub use smoothing::smooth_near_zero;
+pub use tone_options::ToneOptions;

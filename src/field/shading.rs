@@ -2,68 +2,148 @@
 
 use glam::DVec3;
 
+use super::light_options::LightOptions;
+use super::lighting::{Caster, Lighting, SurfacePoint};
+use super::tone_options::{Scale, ToneOptions};
+use super::tones::{Channel, Look, Tones};
 use crate::math::colour::Colour;
-use crate::mesh::MaterialId;
-
-/// A point of the surface, as light falls on it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfacePoint {
-    /// Where it is, local space.
-    pub position: DVec3,
-    /// Unit normal of the side that the eye sees, local space.
-    pub normal: DVec3,
-    /// How much of the sky it sees, 0 (none) to 1 (all).
-    pub openness: f64,
-}
+use crate::mesh::{MaterialId, Mesh};
+use crate::scene::{Material, Scene};
+use crate::view::Frame;
 
 /// How a view is lit, and into which tones its surface falls.
 ///
 /// What a point looks like follows from one or more *channels*: numbers that vary over the surface,
 /// such as the light that falls on it or the strength of its highlight. Each channel has rising
 /// levels, and where one of them is crossed the tone may change.
+///
+/// Channel 0 is the diffuse light of all lights. Where a material asks for a table of two lights,
+/// the next two channels are the light of the first and of the second one alone; where one asks for
+/// highlights, the last is their strength.
 #[derive(Debug, Clone)]
 pub struct Shading {
-    towards_light: DVec3,
-    levels: Vec<f64>,
+    lighting: Lighting,
+    channels: Vec<Channel>,
+    exponent: f64,
+    /// Tones of each material; the last are those of surfaces without one.
+    tones: Vec<Tones>,
 }
 
 impl Shading {
-    /// Light from one direction, with levels on max(L·n, 0).
+    /// The shading of a scene, whose mesh is seen by a camera. What had to be mended is added to
+    /// the warnings.
+    #[must_use]
+    pub fn new(
+        scene: &Scene,
+        mesh: &Mesh,
+        frame: &Frame,
+        light: &LightOptions,
+        tones: &ToneOptions,
+        warnings: &mut Vec<String>,
+    ) -> Self {
+        let lighting = Lighting::new(scene, mesh, frame, light, tones.cast_shadows, warnings);
+        let without = Material::default();
+        let materials: Vec<(ToneOptions, &Material, Option<Colour>)> = scene
+            .materials
+            .iter()
+            .chain([&without])
+            .map(|material| {
+                let (own, colour) = tones.for_material(&material.name);
+                (own, material, colour)
+            })
+            .collect();
+
+        let mut channels = vec![Channel::Diffuse];
+        if materials.iter().any(|(own, ..)| matches!(own.scale, Scale::Table(_))) {
+            channels.extend([Channel::Light(0), Channel::Light(1)]);
+            if lighting.count() < 2 {
+                warnings.push("a table of tones is for two lights, but there is one".to_owned());
+            }
+        }
+        if materials.iter().any(|(own, ..)| own.highlight.enabled) {
+            channels.push(Channel::Highlight);
+        }
+        let tint = lighting.tint();
+        let of = |(own, material, colour): &(ToneOptions, &Material, Option<Colour>)| {
+            let colour = colour.unwrap_or(material.colour);
+            let look = Look { colour, emissive: material.emissive, ambient: light.ambient, tint };
+            Tones::new(own, &look, &channels)
+        };
+        let exponent = tones.highlight.exponent;
+        Self { tones: materials.iter().map(of).collect(), lighting, channels, exponent }
+    }
+
+    /// Light from one direction on light grey, with levels on max(L·n, 0).
     #[must_use]
     pub fn from_direction(towards_light: DVec3, levels: Vec<f64>) -> Self {
-        Self { towards_light: towards_light.normalize_or_zero(), levels }
+        let lighting = Lighting::from_direction(towards_light);
+        let channels = vec![Channel::Diffuse];
+        let options = ToneOptions { scale: Scale::Thresholds(levels), ..ToneOptions::default() };
+        let Material { colour, emissive, .. } = Material::default();
+        let ambient = LightOptions::default().ambient;
+        let look = Look { colour, emissive, ambient, tint: lighting.tint() };
+        let tones = vec![Tones::new(&options, &look, &channels)];
+        Self { lighting, channels, exponent: options.highlight.exponent, tones }
+    }
+
+    /// The lights that cast shadows, at most 8, local space; the index of each is its bit in
+    /// `shadowed` of [`Shading::value`].
+    #[must_use]
+    pub fn casters(&self) -> &[Caster] {
+        self.lighting.casters()
     }
 
     /// Number of channels.
     #[must_use]
     pub fn channels(&self) -> usize {
-        1
+        self.channels.len()
+    }
+
+    /// Whether a channel varies over a flat face: with the distance from a light, with the direction
+    /// to the eye, or with how much of the sky is seen. The others follow from the normal alone.
+    #[must_use]
+    pub fn is_local(&self, channel: usize) -> bool {
+        matches!(self.channels.get(channel), Some(Channel::Highlight)) || self.lighting.is_local()
+    }
+
+    /// By how much the value of a channel that is not local changes with the angle of the normal, at
+    /// most, per radian.
+    #[must_use]
+    pub fn steepness(&self) -> f64 {
+        self.lighting.steepness()
     }
 
     /// The rising levels of a channel on a material.
     #[must_use]
-    pub fn levels(&self, _material: MaterialId, _channel: usize) -> &[f64] {
-        &self.levels
+    pub fn levels(&self, material: MaterialId, channel: usize) -> &[f64] {
+        self.tones_of(material).map_or(&[], |tones| tones.levels(channel))
     }
 
     /// The value of a channel at a point that those lights do not reach whose bits are set in
     /// `shadowed`.
     #[must_use]
-    pub fn value(&self, _channel: usize, _material: MaterialId, point: &SurfacePoint, shadowed: u32) -> f64 {
-        if shadowed & 1 == 0 { point.normal.dot(self.towards_light).max(0.0) } else { 0.0 }
+    pub fn value(&self, channel: usize, _material: MaterialId, point: &SurfacePoint, shadowed: u32) -> f64 {
+        match self.channels.get(channel) {
+            Some(Channel::Diffuse) => self.lighting.diffuse(point, shadowed),
+            Some(Channel::Light(lamp)) => self.lighting.diffuse_by(*lamp, point, shadowed),
+            Some(Channel::Highlight) => self.lighting.specular(point, self.exponent, shadowed),
+            None => 0.0,
+        }
     }
 
     /// The tone of a point, 0 the darkest, from how many levels of each channel its values reach.
     #[must_use]
-    pub fn tone(&self, _material: MaterialId, bands: &[u16]) -> u16 {
-        bands.first().copied().unwrap_or_default()
+    pub fn tone(&self, material: MaterialId, bands: &[u16]) -> u16 {
+        self.tones_of(material).map_or(0, |tones| tones.tone(&self.channels, bands))
     }
 
     /// The colour of a tone on a material.
     #[must_use]
-    pub fn colour(&self, _material: MaterialId, tone: u16) -> Colour {
-        let part = f64::from(tone + 1) / (self.levels.len() + 1) as f64;
-        let grey = (60.0 + 180.0 * part) as u8;
-        Colour::rgb(grey, grey, grey)
+    pub fn colour(&self, material: MaterialId, tone: u16) -> Colour {
+        self.tones_of(material).map_or(Colour::WHITE, |tones| tones.colour(tone))
+    }
+
+    fn tones_of(&self, material: MaterialId) -> Option<&Tones> {
+        self.tones.get(material.index()).or(self.tones.last())
     }
 }

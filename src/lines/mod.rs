@@ -5,15 +5,18 @@ pub mod edge_search;
 mod hard_contours;
 pub mod inside;
 pub mod intersections;
+pub mod isophotes;
 pub mod kind;
 pub mod line;
 pub mod options;
 pub mod smooth_contours;
 pub mod surface;
+pub mod tone_edges;
 pub mod zero_set;
 
 pub use edge_search::EdgeSearch;
 pub use inside::InsideOptions;
+pub use isophotes::Lit;
 pub use kind::LineKind;
 pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE};
 pub use options::{Contours, HiddenLines, LineOptions};

@@ -50,6 +50,40 @@ impl Colour {
         Self { r: scale(self.r), g: scale(self.g), b: scale(self.b), a: self.a }
     }
 
+    /// Red, green and blue as written (sRGB), each 0 to 1.
+    #[must_use]
+    pub fn channels(self) -> [f64; 3] {
+        [self.r, self.g, self.b].map(|c| f64::from(c) / 255.0)
+    }
+
+    /// The opaque colour of channels as written (sRGB); below 0 counts as 0 and above 1 as 1.
+    #[must_use]
+    pub fn from_channels(channels: [f64; 3]) -> Self {
+        let [r, g, b] = channels.map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8);
+        Self::rgb(r, g, b)
+    }
+
+    /// The colour on the way from this one to another, 0 = this, 1 = the other; opacity too.
+    #[must_use]
+    pub fn mix(self, other: Self, share: f64) -> Self {
+        let share = share.clamp(0.0, 1.0);
+        let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
+        Self {
+            r: mix(self.r, other.r),
+            g: mix(self.g, other.g),
+            b: mix(self.b, other.b),
+            a: mix(self.a, other.a),
+        }
+    }
+
+    /// How light the colour looks, 0 to 1: the weighted sum of its channels as written (luma of
+    /// Rec. 709).
+    #[must_use]
+    pub fn luma(self) -> f64 {
+        let [r, g, b] = self.channels();
+        g + 0.2126 * (r - g) + 0.0722 * (b - g)
+    }
+
     /// `#rgb`, `#rgba`, `#rrggbb` or `#rrggbbaa`, or one of the CSS names `black`, `white`, `none`
     /// is not a colour.
     #[must_use]
@@ -101,5 +135,19 @@ impl TryFrom<String> for Colour {
 impl From<Colour> for String {
     fn from(c: Colour) -> Self {
         if c.a == 255 { c.hex() } else { format!("{}{:02x}", c.hex(), c.a) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mixing_keeps_the_ends() {
+        let (a, b) = (Colour::rgb(10, 200, 30), Colour { r: 0, g: 0, b: 255, a: 0 });
+        assert_eq!((a.mix(b, 0.0), a.mix(b, 1.0)), (a, b));
+        assert_eq!(a.mix(b, 0.5), Colour { r: 5, g: 100, b: 143, a: 128 });
+        assert_eq!(Colour::from_channels(a.channels()), a);
+        assert_eq!((Colour::WHITE.luma(), Colour::BLACK.luma()), (1.0, 0.0));
     }
 }

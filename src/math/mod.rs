@@ -1,6 +1,9 @@
-//! Numbers without meaning: tolerances, colours, intervals, deterministic functions.
+//! Numbers without meaning: tolerances, colours, pictures, patterns of names, deterministic functions.
 
 pub mod colour;
+pub mod factor;
 pub mod function;
+pub mod glob;
 pub mod linear;
+pub mod picture;
 pub mod tolerance;

@@ -77,3 +77,33 @@ pub const CUSP_PX: f64 = 1.0;
 /// A threshold of lines inside below this counts as this; thresholds are pure numbers, measured by
 /// the size of features.
 pub const LEAST_THRESHOLD: f64 = 1e-9;
+
+/// Faces are cut until a tone border lies no farther than this (px) from where it ought to be.
+pub const ISOPHOTE_PX: f64 = 0.03;
+
+/// Where a tone is this near to a level (of tones from 0 to 1), its border is found.
+pub const ISOPHOTE_VALUE: f64 = 1e-9;
+
+/// Regions are cut on a grid of this many steps along the longer side of the frame.
+pub const REGION_STEPS: f64 = 1_048_576.0;
+
+/// Points of borders nearer than this (steps of that grid) to the line between their neighbours are
+/// there by rounding.
+pub const REGION_SNAP: f64 = 1.5;
+
+/// What looks different from the rest of its cell over more than this (px) is not there by rounding.
+pub const LEAK_PX: f64 = 1.2;
+
+/// A border that ends this near (px) to another one goes on to it.
+pub const BRIDGE_PX: f64 = 1.0;
+
+/// Light of a model's lamp grows no more nearer to it than this fraction of the model.
+pub const LAMP_OF_MODEL: f64 = 1e-3;
+
+/// Highlights fade where light falls at less than this cosine, so that they end without a jump
+/// where the surface turns away from the light.
+pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
+
+/// The border of a spot light's cone is at least this soft (difference of cosines), as
+/// KHR_lights_punctual advises.
+pub const LEAST_CONE: f64 = 1e-3;

@@ -113,6 +113,12 @@ impl SmoothNormals {
         Some([a.min(b), a.max(b)])
     }
 
+    /// Whether every face is rounded.
+    #[must_use]
+    pub fn corners_of_all(&self) -> bool {
+        !self.corners.is_empty() && self.corners.iter().all(|corners| corners[0] != NO_NORMAL)
+    }
+
     /// Whether no face is rounded.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The pipeline, on one screen.
 
 pub mod defects;
+mod fills;
 pub mod report;
 pub mod stage;
 mod stages;
@@ -22,6 +23,7 @@ use crate::stroke::{self, InkContext};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, ViewMap};
+use fills::{Fills, Paintable};
 use stages::Made;
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
@@ -61,17 +63,34 @@ pub fn render_reported(
     let mesh = Mesh::build(scene.to_soup());
     report.counts.vertices = mesh.positions.len() as u64;
     report.counts.edges = mesh.edges.len() as u64;
-    let surface = Surface::new(mesh, &style.lines).finer_for(camera);
+    let sought = fills::sought(style);
+    let surface = Surface::new(mesh, &sought).finer_for(camera);
     let mesh = &surface.mesh;
+    let paintable = style.region.enabled.then(|| Paintable::new(&surface));
     let view = View::new(mesh, camera);
     report.stages_ms.topology = watch.lap_ms();
 
-    let feature_lines = lines::extract(&surface, &view, &style.lines);
+    let mut feature_lines = lines::extract(&surface, &view, &sought);
+    let mut warnings = Vec::new();
+    let fills = paintable.as_ref().map(|p| Fills::new(&surface, p, &view, scene, style, &mut warnings));
+    if let Some(fills) = &fills {
+        fills.add_tone_borders(&mut feature_lines);
+    }
     report.stages_ms.features = watch.lap_ms();
 
-    let mut map = viewmap::build(mesh, &view, &feature_lines, &style.lines);
-    centre_on_page(&mut map, camera, &page);
+    let mut map = viewmap::build(mesh, &view, &feature_lines, &sought);
     report.stages_ms.visibility = watch.lap_ms();
+
+    let mut layers = Vec::new();
+    if let Some(fills) = &fills {
+        let (painted, regions) = fills.paint(&map, &page, camera, style);
+        report.counts.regions = regions.regions.len() as u64;
+        report.counts.leaks = regions.leaks;
+        layers = painted;
+        fills::keep_inked(&mut map, style);
+        report.stages_ms.regions = watch.lap_ms();
+    }
+    centre_on_page(&mut map, camera, &page);
 
     let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
     report.stages_ms.chains = watch.lap_ms();
@@ -81,14 +100,14 @@ pub fn render_reported(
         scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
     let context =
         InkContext { unit: page.unit, parts: &parts, materials: &materials, hidden: style.lines.hidden };
-    let layers = match stage {
-        None => stroke::ink(&chains, &context, &style.stroke),
+    match stage {
+        None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
         Some(stage) => {
             let (surface, view, lines) = (&surface, &view, &feature_lines);
             let made = Made { surface, view, lines, map: &map, chains: &chains, style, page: &page };
-            stages::draw(stage, &made)
+            layers = stages::draw(stage, &made);
         }
-    };
+    }
     report.stages_ms.strokes = watch.lap_ms();
 
     report.counts.feature_edges = feature_lines.segments.len() as u64;
@@ -98,6 +117,7 @@ pub fn render_reported(
     report.counts.chains = chains.len() as u64;
     report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
     report.warnings = defects::of_mesh(mesh, scene).lines();
+    report.warnings.extend(warnings);
     (Drawing { title: title(scene), page, layers }, report)
 }
 

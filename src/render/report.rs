@@ -54,6 +54,8 @@ pub struct Counts {
     pub points: u64,
     /// Regions.
     pub regions: u64,
+    /// Cells of regions in which different looks were seen.
+    pub leaks: u64,
     /// Bytes of all outputs together, the report left out.
     pub bytes_out: u64,
 }
@@ -120,7 +122,7 @@ mod tests {
         let json = report.to_json();
         let names = [
             "stages_ms load topology pose features visibility chains strokes regions hatching write",
-            "counts triangles vertices edges feature_edges ray_tests contour_arcs contour_breaks chains paths points regions bytes_out",
+            "counts triangles vertices edges feature_edges ray_tests contour_arcs contour_breaks chains paths points regions leaks bytes_out",
             "warnings",
         ];
         let mut rest = json.as_str();

@@ -1,7 +1,6 @@
 //! Strokes: chains with their ink, as the line layers of a drawing.
 
 pub mod dash;
-pub mod glob;
 pub mod options;
 mod outline;
 pub mod pen;
@@ -12,7 +11,7 @@ use std::sync::Arc;
 use kurbo::BezPath;
 use rayon::prelude::*;
 
-pub use glob::Glob;
+pub use crate::math::glob::Glob;
 pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
 pub use pen::{Ink, Pen, PenChange};
 
@@ -120,6 +119,7 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         classes,
+        tone: None,
         part: context.parts.get(chain.part.index()).and_then(name),
         material: context.materials.get(chain.material.index()).and_then(|(text, _)| name(text)),
         invisibility: chain.invisibility,

@@ -5,10 +5,10 @@
 use serde::Deserialize;
 
 use super::InkContext;
-use super::glob::Glob;
 use super::pen::{Pen, PenChange};
 use crate::chain::Chain;
 use crate::lines::LineKind;
+use crate::math::glob::Glob;
 
 /// How chains get their ink.
 #[derive(Debug, Clone, PartialEq, Default)]

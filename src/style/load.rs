@@ -8,6 +8,8 @@ use toml::{Table, Value};
 
 use super::Style;
 use super::fault::{self, nearest};
+use super::fills::set_aside;
+use super::ramp_source::place_pictures;
 use super::sheet::Sheet;
 use crate::error::Error;
 
@@ -39,7 +41,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     let mut seen: Vec<PathBuf> = Vec::new();
     let mut next = Some(source);
     while let Some(source) = next.take() {
-        let (sheet, table) = read(&source.text)
+        let (sheet, mut table) = read(&source.text)
             .map_err(|error| fault::in_sheet(&source.text, &error).in_file(&source.shown))?;
         seen.push(source.identity.clone());
         if let Some(parent) = &sheet.extends {
@@ -56,6 +58,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
             }
             next = Some(found);
         }
+        place_pictures(&mut table, source.folder.as_deref().unwrap_or(Path::new("")));
         sheets.push(table);
     }
     let mut merged = Table::new();
@@ -66,7 +69,8 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
         merge(&mut merged, change(set)?);
     }
     merged.remove("extends");
-    let sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
+    let mut sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
+    sheet.fills.read_pictures()?;
     Ok(sheet.into_style())
 }
 
@@ -153,15 +157,20 @@ fn change(set: &str) -> Result<Table, Error> {
     Err(first_error.unwrap_or_else(|| wrong("is not understood")))
 }
 
-/// Lays one table over another: tables are merged key by key, lists of tables (rules) are
-/// appended, everything else is replaced.
+/// Lays one table over another: tables are merged key by key, lists of tables (rules, materials)
+/// are appended, everything else is replaced.
 fn merge(base: &mut Table, over: Table) {
     for (key, value) in over {
         match (base.get_mut(&key), value) {
             (Some(Value::Table(below)), Value::Table(above)) => {
+                if key == "fills" {
+                    set_aside(below, &above);
+                }
                 merge(below, above);
             }
-            (Some(Value::Array(below)), Value::Array(above)) if key == "rule" => below.extend(above),
+            (Some(Value::Array(below)), Value::Array(above)) if key == "rule" || key == "material" => {
+                below.extend(above)
+            }
             (_, value) => {
                 base.insert(key, value);
             }

@@ -1,13 +1,17 @@
 //! [`Style`]: style sheets in TOML, the options of every stage.
 
 mod fault;
+mod fills;
 mod load;
+mod ramp_source;
 mod sheet;
 
 use crate::chain::ChainOptions;
 use crate::error::Error;
+use crate::field::{LightOptions, ToneOptions};
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
+use crate::region::RegionOptions;
 use crate::stroke::StrokeOptions;
 
 /// The options of every stage.
@@ -21,6 +25,12 @@ pub struct Style {
     pub chain: ChainOptions,
     /// Pens, and which lines they draw.
     pub stroke: StrokeOptions,
+    /// Which lights shine, and from where.
+    pub light: LightOptions,
+    /// Into which tones surfaces fall, and what colours they have.
+    pub tones: ToneOptions,
+    /// Whether regions of tones are painted, and how.
+    pub region: RegionOptions,
     /// The hand: seeds everything that varies by chance, and changes nothing else. Default: 0.
     pub seed: u64,
 }
@@ -33,11 +43,19 @@ impl Default for Style {
 }
 
 /// The built-in sheets, by name: the file styles/NAME.toml.
-const BUILT_IN: [(&str, &str); 4] = [
+const BUILT_IN: [(&str, &str); 12] = [
+    ("comic-flats", include_str!("../../styles/comic-flats.toml")),
+    ("flat", include_str!("../../styles/flat.toml")),
+    ("gooch", include_str!("../../styles/gooch.toml")),
+    ("gradient", include_str!("../../styles/gradient.toml")),
     ("ink", include_str!("../../styles/ink.toml")),
+    ("noir", include_str!("../../styles/noir.toml")),
     ("plotter", include_str!("../../styles/plotter.toml")),
+    ("rim", include_str!("../../styles/rim.toml")),
     ("suggestive", include_str!("../../styles/suggestive.toml")),
     ("technical", include_str!("../../styles/technical.toml")),
+    ("toon", include_str!("../../styles/toon.toml")),
+    ("toon-highlight", include_str!("../../styles/toon-highlight.toml")),
 ];
 
 impl Style {

@@ -4,8 +4,10 @@ use serde::de::Visitor;
 use serde::{Deserialize, Deserializer};
 
 use super::Style;
+use super::fills::FillsTable;
 use crate::chain::ChainOptions;
 use crate::drawing::{Cap, Join, Length};
+use crate::field::LightOptions;
 use crate::lines::{LineKind, LineOptions};
 use crate::math::colour::Colour;
 use crate::stroke::pen::{dash, fraction};
@@ -24,6 +26,8 @@ pub(super) struct Sheet {
     pen: PenTable,
     rule: Vec<Rule>,
     layers: LayerOptions,
+    light: LightOptions,
+    pub fills: FillsTable,
 }
 
 /// The table `[page]`.
@@ -81,11 +85,15 @@ impl Sheet {
         let mut stroke = self.pen.into_options();
         stroke.rules.extend(self.rule);
         stroke.layers = self.layers;
+        let (tones, region) = self.fills.into_options();
         Style {
             background: self.page.background,
             lines: self.lines,
             chain: self.chain,
             stroke,
+            light: self.light,
+            tones,
+            region,
             seed: self.seed,
         }
     }

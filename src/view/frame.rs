@@ -93,6 +93,16 @@ impl Frame {
         }
     }
 
+    /// The local point that is seen at a point of image space.
+    #[inline]
+    #[must_use]
+    pub fn local_from_image(&self, p: DVec3) -> DVec3 {
+        let depth = self.depth_of(p.z);
+        let k = if self.perspective { depth / self.scale } else { 1.0 / self.scale };
+        let (x, y) = ((p.x - self.width / 2.0) * k, (self.height / 2.0 - p.y) * k);
+        self.eye + self.right * x + self.up * y + self.forward * depth
+    }
+
     /// Unit vector from a local point to the eye.
     #[inline]
     #[must_use]

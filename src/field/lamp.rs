@@ -1,0 +1,166 @@
+//! [`Lamp`]: one light in local space, with its fall-off and its cone.
+
+use glam::DVec3;
+
+use crate::math::colour::Colour;
+use crate::math::function::cos;
+use crate::math::tolerance::{LAMP_OF_MODEL, LEAST_CONE};
+use crate::scene::{Light, LightKind};
+
+/// One light in local space.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Lamp {
+    /// From where it shines.
+    pub reach: Reach,
+    /// Factor of its light.
+    pub brightness: f64,
+    /// Light at the middle of the model, for weighing lights against each other.
+    pub weight: f64,
+    /// Tint, channels as written.
+    pub colour: [f64; 3],
+    /// Whether it may cast shadows.
+    pub shadows: bool,
+    /// Its bit among those that cast shadows.
+    pub caster: Option<u32>,
+}
+
+/// From where a lamp shines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Reach {
+    /// Parallel light.
+    Parallel { towards: DVec3 },
+    /// Light from a point.
+    Point { position: DVec3, falloff: FallOff, cone: Option<Cone> },
+}
+
+/// How light grows weaker with the distance d.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum FallOff {
+    /// It does not.
+    None,
+    /// 1/(1 + (d/D)²): half is left at D, and nothing is ever infinite.
+    Half(f64),
+    /// 1/d², at most 1/nearest², and gone at the range if there is one (KHR_lights_punctual).
+    Square { nearest: f64, range: Option<f64> },
+}
+
+/// The cone of a spot light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cone {
+    /// Axis, away from the light.
+    axis: DVec3,
+    /// Cosine of the angle outside which there is no light.
+    outer: f64,
+    /// 1/(cosine of the angle inside which it is full − `outer`).
+    slope: f64,
+}
+
+impl Lamp {
+    /// Parallel light.
+    pub fn parallel(towards: DVec3, brightness: f64, colour: [f64; 3]) -> Self {
+        let reach = Reach::Parallel { towards };
+        Self { reach, brightness, weight: brightness, colour, shadows: true, caster: None }
+    }
+
+    /// Light from a point that halves at a distance.
+    pub fn point(position: DVec3, half_at: Option<f64>, brightness: f64, colour: [f64; 3]) -> Self {
+        let falloff = half_at.map_or(FallOff::None, FallOff::Half);
+        let reach = Reach::Point { position, falloff, cone: None };
+        Self { reach, brightness, weight: brightness, colour, shadows: true, caster: None }
+    }
+
+    /// The lights of a model, scaled together such that the brightest gives 1 at the model's middle.
+    ///
+    /// A file's lux and candela suit its renderer's exposure, not drawings. Those without light are
+    /// left out. A lamp within the model counts as a quarter of the model's size away, and one that
+    /// shines elsewhere as if it were aimed at the model: the scale must not hang on a hair.
+    pub fn of_model(lights: &[Light], origin: DVec3, size: f64) -> Vec<Self> {
+        let shines = |light: &&Light| light.intensity.is_finite() && light.intensity > 0.0;
+        let mut lamps: Vec<Self> =
+            lights.iter().filter(shines).filter_map(|light| of_light(light, origin, size)).collect();
+        let brightest = lamps.iter().map(|lamp| lamp.weight).fold(0.0, f64::max);
+        if !(brightest.is_finite() && brightest > 0.0) {
+            return Vec::new();
+        }
+        for lamp in &mut lamps {
+            lamp.brightness /= brightest;
+            lamp.weight /= brightest;
+        }
+        lamps
+    }
+
+    /// Whether its bit is set.
+    pub fn is_shadowed(&self, shadowed: u32) -> bool {
+        self.caster.is_some_and(|bit| shadowed >> bit & 1 == 1)
+    }
+
+    /// Unit vector from a point to the light, and how much of it gets there.
+    pub fn at(&self, point: DVec3) -> (DVec3, f64) {
+        match &self.reach {
+            Reach::Parallel { towards } => (*towards, self.brightness),
+            Reach::Point { position, falloff, cone } => {
+                let way = *position - point;
+                let towards = way.normalize_or_zero();
+                let cone = cone.as_ref().map_or(1.0, |cone| cone.at(-towards));
+                (towards, self.brightness * falloff.at(way.length()) * cone)
+            }
+        }
+    }
+}
+
+impl FallOff {
+    fn at(self, distance: f64) -> f64 {
+        match self {
+            Self::None => 1.0,
+            Self::Half(half_at) => 1.0 / (1.0 + (distance / half_at) * (distance / half_at)),
+            Self::Square { nearest, range } => {
+                let d = distance.max(nearest);
+                let window = range.map_or(1.0, |range| {
+                    let square = (distance / range) * (distance / range);
+                    (1.0 - square * square).clamp(0.0, 1.0)
+                });
+                window / (d * d)
+            }
+        }
+    }
+}
+
+impl Cone {
+    /// Share of the light in a direction away from it.
+    fn at(&self, away: DVec3) -> f64 {
+        let share = ((away.dot(self.axis) - self.outer) * self.slope).clamp(0.0, 1.0);
+        share * share
+    }
+}
+
+/// A light of the model in local space, not yet scaled; none if it has no sound direction.
+fn of_light(light: &Light, origin: DVec3, size: f64) -> Option<Lamp> {
+    let size = if size > 0.0 && size.is_finite() { size } else { 1.0 };
+    let [r, g, b] = light.colour;
+    let colour = Colour::from_linear([r, g, b, 1.0]).channels();
+    let lamp = match light.kind {
+        LightKind::Directional { direction } => {
+            Lamp::parallel(-direction.try_normalize()?, light.intensity, colour)
+        }
+        LightKind::Point { position } | LightKind::Spot { position, .. } => {
+            let position = position - origin;
+            let range = light.range.filter(|range| range.is_finite() && *range > 0.0);
+            let falloff = FallOff::Square { nearest: size * LAMP_OF_MODEL, range };
+            let cone = match light.kind {
+                LightKind::Spot { direction, inner_angle, outer_angle, .. } => {
+                    let outer = cos(outer_angle);
+                    let width = (cos(inner_angle) - outer).max(LEAST_CONE);
+                    Some(Cone { axis: direction.try_normalize()?, outer, slope: 1.0 / width })
+                }
+                _ => None,
+            };
+            let away = position.length().max(size / 4.0);
+            Lamp {
+                reach: Reach::Point { position, falloff, cone },
+                weight: light.intensity / (away * away),
+                ..Lamp::parallel(DVec3::ZERO, light.intensity, colour)
+            }
+        }
+    };
+    lamp.weight.is_finite().then_some(lamp)
+}

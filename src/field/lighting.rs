@@ -1,0 +1,217 @@
+//! [`Lighting`]: the lights of a drawing in local space, and how much of each reaches a point.
+
+use glam::DVec3;
+
+use super::lamp::{Lamp, Reach};
+use super::light_options::{LightOptions, LightSource, SourceKind, Space};
+use super::specular;
+use crate::math::tolerance::HIGHLIGHT_FADE_COSINE;
+use crate::mesh::Mesh;
+use crate::scene::Scene;
+use crate::view::Frame;
+
+/// No more lights than this cast shadows.
+pub const GREATEST_CASTERS: usize = 8;
+
+/// A light that casts shadows, in local space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Caster {
+    /// Parallel light.
+    Directional {
+        /// Unit vector towards the light.
+        towards: DVec3,
+    },
+    /// Light from a point.
+    Point {
+        /// Where it is.
+        position: DVec3,
+    },
+}
+
+/// A point of the surface, as light falls on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Where it is, local space.
+    pub position: DVec3,
+    /// Unit normal of the side that the eye sees, local space; a surface without one counts as
+    /// turned to the eye.
+    pub normal: DVec3,
+    /// How much of the sky it sees, 0 (none) to 1 (all).
+    pub openness: f64,
+}
+
+/// The lights of a drawing in local space, and how much of each reaches a point.
+#[derive(Debug, Clone)]
+pub struct Lighting {
+    lamps: Vec<Lamp>,
+    casters: Vec<Caster>,
+    frame: Option<Frame>,
+    wrap: f64,
+    occlusion: f64,
+}
+
+impl Lighting {
+    /// The lights of a model and a style sheet, for a mesh seen by a camera; the first eight that
+    /// may do so cast shadows if `cast_shadows` is set.
+    #[must_use]
+    pub fn new(
+        scene: &Scene,
+        mesh: &Mesh,
+        frame: &Frame,
+        options: &LightOptions,
+        cast_shadows: bool,
+        warnings: &mut Vec<String>,
+    ) -> Self {
+        let mut lamps = Vec::new();
+        if options.from_model {
+            lamps = Lamp::of_model(&scene.lights, mesh.origin, mesh.size);
+            if lamps.is_empty() && !scene.lights.is_empty() {
+                warnings.push("the model's lights give no light and are left out".to_owned());
+            }
+        }
+        lamps.extend(options.sources.iter().map(|source| of_source(source, mesh.origin, frame)));
+        if lamps.is_empty() {
+            lamps.push(of_source(&LightSource::default(), mesh.origin, frame));
+        } else if lamps.iter().all(|lamp| lamp.weight <= 0.0) {
+            warnings.push("no light has any brightness: all surfaces are in the shadow".to_owned());
+        }
+
+        let mut casters = Vec::new();
+        for lamp in lamps.iter_mut().filter(|lamp| cast_shadows && lamp.shadows) {
+            if casters.len() < GREATEST_CASTERS {
+                lamp.caster = Some(casters.len() as u32);
+            }
+            casters.push(match lamp.reach {
+                Reach::Parallel { towards } => Caster::Directional { towards },
+                Reach::Point { position, .. } => Caster::Point { position },
+            });
+        }
+        if casters.len() > GREATEST_CASTERS {
+            let count = casters.len();
+            warnings.push(format!("{count} lights would cast shadows; only the first {GREATEST_CASTERS} do"));
+            casters.truncate(GREATEST_CASTERS);
+        }
+        Self { lamps, casters, frame: Some(*frame), wrap: options.wrap, occlusion: options.occlusion }
+    }
+
+    /// One parallel white light, with shadows and without highlights.
+    #[must_use]
+    pub fn from_direction(towards_light: DVec3) -> Self {
+        let towards = towards_light.normalize_or_zero();
+        let lamp = Lamp { caster: Some(0), ..Lamp::parallel(towards, 1.0, [1.0; 3]) };
+        let casters = vec![Caster::Directional { towards }];
+        Self { lamps: vec![lamp], casters, frame: None, wrap: 0.0, occlusion: 0.0 }
+    }
+
+    /// The lights that cast shadows; the index of each is its bit in `shadowed`.
+    #[must_use]
+    pub fn casters(&self) -> &[Caster] {
+        &self.casters
+    }
+
+    /// Number of lights.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.lamps.len()
+    }
+
+    /// Whether light varies from place to place on a flat surface.
+    #[must_use]
+    pub fn is_local(&self) -> bool {
+        self.occlusion > 0.0 || self.lamps.iter().any(|lamp| !matches!(lamp.reach, Reach::Parallel { .. }))
+    }
+
+    /// By how much parallel light changes with the angle of the normal, at most, per radian.
+    #[must_use]
+    pub fn steepness(&self) -> f64 {
+        self.lamps.iter().map(|lamp| lamp.weight / (1.0 + self.wrap)).sum()
+    }
+
+    /// The tint that all lights give together: their colours, weighed by brightness (Ishaya 2003:
+    /// tinting each point by the light that reaches it would spoil the steps). White without light.
+    #[must_use]
+    pub fn tint(&self) -> [f64; 3] {
+        let total: f64 = self.lamps.iter().map(|lamp| lamp.weight).sum();
+        if total <= 0.0 {
+            return [1.0; 3];
+        }
+        let channel = |c: usize| self.lamps.iter().map(|lamp| lamp.weight * lamp.colour[c]).sum::<f64>();
+        [0, 1, 2].map(|c| channel(c) / total)
+    }
+
+    /// Diffuse light of all lights that are not `shadowed`: the sum of brightness, fall-off and
+    /// max(L·n, 0).
+    #[must_use]
+    pub fn diffuse(&self, point: &SurfacePoint, shadowed: u32) -> f64 {
+        let normal = self.normal(point);
+        let light: f64 = self.lit(shadowed).map(|lamp| self.diffuse_of(lamp, point.position, normal)).sum();
+        light * self.open(point)
+    }
+
+    /// Diffuse light of one light; 0 where there is no light of this number.
+    #[must_use]
+    pub fn diffuse_by(&self, lamp: usize, point: &SurfacePoint, shadowed: u32) -> f64 {
+        let lamp = self.lamps.get(lamp).filter(|lamp| !lamp.is_shadowed(shadowed));
+        let light = lamp.map_or(0.0, |lamp| self.diffuse_of(lamp, point.position, self.normal(point)));
+        light * self.open(point)
+    }
+
+    /// Strength of the highlight: the sum of brightness, fall-off and (n·h)^exponent over the
+    /// lights that are not `shadowed`; see [`specular::blinn_phong`].
+    #[must_use]
+    pub fn specular(&self, point: &SurfacePoint, exponent: f64, shadowed: u32) -> f64 {
+        let Some(frame) = &self.frame else { return 0.0 };
+        let to_eye = frame.to_eye(point.position);
+        let normal = self.normal(point);
+        let of = |lamp: &Lamp| {
+            let (towards, amount) = lamp.at(point.position);
+            let fade = (towards.dot(normal) / HIGHLIGHT_FADE_COSINE).clamp(0.0, 1.0);
+            amount * fade * specular::blinn_phong(normal, towards, to_eye, exponent)
+        };
+        self.lit(shadowed).map(of).sum()
+    }
+
+    fn lit(&self, shadowed: u32) -> impl Iterator<Item = &Lamp> {
+        self.lamps.iter().filter(move |lamp| !lamp.is_shadowed(shadowed))
+    }
+
+    fn diffuse_of(&self, lamp: &Lamp, position: DVec3, normal: DVec3) -> f64 {
+        let (towards, amount) = lamp.at(position);
+        amount * ((towards.dot(normal) + self.wrap) / (1.0 + self.wrap)).max(0.0)
+    }
+
+    /// The normal; where there is none, the direction to the eye.
+    fn normal(&self, point: &SurfacePoint) -> DVec3 {
+        match &self.frame {
+            Some(frame) if point.normal == DVec3::ZERO || !point.normal.is_finite() => {
+                frame.to_eye(point.position)
+            }
+            _ => point.normal,
+        }
+    }
+
+    /// What is left of light where nooks are darker.
+    fn open(&self, point: &SurfacePoint) -> f64 {
+        1.0 - self.occlusion * (1.0 - point.openness.clamp(0.0, 1.0))
+    }
+}
+
+/// A light of the style sheet in local space.
+fn of_source(source: &LightSource, origin: DVec3, frame: &Frame) -> Lamp {
+    // Camera space has z to the viewer, the frame's third axis goes away from the eye.
+    let turned = |v: DVec3| frame.right * v.x + frame.up * v.y - frame.forward * v.z;
+    let colour = source.colour.channels();
+    let lamp = match (source.kind, source.space) {
+        (SourceKind::Directional { direction }, space) => {
+            let direction = direction.normalize_or_zero();
+            let towards = if space == Space::Camera { turned(direction) } else { direction };
+            Lamp::parallel(towards, source.brightness, colour)
+        }
+        (SourceKind::Point { position, falloff }, space) => {
+            let position =
+                if space == Space::Camera { frame.eye + turned(position) } else { position - origin };
+            Lamp::point(position, falloff, source.brightness, colour)
+        }
+    };
+    Lamp { shadows: source.shadows, ..lamp }
+}

@@ -1,0 +1,130 @@
+//! [`ShadedNormals`]: the normals by which light falls on a mesh, three for each face.
+//!
+//! They are the file's own where it has any. Elsewhere the faces around a vertex that no hard edge
+//! parts share one, so that tessellation does not show and corners stay corners.
+
+use glam::{DVec3, Vec3};
+
+use crate::mesh::{HardEdges, Mesh, SmoothNormals};
+
+/// The normals by which light falls on a mesh. Inside a face they are interpolated and made unit
+/// length again.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ShadedNormals {
+    /// Unit normals, local space, on the outer side of their faces.
+    pub normals: Vec<DVec3>,
+    /// Which of them stand at the corners of each face. One per face.
+    pub corners: Vec<[u32; 3]>,
+}
+
+impl ShadedNormals {
+    /// The normals of a mesh with these hard edges, and with these normals on its rounded parts.
+    #[must_use]
+    pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals) -> Self {
+        let mut shaded = if smooth.corners_of_all() {
+            Self { normals: smooth.normals.clone(), corners: smooth.corners.clone() }
+        } else {
+            let all = SmoothNormals::new(mesh, |_| true, |edge| hard.is_hard(edge));
+            Self { normals: all.normals, corners: all.corners }
+        };
+        if !mesh.corner_normals.is_empty() {
+            shaded.take_from_file(mesh);
+        }
+        shaded.mend(mesh);
+        shaded
+    }
+
+    /// The normals at the corners of a face.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, face: u32) -> [DVec3; 3] {
+        self.corners[face as usize].map(|id| self.normals[id as usize])
+    }
+
+    /// Puts the file's normals where it has some, on the side of their face that most of them are on.
+    fn take_from_file(&mut self, mesh: &Mesh) {
+        let first = self.normals.len() as u32;
+        let count = mesh.normals.len() as u32;
+        let unit: Vec<DVec3> =
+            mesh.normals.iter().map(|n| Vec3::from_array(*n).as_dvec3().normalize_or_zero()).collect();
+        self.normals.extend(&unit);
+        self.normals.extend(unit.iter().map(|n| -*n));
+        for (face, ids) in mesh.corner_normals.iter().enumerate() {
+            if ids.iter().any(|id| *id >= count || unit[*id as usize] == DVec3::ZERO) {
+                continue;
+            }
+            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+            let sum: DVec3 = ids.iter().map(|id| unit[*id as usize]).sum();
+            let turned = if sum.dot(own) < 0.0 { count } else { 0 };
+            self.corners[face] = ids.map(|id| first + turned + id);
+        }
+    }
+
+    /// Gives faces whose normals are zero or leave the face altogether the face's own normal.
+    fn mend(&mut self, mesh: &Mesh) {
+        for face in 0..self.corners.len() {
+            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+            let bad = |n: DVec3| n == DVec3::ZERO || n.dot(own) < LEAST_COSINE;
+            if own != DVec3::ZERO && self.corners[face].iter().any(|id| bad(self.normals[*id as usize])) {
+                let id = self.normals.len() as u32;
+                self.normals.push(own);
+                let normals = &self.normals;
+                self.corners[face] =
+                    self.corners[face].map(|k| if bad(normals[k as usize]) { id } else { k });
+            }
+        }
+    }
+}
+
+/// Normals farther than this from their face's own (cosine) do not belong to it.
+const LEAST_COSINE: f64 = -0.2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    #[test]
+    fn a_bent_sheet_is_smooth_where_its_edge_is_not_hard() {
+        let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+        let sheet = |rise: f64| {
+            let positions = vec![
+                at(0., 0., 0.),
+                at(0., 1., 0.),
+                at(1., 0., 0.),
+                at(1., 1., 0.),
+                at(2., 0., rise),
+                at(2., 1., rise),
+            ];
+            let triangles = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
+            let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+            let hard = HardEdges::above(&mesh, 40.0);
+            let shaded = ShadedNormals::new(&mesh, &hard, &SmoothNormals::default());
+            (mesh, shaded)
+        };
+        let (mesh, steep) = sheet(2.0);
+        for face in 0..4 {
+            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+            assert!(steep.of(face as u32).iter().all(|n| n.distance(own) < 1e-6));
+        }
+        let (_, shallow) = sheet(0.3);
+        let ends: Vec<[DVec3; 3]> = (0..4).map(|face| shallow.of(face)).collect();
+        assert!(ends.iter().flatten().any(|n| n.x < -0.05 && n.x > -0.2), "{ends:?}");
+    }
+
+    #[test]
+    fn the_files_normals_win_on_the_side_of_their_face() {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let normals = vec![[0.0, 0.6, -0.8]; 3];
+        let soup = Soup {
+            positions,
+            triangles: vec![[0, 1, 2]],
+            normals,
+            corner_normals: vec![[0, 1, 2]],
+            ..Soup::default()
+        };
+        let mesh = Mesh::build(soup);
+        let shaded = ShadedNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default());
+        assert!(shaded.of(0).iter().all(|n| n.distance(DVec3::new(0.0, -0.6, 0.8)) < 1e-6));
+    }
+}

@@ -1,0 +1,225 @@
+//! Tones and their colours.
+
+use glam::DVec3;
+
+use super::{near, point, shading};
+use crate::field::ramp::{Strip, Table};
+use crate::field::tone_options::{Colours, Gooch, Highlight, MaterialChange, Scale};
+use crate::field::{LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
+use crate::math::colour::Colour;
+use crate::math::factor::Factor;
+use crate::math::glob::Glob;
+use crate::mesh::MaterialId;
+use crate::scene::{Material, Scene};
+
+const FIRST: MaterialId = MaterialId(0);
+const ORANGE: Colour = Colour::rgb(200, 120, 40);
+
+fn scene(materials: &[(&str, Colour)]) -> Scene {
+    let of = |(name, colour): &(&str, Colour)| Material {
+        name: (*name).to_owned(),
+        colour: *colour,
+        ..Material::default()
+    };
+    Scene { materials: materials.iter().map(of).collect(), ..Scene::default() }
+}
+
+fn toned(options: &ToneOptions) -> Shading {
+    shading(&scene(&[("body", ORANGE)]), &LightOptions::default(), options).0
+}
+
+fn colours(shading: &Shading, material: MaterialId, count: u16) -> Vec<Colour> {
+    (0..count).map(|tone| shading.colour(material, tone)).collect()
+}
+
+fn grey(shadow: f64, scale: Scale) -> ToneOptions {
+    ToneOptions { scale, shadow: Factor([shadow; 3]), ..ToneOptions::default() }
+}
+
+#[test]
+fn two_tones_are_those_of_equation_one() {
+    let light = LightOptions { ambient: Factor([0.1; 3]), ..LightOptions::default() };
+    let options = grey(0.4, Scale::Thresholds(vec![0.5]));
+    let (lake, _) = shading(&scene(&[("body", ORANGE)]), &light, &options);
+    // a_g a_m + a_l a_m, and the same + d_l d_m.
+    assert_eq!(lake.colour(FIRST, 0), Colour::rgb(100, 60, 20));
+    assert_eq!(lake.colour(FIRST, 1), Colour::rgb(220, 132, 44));
+    assert_eq!(lake.levels(FIRST, 0), [0.5]);
+    assert_eq!((lake.channels(), lake.levels(FIRST, 1).len()), (1, 0));
+    assert_eq!([0, 1, 7].map(|band| lake.tone(FIRST, &[band])), [0, 1, 1]);
+}
+
+#[test]
+fn n_tones_go_in_even_steps() {
+    let shading = toned(&grey(0.5, Scale::Thresholds(vec![0.2, 0.3, 0.9])));
+    let wanted = [0.5, 2.0 / 3.0, 5.0 / 6.0, 1.0].map(|part: f64| (200.0 * part).round() as u8);
+    assert_eq!(colours(&shading, FIRST, 4).iter().map(|c| c.r).collect::<Vec<_>>(), wanted);
+
+    let steps = toned(&grey(0.0, Scale::Steps(128)));
+    assert_eq!(steps.levels(FIRST, 0).len(), 127);
+    assert_eq!(steps.levels(FIRST, 0)[63], 0.5);
+    assert_eq!((steps.colour(FIRST, 0), steps.colour(FIRST, 127)), (Colour::BLACK, ORANGE));
+
+    // One tone alone is the material itself.
+    let flat = toned(&grey(0.5, Scale::Thresholds(Vec::new())));
+    assert_eq!((flat.colour(FIRST, 0), flat.tone(FIRST, &[0])), (ORANGE, 0));
+}
+
+#[test]
+fn shares_of_light_can_be_told_tone_by_tone() {
+    let mut options = grey(0.5, Scale::Thresholds(vec![0.1, 0.6]));
+    options.tones = vec![1.0, 0.0, 1.0];
+    assert_eq!(colours(&toned(&options), FIRST, 3), [ORANGE, Colour::rgb(100, 60, 20), ORANGE]);
+    options.tones = vec![0.0, 1.0, 1.25];
+    assert_eq!(toned(&options).colour(FIRST, 2), Colour::rgb(225, 135, 45));
+}
+
+#[test]
+fn palettes_are_spread_over_the_tones() {
+    let (a, b, c) = (Colour::rgb(0, 0, 100), Colour::rgb(0, 0, 200), Colour::rgb(100, 0, 200));
+    let mut options = grey(0.5, Scale::Thresholds(vec![0.3, 0.6]));
+    options.colours = Colours::Palette(vec![a, b, c]);
+    assert_eq!(colours(&toned(&options), FIRST, 3), [a, b, c]);
+    options.colours = Colours::Palette(vec![a, c]);
+    assert_eq!(colours(&toned(&options), FIRST, 3), [a, Colour::rgb(50, 0, 150), c]);
+    options.colours = Colours::Palette(vec![a]);
+    assert_eq!(colours(&toned(&options), FIRST, 3), [a, a, a]);
+    options.colours = Colours::Palette(vec![Colour::rgb(102, 102, 102), Colour::WHITE]);
+    options.modulate = Some(1.0);
+    assert_eq!(toned(&options).colour(FIRST, 0), Colour::rgb(80, 48, 16));
+}
+
+#[test]
+fn coloured_light_tints_what_is_lit() {
+    let source = LightSource { colour: Colour::rgb(255, 0, 0), ..LightSource::default() };
+    let light = LightOptions { sources: vec![source], ..LightOptions::default() };
+    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let (tinted, _) = shading(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
+    assert_eq!(colours(&tinted, FIRST, 2), [Colour::rgb(100, 100, 100), Colour::rgb(200, 100, 100)]);
+}
+
+#[test]
+fn highlights_are_tones_above_the_others() {
+    let direction = DVec3::new(0.0, -1.0, 1.0);
+    let kind = SourceKind::Directional { direction };
+    let source = LightSource { kind, space: Space::World, ..LightSource::default() };
+    let light = LightOptions { sources: vec![source], ..LightOptions::default() };
+    let highlight =
+        Highlight { enabled: true, thresholds: vec![0.4, 0.8], strength: 1.0, ..Highlight::default() };
+    let options = ToneOptions { highlight, cast_shadows: true, ..ToneOptions::default() };
+    let (gloss, _) = shading(&scene(&[("body", ORANGE)]), &light, &options);
+    assert_eq!((gloss.channels(), gloss.levels(FIRST, 1)), (2, &[0.4, 0.8][..]));
+
+    // Seen from −y and lit from 45 degrees above, a surface mirrors the light half-way between.
+    let half = (direction.normalize() + DVec3::NEG_Y).normalize();
+    let value = |normal: DVec3, shadowed| gloss.value(1, FIRST, &point(DVec3::ZERO, normal), shadowed);
+    near(value(half, 0), 1.0);
+    assert!(value(DVec3::NEG_Y, 0) < 0.1 && value(half + DVec3::X * 0.1, 0) < 1.0);
+    assert_eq!((value(half, 1), value(DVec3::new(0.0, 1.0, 1.0), 0)), (0.0, 0.0));
+
+    assert_eq!(
+        [[0, 0], [1, 0], [1, 1], [1, 2], [0, 2]].map(|bands| gloss.tone(FIRST, &bands)),
+        [0, 1, 2, 3, 3]
+    );
+    assert_eq!(gloss.colour(FIRST, 2), ORANGE.mix(Colour::WHITE, 0.5));
+    assert_eq!(gloss.colour(FIRST, 3), Colour::WHITE);
+}
+
+#[test]
+fn a_table_is_looked_up_by_two_lights() {
+    let of = |direction: DVec3, brightness: f64| LightSource {
+        kind: SourceKind::Directional { direction },
+        space: Space::World,
+        brightness,
+        ..LightSource::default()
+    };
+    let light =
+        LightOptions { sources: vec![of(DVec3::X, 1.0), of(DVec3::Z, 0.5)], ..LightOptions::default() };
+    let (dark, half, full) = (Colour::rgb(51, 51, 51), Colour::rgb(102, 102, 102), Colour::WHITE);
+    let table = Table::of_rows(&[vec![dark, half], vec![half, full]]).unwrap();
+    let options = ToneOptions { scale: Scale::Table(table), ..ToneOptions::default() };
+    let (shading_, warnings) = shading(&scene(&[("body", ORANGE)]), &light, &options);
+    assert!(warnings.is_empty() && shading_.channels() == 3);
+    assert!(shading_.levels(FIRST, 0).is_empty());
+    assert_eq!((shading_.levels(FIRST, 1), shading_.levels(FIRST, 2)), (&[0.5][..], &[0.5][..]));
+    let at = point(DVec3::ZERO, DVec3::new(0.6, 0.0, 0.8));
+    near(shading_.value(1, FIRST, &at, 0), 0.6);
+    near(shading_.value(2, FIRST, &at, 0), 0.4);
+    let tones = [[0, 0, 0], [0, 1, 0], [0, 0, 1], [0, 1, 1]].map(|bands| shading_.tone(FIRST, &bands));
+    assert_eq!(tones, [0, 1, 1, 2]);
+    // 1.5 times shade and material, cut off at 1.
+    let wanted = [Colour::rgb(60, 36, 12), Colour::rgb(120, 72, 24), Colour::rgb(255, 180, 60)];
+    assert_eq!(colours(&shading_, FIRST, 3), wanted);
+
+    let (_, warnings) = shading(&scene(&[]), &LightOptions::default(), &options);
+    assert_eq!(warnings, ["a table of tones is for two lights, but there is one"]);
+}
+
+#[test]
+fn a_strip_brings_levels_and_colours() {
+    let columns = [Colour::BLACK, ORANGE, ORANGE, Colour::WHITE];
+    let strip = Strip::of_columns(&columns).unwrap();
+    let shading = toned(&ToneOptions { scale: Scale::Ramp(strip), ..ToneOptions::default() });
+    assert_eq!(shading.levels(FIRST, 0), [0.25, 0.75]);
+    assert_eq!(colours(&shading, FIRST, 3), [Colour::BLACK, ORANGE, Colour::WHITE]);
+}
+
+#[test]
+fn materials_are_changed_by_name() {
+    let change = |name: &str| MaterialChange {
+        name: Glob::new(name),
+        colour: None,
+        scale: None,
+        colours: None,
+        tones: None,
+        shadow: None,
+        lit: None,
+        modulate: None,
+        highlight: None,
+    };
+    let mut options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    options.materials = vec![
+        MaterialChange { scale: Some(Scale::Steps(4)), highlight: Some(true), ..change("glass*") },
+        MaterialChange { colour: Some(Colour::WHITE), ..change("*blue") },
+    ];
+    let scene = scene(&[("body", ORANGE), ("glass blue", ORANGE)]);
+    let (shading_, _) = shading(&scene, &LightOptions::default(), &options);
+    assert_eq!(shading_.levels(FIRST, 0), [0.5]);
+    assert_eq!(shading_.levels(MaterialId(1), 0), [0.25, 0.5, 0.75]);
+    assert_eq!((shading_.levels(FIRST, 1).len(), shading_.levels(MaterialId(1), 1).len()), (0, 1));
+    assert_eq!((shading_.colour(FIRST, 1), shading_.colour(MaterialId(1), 3)), (ORANGE, Colour::WHITE));
+    // What has no material is light grey, whatever its number.
+    for without in [2, 77].map(MaterialId) {
+        assert_eq!(shading_.colour(without, 1), Colour::rgb(204, 204, 204));
+    }
+}
+
+#[test]
+fn colours_from_cool_to_warm() {
+    let gooch = Gooch { enabled: true, ..Gooch::default() };
+    let options = ToneOptions { colours: Colours::Gooch(gooch), ..grey(0.5, Scale::Steps(3)) };
+    let shading = toned(&options);
+    let (cool, warm) = (Colour::rgb(50, 30, 150), Colour::rgb(177, 137, 20));
+    assert_eq!((shading.colour(FIRST, 0), shading.colour(FIRST, 2)), (cool, warm));
+    assert_eq!(shading.colour(FIRST, 1).g, 84);
+}
+
+#[test]
+fn black_and_shining_materials_keep_their_tones_apart() {
+    let mut scene = scene(&[("tyre", Colour::BLACK), ("lamp", ORANGE)]);
+    scene.materials[1].emissive = Colour::rgb(180, 20, 0);
+    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let (shading_, _) = shading(&scene, &LightOptions::default(), &options);
+    assert_eq!(colours(&shading_, FIRST, 2), [Colour::rgb(24, 24, 24), Colour::rgb(48, 48, 48)]);
+    assert_eq!(shading_.colour(MaterialId(1), 0), Colour::rgb(180, 60, 20));
+    let flat = grey(0.5, Scale::Thresholds(Vec::new()));
+    assert_eq!(shading(&scene, &LightOptions::default(), &flat).0.colour(FIRST, 0), Colour::BLACK);
+}
+
+#[test]
+fn shadows_are_cooler_and_darker() {
+    let shading = toned(&ToneOptions::default());
+    let (shadow, lit) = (shading.colour(MaterialId(9), 0), shading.colour(MaterialId(9), 1));
+    assert!(shadow.luma() < 0.75 * lit.luma());
+    assert!(i16::from(shadow.b) - i16::from(shadow.r) > 10, "{shadow:?}");
+}

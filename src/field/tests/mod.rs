@@ -1,0 +1,45 @@
+//! Light, tones and colours in closed form.
+
+mod colours;
+mod lights;
+
+use glam::DVec3;
+
+use super::{LightOptions, Shading, SurfacePoint, ToneOptions};
+use crate::mesh::Mesh;
+use crate::scene::{Camera, Projection, Scene};
+use crate::view::Frame;
+
+/// A camera at `eye` that looks at the zero of the world, z up.
+fn frame(eye: DVec3) -> Frame {
+    let projection = Projection::Orthographic { height: 2.0 };
+    let camera = Camera {
+        eye,
+        target: DVec3::ZERO,
+        up: DVec3::Z,
+        projection,
+        width: 100.0,
+        height: 100.0,
+        near: None,
+    };
+    Frame::new(&camera, DVec3::ZERO)
+}
+
+fn mesh() -> Mesh {
+    Mesh { size: 4.0, ..Mesh::default() }
+}
+
+/// The shading of a scene seen from in front, and its warnings.
+fn shading(scene: &Scene, light: &LightOptions, tones: &ToneOptions) -> (Shading, Vec<String>) {
+    let mut warnings = Vec::new();
+    let frame = frame(DVec3::new(0.0, -9.0, 0.0));
+    (Shading::new(scene, &mesh(), &frame, light, tones, &mut warnings), warnings)
+}
+
+fn point(position: DVec3, normal: DVec3) -> SurfacePoint {
+    SurfacePoint { position, normal: normal.normalize_or_zero(), openness: 1.0 }
+}
+
+fn near(a: f64, b: f64) {
+    assert!((a - b).abs() < 1e-12, "{a} is not {b}");
+}

@@ -1,0 +1,417 @@
+//! Isophotes: where the tone of the surface changes, traced through the faces.
+//!
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
+//! quality by exploiting graphics hardware", IVCNZ 2001, sections 3.5 and 3.6: triangles are cut
+//! where the tone changes, by the number of tones at their corners, and at the centroid where three
+//! meet. Here any number of levels is cut, and instead of at corners the tone is asked with the
+//! interpolated unit normal wherever it bends, so that borders are right inside large faces too.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::{FeatureLines, FeatureSegment, LineKind, NO_FACE};
+use crate::field::{ShadedNormals, Shading, SurfacePoint};
+use crate::math::tolerance;
+use crate::mesh::{FaceId, MaterialId, Mesh};
+use crate::view::View;
+
+/// A lit surface, seen by an eye.
+#[derive(Debug, Clone, Copy)]
+pub struct Lit<'a> {
+    /// The faces.
+    pub mesh: &'a Mesh,
+    /// Where the eye is.
+    pub view: &'a View,
+    /// Normals by which light falls.
+    pub normals: &'a ShadedNormals,
+    /// The lights, and the levels of tone.
+    pub shading: &'a Shading,
+    /// How much of the sky each vertex of the mesh sees, or empty.
+    pub openness: &'a [f64],
+    /// The parts nobody sees the inside of, by their number; none if empty.
+    pub solid: &'a [bool],
+}
+
+impl Lit<'_> {
+    /// The point of a face with these barycentric weights, as light falls on the side that the eye
+    /// sees. The same on both faces of an edge that share their normals.
+    #[must_use]
+    pub fn point(&self, face: u32, weights: [f64; 3]) -> SurfacePoint {
+        let t = self.mesh.triangles[face as usize];
+        let normals = self.normals.of(face);
+        let sum = |of: &dyn Fn(usize) -> DVec3| (0..3).map(|k| of(k) * weights[k]).sum::<DVec3>();
+        let normal = sum(&|k| normals[k]).normalize_or_zero();
+        let openness = if self.openness.is_empty() {
+            1.0
+        } else {
+            (0..3).map(|k| self.openness[t[k] as usize] * weights[k]).sum()
+        };
+        SurfacePoint {
+            position: sum(&|k| self.mesh.positions[t[k] as usize]),
+            normal: if self.view.facing[face as usize] { normal } else { -normal },
+            openness,
+        }
+    }
+
+    /// Whether the eye may see a face: not the averted ones of solid parts.
+    #[inline]
+    fn may_be_seen(&self, face: usize) -> bool {
+        let solid = || self.solid.get(self.mesh.face_part[face].index()).copied().unwrap_or_default();
+        self.view.facing[face] || !solid()
+    }
+
+    /// The tone of a point, for lights of which those in `shadowed` do not reach it.
+    #[must_use]
+    pub fn tone(&self, material: MaterialId, point: &SurfacePoint, shadowed: u32) -> u16 {
+        let channels = self.shading.channels();
+        let mut bands = [0u16; MOST_CHANNELS];
+        for (channel, band) in bands.iter_mut().enumerate().take(channels) {
+            let value = self.shading.value(channel, material, point, shadowed);
+            *band = self.shading.levels(material, channel).partition_point(|level| *level <= value) as u16;
+        }
+        self.shading.tone(material, &bands[..channels.min(MOST_CHANNELS)])
+    }
+}
+
+/// Most channels of a shading.
+const MOST_CHANNELS: usize = 8;
+
+/// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow.
+pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
+    const CHUNK: usize = 1 << 11;
+    let count = lit.mesh.triangles.len();
+    let ready = Ready::new(lit, shadowed);
+    let found: Vec<Vec<(u32, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let mut tracer = Tracer::new(lit, &ready);
+            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+                if lit.may_be_seen(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
+                    tracer.trace(face as u32, shadowed);
+                }
+            }
+            tracer.segments
+        })
+        .collect();
+    // Two faces compute the same point of their edge from the same numbers, so its bits name it.
+    let first = lit.mesh.positions.len();
+    let mut ids: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+    for (face, ends) in found.into_iter().flatten() {
+        let ends = ends.map(|p| {
+            *ids.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
+                lines.points.push(p);
+                (first + lines.points.len() - 1) as u32
+            })
+        });
+        lines.segments.push(segment(lit.mesh, face, [face, NO_FACE], ends));
+    }
+}
+
+/// A piece of a tone border.
+pub(super) fn segment(mesh: &Mesh, face: u32, hosts: [u32; 2], ends: [u32; 2]) -> FeatureSegment {
+    FeatureSegment {
+        ends,
+        hosts,
+        kind: LineKind::Isophote,
+        both_seen: true,
+        smooth: hosts[1] == NO_FACE,
+        lift: 0.0,
+        strength: 180.0,
+        part: mesh.face_part[face as usize],
+        material: mesh.face_material[face as usize],
+    }
+}
+
+/// A corner of a piece of a face: its barycentric weights, its place in the image, its value.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    weights: [f64; 3],
+    value: f64,
+}
+
+/// What is traced: one channel of one face.
+#[derive(Clone, Copy)]
+struct Band<'a> {
+    face: u32,
+    channel: usize,
+    shadowed: u32,
+    levels: &'a [f64],
+    /// Lengths of the face's sides in the image: opposite corners 0, 1, 2.
+    sides: [f64; 3],
+    /// By how much normals turn along them, radians.
+    turns: [f64; 3],
+}
+
+struct Tracer<'a> {
+    lit: &'a Lit<'a>,
+    ready: &'a Ready,
+    segments: Vec<(u32, [DVec3; 2])>,
+}
+
+/// What is the same for all faces.
+struct Ready {
+    /// A CSS px in user units.
+    px: f64,
+    /// For each channel and each set of shadowed lights the values at all normals of a surface that
+    /// turns its outside to the eye, then its inside; empty where values vary from place to place.
+    values: Vec<Vec<[Vec<f64>; 2]>>,
+}
+
+impl Ready {
+    fn new(lit: &Lit, shadowed: &[u32]) -> Self {
+        let frame = &lit.view.frame;
+        // Channels that are not local look at no material.
+        let material = MaterialId(0);
+        let value = |channel: usize, normal: DVec3, shadowed: u32| {
+            let point = SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
+            lit.shading.value(channel, material, &point, shadowed)
+        };
+        let of = |channel: usize, shadowed: u32| {
+            if lit.shading.is_local(channel) {
+                return [Vec::new(), Vec::new()];
+            }
+            [1.0, -1.0].map(|side| {
+                let normals = lit.normals.normals.par_iter().with_min_len(1 << 12);
+                normals.map(|normal| value(channel, *normal * side, shadowed)).collect()
+            })
+        };
+        let channels = 0..lit.shading.channels();
+        Self {
+            px: frame.width.max(frame.height) / PAGE_PX,
+            values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
+        }
+    }
+}
+
+impl<'a> Tracer<'a> {
+    fn new(lit: &'a Lit<'a>, ready: &'a Ready) -> Self {
+        Self { lit, ready, segments: Vec::new() }
+    }
+
+    /// Whether no level can be crossed on a face, told from the values at its corners: inside, they
+    /// differ from what lies between by no more than the normals turn.
+    fn is_even(&self, face: u32, levels: &[f64], channel: usize, shadow: usize) -> bool {
+        let [outside, inside] = &self.ready.values[channel][shadow];
+        let values = if self.lit.view.facing[face as usize] { outside } else { inside };
+        if values.is_empty() {
+            return false;
+        }
+        let corners = self.lit.normals.corners[face as usize];
+        let [a, b, c] = corners.map(|id| values[id as usize]);
+        let [n, m, o] = self.lit.normals.of(face);
+        let turn2 = n.distance_squared(m).max(m.distance_squared(o)).max(o.distance_squared(n));
+        let off = turn2 * self.lit.shading.steepness();
+        let (low, high) = (a.min(b).min(c) - off, a.max(b).max(c) + off);
+        levels.partition_point(|level| *level < low) == levels.partition_point(|level| *level <= high)
+    }
+
+    fn trace(&mut self, face: u32, shadowed: &[u32]) {
+        let Lit { mesh, view, normals, shading, .. } = self.lit;
+        let material = mesh.face_material[face as usize];
+        let corners = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
+        let length = |i: usize, j: usize| {
+            let way = corners[j].truncate() - corners[i].truncate();
+            // A side that the near plane cuts is as long as can be.
+            if way.is_nan() || corners[i].z.is_nan() || corners[j].z.is_nan() {
+                f64::INFINITY
+            } else {
+                way.length()
+            }
+        };
+        let sides = [length(1, 2), length(2, 0), length(0, 1)];
+        let n = normals.of(face);
+        let turns = [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])];
+        let is_flat = turns.iter().all(|turn| *turn == 0.0);
+        for channel in 0..shading.channels() {
+            let levels = shading.levels(material, channel);
+            if levels.is_empty() || (is_flat && !shading.is_local(channel)) {
+                continue;
+            }
+            for (shadow, shadowed) in shadowed.iter().enumerate() {
+                if self.is_even(face, levels, channel, shadow) {
+                    continue;
+                }
+                let band = Band { face, channel, shadowed: *shadowed, levels, sides, turns };
+                let nodes = UNIT.map(|weights| self.node(&band, weights));
+                self.cut(&band, nodes, 0);
+            }
+        }
+    }
+
+    fn node(&self, band: &Band, weights: [f64; 3]) -> Node {
+        let point = self.lit.point(band.face, weights);
+        let material = self.lit.mesh.face_material[band.face as usize];
+        Node { weights, value: self.lit.shading.value(band.channel, material, &point, band.shadowed) }
+    }
+
+    /// Cuts a piece until the value is all but linear in it, then draws the levels through it.
+    ///
+    /// Whether a side is cut depends on the side alone, so that the pieces of neighbours meet.
+    fn cut(&mut self, band: &Band, nodes: [Node; 3], depth: u32) {
+        if depth < DEEPEST {
+            let middle = |i: usize, j: usize| {
+                let middle = self.node(band, mean(nodes[i].weights, nodes[j].weights));
+                self.is_bent(band, nodes[i], middle, nodes[j]).then_some(middle)
+            };
+            let middles = [middle(1, 2), middle(2, 0), middle(0, 1)];
+            if middles.iter().any(Option::is_some) {
+                for piece in pieces(nodes, middles).iter().flatten() {
+                    self.cut(band, *piece, depth + 1);
+                }
+                return;
+            }
+            let third = |k: usize| (nodes[0].weights[k] + nodes[1].weights[k] + nodes[2].weights[k]) / 3.0;
+            let centroid = self.node(band, [third(0), third(1), third(2)]);
+            let linear = (nodes[0].value + nodes[1].value + nodes[2].value) / 3.0;
+            let side = |k: usize| extent(&band.sides, nodes[k].weights, nodes[(k + 1) % 3].weights);
+            let longest = (0..3).map(side).fold(0.0, f64::max);
+            if self.is_off(band, &nodes, centroid.value, linear, longest) {
+                for k in 0..3 {
+                    self.cut(band, [nodes[k], nodes[(k + 1) % 3], centroid], depth + 1);
+                }
+                return;
+            }
+        }
+        self.draw(band, nodes);
+    }
+
+    /// Whether the value along a side bends so much that a level would cross it elsewhere.
+    fn is_bent(&self, band: &Band, a: Node, middle: Node, b: Node) -> bool {
+        let length = extent(&band.sides, a.weights, b.weights);
+        let nodes = [a, b];
+        let far_reaching = length > LONGEST_PX * self.ready.px && self.lit.shading.is_local(band.channel);
+        let turning = extent(&band.turns, a.weights, b.weights) > MOST_TURN;
+        ((far_reaching || turning) && length > SHORTEST_PX * self.ready.px)
+            || self.is_off(band, &nodes, middle.value, f64::midpoint(a.value, b.value), length)
+    }
+
+    /// Whether a value differs from the linear one so much that a level would be displaced.
+    fn is_off(&self, band: &Band, nodes: &[Node], value: f64, linear: f64, length: f64) -> bool {
+        if length <= SHORTEST_PX * self.ready.px {
+            return false;
+        }
+        let off = (value - linear).abs();
+        let (mut low, mut high) = (value, value);
+        for node in nodes {
+            low = low.min(node.value);
+            high = high.max(node.value);
+        }
+        let crossed = band.levels.partition_point(|level| *level < low - off)
+            < band.levels.partition_point(|level| *level <= high + off);
+        crossed && off * length > tolerance::ISOPHOTE_PX * self.ready.px * (high - low)
+    }
+
+    fn draw(&mut self, band: &Band, nodes: [Node; 3]) {
+        let values = nodes.map(|node| node.value);
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let first = band.levels.partition_point(|level| *level <= low);
+        let last = band.levels.partition_point(|level| *level <= high);
+        for level in &band.levels[first..last.max(first)] {
+            let above = nodes.map(|node| node.value >= *level);
+            // The corner that is alone on its side, and the two others.
+            let Some(alone) =
+                (0..3).find(|k| above[(k + 1) % 3] == above[(k + 2) % 3] && above[*k] != above[(k + 1) % 3])
+            else {
+                continue;
+            };
+            let mut ends = [1, 2].map(|k| self.crossing(band, nodes[alone], nodes[(alone + k) % 3], *level));
+            // The brighter side lies on the left.
+            if above[alone] {
+                ends.swap(0, 1);
+            }
+            if ends[0] != ends[1] {
+                self.segments.push((band.face, ends));
+            }
+        }
+    }
+
+    /// Where a level crosses a side, from below to above.
+    fn crossing(&self, band: &Band, a: Node, b: Node, level: f64) -> DVec3 {
+        let (low, high) = if a.value < level { (a, b) } else { (b, a) };
+        let at = |t: f64| [0, 1, 2].map(|k| low.weights[k] + (high.weights[k] - low.weights[k]) * t);
+        let (mut t_low, mut t_high) = (0.0, 1.0);
+        let (mut f_low, mut f_high) = (low.value - level, high.value - level);
+        let mut t = 0.0;
+        let mut stays = 0;
+        // Regula falsi after Illinois: an end that stays for a second time counts half.
+        for _ in 0..MOST_ROUNDS {
+            t = t_low + (t_high - t_low) * (-f_low / (f_high - f_low)).clamp(0.0, 1.0);
+            let f = self.node(band, at(t)).value - level;
+            if f.abs() <= tolerance::ISOPHOTE_VALUE || t_high - t_low <= f64::EPSILON {
+                break;
+            }
+            if f < 0.0 {
+                (t_low, f_low) = (t, f);
+                f_high = if stays == -1 { f_high / 2.0 } else { f_high };
+                stays = -1;
+            } else {
+                (t_high, f_high) = (t, f);
+                f_low = if stays == 1 { f_low / 2.0 } else { f_low };
+                stays = 1;
+            }
+        }
+        self.lit.point(band.face, at(t)).position
+    }
+}
+
+/// The corners of a face.
+const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// How often a face is cut in two at most, along each side.
+const DEEPEST: u32 = 9;
+
+/// Rounds of the search along a side.
+const MOST_ROUNDS: u32 = 30;
+
+/// Pieces turn by no more than this, radians, so that no peak hides between their corners.
+const MOST_TURN: f64 = 0.25;
+
+/// Where light varies from place to place, pieces are no longer than this.
+const LONGEST_PX: f64 = 40.0;
+
+/// Pieces this short are not cut again.
+const SHORTEST_PX: f64 = 0.5;
+
+/// Pages count as this many px wide.
+const PAGE_PX: f64 = 1000.0;
+
+/// Half way between two points of a face.
+fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]))
+}
+
+/// How far it is between two points of a face of which these are the sides (each opposite the corner
+/// of its number), at most; exact along a side.
+fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+    let change = |k: usize| (a[k] - b[k]).abs();
+    (0..3)
+        .map(|k| (k, change((k + 1) % 3).min(change((k + 2) % 3))))
+        .filter(|(_, part)| *part > 0.0)
+        .map(|(k, part)| sides[k] * part)
+        .sum()
+}
+
+/// A triangle cut at the middles of some of its sides (each opposite the corner of its number).
+fn pieces(n: [Node; 3], middles: [Option<Node>; 3]) -> [Option<[Node; 3]>; 4] {
+    // Turned so that the cases below are all there are.
+    let turned = |k: usize| {
+        ([n[k], n[(k + 1) % 3], n[(k + 2) % 3]], [middles[k], middles[(k + 1) % 3], middles[(k + 2) % 3]])
+    };
+    for k in 0..3 {
+        let ([a, b, c], m) = turned(k);
+        match m {
+            [Some(p), Some(q), Some(r)] => {
+                return [Some([a, r, q]), Some([r, b, p]), Some([q, p, c]), Some([p, q, r])];
+            }
+            // Two sides that meet in a: the corner is cut off, the rest along a diagonal.
+            [None, Some(q), Some(r)] => {
+                return [Some([a, r, q]), Some([r, b, c]), Some([r, c, q]), None];
+            }
+            [Some(p), None, None] => return [Some([a, b, p]), Some([a, p, c]), None, None],
+            _ => {}
+        }
+    }
+    [Some(n), None, None, None]
+}

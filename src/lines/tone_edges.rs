@@ -1,0 +1,90 @@
+//! Edges of the mesh across which the surface looks different: another part or material, or another
+//! tone because its normals differ.
+
+use rayon::prelude::*;
+use rustc_hash::FxHashSet;
+
+use super::isophotes::{Lit, segment};
+use super::{FeatureLines, FeatureSegment};
+use crate::field::ShadedNormals;
+use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PartId};
+
+/// Places along an edge where both its sides are looked at. What differs between them only ends
+/// there: the border runs on to the end of the edge, with the same look on both sides.
+const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// The edges across which a surface may look different, whatever the light: where parts, materials or
+/// normals differ. The same for all views.
+#[must_use]
+pub fn candidates(mesh: &Mesh, normals: &ShadedNormals) -> EdgeSet {
+    let differ = |[first, second]: [u32; 2], ends: [u32; 2]| {
+        let owner = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
+        let normal = |face: u32, v: u32| {
+            let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
+            normals.normals[normals.corners[face as usize][corner] as usize]
+        };
+        owner(first) != owner(second) || ends.iter().any(|v| normal(first, *v) != normal(second, *v))
+    };
+    EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
+        EdgeFaces::One(_) => false,
+        EdgeFaces::Two { faces, .. } => differ(faces, mesh.edges.vertices[edge]),
+        EdgeFaces::Many(_) => true,
+    })
+}
+
+/// Adds those of the candidates that part two looks, for any of these sets of lights that are in
+/// shadow, and are no lines yet.
+pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) {
+    let edges: Vec<usize> = candidates.iter().collect();
+    let mut found: Vec<FeatureSegment> =
+        edges.par_iter().with_min_len(1 << 9).filter_map(|edge| parting(lit, *edge, shadowed)).collect();
+    if !found.is_empty() {
+        let known: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
+        found.retain(|segment| !known.contains(&segment.ends));
+        lines.segments.extend(found);
+    }
+}
+
+fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<FeatureSegment> {
+    let mesh = lit.mesh;
+    let ends = mesh.edges.vertices[edge];
+    let is_real = |face: &u32| !mesh.is_degenerate(FaceId(*face));
+    let (first, second) = match mesh.edges.faces(edge) {
+        EdgeFaces::One(_) => return None,
+        EdgeFaces::Two { faces: [first, second], .. } => (first, second),
+        EdgeFaces::Many(faces) => {
+            // The first face, and one that looks different.
+            let first = *faces.iter().find(|f| is_real(f))?;
+            let other = |f: &&u32| **f != first && is_real(f) && differ(lit, ends, [first, **f], shadowed);
+            (first, *faces.iter().find(other)?)
+        }
+    };
+    let faces = [first, second];
+    let parts = faces.iter().all(is_real) && differ(lit, ends, faces, shadowed);
+    parts.then(|| segment(mesh, first, faces, ends))
+}
+
+/// Whether two faces look different anywhere along their edge.
+fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool {
+    let mesh = lit.mesh;
+    let owner = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
+    if owner(faces[0]) != owner(faces[1]) {
+        return true;
+    }
+    let corner = |face: u32, v: u32| mesh.triangles[face as usize].iter().position(|t| *t == v);
+    let place = |face: u32| Some([corner(face, ends[0])?, corner(face, ends[1])?]);
+    let (Some(a), Some(b)) = (place(faces[0]), place(faces[1])) else { return false };
+    let normals = faces.map(|face| lit.normals.of(face));
+    if (0..2).all(|k| normals[0][a[k]] == normals[1][b[k]]) {
+        return false;
+    }
+    let look = |face: u32, at: [usize; 2], t: f64, shadowed: u32| -> (PartId, MaterialId, u16) {
+        let mut weights = [0.0; 3];
+        weights[at[0]] = 1.0 - t;
+        weights[at[1]] = t;
+        let (part, material) = owner(face);
+        (part, material, lit.tone(material, &lit.point(face, weights), shadowed))
+    };
+    let differs = |t: f64, shadowed: u32| look(faces[0], a, t, shadowed) != look(faces[1], b, t, shadowed);
+    shadowed.iter().any(|shadowed| PLACES.iter().any(|t| differs(*t, *shadowed)))
+}

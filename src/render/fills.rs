@@ -1,0 +1,125 @@
+//! What a drawing with regions needs beside its lines: light, tone borders, paint.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use kurbo::Vec2;
+
+use crate::drawing::{Layer, Page};
+use crate::field::{ShadedNormals, Shading};
+use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
+use crate::mesh::EdgeSet;
+use crate::mesh::solid::solid_parts;
+use crate::region::{self, Regions, paint::PaintContext};
+use crate::scene::{Camera, Scene};
+use crate::style::Style;
+use crate::view::View;
+use crate::viewmap::ViewMap;
+
+/// Lines that part regions, whether they are drawn or not.
+const PARTING: [LineKind; 4] =
+    [LineKind::Contour, LineKind::Border, LineKind::Material, LineKind::Intersection];
+
+/// The lines to be sought for a style: those it draws, and where it paints regions, those that may
+/// part them.
+pub(super) fn sought(style: &Style) -> LineOptions {
+    let mut options = style.lines.clone();
+    if !style.region.enabled {
+        return options;
+    }
+    if !options.enabled {
+        options.enabled = true;
+        options.kinds = Vec::new();
+    }
+    let missing =
+        PARTING.into_iter().filter(|kind| !style.lines.kinds.contains(kind) || !style.lines.enabled);
+    options.kinds.extend(missing);
+    options
+}
+
+/// Leaves only lines that are drawn.
+pub(super) fn keep_inked(map: &mut ViewMap, style: &Style) {
+    map.edges.retain(|edge| style.lines.enabled && style.lines.kinds.contains(&edge.kind));
+}
+
+/// What regions need of a surface beside its lines; the same for all views.
+pub(super) struct Paintable {
+    normals: ShadedNormals,
+    /// Edges across which it may look different.
+    edges: EdgeSet,
+    /// Parts whose inside nobody sees.
+    solid: Vec<bool>,
+}
+
+impl Paintable {
+    pub fn new(surface: &Surface) -> Self {
+        let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
+        let edges = tone_edges::candidates(&surface.mesh, &normals);
+        Self { normals, edges, solid: solid_parts(&surface.mesh) }
+    }
+}
+
+/// A lit surface on its way to regions.
+pub(super) struct Fills<'a> {
+    surface: &'a Surface,
+    paintable: &'a Paintable,
+    view: &'a View,
+    shading: Shading,
+    parts: Vec<Arc<str>>,
+    materials: Vec<Arc<str>>,
+}
+
+impl<'a> Fills<'a> {
+    pub fn new(
+        surface: &'a Surface,
+        paintable: &'a Paintable,
+        view: &'a View,
+        scene: &Scene,
+        style: &Style,
+        warnings: &mut Vec<String>,
+    ) -> Self {
+        let (mesh, frame) = (&surface.mesh, &view.frame);
+        Self {
+            surface,
+            paintable,
+            view,
+            shading: Shading::new(scene, mesh, frame, &style.light, &style.tones, warnings),
+            parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
+            materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
+        }
+    }
+
+    fn lit(&self) -> Lit<'_> {
+        // Where the near plane cuts a part open, its inside is seen.
+        let is_cut = !self.view.clipped.is_empty() || self.view.points.iter().any(|p| p.z.is_nan());
+        Lit {
+            mesh: &self.surface.mesh,
+            view: self.view,
+            normals: &self.paintable.normals,
+            shading: &self.shading,
+            openness: &[],
+            solid: if is_cut { &[] } else { &self.paintable.solid },
+        }
+    }
+
+    /// Adds where the tone changes to the lines whose visibility is decided.
+    pub fn add_tone_borders(&self, lines: &mut FeatureLines) {
+        let lit = self.lit();
+        tone_edges::find(&lit, &self.paintable.edges, &[0], lines);
+        isophotes::find(&lit, &[0], lines);
+    }
+
+    /// The painted regions.
+    pub fn paint(&self, map: &ViewMap, page: &Page, camera: &Camera, style: &Style) -> (Vec<Layer>, Regions) {
+        let shadowed = |points: &[(u32, DVec3)]| vec![0; points.len()];
+        let regions = region::gather(&self.lit(), map, shadowed, &style.region, &style.chain, page.unit);
+        let context = PaintContext {
+            unit: page.unit,
+            offset: Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0,
+            parts: &self.parts,
+            materials: &self.materials,
+            shading: &self.shading,
+        };
+        (region::paint(&regions, &context, &style.region), regions)
+    }
+}
