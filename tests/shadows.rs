@@ -252,6 +252,14 @@ fn lines_are_appended_as_tone_borders_on_their_faces() {
 
 // --- A slow reference: one ray through every triangle. ---
 
+/// The direction from a point towards a light, of any length.
+fn towards(caster: &Caster, point: DVec3) -> DVec3 {
+    match *caster {
+        Caster::Directional { towards } => towards,
+        Caster::Point { position } => position - point,
+    }
+}
+
 fn middle(mesh: &Mesh, face: u32) -> DVec3 {
     let [a, b, c] = mesh.corners(FaceId(face));
     (a + b + c) / 3.0
@@ -342,7 +350,7 @@ fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
             let Some(blocked) = surely_blocked(mesh, caster, *face, *p, 1e-5 * mesh.size) else { continue };
             // Faces of solids that are turned away are not asked.
             let outward = outward[mesh.face_part[*face as usize].index()];
-            let attached = (b - a).cross(c - a).dot(caster.towards(*p)) * outward <= 0.0;
+            let attached = (b - a).cross(c - a).dot(towards(caster, *p)) * outward <= 0.0;
             let dark = mask >> k & 1 == 1;
             if attached && !dark {
                 continue;
@@ -363,7 +371,7 @@ fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
         let [a, b, c] = mesh.corners(FaceId(segment.face));
         let normal = (b - a).cross(c - a).normalize();
         // Where light grazes a face, what is near in the light's view is not so near on the face.
-        let fall = normal.dot(caster.towards(p).normalize()).abs().max(1e-6);
+        let fall = normal.dot(towards(caster, p).normalize()).abs().max(1e-6);
         let slack = 1e-6 * mesh.size / fall;
         assert!([p, q].iter().all(|p| inside(mesh, segment.face, *p, slack)), "{segment:?} {p} {q}");
         let Some(across) = normal.cross(q - p).try_normalize() else { continue };

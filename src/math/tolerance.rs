@@ -107,3 +107,11 @@ pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
 /// The border of a spot light's cone is at least this soft (difference of cosines), as
 /// KHR_lights_punctual advises.
 pub const LEAST_CONE: f64 = 1e-3;
+
+/// Boxes that rays are tested against are this fraction of the model wider than what is in them:
+/// several roundings of single precision.
+pub const RAY_BOX_OF_MODEL: f64 = 1e-6;
+
+/// How much of the sky a vertex sees is asked from this far above it, as a fraction of the edges around
+/// it.
+pub const LOOKOUT_OF_EDGE: f64 = 1e-2;

@@ -140,7 +140,8 @@ impl ToneTree {
                 // at most a third. Making m a unit vector moves it by what its length lacks.
                 let shortest = (1.0 - longest / 3.0).max(0.0).sqrt();
                 let widen = 1.0 - shortest + tolerance::DUAL_OF_REACH;
-                if !(shortest > 0.1) || normals.iter().any(|n| (n.length_squared() - 1.0).abs() > 1e-6) {
+                let are_units = normals.iter().all(|n| (n.length_squared() - 1.0).abs() <= 1e-6);
+                if shortest <= 0.1 || !are_units {
                     // Normals that point to all sides, or nowhere.
                     (low, high) = (DVec3::NEG_ONE, DVec3::ONE);
                 }

@@ -20,6 +20,7 @@ pub mod ids;
 pub mod intersect;
 pub mod needle;
 mod parting;
+pub mod ray_tree;
 pub mod refine;
 mod roughness;
 pub mod rounded;

@@ -9,7 +9,6 @@
 //! only the borders are carried.
 
 mod cast;
-pub mod caster;
 mod envelope;
 mod join;
 mod light;
@@ -21,7 +20,7 @@ mod test_points;
 use glam::DVec3;
 use rayon::prelude::*;
 
-pub use caster::Caster;
+pub use crate::field::Caster;
 pub use lines::{ShadowLines, ShadowSegment};
 
 use crate::lines::Surface;

@@ -48,10 +48,18 @@ pub(super) fn mark(
     }
 }
 
+/// The direction from a point towards a light, of any length.
+fn towards(caster: &Caster, point: DVec3) -> DVec3 {
+    match *caster {
+        Caster::Directional { towards } => towards,
+        Caster::Point { position } => position - point,
+    }
+}
+
 /// Whether a face of a solid turns its inside to the light.
 fn is_averted(mesh: &Mesh, caster: &Caster, outside: &[Outside], face: u32, point: DVec3) -> bool {
     let [a, b, c] = mesh.corners(FaceId(face));
-    let fall = (b - a).cross(c - a).dot(caster.towards(point));
+    let fall = (b - a).cross(c - a).dot(towards(caster, point));
     match outside[face as usize] {
         Outside::Front => fall <= 0.0,
         Outside::Back => fall >= 0.0,
