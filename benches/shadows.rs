@@ -1,4 +1,4 @@
-//! How long cast shadows take: their borders, and asking points.
+//! How long cast shadows take: their borders, and asking points; and how much of the sky is seen.
 //!
 //! ```sh
 //! cargo bench --bench shadows [-- MODEL…]
@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::DVec3;
+use ligne::field::openness;
 use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::Scene;
 use ligne::shadow::{Caster, Shadows};
@@ -58,6 +59,17 @@ fn rows(name: &str, mesh: &Mesh) {
             (face, (a + b + c) / 3.0)
         })
         .collect();
+    for reach in [f64::INFINITY, mesh.size / 10.0] {
+        let started = Instant::now();
+        let sky = openness(mesh, reach);
+        let took = started.elapsed();
+        let mean = sky.iter().sum::<f64>() / sky.len().max(1) as f64;
+        let vertices = sky.len();
+        println!(
+            "{name:<24} {faces:>8}  sky of {vertices} vertices up to {reach:.3}: mean {mean:.3}, {:.0} ms",
+            took.as_secs_f64() * 1e3
+        );
+    }
     for (kind, light) in lights {
         let started = Instant::now();
         let shadows = Shadows::new(mesh, &[light]);

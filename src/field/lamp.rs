@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::math::colour::Colour;
-use crate::math::function::cos;
+use crate::math::function::{cos, pow};
 use crate::math::tolerance::{LAMP_OF_MODEL, LEAST_CONE};
 use crate::scene::{Light, LightKind};
 
@@ -23,6 +23,25 @@ pub(super) struct Lamp {
     /// Its bit among those that cast shadows.
     pub caster: Option<u32>,
 }
+
+/// Light near a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Near {
+    /// Unit vector to the light.
+    pub towards: DVec3,
+    /// How much of it gets to the point.
+    pub amount: f64,
+    /// By how much its direction may differ nearby, radians.
+    pub turn: f64,
+    /// By what factor its amount may differ nearby.
+    pub factor: f64,
+}
+
+/// Bounds are known for no more than this part of the distance.
+pub(super) const LARGEST_EXTENT: f64 = 0.4;
+
+/// The turn of a direction, as a factor of that part, up to [`LARGEST_EXTENT`].
+pub(super) const EXTENT_TO_TURN: f64 = 1.1;
 
 /// From where a lamp shines.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +111,27 @@ impl Lamp {
     /// Whether its bit is set.
     pub fn is_shadowed(&self, shadowed: u32) -> bool {
         self.caster.is_some_and(|bit| shadowed >> bit & 1 == 1)
+    }
+
+    /// Its light at a point and how that may vary within `extent` of it; none where the light is too
+    /// near to tell, has a cone, or ends at a range.
+    pub fn near(&self, point: DVec3, extent: f64) -> Option<Near> {
+        let (towards, amount) = self.at(point);
+        match &self.reach {
+            Reach::Parallel { .. } => Some(Near { towards, amount, turn: 0.0, factor: 1.0 }),
+            Reach::Point { cone: Some(_), .. }
+            | Reach::Point { falloff: FallOff::Square { range: Some(_), .. }, .. } => None,
+            Reach::Point { position, .. } => {
+                let part = extent / position.distance(point);
+                (part <= LARGEST_EXTENT).then(|| Near {
+                    towards,
+                    amount,
+                    turn: EXTENT_TO_TURN * part,
+                    // Light falls off with the square of the distance at most.
+                    factor: pow(1.0 - part, -2.0),
+                })
+            }
+        }
     }
 
     /// Unit vector from a point to the light, and how much of it gets there.

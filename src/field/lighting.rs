@@ -1,10 +1,13 @@
 //! [`Lighting`]: the lights of a drawing in local space, and how much of each reaches a point.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
-use super::lamp::{Lamp, Reach};
+use super::lamp::{EXTENT_TO_TURN, LARGEST_EXTENT, Lamp, Reach};
 use super::light_options::{LightOptions, LightSource, SourceKind, Space};
 use super::specular;
+use crate::math::function::{acos, cos, pow};
 use crate::math::tolerance::HIGHLIGHT_FADE_COSINE;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
@@ -171,6 +174,63 @@ impl Lighting {
         self.lit(shadowed).map(of).sum()
     }
 
+    /// Bounds of the diffuse light of all lights or one of them; see [`super::Shading::range`].
+    pub(super) fn diffuse_range(
+        &self,
+        lamp: Option<usize>,
+        point: &SurfacePoint,
+        shadowed: u32,
+        turn: f64,
+        extent: f64,
+    ) -> (f64, f64) {
+        let normal = self.normal(point);
+        let lambert = |angle: f64| ((cos(angle) + self.wrap) / (1.0 + self.wrap)).max(0.0);
+        let (mut low, mut high) = (0.0, 0.0);
+        for (k, own) in self.lamps.iter().enumerate() {
+            if lamp.is_some_and(|lamp| lamp != k) || own.is_shadowed(shadowed) {
+                continue;
+            }
+            let Some(near) = own.near(point.position, extent) else { return ANYTHING };
+            let angle = acos(near.towards.dot(normal).clamp(-1.0, 1.0));
+            let turn = turn + near.turn;
+            low += near.amount / near.factor * lambert((angle + turn).min(PI));
+            high += near.amount * near.factor * lambert((angle - turn).max(0.0));
+        }
+        (low * (1.0 - self.occlusion.clamp(0.0, 1.0)), high)
+    }
+
+    /// Bounds of the highlight; see [`super::Shading::range`].
+    pub(super) fn specular_range(
+        &self,
+        point: &SurfacePoint,
+        exponent: f64,
+        shadowed: u32,
+        turn: f64,
+        extent: f64,
+    ) -> (f64, f64) {
+        let Some(frame) = &self.frame else { return (0.0, 0.0) };
+        let to_eye = frame.to_eye(point.position);
+        let way = frame.eye.distance(point.position);
+        if frame.perspective && extent > LARGEST_EXTENT * way {
+            return ANYTHING;
+        }
+        let eye_turn = if frame.perspective { EXTENT_TO_TURN * extent / way } else { 0.0 };
+        let normal = self.normal(point);
+        let mut high = 0.0;
+        for lamp in self.lit(shadowed) {
+            let Some(near) = lamp.near(point.position, extent) else { return ANYTHING };
+            let half = (near.towards + to_eye).normalize_or_zero();
+            // Half-way between two directions turns as far as both together, at most, while these lie
+            // within a right angle; beyond it there is no telling.
+            if near.towards.dot(to_eye) < 0.0 {
+                return ANYTHING;
+            }
+            let angle = acos(normal.dot(half).clamp(-1.0, 1.0)) - turn - near.turn - eye_turn;
+            high += near.amount * near.factor * pow(cos(angle.clamp(0.0, PI / 2.0)).max(0.0), exponent);
+        }
+        (0.0, high)
+    }
+
     fn lit(&self, shadowed: u32) -> impl Iterator<Item = &Lamp> {
         self.lamps.iter().filter(move |lamp| !lamp.is_shadowed(shadowed))
     }
@@ -195,6 +255,9 @@ impl Lighting {
         1.0 - self.occlusion * (1.0 - point.openness.clamp(0.0, 1.0))
     }
 }
+
+/// Bounds where nothing is known.
+const ANYTHING: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// A light of the style sheet in local space.
 fn of_source(source: &LightSource, origin: DVec3, frame: &Frame) -> Lamp {

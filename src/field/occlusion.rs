@@ -136,7 +136,7 @@ mod tests {
         let r = 0.5_f64.sqrt();
         let covered = 4.0 / std::f64::consts::TAU * 2.0 * r * crate::math::function::atan2(r, 1.0);
         let found = at(&mesh, &openness(&mesh, f64::INFINITY), DVec3::ZERO);
-        assert!((found - (1.0 - covered)).abs() < 0.02, "{found} {}", 1.0 - covered);
+        assert!((found - (1.0 - covered)).abs() < 0.03, "{found} {}", 1.0 - covered);
         assert_eq!(at(&mesh, &openness(&mesh, 0.9), DVec3::ZERO), 1.0);
     }
 
@@ -150,11 +150,11 @@ mod tests {
         // In the corner the normal is halfway, and a wedge of a right angle is left: sin 45°.
         let corner = at(&mesh, &found, DVec3::ZERO);
         assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
-        // On the floor, half of the sky is left right beside a high wall, and more farther off.
-        let beside = at(&mesh, &found, DVec3::new(2.5, 0.0, 0.0));
-        let farther = at(&mesh, &found, DVec3::new(17.5, 0.0, 0.0));
-        assert!(corner < farther && beside < farther && farther < 1.0, "{corner} {beside} {farther}");
-        assert!((beside - 0.5).abs() < 0.08, "{beside}");
+        // On the floor, a long wall of height 20 leaves (1 + cos α)/2, where α is how high it stands.
+        for x in [2.5, 17.5_f64] {
+            let (found, wanted) = (at(&mesh, &found, DVec3::X * x), (1.0 + x / x.hypot(20.0)) / 2.0);
+            assert!((found - wanted).abs() < 0.04, "{x}: {found} {wanted}");
+        }
     }
 
     #[test]

@@ -106,6 +106,26 @@ impl Shading {
         matches!(self.channels.get(channel), Some(Channel::Highlight)) || self.lighting.is_local()
     }
 
+    /// The least and the greatest value that a channel may have within `extent` of a point, where
+    /// the normal turns by no more than `turn` radians.
+    #[must_use]
+    pub fn range(
+        &self,
+        channel: usize,
+        point: &SurfacePoint,
+        shadowed: u32,
+        turn: f64,
+        extent: f64,
+    ) -> (f64, f64) {
+        let lighting = &self.lighting;
+        match self.channels.get(channel) {
+            Some(Channel::Diffuse) => lighting.diffuse_range(None, point, shadowed, turn, extent),
+            Some(Channel::Light(lamp)) => lighting.diffuse_range(Some(*lamp), point, shadowed, turn, extent),
+            Some(Channel::Highlight) => lighting.specular_range(point, self.exponent, shadowed, turn, extent),
+            None => (0.0, 0.0),
+        }
+    }
+
     /// By how much the value of a channel that is not local changes with the angle of the normal, at
     /// most, per radian.
     #[must_use]

@@ -54,6 +54,24 @@ impl Lit<'_> {
         }
     }
 
+    /// A point of a face, moved out to the curved surface for which the face stands, if that is no
+    /// more than a fraction of a px away: coarser faces show as what they are.
+    ///
+    /// Source: Boubekeur and Alexa, "Phong tessellation", SIGGRAPH Asia 2008, eq. 3, with a weight
+    /// of 1/2, which is right for spheres.
+    fn lifted(&self, face: u32, weights: [f64; 3], px: f64) -> DVec3 {
+        let corners = self.mesh.corners(FaceId(face));
+        let normals = self.normals.of(face);
+        let p: DVec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
+        let onto = |k: usize| normals[k] * ((p - corners[k]).dot(normals[k]) * weights[k]);
+        let lift = -(0..3).map(onto).sum::<DVec3>() / 2.0;
+        let frame = &self.view.frame;
+        let per_px = if frame.perspective { frame.depth(p) } else { 1.0 } * px / frame.scale;
+        let way = lift.length() / (per_px * tolerance::LIFT_PX);
+        // Whole up to half of that, then less and less.
+        p + lift * (2.0 - 2.0 * way).clamp(0.0, 1.0)
+    }
+
     /// Whether the eye may see a face: not the averted ones of solid parts.
     #[inline]
     fn may_be_seen(&self, face: usize) -> bool {
@@ -139,6 +157,8 @@ struct Band<'a> {
     levels: &'a [f64],
     /// Lengths of the face's sides in the image: opposite corners 0, 1, 2.
     sides: [f64; 3],
+    /// Their lengths in space.
+    spans: [f64; 3],
     /// By how much normals turn along them, radians.
     turns: [f64; 3],
 }
@@ -220,6 +240,8 @@ impl<'a> Tracer<'a> {
             }
         };
         let sides = [length(1, 2), length(2, 0), length(0, 1)];
+        let p = mesh.corners(FaceId(face));
+        let spans = [p[1].distance(p[2]), p[2].distance(p[0]), p[0].distance(p[1])];
         let n = normals.of(face);
         let turns = [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])];
         let is_flat = turns.iter().all(|turn| *turn == 0.0);
@@ -232,7 +254,7 @@ impl<'a> Tracer<'a> {
                 if self.is_even(face, levels, channel, shadow) {
                     continue;
                 }
-                let band = Band { face, channel, shadowed: *shadowed, levels, sides, turns };
+                let band = Band { face, channel, shadowed: *shadowed, levels, sides, spans, turns };
                 let nodes = UNIT.map(|weights| self.node(&band, weights));
                 self.cut(&band, nodes, 0);
             }
@@ -249,6 +271,9 @@ impl<'a> Tracer<'a> {
     ///
     /// Whether a side is cut depends on the side alone, so that the pieces of neighbours meet.
     fn cut(&mut self, band: &Band, nodes: [Node; 3], depth: u32) {
+        if self.is_out_of_reach(band, &nodes) {
+            return;
+        }
         if depth < DEEPEST {
             let middle = |i: usize, j: usize| {
                 let middle = self.node(band, mean(nodes[i].weights, nodes[j].weights));
@@ -274,6 +299,29 @@ impl<'a> Tracer<'a> {
             }
         }
         self.draw(band, nodes);
+    }
+
+    /// Whether no level can be crossed anywhere on a piece, by how far normals turn on it.
+    fn is_out_of_reach(&self, band: &Band, nodes: &[Node; 3]) -> bool {
+        let most = |of: &[f64; 3]| {
+            let side = |k: usize| extent(of, nodes[k].weights, nodes[(k + 1) % 3].weights);
+            side(0).max(side(1)).max(side(2))
+        };
+        let turn = most(&band.turns) * TURN_OF_CHORD;
+        let shading = self.lit.shading;
+        let (low, high) = if shading.is_local(band.channel) {
+            let point = self.lit.point(band.face, nodes[0].weights);
+            shading.range(band.channel, &point, band.shadowed, turn, most(&band.spans))
+        } else {
+            let off = turn * shading.steepness();
+            let values = nodes.iter().map(|node| node.value);
+            (
+                values.clone().fold(f64::INFINITY, f64::min) - off,
+                values.fold(f64::NEG_INFINITY, f64::max) + off,
+            )
+        };
+        band.levels.partition_point(|level| *level < low)
+            == band.levels.partition_point(|level| *level <= high)
     }
 
     /// Whether the value along a side bends so much that a level would cross it elsewhere.
@@ -352,7 +400,7 @@ impl<'a> Tracer<'a> {
                 stays = 1;
             }
         }
-        self.lit.point(band.face, at(t)).position
+        self.lit.lifted(band.face, at(t), self.ready.px)
     }
 }
 
@@ -367,6 +415,9 @@ const MOST_ROUNDS: u32 = 30;
 
 /// Pieces turn by no more than this, radians, so that no peak hides between their corners.
 const MOST_TURN: f64 = 0.25;
+
+/// The angle between two normals is no more than so many times their distance (up to a quarter turn).
+const TURN_OF_CHORD: f64 = 1.12;
 
 /// Where light varies from place to place, pieces are no longer than this.
 const LONGEST_PX: f64 = 40.0;

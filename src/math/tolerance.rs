@@ -115,3 +115,6 @@ pub const RAY_BOX_OF_MODEL: f64 = 1e-6;
 /// How much of the sky a vertex sees is asked from this far above it, as a fraction of the edges around
 /// it.
 pub const LOOKOUT_OF_EDGE: f64 = 1e-2;
+
+/// Tone borders move from faces to the curved surface where that is less than this (px) away.
+pub const LIFT_PX: f64 = 0.6;

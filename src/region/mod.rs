@@ -242,4 +242,4 @@ fn curve(cut: &Triangulation, arc: &RawArc, drawn: &Drawn) -> BezPath {
 }
 
 /// Smoothing may move borders by no more than this, px: neighbours lie near to each other.
-const SMOOTH_PX: f64 = 0.25;
+const SMOOTH_PX: f64 = 0.1;

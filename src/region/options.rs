@@ -27,7 +27,7 @@ pub struct RegionOptions {
     pub underlap: Length,
     /// Regions of less area than a square with this side go to a neighbour. Default: 2 px.
     pub crumb: Length,
-    /// How far a fitted border may lie from the exact one. Default: 0.1 px.
+    /// How far a fitted border may lie from the exact one. Default: 0.05 px.
     pub fit_tolerance: Length,
 }
 
@@ -38,7 +38,7 @@ impl Default for RegionOptions {
             seams: Seams::Underlap,
             underlap: Length::px(0.6),
             crumb: Length::px(2.0),
-            fit_tolerance: Length::px(0.1),
+            fit_tolerance: Length::px(0.05),
         }
     }
 }
