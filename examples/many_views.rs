@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ligne::drawing::{Drawing, Page, Unit};
-use ligne::lines::Surface;
+use ligne::lines::{EdgeSearch, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::NamedView;
 use ligne::stroke::{self, InkContext};
@@ -22,6 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // What all views share.
     let surface = Surface::new(Mesh::build(scene.to_soup()), &style.lines);
+    let search = EdgeSearch::new(&surface);
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| part.name.as_str().into()).collect();
     let materials: Vec<_> = scene.materials.iter().map(|m| (m.name.as_str().into(), m.colour)).collect();
     let hidden = style.lines.hidden;
@@ -40,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let camera = Camera::named(named, scene.up).with_frame(page.width, page.height).fit(&scene);
         let surface = surface.clone().finer_for(&camera);
         let view = View::new(&surface.mesh, &camera);
-        let feature_lines = lines::extract(&surface, &view, &style.lines);
+        let feature_lines = lines::extract_with(&surface, Some(&search), &view, &style.lines);
         let map = viewmap::build(&surface.mesh, &view, &feature_lines, &style.lines);
         let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
         let layers = stroke::ink(&chains, &context, &style.stroke);

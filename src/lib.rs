@@ -48,6 +48,7 @@ pub mod raster;
 pub mod region;
 pub mod render;
 pub mod scene;
+pub mod shadow;
 pub mod stroke;
 pub mod style;
 pub mod view;

@@ -16,34 +16,21 @@ use crate::view::View;
 /// contours of rounded surfaces. `facing` is the field n·v on their smooth vertices.
 #[must_use]
 pub fn find(surface: &Surface, view: &View, facing: &[f64], options: &LineOptions) -> EdgeLines {
-    let Surface { mesh, hard, smooth } = surface;
-    let finder = Finder {
-        mesh,
-        hard,
-        view,
-        smooth,
-        facing,
-        wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
-        crease_deg: options.crease_deg as f32,
-    };
-    const CHUNK: usize = 1 << 14;
-    let chunks = mesh.edges.len().div_ceil(CHUNK);
-    let found: Vec<EdgeLines> = (0..chunks)
-        .into_par_iter()
-        .map(|k| {
-            let mut lines = EdgeLines::default();
-            for edge in k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len()) {
-                finder.add(edge, &mut lines);
-            }
-            lines
-        })
-        .collect();
-    let mut all = EdgeLines::default();
-    for lines in found {
-        all.parted.extend(lines.parted);
-        all.segments.extend(lines.segments);
-    }
-    all
+    let finder = Finder::new(surface, view, facing, options);
+    finder.find(surface.mesh.edges.len(), |k| k)
+}
+
+/// The same among some edges of the mesh, given in ascending order.
+#[must_use]
+pub fn find_among(
+    edges: &[u32],
+    surface: &Surface,
+    view: &View,
+    facing: &[f64],
+    options: &LineOptions,
+) -> EdgeLines {
+    let finder = Finder::new(surface, view, facing, options);
+    finder.find(edges.len(), |k| edges[k] as usize)
 }
 
 /// The feature lines that are edges.
@@ -92,7 +79,41 @@ struct Finder<'a> {
     crease_deg: f32,
 }
 
-impl Finder<'_> {
+impl<'a> Finder<'a> {
+    fn new(surface: &'a Surface, view: &'a View, facing: &'a [f64], options: &LineOptions) -> Self {
+        let Surface { mesh, hard, smooth } = surface;
+        Self {
+            mesh,
+            hard,
+            view,
+            smooth,
+            facing,
+            wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
+            crease_deg: options.crease_deg as f32,
+        }
+    }
+
+    /// What the first `count` edges are that `edge` tells.
+    fn find(&self, count: usize, edge: impl Fn(usize) -> usize + Sync) -> EdgeLines {
+        const CHUNK: usize = 1 << 14;
+        let found: Vec<EdgeLines> = (0..count.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                let mut lines = EdgeLines::default();
+                for k in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+                    self.add(edge(k), &mut lines);
+                }
+                lines
+            })
+            .collect();
+        let mut all = EdgeLines::default();
+        for lines in found {
+            all.parted.extend(lines.parted);
+            all.segments.extend(lines.segments);
+        }
+        all
+    }
+
     fn wants(&self, kind: LineKind) -> bool {
         self.wanted & (1 << kind as u32) != 0
     }

@@ -1,6 +1,7 @@
 //! Feature lines: curves on the surface that may be drawn.
 
 pub mod edge_lines;
+pub mod edge_search;
 mod hard_contours;
 pub mod inside;
 pub mod intersections;
@@ -13,6 +14,7 @@ pub mod surface;
 pub mod tone_edges;
 pub mod zero_set;
 
+pub use edge_search::EdgeSearch;
 pub use inside::InsideOptions;
 pub use isophotes::Lit;
 pub use kind::LineKind;
@@ -35,13 +37,31 @@ pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
 /// All feature lines of a view of a surface that the options ask for.
 #[must_use]
 pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
+    extract_with(surface, None, view, options)
+}
+
+/// The same lines, found with the help of a search that was made once for all views of the surface;
+/// a search that does not fit its mesh is left alone.
+#[must_use]
+pub fn extract_with(
+    surface: &Surface,
+    search: Option<&EdgeSearch>,
+    view: &View,
+    options: &LineOptions,
+) -> FeatureLines {
     let mut lines = FeatureLines::default();
     if !options.enabled {
         return lines;
     }
     let Surface { mesh, hard, smooth } = surface;
     let facing = facing(surface, view);
-    let edges = edge_lines::find(surface, view, &facing, options);
+    let edges = match search.filter(|search| search.fits(mesh)) {
+        None => edge_lines::find(surface, view, &facing, options),
+        Some(search) => {
+            let among = search.candidates(&view.frame).items;
+            edge_lines::find_among(&among, surface, view, &facing, options)
+        }
+    };
     lines.segments = edges.segments;
     if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {
         smooth_contours::find(mesh, view, smooth, &facing, &edges.parted, &mut lines);

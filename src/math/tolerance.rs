@@ -28,6 +28,10 @@ pub const PARALLEL_SINE: f64 = 1e-9;
 /// edge-on, and counts as averted.
 pub const EDGE_ON_COSINE: f64 = 1e-10;
 
+/// A plane whose distance from the eye, as a fraction of how far they may be apart, is no more than
+/// this may be seen edge-on: twice what [`EDGE_ON_COSINE`] says, for rounding.
+pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_COSINE;
+
 /// A surface this near in depth (fraction of the model) touches a line rather than hiding it.
 pub const CONTACT_OF_MODEL: f64 = 5e-7;
 
@@ -103,6 +107,14 @@ pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
 /// The border of a spot light's cone is at least this soft (difference of cosines), as
 /// KHR_lights_punctual advises.
 pub const LEAST_CONE: f64 = 1e-3;
+
+/// Boxes that rays are tested against are this fraction of the model wider than what is in them:
+/// several roundings of single precision.
+pub const RAY_BOX_OF_MODEL: f64 = 1e-6;
+
+/// How much of the sky a vertex sees is asked from this far above it, as a fraction of the edges around
+/// it.
+pub const LOOKOUT_OF_EDGE: f64 = 1e-2;
 
 /// Tone borders move from faces to the curved surface where that is less than this (px) away.
 pub const LIFT_PX: f64 = 0.6;

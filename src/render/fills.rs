@@ -6,12 +6,14 @@ use glam::DVec3;
 use kurbo::Vec2;
 
 use crate::drawing::{Layer, Page};
+use crate::field::occlusion::openness;
 use crate::field::{ShadedNormals, Shading};
 use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
 use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
 use crate::region::{self, Regions, paint::PaintContext};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Scene, paint::Paints};
+use crate::shadow::Shadows;
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::ViewMap;
@@ -65,6 +67,10 @@ pub(super) struct Fills<'a> {
     paintable: &'a Paintable,
     view: &'a View,
     shading: Shading,
+    shadows: Shadows,
+    openness: Vec<f64>,
+    /// Every set of lights that may be in shadow together.
+    masks: Vec<u32>,
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
 }
@@ -75,15 +81,23 @@ impl<'a> Fills<'a> {
         paintable: &'a Paintable,
         view: &'a View,
         scene: &Scene,
+        paints: &Paints,
         style: &Style,
         warnings: &mut Vec<String>,
     ) -> Self {
         let (mesh, frame) = (&surface.mesh, &view.frame);
+        let shading = Shading::new(scene, &paints.list, mesh, frame, &style.light, &style.tones, warnings);
+        let shadows = Shadows::new(mesh, shading.casters());
+        let dims = style.light.occlusion > 0.0;
+        let openness = if dims { openness(mesh, mesh.size * NOOK_OF_MODEL) } else { Vec::new() };
         Self {
             surface,
             paintable,
             view,
-            shading: Shading::new(scene, mesh, frame, &style.light, &style.tones, warnings),
+            masks: masks(shading.casters().len() as u32),
+            shading,
+            shadows,
+            openness,
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
         }
@@ -97,7 +111,7 @@ impl<'a> Fills<'a> {
             view: self.view,
             normals: &self.paintable.normals,
             shading: &self.shading,
-            openness: &[],
+            openness: &self.openness,
             solid: if is_cut { &[] } else { &self.paintable.solid },
         }
     }
@@ -105,13 +119,14 @@ impl<'a> Fills<'a> {
     /// Adds where the tone changes to the lines whose visibility is decided.
     pub fn add_tone_borders(&self, lines: &mut FeatureLines) {
         let lit = self.lit();
-        tone_edges::find(&lit, &self.paintable.edges, &[0], lines);
-        isophotes::find(&lit, &[0], lines);
+        tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
+        isophotes::find(&lit, &self.masks, lines);
+        self.shadows.lines.append_to(lit.mesh, lines);
     }
 
     /// The painted regions.
     pub fn paint(&self, map: &ViewMap, page: &Page, camera: &Camera, style: &Style) -> (Vec<Layer>, Regions) {
-        let shadowed = |points: &[(u32, DVec3)]| vec![0; points.len()];
+        let shadowed = |points: &[(u32, DVec3)]| self.shadows.shadowed(&self.surface.mesh, points);
         let regions = region::gather(&self.lit(), map, shadowed, &style.region, &style.chain, page.unit);
         let context = PaintContext {
             unit: page.unit,
@@ -122,4 +137,19 @@ impl<'a> Fills<'a> {
         };
         (region::paint(&regions, &context, &style.region), regions)
     }
+}
+
+/// Nooks are dark where they see no sky within this part of the model's size.
+const NOOK_OF_MODEL: f64 = 0.15;
+
+/// With no more lights than this, tones are sought for every set of them that may be in shadow; with
+/// more, for none, each, and all.
+const FEW_LIGHTS: u32 = 2;
+
+fn masks(lights: u32) -> Vec<u32> {
+    let all = (1 << lights) - 1;
+    if lights <= FEW_LIGHTS {
+        return (0..=all).collect();
+    }
+    [0].into_iter().chain((0..lights).map(|k| 1 << k)).chain([all]).collect()
 }

@@ -18,7 +18,7 @@ use crate::drawing::{Drawing, Page, Unit};
 use crate::lines::{self, Surface};
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Scene, paint::Paints};
 use crate::stroke::{self, InkContext};
 use crate::style::Style;
 use crate::view::View;
@@ -60,7 +60,8 @@ pub fn render_reported(
     let mut report = Report::default();
     let mut watch = Stopwatch::start();
 
-    let mesh = Mesh::build(scene.to_soup());
+    let paints = style.region.enabled.then(|| Paints::of(scene));
+    let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
     report.counts.vertices = mesh.positions.len() as u64;
     report.counts.edges = mesh.edges.len() as u64;
     let sought = fills::sought(style);
@@ -72,7 +73,9 @@ pub fn render_reported(
 
     let mut feature_lines = lines::extract(&surface, &view, &sought);
     let mut warnings = Vec::new();
-    let fills = paintable.as_ref().map(|p| Fills::new(&surface, p, &view, scene, style, &mut warnings));
+    let fills = paintable.as_ref().zip(paints.as_ref()).map(|(paintable, paints)| {
+        Fills::new(&surface, paintable, &view, scene, paints, style, &mut warnings)
+    });
     if let Some(fills) = &fills {
         fills.add_tone_borders(&mut feature_lines);
     }
@@ -117,6 +120,7 @@ pub fn render_reported(
     report.counts.chains = chains.len() as u64;
     report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
     report.warnings = defects::of_mesh(mesh, scene).lines();
+    report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
     report.warnings.extend(warnings);
     (Drawing { title: title(scene), page, layers }, report)
 }

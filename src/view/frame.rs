@@ -1,6 +1,6 @@
 //! [`Frame`]: the camera's axes and the map from local space to the image.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use crate::math::function::tan;
 use crate::math::tolerance;
@@ -108,6 +108,13 @@ impl Frame {
     #[must_use]
     pub fn to_eye(&self, p: DVec3) -> DVec3 {
         if self.perspective { (self.eye - p).normalize_or_zero() } else { -self.forward }
+    }
+
+    /// The eye in homogeneous coordinates, local space: a point with w = 1, or in a parallel view
+    /// the direction towards it with w = 0.
+    #[must_use]
+    pub fn homogeneous_eye(&self) -> DVec4 {
+        if self.perspective { self.eye.extend(1.0) } else { (-self.forward).extend(0.0) }
     }
 
     /// Depth of an image-space nearness.

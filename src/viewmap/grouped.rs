@@ -2,29 +2,29 @@
 
 /// Findings in the order of their segments.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Grouped<T> {
+pub(crate) struct Grouped<T> {
     starts: Vec<u32>,
     findings: Vec<T>,
 }
 
 impl<T: Copy> Grouped<T> {
     /// Those of one segment or bucket.
-    pub(super) fn of(&self, segment: usize) -> &[T] {
+    pub(crate) fn of(&self, segment: usize) -> &[T] {
         &self.findings[self.range(segment)]
     }
 
     /// One of all findings, to be changed.
-    pub(super) fn at_mut(&mut self, at: usize) -> &mut T {
+    pub(crate) fn at_mut(&mut self, at: usize) -> &mut T {
         &mut self.findings[at]
     }
 
     /// Where those of one segment or bucket lie among all findings.
-    pub(super) fn range(&self, segment: usize) -> std::ops::Range<usize> {
+    pub(crate) fn range(&self, segment: usize) -> std::ops::Range<usize> {
         self.starts[segment] as usize..self.starts[segment + 1] as usize
     }
 
     /// The same groups after `tidy` has ordered and joined each that is not empty.
-    pub(super) fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
+    pub(crate) fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
         let mut tidied = Self {
             starts: Vec::with_capacity(self.starts.len()),
             findings: Vec::with_capacity(self.findings.len()),
@@ -47,7 +47,7 @@ impl<T: Copy> Grouped<T> {
 
 /// Sorts what `fill` puts into `count` buckets, stable, by a counting sort: `fill` runs twice and
 /// must put the same both times.
-pub(super) fn bucket<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> Grouped<T> {
+pub(crate) fn bucket<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> Grouped<T> {
     let mut starts = vec![0u32; count + 1];
     let mut any = None;
     fill(&mut |bucket, value| {

@@ -8,7 +8,7 @@ pub mod events;
 pub mod front;
 pub mod graph;
 pub mod grid;
-mod grouped;
+pub(crate) mod grouped;
 pub mod layers;
 pub mod occlude;
 pub mod occluders;

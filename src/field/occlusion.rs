@@ -1,0 +1,174 @@
+//! [`openness`]: how much of the sky each vertex of a mesh sees.
+//!
+//! Source: Zhukov, Iones and Kronin, "An ambient light illumination model", Rendering Techniques
+//! 1998: the share of a hemisphere that nothing near obscures, weighted by the cosine. The directions
+//! are the same at all vertices, so that what one of them meets changes at few places, and the result
+//! has no noise to be smoothed.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::math::function::{cos, sin};
+use crate::math::tolerance;
+use crate::mesh::Mesh;
+use crate::mesh::ray_tree::RayTree;
+
+/// Directions over the whole sphere; a vertex looks into half of them.
+const DIRECTIONS: usize = 256;
+
+/// Vertices that one task works through.
+const TASK: usize = 1 << 8;
+
+/// How much of the sky each vertex of a mesh sees on the outer side of the surface, from 0 (none) to 1
+/// (all). Nothing farther than `reach` (world units) counts; with infinity all does.
+///
+/// Vertices without a normal see all.
+#[must_use]
+pub fn openness(mesh: &Mesh, reach: f64) -> Vec<f64> {
+    let tree = RayTree::new(mesh);
+    let directions = directions();
+    let (normals, lifts) = normals(mesh);
+    let count = mesh.positions.len();
+    let tasks: Vec<Vec<f64>> = (0..count.div_ceil(TASK))
+        .into_par_iter()
+        .map(|task| {
+            let mut last = vec![None; directions.len()];
+            (task * TASK..((task + 1) * TASK).min(count))
+                .map(|v| {
+                    let normal = normals[v];
+                    // From a little above the surface, faces around a hollow are in the way as well.
+                    let start = mesh.positions[v] + normal * lifts[v];
+                    let (mut seen, mut all) = (0.0, 0.0);
+                    for (direction, last) in directions.iter().zip(&mut last) {
+                        let cosine = direction.dot(normal);
+                        if cosine > 0.0 {
+                            all += cosine;
+                            if !tree.is_blocked_again(start, *direction, reach, last) {
+                                seen += cosine;
+                            }
+                        }
+                    }
+                    if all > 0.0 { seen / all } else { 1.0 }
+                })
+                .collect()
+        })
+        .collect();
+    tasks.concat()
+}
+
+/// Directions spread evenly over the sphere.
+///
+/// Source: Vogel, "A better way to construct the sunflower head", 1979, on a sphere.
+fn directions() -> Vec<DVec3> {
+    let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..DIRECTIONS)
+        .map(|k| {
+            let z = 1.0 - (2 * k + 1) as f64 / DIRECTIONS as f64;
+            let (r, angle) = ((1.0 - z * z).sqrt(), k as f64 * turn);
+            DVec3::new(r * cos(angle), r * sin(angle), z)
+        })
+        .collect()
+}
+
+/// The unit normal of each vertex, 0 where no face has area, and how far above the surface it looks
+/// from: a share of the mean length of the edges around it.
+fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
+    let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
+    for face in &mesh.triangles {
+        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+        let area = (b - a).cross(c - a);
+        face.iter().for_each(|v| normals[*v as usize] += area);
+    }
+    let mut lengths = vec![(0.0, 0u32); mesh.positions.len()];
+    for [a, b] in &mesh.edges.vertices {
+        let length = mesh.positions[*a as usize].distance(mesh.positions[*b as usize]);
+        for v in [a, b] {
+            lengths[*v as usize].0 += length;
+            lengths[*v as usize].1 += 1;
+        }
+    }
+    let lift = |(sum, count): (f64, u32)| {
+        (tolerance::LOOKOUT_OF_EDGE * sum / f64::from(count.max(1)))
+            .max(tolerance::CONTACT_OF_MODEL * mesh.size)
+    };
+    (normals.into_iter().map(DVec3::normalize_or_zero).collect(), lengths.into_iter().map(lift).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    /// A grid of squares over a parallelogram.
+    fn add_sheet(soup: &mut Soup, corner: DVec3, u: DVec3, v: DVec3, cells: u32) {
+        let first = soup.positions.len() as u32;
+        for i in 0..=cells {
+            for k in 0..=cells {
+                let part = |n: u32| f64::from(n) / f64::from(cells);
+                soup.positions.push(corner + u * part(i) + v * part(k));
+            }
+        }
+        for i in 0..cells {
+            for k in 0..cells {
+                let a = first + i * (cells + 1) + k;
+                let [b, c, d] = [a + cells + 1, a + cells + 2, a + 1];
+                soup.triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+    }
+
+    fn at(mesh: &Mesh, openness: &[f64], p: DVec3) -> f64 {
+        let local = p - mesh.origin;
+        let vertex = mesh.positions.iter().position(|q| q.distance(local) < 1e-6).expect("a vertex");
+        openness[vertex]
+    }
+
+    #[test]
+    fn an_open_sheet_sees_the_whole_sky_and_a_covered_one_part_of_it() {
+        let mut soup = Soup::default();
+        add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y * 2.0, 4);
+        let alone = Mesh::build(soup.clone());
+        assert!(openness(&alone, f64::INFINITY).iter().all(|o| *o == 1.0));
+        // A square of side 2 at height 1 covers a known part of the sky of the point below its middle:
+        // the view factor of four rectangles with sides 1 and 1 at distance 1.
+        add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 1.0), DVec3::Y * 2.0, DVec3::X * 2.0, 4);
+        let mesh = Mesh::build(soup);
+        let r = 0.5_f64.sqrt();
+        let covered = 4.0 / std::f64::consts::TAU * 2.0 * r * crate::math::function::atan2(r, 1.0);
+        let found = at(&mesh, &openness(&mesh, f64::INFINITY), DVec3::ZERO);
+        assert!((found - (1.0 - covered)).abs() < 0.03, "{found} {}", 1.0 - covered);
+        assert_eq!(at(&mesh, &openness(&mesh, 0.9), DVec3::ZERO), 1.0);
+    }
+
+    #[test]
+    fn the_foot_of_a_wall_sees_what_geometry_says() {
+        let mut soup = Soup::default();
+        add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::X * 20.0, DVec3::Y * 40.0, 8);
+        add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::Y * 40.0, DVec3::Z * 20.0, 8);
+        let mesh = Mesh::build(soup);
+        let found = openness(&mesh, f64::INFINITY);
+        // In the corner the normal is halfway, and a wedge of a right angle is left: sin 45°.
+        let corner = at(&mesh, &found, DVec3::ZERO);
+        assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
+        // On the floor, a long wall of height 20 leaves (1 + cos α)/2, where α is how high it stands.
+        for x in [2.5, 17.5_f64] {
+            let (found, wanted) = (at(&mesh, &found, DVec3::X * x), (1.0 + x / x.hypot(20.0)) / 2.0);
+            assert!((found - wanted).abs() < 0.04, "{x}: {found} {wanted}");
+        }
+    }
+
+    #[test]
+    fn a_room_sees_no_sky_and_a_box_all_of_it() {
+        let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let build = |inside: bool| {
+            let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+            let turned = triangles.map(|[a, b, c]: [u32; 3]| if inside { [a, c, b] } else { [a, b, c] });
+            let positions = (0..8).map(corner).collect();
+            Mesh::build(Soup { positions, triangles: turned.collect(), ..Soup::default() })
+        };
+        assert!(openness(&build(false), f64::INFINITY).iter().all(|o| *o == 1.0));
+        assert!(openness(&build(true), f64::INFINITY).iter().all(|o| *o == 0.0));
+        assert!(openness(&Mesh::default(), 1.0).is_empty());
+    }
+}
