@@ -28,7 +28,7 @@ impl ShadedNormals {
             Self { normals: all.normals, corners: all.corners }
         };
         if !mesh.corner_normals.is_empty() {
-            shaded.take_from_file(mesh, smooth);
+            shaded.take_from_file(mesh);
         }
         shaded.mend(mesh);
         shaded
@@ -42,19 +42,15 @@ impl ShadedNormals {
     }
 
     /// Puts the file's normals where it has some, on the side of their face that most of them are on.
-    /// Where it has none for some faces of rounded parts, because these were cut, all faces of such
-    /// parts keep the smooth ones, which agree with each other.
-    fn take_from_file(&mut self, mesh: &Mesh, smooth: &SmoothNormals) {
+    fn take_from_file(&mut self, mesh: &Mesh) {
         let first = self.normals.len() as u32;
         let count = mesh.normals.len() as u32;
-        let all = mesh.corner_normals.iter().flatten().all(|id| *id < count);
         let unit: Vec<DVec3> =
             mesh.normals.iter().map(|n| Vec3::from_array(*n).as_dvec3().normalize_or_zero()).collect();
         self.normals.extend(&unit);
         self.normals.extend(unit.iter().map(|n| -*n));
         for (face, ids) in mesh.corner_normals.iter().enumerate() {
-            let keeps = !all && smooth.corners_of(face as u32).is_some();
-            if keeps || ids.iter().any(|id| *id >= count || unit[*id as usize] == DVec3::ZERO) {
+            if ids.iter().any(|id| *id >= count || unit[*id as usize] == DVec3::ZERO) {
                 continue;
             }
             let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
