@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 use crate::mesh::ray_tree::RayTree;
 
 /// Directions over the whole sphere; a vertex looks into nearly half of them.
-const DIRECTIONS: usize = 192;
+const DIRECTIONS: usize = 256;
 
 /// Below this cosine a direction counts for little, and its ray passes the most faces: left out.
 const LEAST_COSINE: f64 = 0.1;
