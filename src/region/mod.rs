@@ -96,8 +96,9 @@ pub fn gather(
     let frame = &lit.view.frame;
     let step = frame.width.max(frame.height) / tolerance::REGION_STEPS;
     let px = Length::px(1.0).in_unit(unit);
-    let noded =
-        noding::node(&segments(map, [frame.width, frame.height], step), tolerance::BRIDGE_PX * px / step);
+    let segments = segments(map, [frame.width, frame.height], step);
+    let segments = thin::thinned(&segments, tolerance::THIN_PX * px / step);
+    let noded = noding::node(&segments, tolerance::BRIDGE_PX * px / step);
     let cut = Triangulation::new(noded);
 
     let centres: Vec<DVec2> = (0..cut.triangles.len())
