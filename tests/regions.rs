@@ -296,7 +296,7 @@ fn regions_reach_under_those_painted_later() {
     style.region.seams = Seams::Underlap;
     let under = fills(&render(&ball, &camera, &style));
     assert_eq!((exact.len(), under.len()), (2, 2));
-    // The larger one comes first and grows along the shared border only; the other stays.
+    // The first one grows along the shared border only; the other stays.
     assert_eq!(exact[1].path, under[1].path);
     let grown = under[0].path.area() - exact[0].path.area();
     let border = samples(&exact[1].path, 1.0)

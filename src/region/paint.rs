@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Vec2};
+use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
 use rayon::prelude::*;
 
 use super::{Region, RegionOptions, Regions, Seams};
@@ -26,16 +26,19 @@ pub struct PaintContext<'a> {
 
 /// The layers `fills` and `shadows`; empty ones are absent.
 ///
-/// Larger regions come first. With [`Seams::Underlap`] each reaches a little under those that are
-/// painted after it.
+/// Narrow regions come first. With [`Seams::Underlap`] each reaches a little under those that are
+/// painted after it; wide ones have room for that, and nothing peeps out on their other side.
 #[must_use]
 pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions) -> Vec<Layer> {
+    let lengths: Vec<f64> = regions.borders.par_iter().with_min_len(16).map(|b| length(&b.path)).collect();
     let mut order: Vec<u32> = (0..regions.regions.len() as u32).collect();
     let key = |k: u32| {
         let region = &regions.regions[k as usize];
-        (region.look.cast, std::cmp::Reverse(region.area.to_bits()), k)
+        let around: f64 = region.loops.iter().flatten().map(|(border, _)| lengths[*border as usize]).sum();
+        // Bits order positive numbers.
+        (region.look.cast, (region.area / around.max(f64::MIN_POSITIVE)).to_bits(), k)
     };
-    order.sort_by_key(|k| key(*k));
+    order.sort_by_cached_key(|k| key(*k));
     let mut rank = vec![0u32; order.len()];
     for (place, k) in order.iter().enumerate() {
         rank[*k as usize] = place as u32;
@@ -60,6 +63,22 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
     };
     let layers = [layer(LayerKind::Fills, false), layer(LayerKind::Shadows, true)];
     layers.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
+}
+
+/// The length of a path, by the chords of its pieces and of their handles.
+fn length(path: &BezPath) -> f64 {
+    let way = |a: Point, b: Point| (b - a).hypot2().sqrt();
+    let of = |segment: PathSeg| match segment {
+        PathSeg::Line(line) => way(line.p0, line.p1),
+        PathSeg::Quad(quad) => {
+            f64::midpoint(way(quad.p0, quad.p2), way(quad.p0, quad.p1) + way(quad.p1, quad.p2))
+        }
+        PathSeg::Cubic(cubic) => {
+            let handles = way(cubic.p0, cubic.p1) + way(cubic.p1, cubic.p2) + way(cubic.p2, cubic.p3);
+            f64::midpoint(way(cubic.p0, cubic.p3), handles)
+        }
+    };
+    path.segments().map(of).sum()
 }
 
 fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
@@ -197,8 +216,6 @@ fn mitre(a: Vec2, b: Vec2) -> Option<Vec2> {
 
 #[cfg(test)]
 mod tests {
-    use kurbo::Point;
-
     use super::*;
 
     #[test]
