@@ -62,7 +62,8 @@ fn links_lead_to_files() {
         for link in between(&text, "](", ')').filter(|link| !link.contains("://")) {
             let (link, heading) = link.split_once('#').unwrap_or((link, ""));
             assert!(root().join(folder).join(link).exists(), "{document}: {link}");
-            let is_there = |text: &str| text.lines().any(|line| line.starts_with('#') && anchor(line) == heading);
+            let is_there =
+                |text: &str| text.lines().any(|line| line.starts_with('#') && anchor(line) == heading);
             assert!(heading.is_empty() || is_there(&read(folder.join(link))), "{document}: {link}#{heading}");
             links += 1;
         }
@@ -95,8 +96,14 @@ fn options_that_the_readme_names_are_there() {
     let help = String::from_utf8(help.stdout).unwrap();
     let known = ["--release", "--path", "--open", "--json", "--example"];
     let mut options = 0;
-    for document in ["README.md", "docs/fills.md", "docs/styles.md", "docs/smooth.md", "docs/stages.md", "examples/README.md"]
-    {
+    for document in [
+        "README.md",
+        "docs/fills.md",
+        "docs/styles.md",
+        "docs/smooth.md",
+        "docs/stages.md",
+        "examples/README.md",
+    ] {
         let text = read(document);
         let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
         for option in words.filter(|word| word.starts_with("--") && word.chars().any(char::is_alphabetic)) {

@@ -23,9 +23,9 @@ pub(super) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2
     let (of, count) = cut.flooded(|a, _, b| looks[a] == looks[b]);
     let mut patches = Patches { of, looks: vec![0; count], area2: vec![0.0; count] };
     let mut shared: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); count];
-    for triangle in 0..looks.len() {
+    for (triangle, look) in looks.iter().enumerate() {
         let own = patches.of[triangle];
-        patches.looks[own as usize] = looks[triangle];
+        patches.looks[own as usize] = *look;
         patches.area2[own as usize] += cut.area2(triangle);
         for side in 0..3 {
             let next = cut.neighbours[triangle][side];
