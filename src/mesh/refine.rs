@@ -35,7 +35,7 @@ struct Piece {
 /// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
 /// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
 /// than 1. Edges that part surfaces are never cut, nor those of large parts that are dense enough. The
-/// mesh loses its texture coordinates and the file's normals.
+/// mesh loses its texture coordinates, and what was cut the file's normals.
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
@@ -272,7 +272,17 @@ impl Work {
             let of_kept = kept.iter().map(|face| mesh.edge_marks[*face as usize]);
             of_kept.chain(done.iter().map(|piece| piece.marks)).collect()
         };
+        // What was cut is rounded, and has the smooth normals.
+        let none = |_: &Piece| [u32::MAX; 3];
+        let corner_normals = if mesh.corner_normals.is_empty() {
+            Vec::new()
+        } else {
+            let of_kept = kept.iter().map(|face| mesh.corner_normals[*face as usize]);
+            of_kept.chain(done.iter().map(none)).collect()
+        };
         let finer = Mesh {
+            normals: mesh.normals.clone(),
+            corner_normals,
             origin: mesh.origin,
             size: mesh.size,
             face_normals: super::build::face_normals(&self.positions, &triangles, mesh.size),

@@ -9,8 +9,9 @@
 //! - hidden, if it runs backward on a closed surface, whose nearer side then is its inside;
 //! - hidden, if it is a short spur from a cusp to where it comes out from under the line it meets;
 //! - else as the greater part of its length is, compared with all faces that are nearer than those
-//!   around it (the segment is lifted towards the eye by their size). Only on open surfaces, where
-//!   faces leave long stretches of both kinds, is an arc broken, and that is counted.
+//!   around it (the segment is lifted towards the eye by their size). Only where faces leave long
+//!   stretches of both kinds is an arc broken, and that is counted; on closed surfaces they must be
+//!   longer still.
 //!
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section
 //! 4.4 (one decision for each piece between cusps and crossings); Pierre Bénard and Aaron Hertzmann,
@@ -42,6 +43,10 @@ pub(super) type Decided = Vec<(u32, Layer)>;
 const SPUR_PX: f64 = 12.0;
 /// Stretches shorter than this (px) have no say against the rest of their arc.
 const STRETCH_PX: f64 = 6.0;
+
+/// On closed surfaces, which nothing else can break, they must be shorter than this (px): what is longer
+/// is hidden by another surface whose edge or crossing was missed.
+const SOLID_STRETCH_PX: f64 = 24.0;
 
 /// A place along a run.
 #[derive(Debug, Clone, Copy)]
@@ -151,18 +156,11 @@ impl Judge<'_> {
                 kinds: arc.kinds,
             });
         }
-        if run.solid && stretches.len() > 1 {
-            // On a closed surface nothing else can break an arc: the greater part has it.
-            let of =
-                |hidden: bool| stretches.iter().filter(|s| s.hidden == hidden).map(|s| s.length).sum::<f64>();
-            let (visible, hidden) = (of(false), of(true));
-            let (length, kinds) = (visible + hidden, arc.kinds);
-            return vec![Stretch { hidden: hidden > visible, from: arc.from, to: arc.to, length, kinds }];
-        }
+        let least_stretch = if run.solid { SOLID_STRETCH_PX } else { STRETCH_PX };
         while stretches.len() > 1 {
             let by_length = |a: &(usize, &Stretch), b: &(usize, &Stretch)| a.1.length.total_cmp(&b.1.length);
             let Some((least, stretch)) = stretches.iter().enumerate().min_by(by_length) else { break };
-            if stretch.length >= STRETCH_PX * self.px {
+            if stretch.length >= least_stretch * self.px {
                 break;
             }
             let before = if least > 0 { Some(stretches[least - 1].length) } else { None };
