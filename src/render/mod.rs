@@ -6,7 +6,7 @@ pub mod report;
 pub mod stage;
 mod stages;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use kurbo::{PathEl, Vec2};
 
@@ -89,8 +89,8 @@ pub struct Prepared<'a> {
     /// Where regions are painted: the paints of the scene.
     paints: Option<Paints>,
     surface: Surface,
-    /// Made when it is first needed: views that need finer triangles make their own.
-    paintable: OnceLock<Paintable>,
+    /// For views that need finer triangles it is made anew.
+    paintable: Option<Paintable>,
 }
 
 impl<'a> Prepared<'a> {
@@ -101,7 +101,8 @@ impl<'a> Prepared<'a> {
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);
-        Self { scene, style, sought, paints, surface, paintable: OnceLock::new() }
+        let paintable = style.region.enabled.then(|| Paintable::new(&surface));
+        Self { scene, style, sought, paints, surface, paintable }
     }
 
     /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
@@ -115,13 +116,10 @@ impl<'a> Prepared<'a> {
         report.counts.edges = self.surface.mesh.edges.len() as u64;
 
         let refined = self.surface.refined_for(camera);
-        let own = OnceLock::new();
-        let (surface, paintable) = match &refined {
-            None => (&self.surface, &self.paintable),
-            Some(finer) => (finer, &own),
-        };
+        let surface = refined.as_ref().unwrap_or(&self.surface);
+        let own = refined.as_ref().filter(|_| style.region.enabled).map(Paintable::new);
+        let paintable = own.as_ref().or(self.paintable.as_ref());
         let mesh = &surface.mesh;
-        let paintable = style.region.enabled.then(|| paintable.get_or_init(|| Paintable::new(surface)));
         let view = View::new(mesh, camera);
         report.stages_ms.topology = watch.lap_ms();
 
