@@ -5,7 +5,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::mesh::{HardEdges, Mesh, SmoothNormals};
+use crate::mesh::{FaceId, HardEdges, Mesh, SmoothNormals};
 
 /// The normals by which light falls on a mesh. Inside a face they are interpolated and made unit
 /// length again.
@@ -18,15 +18,20 @@ pub struct ShadedNormals {
 }
 
 impl ShadedNormals {
-    /// The normals of a mesh with these hard edges, and with these normals on its rounded parts.
+    /// The normals of a mesh with these hard edges, and with these normals on its rounded parts, which
+    /// count for light only where faces were cut (`refined`): there they say what the new faces
+    /// stand for.
     #[must_use]
-    pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals) -> Self {
+    pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals, refined: bool) -> Self {
         let mut shaded = if smooth.corners_of_all() {
             Self { normals: smooth.normals.clone(), corners: smooth.corners.clone() }
         } else {
             let all = SmoothNormals::new(mesh, |_| true, |edge| hard.is_hard(edge));
             Self { normals: all.normals, corners: all.corners }
         };
+        if !refined {
+            shaded.weigh_by_area(mesh);
+        }
         if !mesh.corner_normals.is_empty() {
             shaded.take_from_file(mesh);
         }
@@ -39,6 +44,24 @@ impl ShadedNormals {
     #[must_use]
     pub fn of(&self, face: u32) -> [DVec3; 3] {
         self.corners[face as usize].map(|id| self.normals[id as usize])
+    }
+
+    /// Gives each normal the direction of the faces that share it, weighed by their area: large faces
+    /// are shaded as what they are, and the narrow ones of a rim do not bend the light on them.
+    fn weigh_by_area(&mut self, mesh: &Mesh) {
+        let mut sums = vec![DVec3::ZERO; self.normals.len()];
+        for (face, ids) in self.corners.iter().enumerate() {
+            let [a, b, c] = mesh.corners(FaceId(face as u32));
+            let cross = (b - a).cross(c - a);
+            for id in ids {
+                if let Some(sum) = sums.get_mut(*id as usize) {
+                    *sum += cross;
+                }
+            }
+        }
+        for (normal, sum) in self.normals.iter_mut().zip(sums) {
+            *normal = sum.try_normalize().unwrap_or(*normal);
+        }
     }
 
     /// Puts the file's normals where it has some, on the side of their face that most of them are on.
@@ -99,7 +122,7 @@ mod tests {
             let triangles = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
             let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
             let hard = HardEdges::above(&mesh, 40.0);
-            let shaded = ShadedNormals::new(&mesh, &hard, &SmoothNormals::default());
+            let shaded = ShadedNormals::new(&mesh, &hard, &SmoothNormals::default(), false);
             (mesh, shaded)
         };
         let (mesh, steep) = sheet(2.0);
@@ -124,7 +147,7 @@ mod tests {
             ..Soup::default()
         };
         let mesh = Mesh::build(soup);
-        let shaded = ShadedNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default());
+        let shaded = ShadedNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default(), false);
         assert!(shaded.of(0).iter().all(|n| n.distance(DVec3::new(0.0, -0.6, 0.8)) < 1e-6));
     }
 }

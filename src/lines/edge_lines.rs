@@ -81,7 +81,7 @@ struct Finder<'a> {
 
 impl<'a> Finder<'a> {
     fn new(surface: &'a Surface, view: &'a View, facing: &'a [f64], options: &LineOptions) -> Self {
-        let Surface { mesh, hard, smooth } = surface;
+        let Surface { mesh, hard, smooth, .. } = surface;
         Self {
             mesh,
             hard,

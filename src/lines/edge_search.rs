@@ -78,7 +78,7 @@ impl EdgeSearch {
 
 /// What an edge may be; the cases are those of `edge_lines`.
 fn chance(surface: &Surface, edge: usize) -> Chance {
-    let Surface { mesh, hard, smooth } = surface;
+    let Surface { mesh, hard, smooth, .. } = surface;
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return Chance::Other };
     if hard.is_hard(edge) || faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
         return Chance::Other;

@@ -53,7 +53,7 @@ pub fn extract_with(
     if !options.enabled {
         return lines;
     }
-    let Surface { mesh, hard, smooth } = surface;
+    let Surface { mesh, hard, smooth, .. } = surface;
     let facing = facing(surface, view);
     let edges = match search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, &facing, options),

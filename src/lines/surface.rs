@@ -27,6 +27,8 @@ pub struct Surface {
     /// The normals of its rounded parts, whose contours are smooth; none with
     /// [`Contours::Mesh`].
     pub smooth: SmoothNormals,
+    /// Whether faces were cut that the model does not have.
+    pub refined: bool,
 }
 
 impl Surface {
@@ -38,12 +40,12 @@ impl Surface {
         }
         if options.contours == Contours::Mesh {
             let hard = HardEdges::above(&mesh, options.crease_deg);
-            return Self { mesh, hard, smooth: SmoothNormals::default() };
+            return Self { mesh, hard, ..Self::default() };
         }
         let rounded = rounded(&mesh, options.contours);
         let hard = hard_edges(&mesh, &rounded, options.crease_deg);
         let smooth = SmoothNormals::new(&mesh, |f| rounded[f as usize], |e| is_hard(&mesh, e, &hard));
-        Self { mesh, hard, smooth }
+        Self { mesh, hard, smooth, refined: false }
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the
@@ -58,7 +60,7 @@ impl Surface {
     pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
         let frame = Frame::new(camera, self.mesh.origin);
         let (mesh, smooth) = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
-        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth })
+        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, refined: true })
     }
 }
 

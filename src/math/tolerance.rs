@@ -118,3 +118,6 @@ pub const LOOKOUT_OF_EDGE: f64 = 1e-2;
 
 /// Tone borders move from faces to the curved surface where that is less than this (px) away.
 pub const LIFT_PX: f64 = 0.6;
+
+/// Points of borders nearer than this (px) to the line through those around them are passed over.
+pub const THIN_PX: f64 = 0.01;

@@ -12,6 +12,7 @@ mod merge;
 mod noding;
 pub mod options;
 pub mod paint;
+mod thin;
 
 use glam::DVec2;
 use kurbo::{BezPath, Point};
@@ -29,6 +30,7 @@ use crate::viewmap::{ViewMap, front_faces};
 use arcs::{OUTSIDE_PATCH, RawArc};
 use cells::Triangulation;
 use noding::GridPoint;
+use thin::Segments;
 
 /// What a part of the page looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -94,8 +96,9 @@ pub fn gather(
     let frame = &lit.view.frame;
     let step = frame.width.max(frame.height) / tolerance::REGION_STEPS;
     let px = Length::px(1.0).in_unit(unit);
-    let noded =
-        noding::node(&segments(map, [frame.width, frame.height], step), tolerance::BRIDGE_PX * px / step);
+    let segments = segments(map, [frame.width, frame.height], step);
+    let segments = thin::thinned(&segments, tolerance::THIN_PX * px / step);
+    let noded = noding::node(&segments, tolerance::BRIDGE_PX * px / step);
     let cut = Triangulation::new(noded);
 
     let centres: Vec<DVec2> = (0..cut.triangles.len())
@@ -116,18 +119,18 @@ pub fn gather(
 const NOTHING: u32 = 0;
 
 /// The visible lines that may part looks and the edge of the page, on a grid.
-fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Vec<([GridPoint; 2], bool)> {
+fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
     let on_grid = |p: Point| [p.x, p.y].map(|x| (x / step).round() as i64);
     let [right, bottom] = page.map(|x| (x / step).round() as i64);
     let corners = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
-    let mut segments: Vec<([GridPoint; 2], bool)> =
-        (0..4).map(|k| ([corners[k], corners[(k + 1) % 4]], false)).collect();
+    let mut segments: Segments = (0..4).map(|k| ([corners[k], corners[(k + 1) % 4]], false)).collect();
     let parting = map.edges.iter().filter(|edge| edge.invisibility == 0 && may_part(edge.kind));
     segments.extend(parting.map(|edge| {
         let ends = [edge.start, edge.end].map(|end| on_grid(map.vertices[end.index()].position));
         let inside = |p: GridPoint| [p[0].clamp(0, right), p[1].clamp(0, bottom)];
         (ends.map(inside), edge.smooth)
     }));
+    segments.retain(|([a, b], _)| a != b);
     segments
 }
 

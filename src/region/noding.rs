@@ -31,7 +31,7 @@ pub(super) struct Noded {
 
 /// Rounds of cutting at most. What still crosses then is left to the triangulation, which leaves
 /// one of both out.
-const MOST_ROUNDS: u32 = 8;
+const MOST_ROUNDS: u32 = 16;
 
 /// Pieces in a tile, on average.
 const PIECES_A_TILE: usize = 4;
@@ -353,7 +353,7 @@ mod tests {
 
     #[test]
     fn crowds_meet_in_shared_points_only() {
-        for (count, size) in [(60, 40), (120, 1000), (200, 100_000)] {
+        for (count, size) in [(60, 400), (120, 1000), (200, 100_000)] {
             let points = scattered(count, size);
             let segments: Vec<([GridPoint; 2], bool)> =
                 points.chunks_exact(2).map(|pair| ([pair[0], pair[1]], true)).collect();
