@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if given.is_empty() {
         let torus = solids::torus(200, 100, 1.0, 0.4);
         rows("torus", &scene(torus), &styles, &pools);
-        // A trefoil's worth of turns: its tube crosses before itself again and again.
+        // Hides much of itself.
         rows("knot", &scene(knot(400, 50)), &styles, &pools);
     }
     let shared = SHARED.iter().filter(|_| given.is_empty()).filter_map(|name| models::find(name));
