@@ -1,4 +1,5 @@
-//! **ligne** turns a 3D model into a vector drawing: ink lines with exact hidden-line removal.
+//! **ligne** turns a 3D model into a vector drawing: ink lines with exact hidden-line removal, and flat
+//! colour under them.
 //!
 #![doc = include_str!("../docs/pictures/gear.svg")]
 //!
@@ -20,8 +21,10 @@
 //! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
 //! [`viewmap::ViewMap`] decides what is visible; [`chain`] links the pieces to long chains;
 //! [`stroke`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
-//! [`export`] writes as SVG, PDF or PNG. Each stage can be called by itself; the programs in `examples/`
-//! show how.
+//! [`export`] writes as SVG, PDF or PNG. Where a style paints surfaces, [`field`] lights them, their
+//! tone borders join the lines, and [`region`] gathers what lies between those that are seen. Many views
+//! of one scene share a [`render::Prepared`]. Each stage can be called by itself; the programs in
+//! `examples/` show how.
 //!
 //! # Decisions not taken
 //!

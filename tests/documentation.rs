@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 8] = [
+const DOCUMENTS: [&str; 9] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "docs/styles.md",
     "docs/exactness.md",
+    "docs/fills.md",
     "docs/smooth.md",
     "docs/stages.md",
     "examples/README.md",
@@ -45,6 +46,13 @@ fn sources(folder: &str) -> String {
     text
 }
 
+/// How links name a heading: small letters, digits, and hyphens for spaces.
+fn anchor(heading: &str) -> String {
+    let text = heading.trim_start_matches('#').trim().to_lowercase();
+    let kept = text.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
 #[test]
 fn links_lead_to_files() {
     let mut links = 0;
@@ -52,7 +60,11 @@ fn links_lead_to_files() {
         let folder = Path::new(document).parent().unwrap_or(Path::new(""));
         let text = read(document);
         for link in between(&text, "](", ')').filter(|link| !link.contains("://")) {
+            let (link, heading) = link.split_once('#').unwrap_or((link, ""));
             assert!(root().join(folder).join(link).exists(), "{document}: {link}");
+            let is_there =
+                |text: &str| text.lines().any(|line| line.starts_with('#') && anchor(line) == heading);
+            assert!(heading.is_empty() || is_there(&read(folder.join(link))), "{document}: {link}#{heading}");
             links += 1;
         }
     }
@@ -84,8 +96,14 @@ fn options_that_the_readme_names_are_there() {
     let help = String::from_utf8(help.stdout).unwrap();
     let known = ["--release", "--path", "--open", "--json", "--example"];
     let mut options = 0;
-    for document in ["README.md", "docs/styles.md", "docs/smooth.md", "docs/stages.md", "examples/README.md"]
-    {
+    for document in [
+        "README.md",
+        "docs/fills.md",
+        "docs/styles.md",
+        "docs/smooth.md",
+        "docs/stages.md",
+        "examples/README.md",
+    ] {
         let text = read(document);
         let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
         for option in words.filter(|word| word.starts_with("--") && word.chars().any(char::is_alphabetic)) {

@@ -126,10 +126,23 @@ fn ball_in_ring() {
     golden("ball-in-ring", &scene([torus(48, 24, 1.0, 0.3), sphere(16, 0.8)]), "ink");
 }
 
+fn example(name: &str) -> Scene {
+    Scene::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)).unwrap()
+}
+
 #[test]
 fn gear() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/gear.obj");
-    golden("gear", &Scene::open(path).unwrap(), "ink");
+    golden("gear", &example("gear.obj"), "ink");
+}
+
+#[test]
+fn teapot_in_two_tones() {
+    golden("teapot-toon", &example("teapot.obj"), "toon");
+}
+
+#[test]
+fn knot_with_cast_shadows() {
+    golden("knot-comic-flats", &example("knot.ply"), "comic-flats");
 }
 
 #[test]

@@ -52,13 +52,15 @@ impl Surface {
     /// camera.
     #[must_use]
     pub fn finer_for(self, camera: &Camera) -> Self {
+        self.refined_for(camera).unwrap_or(self)
+    }
+
+    /// The same where there is such a part; else none.
+    #[must_use]
+    pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
         let frame = Frame::new(camera, self.mesh.origin);
-        match field::finer_near_contours(&self.mesh, &self.smooth, &frame) {
-            None => self,
-            Some((mesh, smooth)) => {
-                Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, refined: true }
-            }
-        }
+        let (mesh, smooth) = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
+        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, refined: true })
     }
 }
 

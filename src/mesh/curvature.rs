@@ -43,7 +43,7 @@ pub struct Curvature {
     /// four different entries of a symmetric 2 × 2 × 2 tensor, 111, 112, 122, 222. One per smooth
     /// vertex.
     pub derivative: Vec<[f64; 4]>,
-    /// Size of the features of the surface, world units; see [`feature_size::feature_size`].
+    /// Size of the features of the surface, world units; see `feature_size::feature_size`.
     pub feature_size: f64,
 }
 

@@ -1,4 +1,4 @@
-//! [`feature_size`]: the length by which thresholds of curvature are measured.
+//! `feature_size`: the length by which thresholds of curvature are measured.
 //!
 //! Source: the measure of the same name in Rusinkiewicz's rtsc: a hundredth of the radius of
 //! curvature that nine tenths of the surface do not exceed, but no more than a small part of the

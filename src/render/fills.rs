@@ -45,6 +45,7 @@ pub(super) fn keep_inked(map: &mut ViewMap, style: &Style) {
 }
 
 /// What regions need of a surface beside its lines; the same for all views.
+#[derive(Debug)]
 pub(super) struct Paintable {
     normals: ShadedNormals,
     /// Edges across which it may look different.

@@ -15,7 +15,7 @@ pub use stage::Stage;
 
 use crate::chain;
 use crate::drawing::{Drawing, Page, Unit};
-use crate::lines::{self, Surface};
+use crate::lines::{self, LineOptions, Surface};
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
 use crate::scene::{Camera, Scene, paint::Paints};
@@ -57,72 +57,125 @@ pub fn render_reported(
     page: Page,
     stage: Option<Stage>,
 ) -> (Drawing, Report) {
-    let mut report = Report::default();
     let mut watch = Stopwatch::start();
+    let prepared = Prepared::new(scene, style);
+    let preparing = watch.lap_ms();
+    let (drawing, mut report) = prepared.draw(camera, page, stage);
+    report.stages_ms.topology += preparing;
+    (drawing, report)
+}
 
-    let paints = style.region.enabled.then(|| Paints::of(scene));
-    let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
-    report.counts.vertices = mesh.positions.len() as u64;
-    report.counts.edges = mesh.edges.len() as u64;
-    let sought = fills::sought(style);
-    let surface = Surface::new(mesh, &sought).finer_for(camera);
-    let mesh = &surface.mesh;
-    let paintable = style.region.enabled.then(|| Paintable::new(&surface));
-    let view = View::new(mesh, camera);
-    report.stages_ms.topology = watch.lap_ms();
+/// A scene made ready for a style: what all its views share.
+///
+/// ```no_run
+/// use ligne::{drawing::{Page, Unit}, render::Prepared, scene::{Camera, NamedView, Scene}, style::Style};
+///
+/// let scene = Scene::open("gear.obj")?;
+/// let style = Style::preset("toon").unwrap_or_default();
+/// let prepared = Prepared::new(&scene, &style);
+/// for view in [NamedView::Front, NamedView::Top] {
+///     let camera = Camera::named(view, scene.up).fit(&scene);
+///     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+///     let (drawing, _report) = prepared.draw(&camera, page, None);
+///     println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
+/// }
+/// # Ok::<(), ligne::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Prepared<'a> {
+    scene: &'a Scene,
+    style: &'a Style,
+    sought: LineOptions,
+    /// Where regions are painted: the paints of the scene.
+    paints: Option<Paints>,
+    surface: Surface,
+    /// For views that need finer triangles it is made anew.
+    paintable: Option<Paintable>,
+}
 
-    let mut feature_lines = lines::extract(&surface, &view, &sought);
-    let mut warnings = Vec::new();
-    let fills = paintable.as_ref().zip(paints.as_ref()).map(|(paintable, paints)| {
-        Fills::new(&surface, paintable, &view, scene, paints, style, &mut warnings)
-    });
-    if let Some(fills) = &fills {
-        fills.add_tone_borders(&mut feature_lines);
+impl<'a> Prepared<'a> {
+    /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
+    #[must_use]
+    pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+        let paints = style.region.enabled.then(|| Paints::of(scene));
+        let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
+        let sought = fills::sought(style);
+        let surface = Surface::new(mesh, &sought);
+        let paintable = style.region.enabled.then(|| Paintable::new(&surface));
+        Self { scene, style, sought, paints, surface, paintable }
     }
-    report.stages_ms.features = watch.lap_ms();
 
-    let mut map = viewmap::build(mesh, &view, &feature_lines, &sought);
-    report.stages_ms.visibility = watch.lap_ms();
+    /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
+    /// this view.
+    #[must_use]
+    pub fn draw(&self, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
+        let Self { scene, style, sought, paints, .. } = self;
+        let mut report = Report::default();
+        let mut watch = Stopwatch::start();
+        report.counts.vertices = self.surface.mesh.positions.len() as u64;
+        report.counts.edges = self.surface.mesh.edges.len() as u64;
 
-    let mut layers = Vec::new();
-    if let Some(fills) = &fills {
-        let (painted, regions) = fills.paint(&map, &page, camera, style);
-        report.counts.regions = regions.regions.len() as u64;
-        report.counts.leaks = regions.leaks;
-        layers = painted;
-        fills::keep_inked(&mut map, style);
-        report.stages_ms.regions = watch.lap_ms();
-    }
-    centre_on_page(&mut map, camera, &page);
+        let refined = self.surface.refined_for(camera);
+        let surface = refined.as_ref().unwrap_or(&self.surface);
+        let own = refined.as_ref().filter(|_| style.region.enabled).map(Paintable::new);
+        let paintable = own.as_ref().or(self.paintable.as_ref());
+        let mesh = &surface.mesh;
+        let view = View::new(mesh, camera);
+        report.stages_ms.topology = watch.lap_ms();
 
-    let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
-    report.stages_ms.chains = watch.lap_ms();
-
-    let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
-    let materials: Vec<(Arc<str>, Colour)> =
-        scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
-    let context =
-        InkContext { unit: page.unit, parts: &parts, materials: &materials, hidden: style.lines.hidden };
-    match stage {
-        None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
-        Some(stage) => {
-            let (surface, view, lines) = (&surface, &view, &feature_lines);
-            let made = Made { surface, view, lines, map: &map, chains: &chains, style, page: &page };
-            layers = stages::draw(stage, &made);
+        let mut feature_lines = lines::extract(surface, &view, sought);
+        let mut warnings = Vec::new();
+        let fills = paintable.zip(paints.as_ref()).map(|(paintable, paints)| {
+            Fills::new(surface, paintable, &view, scene, paints, style, &mut warnings)
+        });
+        if let Some(fills) = &fills {
+            fills.add_tone_borders(&mut feature_lines);
         }
-    }
-    report.stages_ms.strokes = watch.lap_ms();
+        report.stages_ms.features = watch.lap_ms();
 
-    report.counts.feature_edges = feature_lines.segments.len() as u64;
-    report.counts.ray_tests = map.tests;
-    report.counts.contour_arcs = map.arcs.arcs;
-    report.counts.contour_breaks = map.arcs.broken;
-    report.counts.chains = chains.len() as u64;
-    report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
-    report.warnings = defects::of_mesh(mesh, scene).lines();
-    report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
-    report.warnings.extend(warnings);
-    (Drawing { title: title(scene), page, layers }, report)
+        let mut map = viewmap::build(mesh, &view, &feature_lines, sought);
+        report.stages_ms.visibility = watch.lap_ms();
+
+        let mut layers = Vec::new();
+        if let Some(fills) = &fills {
+            let (painted, regions) = fills.paint(&map, &page, camera, style);
+            report.counts.regions = regions.regions.len() as u64;
+            report.counts.leaks = regions.leaks;
+            layers = painted;
+            fills::keep_inked(&mut map, style);
+            report.stages_ms.regions = watch.lap_ms();
+        }
+        centre_on_page(&mut map, camera, &page);
+
+        let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
+        report.stages_ms.chains = watch.lap_ms();
+
+        let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
+        let materials: Vec<(Arc<str>, Colour)> =
+            scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
+        let context =
+            InkContext { unit: page.unit, parts: &parts, materials: &materials, hidden: style.lines.hidden };
+        match stage {
+            None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
+            Some(stage) => {
+                let (view, lines) = (&view, &feature_lines);
+                let made = Made { surface, view, lines, map: &map, chains: &chains, style, page: &page };
+                layers = stages::draw(stage, &made);
+            }
+        }
+        report.stages_ms.strokes = watch.lap_ms();
+
+        report.counts.feature_edges = feature_lines.segments.len() as u64;
+        report.counts.ray_tests = map.tests;
+        report.counts.contour_arcs = map.arcs.arcs;
+        report.counts.contour_breaks = map.arcs.broken;
+        report.counts.chains = chains.len() as u64;
+        report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
+        report.warnings = defects::of_mesh(mesh, scene).lines();
+        report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
+        report.warnings.extend(warnings);
+        (Drawing { title: title(scene), page, layers }, report)
+    }
 }
 
 /// Points of a path, control points counted.

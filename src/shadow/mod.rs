@@ -2,7 +2,7 @@
 //!
 //! A light sees exactly what it lights. So each light that casts shadows gets views of its own, and
 //! the contours and borders it sees in them are all that shadows can end at: their projection onto the
-//! surface behind them is the border of the shadow (see [`receive`]).
+//! surface behind them is the border of the shadow (see `receive`).
 //!
 //! Source: P. Atherton, K. Weiler and D. Greenberg, "Polygon shadow generation", SIGGRAPH 1978: the
 //! visible parts of a view from the light, carried back onto the surface, are its lit parts. Here

@@ -1,0 +1,128 @@
+//! How long a view takes when its model is ready, in depth rasters of the same model.
+//!
+//! ```sh
+//! cargo bench --bench fills [-- MODEL…]
+//! ```
+//!
+//! A *redraw* is all that is done for one view of a [`Prepared`] scene: projection, lines, tone
+//! borders, visibility, regions, chains, ink. The *floor* under it is one depth raster of its faces,
+//! 1024 pixels along each side. Ratios can be compared between machines, times cannot.
+
+#[path = "../tests/support/models.rs"]
+mod models;
+#[path = "../tests/support/solids.rs"]
+mod solids;
+
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use glam::{DAffine3, DVec3};
+use ligne::drawing::{Page, Unit};
+use ligne::math::function::{atan2, cos, sin};
+use ligne::mesh::Mesh;
+use ligne::raster::{FaceBuffer, Screen};
+use ligne::render::Prepared;
+use ligne::scene::{Geometry, Part};
+use ligne::view::View;
+use ligne::{Camera, Scene, Style};
+use rayon::ThreadPool;
+use solids::Solid;
+
+const SHARED: [&str; 2] = ["cad/knot_50k.glb", "organic/stanford-bunny.obj"];
+
+/// Everything is measured at least so often, and again until so much time has passed.
+const LEAST_ROUNDS: usize = 3;
+const MOST_ROUNDS: usize = 40;
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Pixels of the raster along each side.
+const SIDE: f64 = 1024.0;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let given: Vec<PathBuf> =
+        std::env::args().skip(1).filter(|word| !word.starts_with("--")).map(PathBuf::from).collect();
+    let all = std::thread::available_parallelism().map_or(1, usize::from);
+    let pools = [1, all].map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build());
+    let [one, all] = pools;
+    let pools = [one?, all?];
+    let styles = [
+        ("ink", Style::load("ink", &[])?),
+        ("fills", Style::load("toon", &["lines.enabled=false".to_owned()])?),
+        ("toon", Style::load("toon", &[])?),
+    ];
+
+    println!("Least times in ms, and in floors (x): lines alone, fills alone, lines and fills.");
+    print!("{:<20} {:>8} {:>4} {:>8}", "model", "faces", "thr", "floor");
+    styles.iter().for_each(|(name, _)| print!("  {name:>8} {:>7}", "x"));
+    println!();
+    if given.is_empty() {
+        let torus = solids::torus(200, 100, 1.0, 0.4);
+        rows("torus", &scene(torus), &styles, &pools);
+        // Hides much of itself.
+        rows("knot", &scene(knot(400, 50)), &styles, &pools);
+    }
+    let shared = SHARED.iter().filter(|_| given.is_empty()).filter_map(|name| models::find(name));
+    for path in shared.chain(given.iter().cloned()) {
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        rows(&name, &Scene::open(Path::new(&path))?, &styles, &pools);
+    }
+    Ok(())
+}
+
+/// A round tube along a trefoil, as a torus bent into it.
+fn knot(along: usize, around: usize) -> Solid {
+    let axis = |t: f64| {
+        let radius = 2.0 + 0.95 * cos(3.0 * t);
+        DVec3::new(radius * cos(2.0 * t), radius * sin(2.0 * t), 0.95 * sin(3.0 * t))
+    };
+    solids::torus(along, around, 1.0, 0.46).moved(|p| {
+        // Around the z axis of the torus is along the knot.
+        let t = atan2(p.y, p.x);
+        let (out, up) = (p.truncate().length() - 1.0, p.z);
+        let way = (axis(t + 1e-5) - axis(t - 1e-5)).normalize();
+        let middle = DVec3::new(2.0 * cos(2.0 * t), 2.0 * sin(2.0 * t), 0.0);
+        let u = (axis(t) - middle).reject_from_normalized(way).normalize();
+        axis(t) + out * u + up * u.cross(way)
+    })
+}
+
+fn scene(solid: Solid) -> Scene {
+    let geometry = Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() };
+    let part = Part { name: "model".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+    Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
+}
+
+fn rows(name: &str, scene: &Scene, styles: &[(&str, Style)], pools: &[ThreadPool]) {
+    let camera = Camera::three_quarter_of(scene.up).with_frame(SIDE, SIDE).fit(scene);
+    let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: None };
+    let mesh = Mesh::build(scene.to_soup());
+    let view = View::new(&mesh, &camera);
+    for pool in pools {
+        let floor = pool.install(|| least_ms(|| FaceBuffer::new(&Screen::new(&mesh, &view))));
+        let threads = pool.current_num_threads();
+        print!("{name:<20} {:>8} {threads:>4} {floor:>8.2}", mesh.triangles.len());
+        for (_, style) in styles {
+            let prepared = Prepared::new(scene, style);
+            let redraw = pool.install(|| least_ms(|| prepared.draw(&camera, page, None)));
+            print!("  {redraw:>8.1} {:>7.1}", redraw / floor);
+        }
+        println!();
+    }
+}
+
+/// The shortest of several runs, after one that is not counted.
+fn least_ms<T>(mut run: impl FnMut() -> T) -> f64 {
+    black_box(run());
+    let started = Instant::now();
+    let mut least = f64::INFINITY;
+    for round in 0..MOST_ROUNDS {
+        if round >= LEAST_ROUNDS && started.elapsed() > PATIENCE {
+            break;
+        }
+        let start = Instant::now();
+        black_box(run());
+        least = least.min(start.elapsed().as_secs_f64() * 1e3);
+    }
+    least
+}
