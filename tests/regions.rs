@@ -21,6 +21,7 @@ use glam::DVec3;
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Shape};
 use ligne::drawing::{LayerKind, Mark, Paint};
 use ligne::lines::Contours;
+use ligne::math::function::{cos, sin};
 use ligne::region::Seams;
 use ligne::scene::{Camera, Scene};
 use ligne::{Drawing, Style, SvgOptions, render};
@@ -109,7 +110,7 @@ fn off_circle(eye: &Eye, centre: DVec3, axis: DVec3, radius: f64, p: Point) -> f
     let count = 20_000;
     let at = |k: usize| {
         let angle = std::f64::consts::TAU * k as f64 / f64::from(count);
-        eye.image(centre + (u * angle.cos() + v * angle.sin()) * radius)
+        eye.image(centre + (u * cos(angle) + v * sin(angle)) * radius)
     };
     (0..count as usize).map(|k| (at(k) - p).hypot()).fold(f64::INFINITY, f64::min)
 }
@@ -170,7 +171,7 @@ fn neighbours_share_their_borders() {
         let outline: Vec<&String> = uses.iter().filter(|(_, count)| **count > 0).map(|(s, _)| s).collect();
         assert!(uses.values().all(|count| count.abs() <= 1), "{kind}: a border stands twice");
         let inner = fills.iter().map(|mark| mark.path.segments().count()).sum::<usize>() - outline.len();
-        assert!(inner > 0 && inner % 2 == 0, "{kind}: {inner} pieces have no counterpart");
+        assert!(inner > 0 && inner.is_multiple_of(2), "{kind}: {inner} pieces have no counterpart");
         for mark in &fills {
             assert!(mark.path.area() > 0.0, "{kind}: regions turn from x to y");
         }
@@ -196,7 +197,7 @@ fn front(scene: &Scene, eye: &Eye, light: DVec3, p: Point) -> Option<Front> {
             let area = (b - a).cross(c - a);
             let weights =
                 [(b - p).cross(c - p), (c - p).cross(a - p), (a - p).cross(b - p)].map(|w| w / area);
-            if area == 0.0 || weights.iter().any(|w| !(*w >= 0.0)) {
+            if area == 0.0 || weights.iter().any(|w| w.is_nan() || *w < 0.0) {
                 continue;
             }
             let inverse: f64 = (0..3).map(|k| weights[k] / eye.depth(corners[k])).sum();

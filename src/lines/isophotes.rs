@@ -155,6 +155,8 @@ struct Band<'a> {
     channel: usize,
     shadowed: u32,
     levels: &'a [f64],
+    /// Values that are off by no more than this cannot be told apart.
+    alike: f64,
     /// Lengths of the face's sides in the image: opposite corners 0, 1, 2.
     sides: [f64; 3],
     /// Their lengths in space.
@@ -254,7 +256,8 @@ impl<'a> Tracer<'a> {
                 if self.is_even(face, levels, channel, shadow) {
                     continue;
                 }
-                let band = Band { face, channel, shadowed: *shadowed, levels, sides, spans, turns };
+                let alike = alike(levels);
+                let band = Band { face, channel, shadowed: *shadowed, levels, alike, sides, spans, turns };
                 let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
                 self.cut(&band, nodes, 0);
             }
@@ -366,10 +369,10 @@ impl<'a> Tracer<'a> {
 
     /// Whether a value differs from the linear one so much that a level would be displaced.
     fn is_off(&self, band: &Band, nodes: &[Node], value: f64, linear: f64, length: f64) -> bool {
-        if length <= SHORTEST_PX * self.ready.px {
+        let off = (value - linear).abs();
+        if length <= SHORTEST_PX * self.ready.px || off <= band.alike {
             return false;
         }
-        let off = (value - linear).abs();
         let (mut low, mut high) = (value, value);
         for node in nodes {
             low = low.min(node.value);
@@ -457,6 +460,20 @@ const SHORTEST_PX: f64 = 0.5;
 
 /// Pages count as this many px wide.
 const PAGE_PX: f64 = 1000.0;
+
+/// Fewer levels than this part tones that the eye tells apart, so that their borders must be right.
+const FEW_LEVELS: usize = 16;
+
+/// Where there are many, values need be no better than this part of a step.
+const ALIKE: f64 = 0.05;
+
+/// By how much values may be off without a difference that is seen.
+fn alike(levels: &[f64]) -> f64 {
+    match levels {
+        [first, .., last] if levels.len() >= FEW_LEVELS => ALIKE * (last - first) / (levels.len() - 1) as f64,
+        _ => 0.0,
+    }
+}
 
 /// Half way between two points of a face.
 fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
