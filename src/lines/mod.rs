@@ -8,6 +8,7 @@ pub mod intersections;
 pub mod isophotes;
 pub mod kind;
 pub mod line;
+pub mod lit;
 pub mod options;
 pub mod smooth_contours;
 pub mod surface;
@@ -16,9 +17,9 @@ pub mod zero_set;
 
 pub use edge_search::EdgeSearch;
 pub use inside::InsideOptions;
-pub use isophotes::Lit;
 pub use kind::LineKind;
 pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE};
+pub use lit::Lit;
 pub use options::{Contours, HiddenLines, LineOptions};
 pub use surface::Surface;
 

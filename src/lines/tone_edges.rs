@@ -4,8 +4,8 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
-use super::isophotes::{Lit, segment};
-use super::{FeatureLines, FeatureSegment};
+use super::isophotes::segment;
+use super::{FeatureLines, FeatureSegment, Lit};
 use crate::field::ShadedNormals;
 use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
 

@@ -1,0 +1,87 @@
+//! [`Lit`]: a surface under light, point by point.
+
+use glam::DVec3;
+
+use crate::field::{ShadedNormals, Shading, SurfacePoint};
+use crate::math::tolerance;
+use crate::mesh::{FaceId, Mesh, PaintId};
+use crate::view::View;
+
+/// A lit surface, seen by an eye.
+#[derive(Debug, Clone, Copy)]
+pub struct Lit<'a> {
+    /// The faces.
+    pub mesh: &'a Mesh,
+    /// Where the eye is.
+    pub view: &'a View,
+    /// Normals by which light falls.
+    pub normals: &'a ShadedNormals,
+    /// The lights, and the levels of tone.
+    pub shading: &'a Shading,
+    /// How much of the sky each vertex of the mesh sees, or empty.
+    pub openness: &'a [f64],
+    /// The parts nobody sees the inside of, by their number; none if empty.
+    pub solid: &'a [bool],
+}
+
+impl Lit<'_> {
+    /// The point of a face with these barycentric weights, as light falls on the side that the eye
+    /// sees. The same on both faces of an edge that share their normals.
+    #[must_use]
+    pub fn point(&self, face: u32, weights: [f64; 3]) -> SurfacePoint {
+        let t = self.mesh.triangles[face as usize];
+        let normals = self.normals.of(face);
+        let sum = |of: &dyn Fn(usize) -> DVec3| (0..3).map(|k| of(k) * weights[k]).sum::<DVec3>();
+        let normal = sum(&|k| normals[k]).normalize_or_zero();
+        let openness = if self.openness.is_empty() {
+            1.0
+        } else {
+            (0..3).map(|k| self.openness[t[k] as usize] * weights[k]).sum()
+        };
+        SurfacePoint {
+            position: sum(&|k| self.mesh.positions[t[k] as usize]),
+            normal: if self.view.facing[face as usize] { normal } else { -normal },
+            openness,
+        }
+    }
+
+    /// A point of a face, moved out to the curved surface for which the face stands, if that is no
+    /// more than a fraction of a px away: coarser faces show as what they are.
+    ///
+    /// Source: Boubekeur and Alexa, "Phong tessellation", SIGGRAPH Asia 2008, eq. 3, with a weight
+    /// of 1/2, which is right for spheres.
+    pub(super) fn lifted(&self, face: u32, weights: [f64; 3], px: f64) -> DVec3 {
+        let corners = self.mesh.corners(FaceId(face));
+        let normals = self.normals.of(face);
+        let p: DVec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
+        let onto = |k: usize| normals[k] * ((p - corners[k]).dot(normals[k]) * weights[k]);
+        let lift = -(0..3).map(onto).sum::<DVec3>() / 2.0;
+        let frame = &self.view.frame;
+        let per_px = if frame.perspective { frame.depth(p) } else { 1.0 } * px / frame.scale;
+        let way = lift.length() / (per_px * tolerance::LIFT_PX);
+        // Whole up to half of that, then less and less.
+        p + lift * (2.0 - 2.0 * way).clamp(0.0, 1.0)
+    }
+
+    /// Whether the eye may see a face: not the averted ones of solid parts.
+    #[inline]
+    pub(super) fn may_be_seen(&self, face: usize) -> bool {
+        let solid = || self.solid.get(self.mesh.face_part[face].index()).copied().unwrap_or_default();
+        self.view.facing[face] || !solid()
+    }
+
+    /// The tone of a point, for lights of which those in `shadowed` do not reach it.
+    #[must_use]
+    pub fn tone(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> u16 {
+        let channels = self.shading.channels();
+        let mut bands = [0u16; MOST_CHANNELS];
+        for (channel, band) in bands.iter_mut().enumerate().take(channels) {
+            let value = self.shading.value(channel, paint, point, shadowed);
+            *band = self.shading.levels(paint, channel).partition_point(|level| *level <= value) as u16;
+        }
+        self.shading.tone(paint, &bands[..channels.min(MOST_CHANNELS)])
+    }
+}
+
+/// Most channels of a shading.
+const MOST_CHANNELS: usize = 8;
