@@ -46,7 +46,7 @@ const STRETCH_PX: f64 = 6.0;
 
 /// On closed surfaces, which nothing else can break, they must be shorter than this (px): what is longer
 /// is hidden by another surface whose edge or crossing was missed.
-const SOLID_STRETCH_PX: f64 = 24.0;
+const SOLID_STRETCH_PX: f64 = 80.0;
 
 /// A place along a run.
 #[derive(Debug, Clone, Copy)]
