@@ -10,8 +10,8 @@
 //! - hidden, if it is a short spur from a cusp to where it comes out from under the line it meets;
 //! - else as the greater part of its length is, compared with all faces that are nearer than those
 //!   around it (the segment is lifted towards the eye by their size). Only where faces leave long
-//!   stretches of both kinds is an arc broken, and that is counted; on closed surfaces they must be
-//!   longer still.
+//!   stretches of both kinds is an arc broken, and that is counted; on closed surfaces other parts
+//!   must be there to do it, and the stretches longer still.
 //!
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section
 //! 4.4 (one decision for each piece between cusps and crossings); Pierre Bénard and Aaron Hertzmann,
@@ -44,8 +44,8 @@ const SPUR_PX: f64 = 12.0;
 /// Stretches shorter than this (px) have no say against the rest of their arc.
 const STRETCH_PX: f64 = 6.0;
 
-/// On closed surfaces, which nothing else can break, they must be shorter than this (px): what is longer
-/// is hidden by another surface whose edge or crossing was missed.
+/// On closed surfaces, which nothing but another part can break, they must be shorter than this (px):
+/// what is longer is hidden by a part whose edge or crossing was missed.
 const SOLID_STRETCH_PX: f64 = 80.0;
 
 /// A place along a run.
@@ -64,6 +64,8 @@ pub(super) struct Judge<'a> {
     pub scene: &'a Scene<'a>,
     pub events: &'a [Event],
     pub seen: &'a Visibility,
+    /// Whether the scene is one part, so that no other surface can hide any of it.
+    pub alone: bool,
     /// A px in user units.
     pub px: f64,
 }
@@ -156,7 +158,11 @@ impl Judge<'_> {
                 kinds: arc.kinds,
             });
         }
-        let least_stretch = if run.solid { SOLID_STRETCH_PX } else { STRETCH_PX };
+        let least_stretch = match (run.solid, self.alone) {
+            (true, true) => f64::INFINITY,
+            (true, false) => SOLID_STRETCH_PX,
+            (false, _) => STRETCH_PX,
+        };
         while stretches.len() > 1 {
             let by_length = |a: &(usize, &Stretch), b: &(usize, &Stretch)| a.1.length.total_cmp(&b.1.length);
             let Some((least, stretch)) = stretches.iter().enumerate().min_by(by_length) else { break };

@@ -40,7 +40,8 @@ pub(super) fn decide(
     let scene = Scene { mesh, view, segments, sources: &lines.segments, advance: &advance };
     let events = events::find(&scene, grid);
     let runs = runs(mesh, lines, segments, &image_of);
-    let judge = Judge { scene: &scene, events: &events, seen, px };
+    let alone = mesh.face_part.windows(2).all(|pair| pair[0] == pair[1]);
+    let judge = Judge { scene: &scene, events: &events, seen, alone, px };
     let decided: Vec<(arcs::Decided, ArcCounts)> = runs
         .par_iter()
         .with_min_len(8)
