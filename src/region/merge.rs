@@ -16,9 +16,9 @@ pub(super) struct Patches {
 }
 
 /// Gathers the triangles of one look, and gives patches of less than `crumb2` (twice the area) to
-/// the neighbour with which they share most of their border: the smallest first, and the look
-/// `background` only takes patches where there is no other neighbour, for a model must not have holes;
-/// patches that have only background around them stay.
+/// the neighbour with which they share most of their border: the smallest first. The
+/// look `background` takes none, for a model must not have holes; patches that have only background
+/// around them stay.
 pub(super) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2: f64) -> Patches {
     let (of, count) = cut.flooded(|a, _, b| looks[a] == looks[b]);
     let mut patches = Patches { of, looks: vec![0; count], area2: vec![0.0; count] };
@@ -78,7 +78,7 @@ impl Merging {
         patch
     }
 
-    /// The neighbour with the longest border; background only for what lies amid the model.
+    /// The neighbour with the longest border that is not background.
     fn neighbour(&self, crumb: u32, patches: &Patches) -> Option<u32> {
         let is_background = |p: u32| patches.looks[p as usize] == self.background;
         let others = self.shared[crumb as usize].iter().filter(|(other, _)| !is_background(**other));

@@ -7,6 +7,7 @@ use super::light::LightView;
 use crate::lines::{self, Contours, HiddenLines, LineKind, LineOptions, NO_FACE, Surface};
 use crate::mesh::Mesh;
 use crate::view::View;
+use crate::viewmap::project::between;
 use crate::viewmap::{self, ViewMap, ViewVertexId};
 
 /// A piece of a contour or border that a light sees.
@@ -32,13 +33,7 @@ impl CastEdge {
     /// The image-space point at parameter `t`, 0 to 1.
     #[inline]
     pub(super) fn at(&self, t: f64) -> DVec3 {
-        if t <= 0.0 {
-            self.a
-        } else if t >= 1.0 {
-            self.b
-        } else {
-            self.a + (self.b - self.a) * t
-        }
+        between(self.a, self.b, t)
     }
 }
 

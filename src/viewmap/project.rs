@@ -29,18 +29,25 @@ pub struct ImageSegment {
     pub lift: [f64; 2],
 }
 
+/// The image-space point at parameter `t`, 0 to 1, of the way from `a` to `b`; the ends are exact.
+#[inline]
+#[must_use]
+pub fn between(a: DVec3, b: DVec3, t: f64) -> DVec3 {
+    if t <= 0.0 {
+        a
+    } else if t >= 1.0 {
+        b
+    } else {
+        a + (b - a) * t
+    }
+}
+
 impl ImageSegment {
     /// The image-space point at parameter `t`, 0 to 1.
     #[inline]
     #[must_use]
     pub fn at(&self, t: f64) -> DVec3 {
-        if t <= 0.0 {
-            self.a
-        } else if t >= 1.0 {
-            self.b
-        } else {
-            self.a + (self.b - self.a) * t
-        }
+        between(self.a, self.b, t)
     }
 
     /// The segment as visibility is asked of it. A contour of a rounded surface is asked `aside` user
