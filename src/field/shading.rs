@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::ShadeOptions;
 use super::light_options::LightOptions;
 use super::lighting::{Caster, Lighting, SurfacePoint};
 use super::tone_options::{Scale, ToneOptions};
@@ -19,7 +20,8 @@ use crate::view::Frame;
 ///
 /// Channel 0 is the diffuse light of all lights. Where a material asks for a table of two lights,
 /// the next two channels are the light of the first and of the second one alone; where one asks for
-/// highlights, the last is their strength.
+/// highlights, the next is their strength; where surfaces are hatched, the last is the diffuse light with
+/// the bins of hatching as its levels.
 #[derive(Debug, Clone)]
 pub struct Shading {
     lighting: Lighting,
@@ -81,6 +83,27 @@ impl Shading {
         Self { tones: tones_of_paints, lighting, channels, exponent }
     }
 
+    /// The same shading with bins for hatching; `paints` as they were given before.
+    #[must_use]
+    pub fn with_bins(mut self, scene: &Scene, paints: &[Paint], options: &ShadeOptions) -> Self {
+        self.channels.push(Channel::Shade);
+        let without = Material::default();
+        for (k, tones) in self.tones.iter_mut().enumerate() {
+            let paint = paints.get(k);
+            let number = if paints.is_empty() { Some(k) } else { paint.map(|paint| paint.material.index()) };
+            let material = number.and_then(|k| scene.materials.get(k)).unwrap_or(&without);
+            let colour = paint.map_or(material.colour, |paint| paint.colour);
+            tones.add_levels(options.levels(&material.name, colour));
+        }
+        self
+    }
+
+    /// The channel whose levels are the bins of hatching, if there is one.
+    #[must_use]
+    pub fn bins(&self) -> Option<usize> {
+        self.channels.iter().position(|channel| *channel == Channel::Shade)
+    }
+
     /// Light from one direction on light grey, with levels on max(L·n, 0).
     #[must_use]
     pub fn from_direction(towards_light: DVec3, levels: Vec<f64>) -> Self {
@@ -127,7 +150,9 @@ impl Shading {
     ) -> (f64, f64) {
         let lighting = &self.lighting;
         match self.channels.get(channel) {
-            Some(Channel::Diffuse) => lighting.diffuse_range(None, point, shadowed, turn, extent),
+            Some(Channel::Diffuse | Channel::Shade) => {
+                lighting.diffuse_range(None, point, shadowed, turn, extent)
+            }
             Some(Channel::Light(lamp)) => lighting.diffuse_range(Some(*lamp), point, shadowed, turn, extent),
             Some(Channel::Highlight) => lighting.specular_range(point, self.exponent, shadowed, turn, extent),
             None => (0.0, 0.0),
@@ -152,7 +177,7 @@ impl Shading {
     #[must_use]
     pub fn value(&self, channel: usize, _paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
-            Some(Channel::Diffuse) => self.lighting.diffuse(point, shadowed),
+            Some(Channel::Diffuse | Channel::Shade) => self.lighting.diffuse(point, shadowed),
             Some(Channel::Light(lamp)) => self.lighting.diffuse_by(*lamp, point, shadowed),
             Some(Channel::Highlight) => self.lighting.specular(point, self.exponent, shadowed),
             None => 0.0,

@@ -23,6 +23,8 @@ pub(super) enum Channel {
     Light(usize),
     /// The strength of the highlight.
     Highlight,
+    /// The diffuse light of all lights again, for hatching: its bins are not those of the tones.
+    Shade,
 }
 
 /// How a surface looks and is lit, as far as it gives tones their colours.
@@ -72,6 +74,11 @@ impl Tones {
             _ => Vec::new(),
         });
         Self { levels: levels.collect(), colours, plain, table }
+    }
+
+    /// The same tones with levels for one more channel.
+    pub fn add_levels(&mut self, levels: Vec<f64>) {
+        self.levels.push(levels);
     }
 
     /// Rising levels of a channel.

@@ -73,13 +73,20 @@ impl Lit<'_> {
     /// The tone of a point, for lights of which those in `shadowed` do not reach it.
     #[must_use]
     pub fn tone(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> u16 {
+        self.tone_and_bin(paint, point, shadowed).0
+    }
+
+    /// The tone of a point, and the bin of light in which it is hatched, 0 the darkest.
+    #[must_use]
+    pub fn tone_and_bin(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, u16) {
         let channels = self.shading.channels();
         let mut bands = [0u16; MOST_CHANNELS];
         for (channel, band) in bands.iter_mut().enumerate().take(channels) {
             let value = self.shading.value(channel, paint, point, shadowed);
             *band = self.shading.levels(paint, channel).partition_point(|level| *level <= value) as u16;
         }
-        self.shading.tone(paint, &bands[..channels.min(MOST_CHANNELS)])
+        let bin = self.shading.bins().and_then(|channel| bands.get(channel)).copied().unwrap_or_default();
+        (self.shading.tone(paint, &bands[..channels.min(MOST_CHANNELS)]), bin)
     }
 }
 

@@ -1,6 +1,7 @@
 //! [`Arc`]: a stretch of the border between two patches, and the loops of arcs around each patch.
 
-use super::cells::{Border, OUTSIDE, Triangulation};
+use super::cells::{OUTSIDE, Triangulation};
+use super::noding::Border;
 
 /// The patch of what is not painted.
 pub(super) const OUTSIDE_PATCH: u32 = u32::MAX;
@@ -50,7 +51,7 @@ pub(super) fn trace(cut: &Triangulation, patches: &[u32], count: usize) -> Borde
             let left = patches[triangle];
             let right = if next == OUTSIDE { OUTSIDE_PATCH } else { patches[next as usize] };
             if left != right {
-                let soft = cut.borders[triangle][side] != Border::Hard;
+                let soft = cut.borders[triangle][side].is_none_or(Border::is_soft);
                 let (from, to) = (corners[side], corners[(side + 1) % 3]);
                 halves.push(HalfEdge { from, to, left, right, soft });
                 if next == OUTSIDE {

@@ -6,7 +6,7 @@
 
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
-use super::noding::{GridPoint, Noded};
+use super::noding::{Border, GridPoint, Noded};
 
 /// In [`Triangulation::neighbours`]: beyond the page.
 pub(super) const OUTSIDE: u32 = u32::MAX;
@@ -19,19 +19,8 @@ pub(super) struct Triangulation {
     pub triangles: Vec<[u32; 3]>,
     /// The triangle beyond each side 0-1, 1-2, 2-0.
     pub neighbours: Vec<[u32; 3]>,
-    /// Whether these sides are borders.
-    pub borders: Vec<[Border; 3]>,
-}
-
-/// What a side of a triangle is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Border {
-    /// No border: the cell goes on.
-    None,
-    /// A border on a smooth surface.
-    Soft,
-    /// A border along straight edges.
-    Hard,
+    /// What borders these sides are; `None` where the cell goes on.
+    pub borders: Vec<[Option<Border>; 3]>,
 }
 
 #[derive(Clone, Copy)]
@@ -60,9 +49,10 @@ impl Triangulation {
         for (k, face) in built.inner_faces().enumerate() {
             number[face.fix().index()] = k as u32;
         }
-        let is_soft = |a: u32, b: u32| {
+        let border = |a: u32, b: u32| {
             let ends = [a.min(b), a.max(b)];
-            noded.pieces.binary_search_by_key(&ends, |piece| piece.ends).is_ok_and(|k| noded.pieces[k].soft)
+            let piece = noded.pieces.binary_search_by_key(&ends, |piece| piece.ends);
+            piece.map_or(Border::Hard, |k| noded.pieces[k].border)
         };
         let mut triangulation = Self::default();
         for face in built.inner_faces() {
@@ -71,11 +61,7 @@ impl Triangulation {
             triangulation.neighbours.push(edges.map(|edge| number[edge.rev().face().fix().index()]));
             triangulation.borders.push(edges.map(|edge| {
                 let [a, b] = [edge.from(), edge.to()].map(|vertex| vertex.fix().index() as u32);
-                match (edge.is_constraint_edge(), edge.is_constraint_edge() && is_soft(a, b)) {
-                    (false, _) => Border::None,
-                    (true, true) => Border::Soft,
-                    (true, false) => Border::Hard,
-                }
+                edge.is_constraint_edge().then(|| border(a, b))
             }));
         }
         triangulation.points = noded.points;
@@ -108,7 +94,7 @@ impl Triangulation {
 
     /// The cell of each triangle, numbered in the order of their first triangles, and their number.
     pub fn cells(&self) -> (Vec<u32>, usize) {
-        self.flooded(|triangle, side, _| self.borders[triangle][side] == Border::None)
+        self.flooded(|triangle, side, _| self.borders[triangle][side].is_none())
     }
 
     /// Numbers the sets of triangles that are joined where `joins(triangle, side, neighbour)`.

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::cells::{Border, OUTSIDE, Triangulation};
+use super::cells::{OUTSIDE, Triangulation};
 
 /// Decides on a look for each triangle from what is seen in the middle of each (`seen`, numbers
 /// below `looks`). A cell looks like most of its area. Only where a part of it wider than `wide` is
@@ -56,7 +56,7 @@ fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, looks: &mut [u32]) 
     while let Some(triangle) = open.pop_front() {
         for side in 0..3 {
             let next = cut.neighbours[triangle as usize][side];
-            let goes_on = cut.borders[triangle as usize][side] == Border::None;
+            let goes_on = cut.borders[triangle as usize][side].is_none();
             if next != OUTSIDE && goes_on && known.insert(next) {
                 looks[next as usize] = looks[triangle as usize];
                 open.push_back(next);

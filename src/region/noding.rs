@@ -12,13 +12,38 @@ use rustc_hash::FxHashMap;
 /// A point of the grid.
 pub(super) type GridPoint = [i64; 2];
 
+/// What a piece of border lies on and parts. Stronger ones first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Border {
+    /// Parts two surfaces, along straight edges.
+    Hard,
+    /// Parts two surfaces, where one of them is smooth.
+    Soft,
+    /// Parts two tones of one surface, along straight edges.
+    HardTone,
+    /// Parts two tones of a smooth surface.
+    SoftTone,
+}
+
+impl Border {
+    /// Whether it lies on a smooth surface.
+    pub const fn is_soft(self) -> bool {
+        matches!(self, Self::Soft | Self::SoftTone)
+    }
+
+    /// Whether the same surface goes on beyond it.
+    pub const fn is_tone(self) -> bool {
+        matches!(self, Self::HardTone | Self::SoftTone)
+    }
+}
+
 /// A piece of a border between two points, by their numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Piece {
     /// The lesser number first.
     pub ends: [u32; 2],
-    /// Whether it lies on a smooth surface.
-    pub soft: bool,
+    /// What it parts.
+    pub border: Border,
 }
 
 /// Pieces that meet in shared points only.
@@ -45,18 +70,18 @@ const ON_PIECE: f64 = 0.5;
 /// Cuts segments of a grid. Ends that hang free, but no farther than `reach` from another piece, are
 /// led on to it: tone borders end at the faces' own contour, which lies a little inside or outside of
 /// the smooth one.
-pub(super) fn node(segments: &[([GridPoint; 2], bool)], reach: f64) -> Noded {
+pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
     let mut noded = Noder::default();
-    for ([a, b], soft) in segments {
+    for ([a, b], border) in segments {
         let ends = [noded.point(*a), noded.point(*b)];
-        noded.add(ends, *soft);
+        noded.add(ends, *border);
     }
     noded.cut_all();
     if noded.bridge(reach) {
         noded.cut_all();
     }
     let mut pieces: Vec<Piece> = noded.pieces;
-    // Where a hard and a soft piece coincide, the hard one stays.
+    // Where two pieces coincide, the stronger border stays.
     pieces.sort_unstable();
     pieces.dedup_by_key(|piece| piece.ends);
     Noded { points: noded.points, pieces }
@@ -81,9 +106,9 @@ impl Noder {
         number
     }
 
-    fn add(&mut self, [a, b]: [u32; 2], soft: bool) {
+    fn add(&mut self, [a, b]: [u32; 2], border: Border) {
         if a != b {
-            self.pieces.push(Piece { ends: [a.min(b), a.max(b)], soft });
+            self.pieces.push(Piece { ends: [a.min(b), a.max(b)], border });
             self.fresh.push(true);
         }
     }
@@ -98,11 +123,15 @@ impl Noder {
 
     /// Leads free ends on to the nearest piece; whether there were any.
     fn bridge(&mut self, reach: f64) -> bool {
-        let mut uses = vec![0u32; self.points.len()];
-        for end in self.pieces.iter().flat_map(|piece| piece.ends) {
-            uses[end as usize] += 1;
+        let mut uses = vec![(0u32, Border::Hard); self.points.len()];
+        for piece in &self.pieces {
+            for end in piece.ends {
+                let (count, border) = &mut uses[end as usize];
+                *count += 1;
+                *border = piece.border;
+            }
         }
-        let free = (0..uses.len() as u32).filter(|p| uses[*p as usize] == 1);
+        let free = (0..uses.len() as u32).filter(|p| uses[*p as usize].0 == 1);
         let asked: Vec<(u32, GridPoint)> = free.map(|p| (p, self.points[p as usize])).collect();
         if asked.is_empty() || reach <= 0.0 {
             return false;
@@ -124,7 +153,8 @@ impl Noder {
         for ((end, _), foot) in asked.iter().zip(found) {
             if let Some(foot) = foot {
                 let foot = self.point(foot);
-                self.add([*end, foot], true);
+                let is_tone = uses[*end as usize].1.is_tone();
+                self.add([*end, foot], if is_tone { Border::SoftTone } else { Border::Soft });
             }
         }
         self.pieces.len() > before
@@ -173,10 +203,10 @@ impl Noder {
             let mut from = piece.ends[0];
             for p in inner {
                 let to = self.point(p);
-                self.add([from, to], piece.soft);
+                self.add([from, to], piece.border);
                 from = to;
             }
-            self.add([from, piece.ends[1]], piece.soft);
+            self.add([from, piece.ends[1]], piece.border);
         }
         true
     }
@@ -326,25 +356,31 @@ mod tests {
 
     #[test]
     fn a_crossing_becomes_a_point() {
-        let noded = node(&[([[0, 0], [10, 10]], true), ([[0, 10], [10, 0]], true)], 0.0);
+        let noded = node(&[([[0, 0], [10, 10]], Border::Soft), ([[0, 10], [10, 0]], Border::Soft)], 0.0);
         assert_eq!(noded.pieces.len(), 4);
         assert!(noded.points.contains(&[5, 5]));
     }
 
     #[test]
     fn a_point_on_a_piece_cuts_it_and_what_lies_twice_stays_once() {
-        let noded =
-            node(&[([[0, 0], [10, 0]], true), ([[4, 0], [20, 0]], false), ([[5, 7], [5, 0]], true)], 0.0);
+        let noded = node(
+            &[
+                ([[0, 0], [10, 0]], Border::Soft),
+                ([[4, 0], [20, 0]], Border::Hard),
+                ([[5, 7], [5, 0]], Border::Soft),
+            ],
+            0.0,
+        );
         let sorted: Vec<[GridPoint; 2]> =
             noded.pieces.iter().map(|piece| piece.ends.map(|end| noded.points[end as usize])).collect();
         assert_eq!(sorted.len(), 5, "{sorted:?}");
-        let hard = noded.pieces.iter().filter(|piece| !piece.soft).count();
+        let hard = noded.pieces.iter().filter(|piece| piece.border == Border::Hard).count();
         assert_eq!(hard, 3, "from 4 to 5 to 10 to 20");
     }
 
     #[test]
     fn a_free_end_is_led_on_to_what_is_near() {
-        let segments = [([[0, 0], [100, 0]], false), ([[50, 4], [50, 90]], true)];
+        let segments = [([[0, 0], [100, 0]], Border::Hard), ([[50, 4], [50, 90]], Border::Soft)];
         assert_eq!(node(&segments, 3.0).pieces.len(), 2);
         let noded = node(&segments, 5.0);
         assert_eq!(noded.pieces.len(), 4, "{noded:?}");
@@ -356,7 +392,7 @@ mod tests {
         for (count, size) in [(60, 400), (120, 1000), (200, 100_000)] {
             let points = scattered(count, size);
             let segments: Vec<([GridPoint; 2], bool)> =
-                points.chunks_exact(2).map(|pair| ([pair[0], pair[1]], true)).collect();
+                points.chunks_exact(2).map(|pair| ([pair[0], pair[1]], Border::Soft)).collect();
             meets_in_points_only(&node(&segments, 0.0));
         }
     }

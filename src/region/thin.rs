@@ -6,10 +6,10 @@
 
 use rustc_hash::FxHashMap;
 
-use super::noding::GridPoint;
+use super::noding::{Border, GridPoint};
 
-/// Segments of the grid, and whether each lies on a smooth surface.
-pub(super) type Segments = Vec<([GridPoint; 2], bool)>;
+/// Segments of the grid, and what each parts.
+pub(super) type Segments = Vec<([GridPoint; 2], Border)>;
 
 const NONE: u32 = u32::MAX;
 
@@ -106,7 +106,7 @@ impl<'a> Lines<'a> {
 }
 
 /// Adds the segments of a line without the points that it does not need.
-fn simplify(points: &[GridPoint], tolerance: f64, soft: bool, out: &mut Segments) {
+fn simplify(points: &[GridPoint], tolerance: f64, border: Border, out: &mut Segments) {
     let last = points.len() - 1;
     let mut kept = vec![false; points.len()];
     kept[0] = true;
@@ -135,7 +135,7 @@ fn simplify(points: &[GridPoint], tolerance: f64, soft: bool, out: &mut Segments
     }
     let mut before = points[0];
     for k in (1..points.len()).filter(|k| kept[*k]) {
-        out.push(([before, points[k]], soft));
+        out.push(([before, points[k]], border));
         before = points[k];
     }
 }
@@ -161,15 +161,21 @@ mod tests {
     #[test]
     fn straight_lines_keep_their_ends_and_meetings() {
         // A line in ten pieces, met by another one in its middle.
-        let mut segments: Segments = (0..10).map(|k| ([[10 * k, 0], [10 * k + 10, 0]], true)).collect();
-        segments.push(([[50, 0], [50, 40]], true));
+        let mut segments: Segments =
+            (0..10).map(|k| ([[10 * k, 0], [10 * k + 10, 0]], Border::Soft)).collect();
+        segments.push(([[50, 0], [50, 40]], Border::Soft));
         let mut thin = thinned(&segments, 0.5);
         thin.sort_unstable();
         assert_eq!(
             thin,
-            [([[0, 0], [50, 0]], true), ([[50, 0], [50, 40]], true), ([[50, 0], [100, 0]], true)].map(
-                |(ends, soft)| (if thin.contains(&(ends, soft)) { ends } else { [ends[1], ends[0]] }, soft)
-            )
+            [
+                ([[0, 0], [50, 0]], Border::Soft),
+                ([[50, 0], [50, 40]], Border::Soft),
+                ([[50, 0], [100, 0]], Border::Soft)
+            ]
+            .map(|(ends, border)| {
+                (if thin.contains(&(ends, border)) { ends } else { [ends[1], ends[0]] }, border)
+            })
         );
     }
 
@@ -182,7 +188,7 @@ mod tests {
                 (1000.0 * crate::math::function::sin(angle)) as i64,
             ]
         };
-        let segments: Segments = (0..200).map(|k| ([at(k), at((k + 1) % 200)], true)).collect();
+        let segments: Segments = (0..200).map(|k| ([at(k), at((k + 1) % 200)], Border::Soft)).collect();
         let thin = thinned(&segments, 10.0);
         assert!((12..60).contains(&thin.len()), "{}", thin.len());
         let mut ends: Vec<GridPoint> = thin.iter().flat_map(|(ends, _)| *ends).collect();

@@ -11,7 +11,7 @@ use crate::field::{ShadedNormals, Shading};
 use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
 use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
-use crate::region::{self, Regions, paint::PaintContext};
+use crate::region::{self, Regions, Seen, paint::PaintContext};
 use crate::scene::{Camera, Scene, paint::Paints};
 use crate::shadow::Shadows;
 use crate::style::Style;
@@ -125,10 +125,15 @@ impl<'a> Fills<'a> {
         self.shadows.lines.append_to(lit.mesh, lines);
     }
 
-    /// The painted regions.
-    pub fn paint(&self, map: &ViewMap, page: &Page, camera: &Camera, style: &Style) -> (Vec<Layer>, Regions) {
+    /// What the eye sees, with a view map that is not moved on the page yet.
+    pub fn see(&self, map: &ViewMap, page: &Page) -> Seen {
         let shadowed = |points: &[(u32, DVec3)]| self.shadows.shadowed(&self.surface.mesh, points);
-        let regions = region::gather(&self.lit(), map, shadowed, &style.region, &style.chain, page.unit);
+        region::see(&self.lit(), map, shadowed, page.unit)
+    }
+
+    /// The painted regions.
+    pub fn paint(&self, seen: &Seen, page: &Page, camera: &Camera, style: &Style) -> (Vec<Layer>, Regions) {
+        let regions = region::gather(seen, &style.region, &style.chain, page.unit);
         let context = PaintContext {
             unit: page.unit,
             offset: Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0,

@@ -138,7 +138,7 @@ impl<'a> Prepared<'a> {
 
         let mut layers = Vec::new();
         if let Some(fills) = &fills {
-            let (painted, regions) = fills.paint(&map, &page, camera, style);
+            let (painted, regions) = fills.paint(&fills.see(&map, &page), &page, camera, style);
             report.counts.regions = regions.regions.len() as u64;
             report.counts.leaks = regions.leaks;
             layers = painted;

@@ -1,0 +1,168 @@
+//! [`Seen`]: the page in triangles, and what the eye sees in each.
+
+use glam::{DVec2, DVec3};
+use kurbo::Point;
+use rayon::prelude::*;
+
+use super::cells::Triangulation;
+use super::looks;
+use super::noding::{self, Border, GridPoint};
+use super::thin::{self, Segments};
+use crate::drawing::{Length, Unit};
+use crate::lines::{LineKind, Lit};
+use crate::math::tolerance;
+use crate::mesh::{FaceId, MaterialId, PaintId, PartId};
+use crate::viewmap::{ViewMap, front_faces};
+
+/// What a part of the page looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Look {
+    /// The part of the model that is seen.
+    pub part: PartId,
+    /// Its material.
+    pub material: MaterialId,
+    /// What it is painted with: its material, or that in the colour of its texture.
+    pub paint: PaintId,
+    /// Its tone, 0 the darkest.
+    pub tone: u16,
+    /// The bin of light in which it is hatched, 0 the darkest; 0 where nothing is hatched.
+    pub bin: u16,
+    /// Whether it is as dark as it is because something else is between it and a light.
+    pub cast: bool,
+}
+
+/// The page in triangles, and what the eye sees in each: regions of colour and what hatching is laid on
+/// are both read from it, so that they can never disagree.
+#[derive(Debug, Clone)]
+pub struct Seen {
+    pub(super) cut: Triangulation,
+    /// What each triangle looks like: [`NOTHING`], or the number of a look plus 1.
+    pub(super) looks: Vec<u32>,
+    pub(super) table: Vec<Look>,
+    /// User units in a step of the triangulation's grid.
+    pub(super) step: f64,
+    /// Cells in which different looks were seen, because a line around them breaks off.
+    pub leaks: u64,
+}
+
+/// Cuts the page along the visible lines of a view map, before the map is moved on the page, and asks
+/// what is seen. `shadowed` tells which lights do not reach points of faces.
+#[must_use]
+pub fn see(lit: &Lit, map: &ViewMap, shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>, unit: Unit) -> Seen {
+    let frame = &lit.view.frame;
+    let step = frame.width.max(frame.height) / tolerance::REGION_STEPS;
+    let px = Length::px(1.0).in_unit(unit);
+    let segments = segments(map, [frame.width, frame.height], step);
+    let segments = thin::thinned(&segments, tolerance::THIN_PX * px / step);
+    let noded = noding::node(&segments, tolerance::BRIDGE_PX * px / step);
+    let cut = Triangulation::new(noded);
+
+    let centres: Vec<DVec2> = (0..cut.triangles.len())
+        .map(|t| {
+            let [a, b, c] = cut.corners(t).map(DVec2::from_array);
+            (a + b + c) / 3.0 * step
+        })
+        .collect();
+    let (looks, table) = looks_at(lit, &centres, shadowed);
+    let (looks, leaks) = looks::decide(&cut, &looks, tolerance::LEAK_PX * px / step);
+    Seen { cut, looks, table, step, leaks }
+}
+
+impl Seen {
+    /// The looks of the triangles under a coarser eye, by which different looks may count as one: their
+    /// numbers as in [`Seen::looks`], and the table that these point to.
+    pub(super) fn seen_as(&self, coarser: impl Fn(&Look) -> Look) -> (Vec<u32>, Vec<Look>) {
+        let of: Vec<Look> = self.table.iter().map(coarser).collect();
+        let mut table = of.clone();
+        table.sort_unstable();
+        table.dedup();
+        let number: Vec<u32> =
+            of.iter().map(|look| table.binary_search(look).map_or(NOTHING, |at| at as u32 + 1)).collect();
+        let looks = self.looks.iter().map(|look| match look.checked_sub(1) {
+            Some(k) => number.get(k as usize).copied().unwrap_or(NOTHING),
+            None => NOTHING,
+        });
+        (looks.collect(), table)
+    }
+}
+
+/// In lists of looks: only paper is seen.
+pub(super) const NOTHING: u32 = 0;
+
+/// The visible lines that may part looks and the edge of the page, on a grid.
+fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
+    let on_grid = |p: Point| [p.x, p.y].map(|x| (x / step).round() as i64);
+    let [right, bottom] = page.map(|x| (x / step).round() as i64);
+    let corners = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
+    let mut segments: Segments = (0..4).map(|k| ([corners[k], corners[(k + 1) % 4]], Border::Hard)).collect();
+    let parting = map.edges.iter().filter(|edge| edge.invisibility == 0 && may_part(edge.kind));
+    segments.extend(parting.map(|edge| {
+        let ends = [edge.start, edge.end].map(|end| on_grid(map.vertices[end.index()].position));
+        let inside = |p: GridPoint| [p[0].clamp(0, right), p[1].clamp(0, bottom)];
+        let border = match (edge.kind == LineKind::Isophote, edge.smooth) {
+            (false, false) => Border::Hard,
+            (false, true) => Border::Soft,
+            (true, false) => Border::HardTone,
+            (true, true) => Border::SoftTone,
+        };
+        (ends.map(inside), border)
+    }));
+    segments.retain(|([a, b], _)| a != b);
+    segments
+}
+
+/// Whether the surface may look different on both sides of lines of a kind.
+fn may_part(kind: LineKind) -> bool {
+    use LineKind::{Border, Contour, Crease, Intersection, Isophote, Material};
+    matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote)
+}
+
+/// What is seen at points of the image: for each a number in the table of looks, whose first entry
+/// stands for paper.
+fn looks_at(
+    lit: &Lit,
+    points: &[DVec2],
+    shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
+) -> (Vec<u32>, Vec<Look>) {
+    let fronts = front_faces(lit.mesh, lit.view, points);
+    let hits: Vec<(usize, u32, DVec3)> = fronts
+        .iter()
+        .zip(points)
+        .enumerate()
+        .filter_map(|(k, (front, p))| {
+            let front = front.as_ref()?;
+            Some((k, front.face, lit.view.frame.local_from_image(p.extend(front.nearness))))
+        })
+        .collect();
+    let asked: Vec<(u32, DVec3)> = hits.iter().map(|(_, face, at)| (*face, *at)).collect();
+    let masks = shadowed(&asked);
+    let looks: Vec<(usize, Look)> = hits
+        .par_iter()
+        .with_min_len(256)
+        .enumerate()
+        .map(|(i, (k, face, at))| (*k, look(lit, *face, *at, masks.get(i).copied().unwrap_or_default())))
+        .collect();
+    let mut table: Vec<Look> = looks.iter().map(|(_, look)| *look).collect();
+    table.sort_unstable();
+    table.dedup();
+    let mut numbers = vec![NOTHING; points.len()];
+    for (k, look) in looks {
+        numbers[k] = table.binary_search(&look).map_or(NOTHING, |at| at as u32 + 1);
+    }
+    (numbers, table)
+}
+
+/// What a face looks like at a point of it.
+fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32) -> Look {
+    let mesh = lit.mesh;
+    let (material, paint) = (mesh.face_material[face as usize], mesh.paint(FaceId(face)));
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let normal = (b - a).cross(c - a);
+    let whole = normal.length_squared();
+    let part = |p: DVec3, q: DVec3| (p - at).cross(q - at).dot(normal) / whole;
+    let weights = if whole > 0.0 { [part(b, c), part(c, a), part(a, b)] } else { [1.0, 0.0, 0.0] };
+    let point = lit.point(face, weights);
+    let (tone, bin) = lit.tone_and_bin(paint, &point, shadowed);
+    let cast = shadowed != 0 && lit.tone(paint, &point, 0) != tone;
+    Look { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }
+}
