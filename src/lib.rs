@@ -44,6 +44,7 @@ pub mod drawing;
 pub mod error;
 pub mod export;
 pub mod field;
+pub mod hatch;
 pub mod lines;
 pub mod math;
 pub mod mesh;

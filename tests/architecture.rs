@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// The rooms from the ground up; a room may use itself and the rooms before it.
 const ROOMS: [&str; 21] = [
     "error", "math", "mesh", "scene", "view", "raster", "field", "lines", "viewmap", "shadow", "drawing",
-    "chain", "export", "region", "diff", "hatch", "stroke", "motion", "style", "render", "cli",
+    "chain", "export", "region", "diff", "stroke", "hatch", "motion", "style", "render", "cli",
 ];
 
 const LONGEST_FILE: usize = 500;

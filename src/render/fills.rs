@@ -7,16 +7,31 @@ use kurbo::Vec2;
 
 use crate::drawing::{Layer, Page};
 use crate::field::occlusion::openness;
-use crate::field::{ShadedNormals, Shading};
+use crate::field::tone_options::Scale;
+use crate::field::{ShadedNormals, Shading, ToneOptions};
 use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
 use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
 use crate::region::{self, Regions, Seen, paint::PaintContext};
-use crate::scene::{Camera, Scene, paint::Paints};
+use crate::scene::{Camera, Paint, Scene, paint::Paints};
 use crate::shadow::Shadows;
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::ViewMap;
+
+/// Whether a style asks for light on the surface: for colours, or for hatching.
+pub(super) fn is_lit(style: &Style) -> bool {
+    style.region.enabled || style.hatch.enabled
+}
+
+/// The tones of a style; one for all where no regions are painted.
+fn tones(style: &Style) -> ToneOptions {
+    let cast_shadows = style.tones.cast_shadows || style.hatch.enabled && style.hatch.cast_shadows;
+    if style.region.enabled {
+        return ToneOptions { cast_shadows, ..style.tones.clone() };
+    }
+    ToneOptions { scale: Scale::Thresholds(Vec::new()), cast_shadows, ..ToneOptions::default() }
+}
 
 /// Lines that part regions, whether they are drawn or not.
 const PARTING: [LineKind; 4] =
@@ -26,15 +41,19 @@ const PARTING: [LineKind; 4] =
 /// part them.
 pub(super) fn sought(style: &Style) -> LineOptions {
     let mut options = style.lines.clone();
-    if !style.region.enabled {
+    if !is_lit(style) {
         return options;
     }
     if !options.enabled {
         options.enabled = true;
         options.kinds = Vec::new();
     }
-    let missing =
-        PARTING.into_iter().filter(|kind| !style.lines.kinds.contains(kind) || !style.lines.enabled);
+    // Strokes of a hatching end at creases too.
+    let creases = style.hatch.enabled.then_some(LineKind::Crease);
+    let missing = PARTING
+        .into_iter()
+        .chain(creases)
+        .filter(|kind| !style.lines.kinds.contains(kind) || !style.lines.enabled);
     options.kinds.extend(missing);
     options
 }
@@ -74,6 +93,7 @@ pub(super) struct Fills<'a> {
     masks: Vec<u32>,
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
+    paints: &'a [Paint],
 }
 
 impl<'a> Fills<'a> {
@@ -82,12 +102,16 @@ impl<'a> Fills<'a> {
         paintable: &'a Paintable,
         view: &'a View,
         scene: &Scene,
-        paints: &Paints,
+        paints: &'a Paints,
         style: &Style,
         warnings: &mut Vec<String>,
     ) -> Self {
         let (mesh, frame) = (&surface.mesh, &view.frame);
-        let shading = Shading::new(scene, &paints.list, mesh, frame, &style.light, &style.tones, warnings);
+        let mut shading =
+            Shading::new(scene, &paints.list, mesh, frame, &style.light, &tones(style), warnings);
+        if style.hatch.enabled {
+            shading = shading.with_bins(scene, &paints.list, &style.shade);
+        }
         let shadows = Shadows::new(mesh, shading.casters());
         let dims = style.light.occlusion > 0.0;
         let openness = if dims { openness(mesh, mesh.size * NOOK_OF_MODEL) } else { Vec::new() };
@@ -99,12 +123,19 @@ impl<'a> Fills<'a> {
             shading,
             shadows,
             openness,
+            paints: &paints.list,
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
         }
     }
 
-    fn lit(&self) -> Lit<'_> {
+    /// The paints of the scene.
+    pub fn paints(&self) -> &[Paint] {
+        self.paints
+    }
+
+    /// The surface under its light.
+    pub fn lit(&self) -> Lit<'_> {
         // Where the near plane cuts a part open, its inside is seen.
         let is_cut = !self.view.clipped.is_empty() || self.view.points.iter().any(|p| p.z.is_nan());
         Lit {

@@ -2,6 +2,7 @@
 
 pub mod defects;
 mod fills;
+mod hatching;
 pub mod report;
 pub mod stage;
 mod stages;
@@ -86,7 +87,7 @@ pub struct Prepared<'a> {
     scene: &'a Scene,
     style: &'a Style,
     sought: LineOptions,
-    /// Where regions are painted: the paints of the scene.
+    /// Where surfaces are painted or hatched: the paints of the scene.
     paints: Option<Paints>,
     surface: Surface,
     /// For views that need finer triangles it is made anew.
@@ -97,11 +98,11 @@ impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        let paints = style.region.enabled.then(|| Paints::of(scene));
+        let paints = fills::is_lit(style).then(|| Paints::of(scene));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);
-        let paintable = style.region.enabled.then(|| Paintable::new(&surface));
+        let paintable = fills::is_lit(style).then(|| Paintable::new(&surface));
         Self { scene, style, sought, paints, surface, paintable }
     }
 
@@ -117,7 +118,7 @@ impl<'a> Prepared<'a> {
 
         let refined = self.surface.refined_for(camera);
         let surface = refined.as_ref().unwrap_or(&self.surface);
-        let own = refined.as_ref().filter(|_| style.region.enabled).map(Paintable::new);
+        let own = refined.as_ref().filter(|_| fills::is_lit(style)).map(Paintable::new);
         let paintable = own.as_ref().or(self.paintable.as_ref());
         let mesh = &surface.mesh;
         let view = View::new(mesh, camera);
@@ -138,12 +139,19 @@ impl<'a> Prepared<'a> {
 
         let mut layers = Vec::new();
         if let Some(fills) = &fills {
-            let (painted, regions) = fills.paint(&fills.see(&map, &page), &page, camera, style);
-            report.counts.regions = regions.regions.len() as u64;
-            report.counts.leaks = regions.leaks;
-            layers = painted;
-            fills::keep_inked(&mut map, style);
+            let seen = fills.see(&map, &page);
+            if style.region.enabled {
+                let (painted, regions) = fills.paint(&seen, &page, camera, style);
+                report.counts.regions = regions.regions.len() as u64;
+                layers = painted;
+            }
+            report.counts.leaks = seen.leaks;
             report.stages_ms.regions = watch.lap_ms();
+            if style.hatch.enabled {
+                layers.extend(hatching::hatch(fills, &seen, scene, &page, camera, style));
+                report.stages_ms.hatching = watch.lap_ms();
+            }
+            fills::keep_inked(&mut map, style);
         }
         centre_on_page(&mut map, camera, &page);
 

@@ -2,13 +2,15 @@
 
 mod fault;
 mod fills;
+mod hatching;
 mod load;
 mod ramp_source;
 mod sheet;
 
 use crate::chain::ChainOptions;
 use crate::error::Error;
-use crate::field::{LightOptions, ToneOptions};
+use crate::field::{LightOptions, ShadeOptions, ToneOptions};
+use crate::hatch::HatchOptions;
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
 use crate::region::RegionOptions;
@@ -31,6 +33,10 @@ pub struct Style {
     pub tones: ToneOptions,
     /// Whether regions of tones are painted, and how.
     pub region: RegionOptions,
+    /// Into which bins of light hatched surfaces fall.
+    pub shade: ShadeOptions,
+    /// Whether surfaces are hatched, and how.
+    pub hatch: HatchOptions,
     /// The hand: seeds everything that varies by chance, and changes nothing else. Default: 0.
     pub seed: u64,
 }
@@ -43,13 +49,16 @@ impl Default for Style {
 }
 
 /// The built-in sheets, by name: the file styles/NAME.toml.
-const BUILT_IN: [(&str, &str); 12] = [
+const BUILT_IN: [(&str, &str); 15] = [
     ("comic-flats", include_str!("../../styles/comic-flats.toml")),
     ("flat", include_str!("../../styles/flat.toml")),
     ("gooch", include_str!("../../styles/gooch.toml")),
     ("gradient", include_str!("../../styles/gradient.toml")),
     ("ink", include_str!("../../styles/ink.toml")),
     ("noir", include_str!("../../styles/noir.toml")),
+    ("patent", include_str!("../../styles/patent.toml")),
+    ("pen", include_str!("../../styles/pen.toml")),
+    ("pencil", include_str!("../../styles/pencil.toml")),
     ("plotter", include_str!("../../styles/plotter.toml")),
     ("rim", include_str!("../../styles/rim.toml")),
     ("suggestive", include_str!("../../styles/suggestive.toml")),

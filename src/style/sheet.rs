@@ -5,6 +5,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::Style;
 use super::fills::FillsTable;
+use super::hatching::HatchingTable;
 use crate::chain::ChainOptions;
 use crate::drawing::{Cap, Join, Length};
 use crate::field::LightOptions;
@@ -28,6 +29,7 @@ pub(super) struct Sheet {
     layers: LayerOptions,
     light: LightOptions,
     pub fills: FillsTable,
+    hatching: HatchingTable,
 }
 
 /// The table `[page]`.
@@ -86,6 +88,7 @@ impl Sheet {
         stroke.rules.extend(self.rule);
         stroke.layers = self.layers;
         let (tones, region) = self.fills.into_options();
+        let (shade, hatch) = self.hatching.into_options();
         Style {
             background: self.page.background,
             lines: self.lines,
@@ -94,6 +97,8 @@ impl Sheet {
             light: self.light,
             tones,
             region,
+            shade,
+            hatch,
             seed: self.seed,
         }
     }

@@ -1,0 +1,119 @@
+//! [`Tone`]: how much of the paper ink covers, by light, and how the layers of hatching share it.
+
+/// The bins of light of one material, and how much of the paper ink covers in each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tone {
+    /// Rising edges between the bins.
+    pub levels: Vec<f64>,
+    /// Coverage of each bin, darkest first: one more than there are edges.
+    pub coverage: Vec<f64>,
+}
+
+impl Tone {
+    /// The tone of bins with a table of coverage, which is spread over them if it is longer or shorter.
+    #[must_use]
+    pub fn new(levels: &[f64], table: &[f64]) -> Self {
+        let bins = levels.len() + 1;
+        let at = |bin: usize| {
+            if table.len() == bins {
+                return table[bin];
+            }
+            let place = bin as f64 / (bins.max(2) - 1) as f64 * table.len().saturating_sub(1) as f64;
+            let before = (place as usize).min(table.len().saturating_sub(1));
+            let after = (before + 1).min(table.len().saturating_sub(1));
+            let [from, to] = [before, after].map(|k| table.get(k).copied().unwrap_or_default());
+            from + (to - from) * (place - before as f64)
+        };
+        Self { levels: levels.to_vec(), coverage: (0..bins).map(|bin| at(bin).clamp(0.0, 1.0)).collect() }
+    }
+
+    /// The coverage of a bin.
+    #[must_use]
+    pub fn of_bin(&self, bin: u16) -> f64 {
+        self.coverage.get(usize::from(bin)).or(self.coverage.last()).copied().unwrap_or_default()
+    }
+
+    /// Coverage that changes evenly with the light: that of the darkest bin in the shadow, and at the edge
+    /// of two bins what lies between theirs; none where a blank bin begins.
+    #[must_use]
+    pub fn of_light(&self, light: f64) -> f64 {
+        let bin = self.levels.partition_point(|level| *level <= light);
+        let own = self.of_bin(bin as u16);
+        if own <= 0.0 {
+            return 0.0;
+        }
+        let edge = |below: usize| {
+            let (dark, bright) = (self.of_bin(below as u16), self.of_bin(below as u16 + 1));
+            if dark <= 0.0 || bright <= 0.0 { 0.0 } else { f64::midpoint(dark, bright) }
+        };
+        let (low, dark) = bin.checked_sub(1).map_or((0.0, own), |below| (self.levels[below], edge(below)));
+        let Some(high) = self.levels.get(bin) else { return own.min(dark) };
+        let way = high - low;
+        let t = if way > 0.0 { ((light - low) / way).clamp(0.0, 1.0) } else { 0.0 };
+        dark + (edge(bin) - dark) * t
+    }
+}
+
+/// How much of the paper each of some crossing layers covers, so that all together cover `coverage`: one is
+/// filled after the other. `fullest` says what each covers at most. Where layers cross, ink falls on
+/// ink: of the paper that the layers before have left, the next one covers its part.
+#[must_use]
+pub fn shares(coverage: f64, fullest: &[f64]) -> Vec<f64> {
+    let mut left = coverage.clamp(0.0, 1.0);
+    let mut blank = 1.0;
+    fullest
+        .iter()
+        .map(|most| {
+            if blank <= 0.0 {
+                return 0.0;
+            }
+            let own = (left / blank).min(*most).max(0.0);
+            left -= own * blank;
+            blank *= 1.0 - own;
+            if left < LEAST {
+                left = 0.0
+            }
+            own
+        })
+        .collect()
+}
+
+/// So little is not worth a layer: it would be a stroke here and there.
+const LEAST: f64 = 0.012;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_fill_one_after_the_other() {
+        assert_eq!(shares(0.2, &[0.25, 0.25]), [0.2, 0.0]);
+        let both = shares(0.4, &[0.25, 0.25]);
+        assert_eq!(both[0], 0.25);
+        let covered = 1.0 - both.iter().map(|share| 1.0 - share).product::<f64>();
+        assert!((covered - 0.4).abs() < 1e-12);
+        assert_eq!(shares(0.9, &[0.25, 0.25]), [0.25, 0.25]);
+    }
+
+    #[test]
+    fn tables_are_spread_over_bins() {
+        let tone = Tone::new(&[0.2, 0.4, 0.6, 0.8], &[1.0, 0.0]);
+        assert_eq!(tone.coverage, [1.0, 0.75, 0.5, 0.25, 0.0]);
+        assert_eq!(Tone::new(&[], &[0.5, 0.0]).coverage, [0.5]);
+        assert_eq!(Tone::new(&[0.5], &[]).coverage, [0.0, 0.0]);
+    }
+
+    #[test]
+    fn coverage_never_rises_with_light() {
+        let tone = Tone::new(&[0.2, 0.5, 0.9], &[0.7, 0.4, 0.1, 0.0]);
+        let mut before = f64::INFINITY;
+        for k in 0..=1000 {
+            let covered = tone.of_light(f64::from(k) / 1000.0);
+            assert!(covered <= before + 1e-12, "{k}");
+            assert!(before.is_infinite() || before - covered < 0.01, "{k}: a jump");
+            before = covered;
+        }
+        assert_eq!(tone.of_light(0.95), 0.0);
+        assert_eq!(tone.of_light(0.0), 0.7);
+    }
+}
