@@ -8,10 +8,13 @@
 //! animation, 2000, section 3.3, with strokes in place of textures.
 
 pub mod clip;
+pub mod cuts;
+pub mod flow;
 pub mod guide;
 pub mod lay;
 pub mod mark;
 pub mod options;
+pub mod streamlines;
 pub mod tone;
 
 use std::collections::BTreeMap;
@@ -20,6 +23,7 @@ use std::sync::Arc;
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
+pub use flow::Flow;
 pub use guide::{Guide, Scope};
 pub use lay::{Hand, HatchStroke};
 pub use options::{Direction, HatchLayer, HatchOptions, Kind};
@@ -29,9 +33,10 @@ use crate::drawing::Join;
 use crate::drawing::{Layer, LayerKind, Length, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
 use crate::math::colour::Colour;
 use crate::math::noise::hash;
-use crate::region::Ground;
+use crate::region::{Ground, Look, Samples};
 use crate::stroke::Ink;
 use mark::Nib;
+use streamlines::{Spacing, streamlines};
 
 /// What hatching needs beside the ground.
 #[derive(Clone, Copy)]
@@ -46,8 +51,12 @@ pub struct HatchContext<'a> {
     pub materials: &'a [(Arc<str>, Colour)],
     /// The tone of each paint, by [`crate::mesh::PaintId`].
     pub tones: &'a [Tone],
-    /// The light at points of the page where a surface is seen; for layers that change evenly with it.
-    pub light: Option<&'a (dyn Fn(Point) -> Option<f64> + Sync)>,
+    /// The page asked at the points of a lattice, for layers that need it: see [`HatchLayer::samples`].
+    pub samples: Option<&'a Samples>,
+    /// For each layer that follows the surface or its light, the flow of its strokes.
+    pub flows: &'a [Option<Flow<'a>>],
+    /// For each layer that is fixed to the model, its guides.
+    pub fixed: &'a [Option<Vec<Guide>>],
 }
 
 /// Strokes of one layer of hatching, as they lie on the page.
@@ -76,7 +85,7 @@ pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) 
             }
             let shares = shares(ground, context, options, number);
             let hand = hand(layer, context, number);
-            let guides = guides(ground, layer, context, &shares, hand.seed);
+            let guides = guides(ground, layer, number, context, &shares, hand.seed);
             let laid: Vec<Vec<HatchStroke>> = guides
                 .par_iter()
                 .with_min_len(4)
@@ -89,11 +98,22 @@ pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) 
         .collect()
 }
 
-/// The layer `hatching` of a drawing; `None` if nothing is hatched.
+/// The layer `hatching` of a drawing; `None` if nothing is hatched. Spot blacks, given by their outlines and
+/// what is seen there, come first, in the colour of the first layer.
 #[must_use]
-pub fn fill(ground: &Ground, context: &HatchContext, options: &HatchOptions) -> Option<Layer> {
+pub fn fill(
+    ground: &Ground,
+    context: &HatchContext,
+    options: &HatchOptions,
+    blacks: Vec<(BezPath, Look)>,
+) -> Option<Layer> {
     let hatched = strokes(ground, context, options);
-    let mut marks = Vec::new();
+    let ink = options.layers.first().map_or(Ink::Fixed(Colour::BLACK), |layer| layer.colour);
+    let black = |(path, look): (BezPath, Look)| {
+        let paint = Paint::Fill(colour(ink, look, context));
+        Mark { path, paint, provenance: provenance(look, context) }
+    };
+    let mut marks: Vec<Mark> = blacks.into_iter().map(black).collect();
     for (number, (layer, hatched)) in options.layers.iter().zip(&hatched).enumerate() {
         marks.extend(lines(ground, context, options, number, layer, hatched));
     }
@@ -104,6 +124,7 @@ pub fn fill(ground: &Ground, context: &HatchContext, options: &HatchOptions) -> 
 fn guides(
     ground: &Ground,
     layer: &HatchLayer,
+    number: usize,
     context: &HatchContext,
     shares: &Shares,
     seed: u64,
@@ -111,13 +132,33 @@ fn guides(
     let wanted = |cell: u32| shares.covered[cell as usize] > 0.0;
     let pitch = layer.pitch().in_unit(context.unit);
     let [angle, turn] = [layer.angle, layer.turn_parts].map(f64::to_radians);
-    let mut guides = guide::straight(ground, wanted, angle, turn, pitch, seed);
+    if let Some(fixed) = context.fixed.get(number).and_then(Option::as_ref) {
+        return fixed.clone();
+    }
+    let mut guides = match context.flows.get(number).and_then(Option::as_ref) {
+        Some(flow) => {
+            let samples = flow.samples();
+            let is_inked = |facet: u32, p: Point| {
+                samples
+                    .around(p)
+                    .iter()
+                    .any(|(k, _)| samples.facets[*k] == facet && wanted(samples.cells[*k]))
+            };
+            let doublings = if layer.swell { 0 } else { DOUBLINGS };
+            let px = Length::px(1.0).in_unit(context.unit);
+            streamlines(ground, flow, wanted, &is_inked, &Spacing { pitch, doublings, px, seed })
+        }
+        None => guide::straight(ground, wanted, angle, turn, pitch, seed),
+    };
     if layer.swell {
         // All lines are there; their width tells the tone.
         guides.iter_mut().for_each(|guide| guide.rank = 0.0);
     }
     guides
 }
+
+/// The lightest tones have curved strokes four times as far from each other as the darkest.
+const DOUBLINGS: u32 = 2;
 
 /// How a layer's strokes are laid.
 fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> Hand {
@@ -198,7 +239,8 @@ fn lines(
             let look = ground.cells[cell as usize].look;
             let tone = context.tones.get(look.paint.index()).or(context.tones.last());
             let swollen = |cell: u32, p: Point| {
-                let light = context.light.and_then(|light| light(p));
+                let facet = ground.cells[cell as usize].facet;
+                let light = context.samples.and_then(|samples| samples.light(facet, p));
                 let of = |tone: &Tone| match light {
                     Some(light) => tone.of_light(light),
                     None => tone.of_bin(ground.cells[cell as usize].look.bin),
@@ -210,13 +252,7 @@ fn lines(
             let nib = Nib { width: width * pressure, taper: layer.taper, px };
             let mut axis = BezPath::new();
             strokes.iter().for_each(|stroke| mark::add_line(stroke, px, &mut axis));
-            let mut colour = match layer.colour {
-                Ink::Fixed(colour) => colour,
-                Ink::Shade(shade) => {
-                    let base = context.materials.get(look.material.index());
-                    base.map_or(Colour::BLACK, |(_, base)| base.darker(shade))
-                }
-            };
+            let mut colour = colour(layer.colour, look, context);
             colour.a = (f64::from(colour.a) * layer.opacity * f64::midpoint(1.0, pressure)).round() as u8;
             let (path, paint) = if layer.swell || layer.taper > 0.0 {
                 let mut path = BezPath::new();
@@ -243,8 +279,19 @@ fn lines(
         .collect()
 }
 
+/// The colour of an ink on what looks so.
+fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
+    match ink {
+        Ink::Fixed(colour) => colour,
+        Ink::Shade(shade) => {
+            let base = context.materials.get(look.material.index());
+            base.map_or(Colour::BLACK, |(_, base)| base.darker(shade))
+        }
+    }
+}
+
 /// The class and names of a mark on what looks so.
-fn provenance(look: crate::region::Look, context: &HatchContext) -> Provenance {
+fn provenance(look: Look, context: &HatchContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         classes: vec!["hatch"],

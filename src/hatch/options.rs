@@ -173,6 +173,14 @@ impl Default for HatchLayer {
 }
 
 impl HatchLayer {
+    /// Whether the page must be asked at the points of a lattice for this layer.
+    #[must_use]
+    pub fn samples(&self) -> bool {
+        self.kind != Kind::Lines
+            || self.swell
+            || matches!(self.direction, Direction::Surface | Direction::Light)
+    }
+
     /// Distance from line to line: the spacing, or that of the screen.
     #[must_use]
     pub fn pitch(&self) -> Length {

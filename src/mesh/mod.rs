@@ -102,6 +102,17 @@ impl Mesh {
         self.face_paint.get(face.index()).copied().unwrap_or(self.face_material[face.index()].into())
     }
 
+    /// The barycentric weights of a point in the plane of a face; those of the first corner for a face
+    /// without area.
+    #[must_use]
+    pub fn weights(&self, face: FaceId, at: DVec3) -> [f64; 3] {
+        let [a, b, c] = self.corners(face);
+        let normal = (b - a).cross(c - a);
+        let whole = normal.length_squared();
+        let part = |p: DVec3, q: DVec3| (p - at).cross(q - at).dot(normal) / whole;
+        if whole > 0.0 { [part(b, c), part(c, a), part(a, b)] } else { [1.0, 0.0, 0.0] }
+    }
+
     /// Positions of the three corners of a face.
     #[inline]
     #[must_use]

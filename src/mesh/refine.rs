@@ -248,6 +248,35 @@ impl Work {
         }
     }
 
+    /// Texture coordinates of the finer mesh, and those of its corners: on a piece of a face what the face
+    /// has there.
+    fn texture(&self, mesh: &Mesh, kept: &[u32], done: &[Piece]) -> (Vec<[f32; 2]>, Vec<[u32; 3]>) {
+        if mesh.corner_uvs.is_empty() {
+            return (Vec::new(), Vec::new());
+        }
+        let mut uvs = mesh.uvs.clone();
+        let mut corner_uvs: Vec<[u32; 3]> = kept.iter().map(|face| mesh.corner_uvs[*face as usize]).collect();
+        for piece in done {
+            let own = mesh.corner_uvs[piece.face as usize].map(|uv| mesh.uvs.get(uv as usize).copied());
+            let [Some(a), Some(b), Some(c)] = own else {
+                corner_uvs.push([u32::MAX; 3]);
+                continue;
+            };
+            corner_uvs.push(piece.corners.map(|v| {
+                let at = self.positions[self.vertices[v as usize] as usize];
+                let weights = mesh.weights(super::FaceId(piece.face), at);
+                let sum = |k: usize| {
+                    let exact: f64 = [a, b, c].iter().zip(weights).map(|(uv, w)| f64::from(uv[k]) * w).sum();
+                    // Neighbours that see the same point from their own planes are to agree.
+                    ((exact * UV_STEPS).round() / UV_STEPS) as f32
+                };
+                uvs.push([sum(0), sum(1)]);
+                uvs.len() as u32 - 1
+            }));
+        }
+        (uvs, corner_uvs)
+    }
+
     fn finish(
         self,
         mesh: &Mesh,
@@ -280,7 +309,10 @@ impl Work {
             let of_kept = kept.iter().map(|face| mesh.corner_normals[*face as usize]);
             of_kept.chain(done.iter().map(none)).collect()
         };
+        let (uvs, corner_uvs) = self.texture(mesh, kept, done);
         let finer = Mesh {
+            uvs,
+            corner_uvs,
             normals: mesh.normals.clone(),
             corner_normals,
             origin: mesh.origin,
@@ -295,7 +327,6 @@ impl Work {
             edge_marks,
             wires: mesh.wires.clone(),
             cleaning: mesh.cleaning,
-            ..Mesh::default()
         };
         let finer_smooth = SmoothNormals {
             normals: self.normals,
@@ -307,6 +338,9 @@ impl Work {
         (finer, finer_smooth)
     }
 }
+
+/// Texture coordinates of new corners are rounded to this part.
+const UV_STEPS: f64 = 65536.0;
 
 impl Piece {
     /// The smooth vertices at the ends of a side, smaller first.

@@ -152,6 +152,37 @@ impl Ground {
         self.grid.cell_at(&self.pieces, p)
     }
 
+    /// The cells at the points of a lattice, row by row from its first point.
+    #[must_use]
+    pub fn raster(&self, first: Point, pitch: f64, columns: usize, rows: usize) -> Vec<u32> {
+        let mut meets: Vec<Vec<(f64, u32)>> = vec![Vec::new(); rows];
+        for piece in &self.pieces {
+            let [a, b] = piece.ends;
+            // Of the cells on both sides that which lies to the right on the page.
+            let cell = piece.sides[usize::from(b.y > a.y)];
+            let (top, bottom) = (a.y.min(b.y), a.y.max(b.y));
+            let row = |y: f64| ((y - first.y) / pitch).ceil().max(0.0) as usize;
+            for (k, meets) in meets.iter_mut().enumerate().take(row(bottom)).skip(row(top)) {
+                let y = first.y + k as f64 * pitch;
+                meets.push((a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)), cell));
+            }
+        }
+        let mut cells = vec![PAPER; columns * rows];
+        for (meets, cells) in meets.iter_mut().zip(cells.chunks_exact_mut(columns.max(1))) {
+            meets.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let mut next = meets.iter().peekable();
+            let mut cell = PAPER;
+            for (k, own) in cells.iter_mut().enumerate() {
+                let x = first.x + k as f64 * pitch;
+                while let Some((_, beyond)) = next.next_if(|(at, _)| *at <= x) {
+                    cell = *beyond;
+                }
+                *own = cell;
+            }
+        }
+        cells
+    }
+
     /// The numbers of the pieces within `reach` of a point and some beyond it, ascending.
     #[must_use]
     pub fn pieces_near(&self, p: Point, reach: f64) -> Vec<u32> {

@@ -8,11 +8,13 @@
 mod arcs;
 mod cells;
 pub mod ground;
+pub mod level_curves;
 mod looks;
 mod merge;
 mod noding;
 pub mod options;
 pub mod paint;
+pub mod samples;
 pub mod seen;
 mod thin;
 
@@ -22,6 +24,7 @@ use rayon::prelude::*;
 pub use ground::Ground;
 pub use options::{RegionOptions, Seams};
 pub use paint::paint;
+pub use samples::Samples;
 pub use seen::{Look, Seen, see};
 
 use crate::chain::{self, ChainOptions};

@@ -65,6 +65,23 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
     layers.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
 }
 
+/// The outlines of regions that are picked, each up to its borders.
+pub(crate) fn outlines(
+    regions: &Regions,
+    offset: Vec2,
+    pick: impl Fn(&Region) -> bool,
+) -> Vec<(BezPath, Region)> {
+    let rank = vec![0; regions.regions.len()];
+    let numbered = regions.regions.iter().enumerate().filter(|(_, region)| pick(region));
+    numbered
+        .map(|(k, region)| {
+            let mut path = outline(regions, k as u32, &rank, 0.0);
+            path.apply_affine(Affine::translate(offset));
+            (path, region.clone())
+        })
+        .collect()
+}
+
 /// The length of a path, by the chords of its pieces and of their handles.
 fn length(path: &BezPath) -> f64 {
     let way = |a: Point, b: Point| (b - a).hypot2().sqrt();

@@ -156,12 +156,7 @@ fn looks_at(
 fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32) -> Look {
     let mesh = lit.mesh;
     let (material, paint) = (mesh.face_material[face as usize], mesh.paint(FaceId(face)));
-    let [a, b, c] = mesh.corners(FaceId(face));
-    let normal = (b - a).cross(c - a);
-    let whole = normal.length_squared();
-    let part = |p: DVec3, q: DVec3| (p - at).cross(q - at).dot(normal) / whole;
-    let weights = if whole > 0.0 { [part(b, c), part(c, a), part(a, b)] } else { [1.0, 0.0, 0.0] };
-    let point = lit.point(face, weights);
+    let point = lit.at(face, at);
     let (tone, bin) = lit.tone_and_bin(paint, &point, shadowed);
     let cast = shadowed != 0 && lit.tone(paint, &point, 0) != tone;
     Look { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }

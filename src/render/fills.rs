@@ -158,8 +158,12 @@ impl<'a> Fills<'a> {
 
     /// What the eye sees, with a view map that is not moved on the page yet.
     pub fn see(&self, map: &ViewMap, page: &Page) -> Seen {
-        let shadowed = |points: &[(u32, DVec3)]| self.shadows.shadowed(&self.surface.mesh, points);
-        region::see(&self.lit(), map, shadowed, page.unit)
+        region::see(&self.lit(), map, |points| self.shadowed(points), page.unit)
+    }
+
+    /// Which lights do not reach points of faces.
+    pub fn shadowed(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
+        self.shadows.shadowed(&self.surface.mesh, points)
     }
 
     /// The painted regions.

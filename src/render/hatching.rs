@@ -2,15 +2,22 @@
 
 use std::sync::Arc;
 
-use kurbo::Vec2;
+use glam::{DVec2, DVec3};
+use kurbo::{BezPath, Point, Vec2};
 
 use super::fills::Fills;
-use crate::drawing::{Layer, Page};
-use crate::hatch::{self, HatchContext, Tone};
+use crate::drawing::{Layer, Length, Page};
+use crate::hatch::guide::rank;
+use crate::hatch::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Tone, cuts};
+use crate::lines::Lit;
 use crate::math::colour::Colour;
-use crate::mesh::PaintId;
-use crate::region::{Ground, Seen};
-use crate::scene::{Camera, Scene};
+use crate::math::function::{cos, sin};
+use crate::math::noise::hash;
+use crate::mesh::{FaceId, Mesh, PaintId};
+use crate::region::level_curves::{are_seen, level_curves};
+use crate::region::samples::Asked;
+use crate::region::{self, Ground, Look, RegionOptions, Samples, Seen};
+use crate::scene::{Camera, Scene, UpAxis};
 use crate::style::Style;
 
 /// The layer `hatching`, if anything is hatched.
@@ -28,16 +35,129 @@ pub(super) fn hatch(
     let materials: Vec<(Arc<str>, Colour)> =
         scene.materials.iter().map(|material| (Arc::from(material.name.as_str()), material.colour)).collect();
     let tones = tones(fills, scene, style);
+    let sampled = style.hatch.layers.iter().any(HatchLayer::samples);
+    let lit = fills.lit();
+    let px = Length::px(1.0).in_unit(page.unit);
+    let shadowed = |points: &[(u32, DVec3)]| fills.shadowed(points);
+    let samples = sampled.then(|| Samples::new(&lit, &ground, shadowed, offset, SAMPLES_PX * px));
+    let flow = |layer: &HatchLayer| {
+        let (samples, probe) = samples.as_ref()?;
+        let angle = layer.angle.to_radians();
+        let asked = match layer.direction {
+            Direction::Surface => Asked::Bend(angle),
+            Direction::Light => Asked::Shade(angle),
+            Direction::Page | Direction::Uv | Direction::Object => return None,
+        };
+        Some(Flow::new(samples, &samples.axes(probe, asked)))
+    };
+    let flows: Vec<Option<Flow>> = style.hatch.layers.iter().map(flow).collect();
+    let fixed: Vec<Option<Vec<Guide>>> = style
+        .hatch
+        .layers
+        .iter()
+        .enumerate()
+        .map(|(number, layer)| {
+            fixed(&lit, &ground, scene, page, offset, layer, hash(style.seed, &[number as u64]))
+        })
+        .collect();
     let context = HatchContext {
         unit: page.unit,
         seed: style.seed,
         parts: &parts,
         materials: &materials,
         tones: &tones,
-        light: None,
+        samples: samples.as_ref().map(|(samples, _)| samples),
+        flows: &flows,
+        fixed: &fixed,
     };
-    hatch::fill(&ground, &context, &style.hatch)
+    let blacks = if style.hatch.blacks > 0 { blacks(seen, page, offset, style) } else { Vec::new() };
+    hatch::fill(&ground, &context, &style.hatch, blacks)
 }
+
+/// The outlines of what is painted solid, and what is seen there.
+fn blacks(seen: &Seen, page: &Page, offset: Vec2, style: &Style) -> Vec<(BezPath, Look)> {
+    let is_black = |look: &Look| usize::from(look.bin) < style.hatch.blacks;
+    // All that is not black is one bin.
+    let coarser = |look: &Look| Look { tone: 0, cast: false, bin: u16::from(!is_black(look)), ..*look };
+    let options = RegionOptions { crumb: style.hatch.crumb, ..style.region.clone() };
+    let regions = region::gather_as(seen, coarser, &options, &style.chain, page.unit);
+    let black = region::paint::outlines(&regions, offset, |region| region.look.bin == 0);
+    black.into_iter().map(|(path, region)| (path, region.look)).collect()
+}
+
+/// Guides of a layer that is fixed to the model.
+fn fixed(
+    lit: &Lit,
+    ground: &Ground,
+    scene: &Scene,
+    page: &Page,
+    offset: Vec2,
+    layer: &HatchLayer,
+    seed: u64,
+) -> Option<Vec<Guide>> {
+    let pitch = layer.pitch().in_unit(page.unit);
+    let mesh = lit.mesh;
+    let frame = &lit.view.frame;
+    // A pitch as it is in the middle of the model, rounded to a power of two, so that small changes of
+    // the view change nothing; two finer sets make up for what is seen at a slant.
+    let depth = frame.depth(DVec3::ZERO).max(mesh.size * 1e-3);
+    let in_model = pitch / frame.scale * if frame.perspective { depth } else { 1.0 };
+    let spacing = floor_to_power_of_two(in_model) / FINER;
+    let angle = layer.angle.to_radians();
+    let (sine, cosine) = (sin(angle), cos(angle));
+    let up = match scene.up {
+        UpAxis::Y => DVec3::Y,
+        UpAxis::Z => DVec3::Z,
+    };
+    let across = up * cosine + (DVec3::X + up.cross(DVec3::X) * SLANT).normalize() * sine;
+    let cut = |face: u32| Some(mesh.corners(FaceId(face)).map(|p| (p + mesh.origin).dot(across) / spacing));
+    let texels = texture_scale(mesh);
+    let woven = |face: u32| {
+        let corners = mesh.corner_uvs.get(face as usize)?;
+        let value = |uv: u32| {
+            let [u, v] = mesh.uvs.get(uv as usize)?.map(f64::from);
+            Some((u * cosine + v * sine) * texels / spacing)
+        };
+        let [a, b, c] = corners.map(value);
+        Some([a?, b?, c?])
+    };
+    let is_wanted = |level: i64, density: f64| rank(level) * density * pitch < 1.0;
+    let curves = match layer.direction {
+        Direction::Object => level_curves(lit, offset, cut, is_wanted),
+        // Without texture coordinates it is cut.
+        Direction::Uv => level_curves(lit, offset, |face| woven(face).or_else(|| cut(face)), is_wanted),
+        Direction::Page | Direction::Surface | Direction::Light => return None,
+    };
+    let seen = |points: &[(Point, f64)]| are_seen(lit, offset, points);
+    Some(cuts::guides(ground, &curves, seen, pitch, seed))
+}
+
+/// Sets of cuts are this much closer than strokes lie on a surface that faces the eye.
+const FINER: f64 = 4.0;
+
+/// Slanting cuts are turned away from the axes of the model by this much, for walls run along these.
+const SLANT: f64 = 0.35;
+
+fn floor_to_power_of_two(x: f64) -> f64 {
+    if x.is_normal() && x > 0.0 { f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000) } else { 1.0 }
+}
+
+/// The length in the model of a unit of texture coordinates, on average.
+fn texture_scale(mesh: &Mesh) -> f64 {
+    let (mut space, mut texture) = (0.0, 0.0);
+    for (face, uvs) in mesh.corner_uvs.iter().enumerate() {
+        let [Some(a), Some(b), Some(c)] = uvs.map(|uv| mesh.uvs.get(uv as usize)) else { continue };
+        let [p, q, r] = mesh.corners(FaceId(face as u32));
+        space += (q - p).cross(r - p).length();
+        let [a, b, c] = [a, b, c].map(|uv| DVec2::new(f64::from(uv[0]), f64::from(uv[1])));
+        texture += (b - a).perp_dot(c - a).abs();
+    }
+    let scale = (space / texture).sqrt();
+    if scale.is_normal() { scale } else { mesh.size }
+}
+
+/// Distance of the points at which the page is asked for light and directions, px.
+const SAMPLES_PX: f64 = 3.0;
 
 /// The tone of each paint.
 fn tones(fills: &Fills, scene: &Scene, style: &Style) -> Vec<Tone> {

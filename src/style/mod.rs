@@ -49,8 +49,9 @@ impl Default for Style {
 }
 
 /// The built-in sheets, by name: the file styles/NAME.toml.
-const BUILT_IN: [(&str, &str); 15] = [
+const BUILT_IN: [(&str, &str); 18] = [
     ("comic-flats", include_str!("../../styles/comic-flats.toml")),
+    ("engraving", include_str!("../../styles/engraving.toml")),
     ("flat", include_str!("../../styles/flat.toml")),
     ("gooch", include_str!("../../styles/gooch.toml")),
     ("gradient", include_str!("../../styles/gradient.toml")),
@@ -59,12 +60,14 @@ const BUILT_IN: [(&str, &str); 15] = [
     ("patent", include_str!("../../styles/patent.toml")),
     ("pen", include_str!("../../styles/pen.toml")),
     ("pencil", include_str!("../../styles/pencil.toml")),
+    ("pencil-plain", include_str!("../../styles/pencil-plain.toml")),
     ("plotter", include_str!("../../styles/plotter.toml")),
     ("rim", include_str!("../../styles/rim.toml")),
     ("suggestive", include_str!("../../styles/suggestive.toml")),
     ("technical", include_str!("../../styles/technical.toml")),
     ("toon", include_str!("../../styles/toon.toml")),
     ("toon-highlight", include_str!("../../styles/toon-highlight.toml")),
+    ("woodcut", include_str!("../../styles/woodcut.toml")),
 ];
 
 impl Style {

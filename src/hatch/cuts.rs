@@ -1,0 +1,72 @@
+//! Guides along curves that are fixed to the model: they move with it, and hatching does not swim when the
+//! model or the eye turns.
+//!
+//! Such curves crowd where the surface turns away from the eye. There guides of a high rank make room, so
+//! that the distance of those that are left is right for the tone everywhere; as the view changes, strokes
+//! come and go, and none jumps. Source: Praun, Hoppe, Webb and Finkelstein, "Real-time hatching", SIGGRAPH
+//! 2001, section 4, where levels of detail of textures do the same.
+
+use kurbo::Point;
+use rustc_hash::FxHashMap;
+
+use super::clip::{between, stretches};
+use super::guide::{Guide, Scope, rank};
+use crate::math::noise::hash;
+use crate::region::Ground;
+use crate::region::level_curves::LevelCurve;
+
+/// Guides along the visible parts of level curves, `pitch` (page units) apart where they are densest.
+/// `are_seen` tells of points of the page, with a nearness each, whether nothing is in front there.
+#[must_use]
+pub fn guides(
+    ground: &Ground,
+    curves: &[LevelCurve],
+    are_seen: impl Fn(&[(Point, f64)]) -> Vec<bool>,
+    pitch: f64,
+    seed: u64,
+) -> Vec<Guide> {
+    let mut pieces: Vec<(u32, f64, f64, u32)> = Vec::new();
+    for (number, curve) in curves.iter().enumerate() {
+        let on_part = |cell: u32| {
+            let cell = &ground.cells[cell as usize];
+            cell.facet != 0 && cell.look.part == curve.part
+        };
+        for stretch in stretches(ground, &curve.line, on_part) {
+            pieces.push((number as u32, stretch.from, stretch.to, ground.cells[stretch.cell as usize].facet));
+        }
+    }
+    let middles: Vec<(Point, f64)> = pieces
+        .iter()
+        .map(|(curve, from, to, _)| {
+            let curve = &curves[*curve as usize];
+            let place = f64::midpoint(*from, *to);
+            (super::clip::point_at(&curve.line, place), value_at(&curve.nearness, place))
+        })
+        .collect();
+    let seen = are_seen(&middles);
+    let mut counts: FxHashMap<(usize, i64), u64> = FxHashMap::default();
+    let mut guides = Vec::new();
+    for ((number, from, to, facet), _) in pieces.into_iter().zip(seen).filter(|(_, seen)| *seen) {
+        let curve = &curves[number as usize];
+        let line = between(&curve.line, from, to);
+        if line.len() < 2 {
+            continue;
+        }
+        // One crowding for each point that is left.
+        let mut crowding = vec![value_at(&curve.density, from) * pitch];
+        let inner = (from.floor() as usize + 1..curve.line.len()).take_while(|k| (*k as f64) < to);
+        crowding.extend(inner.map(|k| curve.density[k] * pitch));
+        crowding.push(value_at(&curve.density, to) * pitch);
+        crowding.resize(line.len(), value_at(&curve.density, to) * pitch);
+        let count = counts.entry((curve.part.index(), curve.level)).or_default();
+        let id = hash(seed, &[curve.part.index() as u64, curve.level.cast_unsigned(), *count]);
+        *count += 1;
+        guides.push(Guide { line, rank: rank(curve.level), id, scope: Scope::Facet(facet), crowding });
+    }
+    guides
+}
+
+fn value_at(values: &[f64], place: f64) -> f64 {
+    let k = (place as usize).min(values.len() - 2);
+    values[k] + (values[k + 1] - values[k]) * (place - k as f64)
+}

@@ -1,0 +1,353 @@
+//! [`Samples`]: the page asked at the points of a lattice: which facet is seen there, how much light falls
+//! on it, and which way it bends.
+//!
+//! They give strokes their direction, width and density; where strokes end is decided by the borders of the
+//! [`Ground`], never here.
+
+use glam::{DVec2, DVec3};
+use kurbo::{Point, Vec2};
+use rayon::prelude::*;
+
+use super::Ground;
+use crate::field::SurfacePoint;
+use crate::lines::Lit;
+use crate::mesh::FaceId;
+use crate::viewmap::front_faces;
+
+/// What is asked of each point beside the facet and the light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Asked {
+    /// Nothing more.
+    Light,
+    /// The direction in which the surface bends most, turned by an angle (radians) in its own plane.
+    Bend(f64),
+    /// The direction in which the light changes most, turned by an angle (radians) on the page.
+    Shade(f64),
+}
+
+/// The page asked at the points of a lattice, row by row.
+#[derive(Debug, Clone, Default)]
+pub struct Samples {
+    /// Distance of the points, page units.
+    pub pitch: f64,
+    /// The first point.
+    pub origin: Point,
+    /// Points in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// The cell of the ground at each point.
+    pub cells: Vec<u32>,
+    /// Its facet; 0 = paper.
+    pub facets: Vec<u32>,
+    /// The diffuse light on it; 0 on paper.
+    pub lights: Vec<f32>,
+}
+
+/// A line without sense at a point of the page: the cosine and sine of twice its angle (from x to y),
+/// times how sure it is, 0 to 1.
+pub type Axis = [f32; 2];
+
+/// What faces and light say of each point.
+pub struct Probe<'a> {
+    lit: &'a Lit<'a>,
+    offset: Vec2,
+    /// The point of the surface at each point of the lattice where one is seen: its face and place.
+    hits: Vec<Option<(u32, DVec3)>>,
+}
+
+impl Samples {
+    /// Asks at points `pitch` apart. `shadowed` tells which lights do not reach points of faces; `offset`
+    /// moves the image on the page.
+    pub fn new<'a>(
+        lit: &'a Lit,
+        ground: &Ground,
+        shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
+        offset: Vec2,
+        pitch: f64,
+    ) -> (Self, Probe<'a>) {
+        let frame = &lit.view.frame;
+        let count = |length: f64| ((length / pitch).ceil().max(1.0)) as usize;
+        let (columns, rows) = (count(frame.width), count(frame.height));
+        let first = DVec2::splat(pitch / 2.0);
+        let points: Vec<DVec2> = (0..columns * rows)
+            .map(|k| first + DVec2::new((k % columns) as f64, (k / columns) as f64) * pitch)
+            .collect();
+        let origin = Point::new(first.x, first.y) + offset;
+        let cells = ground.raster(origin, pitch, columns, rows);
+        let facets = cells.iter().map(|cell| ground.cells[*cell as usize].facet).collect();
+        let hits: Vec<Option<(u32, DVec3)>> = front_faces(lit.mesh, lit.view, &points)
+            .into_iter()
+            .zip(&points)
+            .map(|(front, p)| front.map(|f| (f.face, frame.local_from_image(p.extend(f.nearness)))))
+            .collect();
+        let asked: Vec<(u32, DVec3)> = hits.iter().flatten().copied().collect();
+        let masks = shadowed(&asked);
+        let mut place = 0;
+        let mask_of: Vec<u32> = hits
+            .iter()
+            .map(|hit| {
+                place += usize::from(hit.is_some());
+                if hit.is_some() { masks.get(place - 1).copied().unwrap_or_default() } else { 0 }
+            })
+            .collect();
+        let channel = lit.shading.bins().unwrap_or(0);
+        let lights = hits
+            .par_iter()
+            .zip(&mask_of)
+            .with_min_len(1 << 10)
+            .map(|(hit, mask)| {
+                let Some((face, at)) = hit else { return 0.0 };
+                let (paint, point) = (lit.mesh.paint(FaceId(*face)), lit.at(*face, *at));
+                lit.shading.value(channel, paint, &point, *mask) as f32
+            })
+            .collect();
+        let samples = Self { pitch, origin, columns, rows, cells, facets, lights };
+        (samples, Probe { lit, offset, hits })
+    }
+
+    /// The point of a number.
+    #[must_use]
+    pub fn point(&self, k: usize) -> Point {
+        self.origin + Vec2::new((k % self.columns) as f64, (k / self.columns) as f64) * self.pitch
+    }
+
+    /// The four points around a point of the page, and their weights; none beyond the page.
+    #[must_use]
+    pub fn around(&self, p: Point) -> [(usize, f64); 4] {
+        let at = (p - self.origin) / self.pitch;
+        let clamp = |x: f64, count: usize| x.clamp(0.0, count.saturating_sub(1) as f64);
+        let (x, y) = (clamp(at.x, self.columns), clamp(at.y, self.rows));
+        let (column, row) = (x as usize, y as usize);
+        let (u, v) = (x - column as f64, y - row as f64);
+        let (right, below) = ((column + 1).min(self.columns - 1), (row + 1).min(self.rows - 1));
+        [
+            (row * self.columns + column, (1.0 - u) * (1.0 - v)),
+            (row * self.columns + right, u * (1.0 - v)),
+            (below * self.columns + column, (1.0 - u) * v),
+            (below * self.columns + right, u * v),
+        ]
+    }
+
+    /// The light on a facet at a point of the page; `None` where the facet is not seen nearby.
+    #[must_use]
+    pub fn light(&self, facet: u32, p: Point) -> Option<f64> {
+        let own = self.around(p).into_iter().filter(|(k, _)| self.facets[*k] == facet);
+        let (sum, weight) = own.fold((0.0, 0.0), |(sum, weight), (k, w)| {
+            let w = w + FAINT;
+            (sum + f64::from(self.lights[k]) * w, weight + w)
+        });
+        (weight > 0.0).then(|| sum / weight)
+    }
+
+    /// The directions that are asked for, one a point.
+    #[must_use]
+    pub fn axes(&self, probe: &Probe, asked: Asked) -> Vec<Axis> {
+        match asked {
+            Asked::Light => vec![[0.0; 2]; self.facets.len()],
+            Asked::Bend(angle) => probe.bends(self, angle),
+            Asked::Shade(angle) => self.shades(angle),
+        }
+    }
+
+    /// Where the light changes most on the page.
+    fn shades(&self, angle: f64) -> Vec<Axis> {
+        let light = |k: usize, next: usize| {
+            (self.facets[k] == self.facets[next]).then(|| f64::from(self.lights[next]))
+        };
+        let slope = |k: usize, before: Option<usize>, after: Option<usize>| {
+            let own = f64::from(self.lights[k]);
+            let [a, b] = [before, after].map(|next| next.and_then(|next| light(k, next)));
+            match (a, b) {
+                (Some(a), Some(b)) => (b - a) / 2.0,
+                (Some(a), None) => own - a,
+                (None, Some(b)) => b - own,
+                (None, None) => 0.0,
+            }
+        };
+        (0..self.facets.len())
+            .into_par_iter()
+            .with_min_len(1 << 10)
+            .map(|k| {
+                let (column, row) = (k % self.columns, k / self.columns);
+                let x = slope(k, (column > 0).then(|| k - 1), (column + 1 < self.columns).then_some(k + 1));
+                let up = (row > 0).then(|| k - self.columns);
+                let y = slope(k, up, (row + 1 < self.rows).then_some(k + self.columns));
+                if self.facets[k] == 0 {
+                    return [0.0; 2];
+                }
+                let slope = DVec2::new(x, y);
+                axis(turned(slope, angle), (slope.length() / STEEP).min(1.0))
+            })
+            .collect()
+    }
+}
+
+/// Points whose weight would vanish still count a little, so that there is always one.
+const FAINT: f64 = 1e-6;
+
+impl Probe<'_> {
+    /// Directions in which the surface bends most, from how its normals change from point to point once they
+    /// are smoothed: bends smaller than what strokes could follow do not count.
+    fn bends(&self, samples: &Samples, angle: f64) -> Vec<Axis> {
+        let lit = self.lit;
+        let size = lit.mesh.size;
+        let normals = self.smooth_normals(samples);
+        let columns = samples.columns;
+        let around = |k: usize, step: usize, has_before: bool, has_after: bool| {
+            let own = |other: usize| samples.facets[other] == samples.facets[k] && self.hits[other].is_some();
+            let from = if has_before && own(k - step) { k - step } else { k };
+            let to = if has_after && own(k + step) { k + step } else { k };
+            let at = |k: usize| self.hits[k].map_or(DVec3::ZERO, |(_, at)| at);
+            let points = (to - from) / step.max(1);
+            let share = 1.0 / points.max(1) as f64;
+            ((at(to) - at(from)) * share, (normals[to] - normals[from]) * share)
+        };
+        (0..self.hits.len())
+            .into_par_iter()
+            .with_min_len(1 << 10)
+            .map(|k| {
+                let Some((_, at)) = self.hits[k] else { return [0.0; 2] };
+                if samples.facets[k] == 0 {
+                    return [0.0; 2];
+                }
+                let (column, row) = (k % columns, k / columns);
+                let x = around(k, 1, column > 0, column + 1 < columns);
+                let y = around(k, columns, row > 0, row + 1 < samples.rows);
+                match bend([x.0, y.0], [x.1, y.1], angle, size) {
+                    Some((way, sure)) if sure > HABIT => axis(way, sure),
+                    _ => axis(turned(self.level(at, normals[k]), angle), HABIT),
+                }
+            })
+            .collect()
+    }
+
+    /// The unit normals at all points, each evened out over its neighbours on the facet.
+    fn smooth_normals(&self, samples: &Samples) -> Vec<DVec3> {
+        let (columns, rows) = (samples.columns, samples.rows);
+        let mut normals: Vec<DVec3> = self
+            .hits
+            .par_iter()
+            .with_min_len(1 << 10)
+            .map(|hit| hit.map_or(DVec3::ZERO, |(face, at)| self.lit.at(face, at).normal))
+            .collect();
+        let mut next = normals.clone();
+        for _ in 0..EVENED {
+            next.par_chunks_mut(columns.max(1)).enumerate().with_min_len(8).for_each(|(row, out)| {
+                for (column, out) in out.iter_mut().enumerate() {
+                    let k = row * columns + column;
+                    let mut sum = normals[k];
+                    let mut add = |other: usize| {
+                        if samples.facets[other] == samples.facets[k] {
+                            sum += normals[other];
+                        }
+                    };
+                    if column > 0 {
+                        add(k - 1);
+                    }
+                    if column + 1 < columns {
+                        add(k + 1);
+                    }
+                    if row > 0 {
+                        add(k - columns);
+                    }
+                    if row + 1 < rows {
+                        add(k + columns);
+                    }
+                    *out = sum.normalize_or_zero();
+                }
+            });
+            std::mem::swap(&mut normals, &mut next);
+        }
+        normals
+    }
+
+    /// The level direction of a surface on the page: hands draw walls with level strokes. On level surfaces
+    /// that of the page.
+    fn level(&self, at: DVec3, normal: DVec3) -> DVec2 {
+        let frame = &self.lit.view.frame;
+        let level = frame.up.cross(normal);
+        let level = if level.length_squared() > LEVEL * LEVEL { level.normalize() } else { frame.right };
+        let step = self.lit.mesh.size * STEP_OF_MODEL;
+        let [from, to] = [at, at + level * step].map(|p| frame.image_from_local(p).truncate());
+        to - from
+    }
+
+    /// Where the image lies on the page.
+    #[must_use]
+    pub const fn offset(&self) -> Vec2 {
+        self.offset
+    }
+}
+
+/// Light that changes by this much from point to point shows its direction for sure.
+const STEEP: f64 = 0.02;
+
+/// Directions are carried to the page over this part of the model's size.
+const STEP_OF_MODEL: f64 = 1e-5;
+
+/// The sureness of directions that nothing but a habit asks for.
+const HABIT: f64 = 0.004;
+
+/// Rounds in which normals are evened out: over about five points of the lattice.
+const EVENED: usize = 40;
+
+/// The direction on the page in which a surface bends most, turned by an angle in the surface, and how sure
+/// it is; from the ways on the surface that a step of the lattice to the right and one down make, and
+/// from the changes of the normal along them.
+///
+/// Both fundamental forms are taken in the coordinates of the page; where II v = k I v, v is a principal
+/// direction (do Carmo, Differential Geometry of Curves and Surfaces, section 3.3).
+fn bend(ways: [DVec3; 2], turns: [DVec3; 2], angle: f64, size: f64) -> Option<(DVec2, f64)> {
+    let [g11, g12, g22] = [ways[0].dot(ways[0]), ways[0].dot(ways[1]), ways[1].dot(ways[1])];
+    let m12 = f64::midpoint(turns[0].dot(ways[1]), turns[1].dot(ways[0]));
+    let [m11, m22] = [turns[0].dot(ways[0]), turns[1].dot(ways[1])];
+    let area2 = g11 * g22 - g12 * g12;
+    if area2 <= f64::EPSILON * g11 * g22 {
+        return None;
+    }
+    let mean = (m11 * g22 - 2.0 * m12 * g12 + m22 * g11) / (2.0 * area2);
+    let gauss = (m11 * m22 - m12 * m12) / area2;
+    let apart = (mean * mean - gauss).max(0.0).sqrt();
+    let k1 = if mean >= 0.0 { mean + apart } else { mean - apart };
+    let rows = [DVec2::new(-(m12 - k1 * g12), m11 - k1 * g11), DVec2::new(m22 - k1 * g22, -(m12 - k1 * g12))];
+    let first = if rows[0].length_squared() > rows[1].length_squared() { rows[0] } else { rows[1] };
+    let length = |v: DVec2| (v.x * v.x * g11 + 2.0 * v.x * v.y * g12 + v.y * v.y * g22).max(0.0).sqrt();
+    let long = length(first);
+    if long <= 0.0 || !long.is_finite() {
+        return None;
+    }
+    let first = first / long;
+    // The other one, at a right angle in the surface.
+    let second = DVec2::new(-(first.x * g12 + first.y * g22), first.x * g11 + first.y * g12) / area2.sqrt();
+    let (s, c) = (crate::math::function::sin(angle), crate::math::function::cos(angle));
+    let sure = 2.0 * apart / (2.0 * (mean.abs() + apart)).max(f64::MIN_POSITIVE);
+    Some((first * c - second * s, sure * (k1.abs() * size / BENDS).min(1.0)))
+}
+
+/// Surfaces that face straight up or down, but for this cosine, have no level direction.
+const LEVEL: f64 = 0.05;
+
+/// A surface that bends by this angle (radians) over the size of the model bends for sure.
+const BENDS: f64 = 2.0;
+
+fn turned(v: DVec2, angle: f64) -> DVec2 {
+    let (s, c) = (crate::math::function::sin(angle), crate::math::function::cos(angle));
+    DVec2::new(v.x * c + v.y * s, v.y * c - v.x * s)
+}
+
+/// The line along a vector, whose length counts as well.
+fn axis(v: DVec2, sure: f64) -> Axis {
+    let length2 = v.length_squared();
+    if length2 <= 0.0 || !length2.is_finite() {
+        return [0.0; 2];
+    }
+    [(v.x * v.x - v.y * v.y) / length2 * sure, 2.0 * v.x * v.y / length2 * sure].map(|x| x as f32)
+}
+
+impl Lit<'_> {
+    /// The point of a face at a place on it.
+    pub(super) fn at(&self, face: u32, at: DVec3) -> SurfacePoint {
+        self.point(face, self.mesh.weights(FaceId(face), at))
+    }
+}
