@@ -8,7 +8,7 @@ use kurbo::{BezPath, Point, Vec2};
 use super::fills::Fills;
 use crate::drawing::{Layer, Length, Page};
 use crate::hatch::guide::rank;
-use crate::hatch::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Tone, cuts};
+use crate::hatch::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Hatched, Tone, cuts};
 use crate::lines::Lit;
 use crate::math::colour::Colour;
 use crate::math::function::{cos, sin};
@@ -20,69 +20,100 @@ use crate::region::{self, Ground, Look, RegionOptions, Samples, Seen};
 use crate::scene::{Camera, Scene, UpAxis};
 use crate::style::Style;
 
-/// The layer `hatching`, if anything is hatched.
-pub(super) fn hatch(
-    fills: &Fills,
-    seen: &Seen,
-    scene: &Scene,
-    page: &Page,
-    camera: &Camera,
-    style: &Style,
-) -> Option<Layer> {
-    let offset = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
-    let ground = Ground::new(seen, style.hatch.crumb, page.unit, offset);
-    let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect();
-    let materials: Vec<(Arc<str>, Colour)> =
-        scene.materials.iter().map(|material| (Arc::from(material.name.as_str()), material.colour)).collect();
-    let tones = tones(fills, scene, style);
-    let sampled = style.hatch.layers.iter().any(HatchLayer::samples);
-    let lit = fills.lit();
-    let px = Length::px(1.0).in_unit(page.unit);
-    let shadowed = |points: &[(u32, DVec3)]| fills.shadowed(points);
-    let samples = sampled.then(|| Samples::new(&lit, &ground, shadowed, offset, SAMPLES_PX * px));
-    let flow = |layer: &HatchLayer| {
-        let (samples, probe) = samples.as_ref()?;
-        let angle = layer.angle.to_radians();
-        let asked = match layer.direction {
-            Direction::Surface => Asked::Bend(angle),
-            Direction::Light => Asked::Shade(angle),
-            Direction::Page | Direction::Uv | Direction::Object => return None,
-        };
-        Some(Flow::new(samples, &samples.axes(probe, asked)))
-    };
-    let flows: Vec<Option<Flow>> = style.hatch.layers.iter().map(flow).collect();
-    let fixed: Vec<Option<Vec<Guide>>> = style
-        .hatch
-        .layers
-        .iter()
-        .enumerate()
-        .map(|(number, layer)| {
-            fixed(&lit, &ground, scene, page, offset, layer, hash(style.seed, &[number as u64]))
-        })
-        .collect();
-    let context = HatchContext {
-        unit: page.unit,
-        seed: style.seed,
-        parts: &parts,
-        materials: &materials,
-        tones: &tones,
-        samples: samples.as_ref().map(|(samples, _)| samples),
-        flows: &flows,
-        fixed: &fixed,
-    };
-    let blacks = if style.hatch.blacks > 0 { blacks(seen, page, offset, style) } else { Vec::new() };
-    hatch::fill(&ground, &context, &style.hatch, blacks)
+/// A lit view on its way to hatching.
+pub(super) struct Hatching<'a> {
+    pub fills: &'a Fills<'a>,
+    pub scene: &'a Scene,
+    pub page: &'a Page,
+    pub camera: &'a Camera,
+    pub style: &'a Style,
 }
 
-/// The outlines of what is painted solid, and what is seen there.
-fn blacks(seen: &Seen, page: &Page, offset: Vec2, style: &Style) -> Vec<(BezPath, Look)> {
-    let is_black = |look: &Look| usize::from(look.bin) < style.hatch.blacks;
-    // All that is not black is one bin.
-    let coarser = |look: &Look| Look { tone: 0, cast: false, bin: u16::from(!is_black(look)), ..*look };
-    let options = RegionOptions { crumb: style.hatch.crumb, ..style.region.clone() };
-    let regions = region::gather_as(seen, coarser, &options, &style.chain, page.unit);
-    let black = region::paint::outlines(&regions, offset, |region| region.look.bin == 0);
-    black.into_iter().map(|(path, region)| (path, region.look)).collect()
+impl Hatching<'_> {
+    /// The layer `hatching`, if anything is hatched.
+    pub fn layer(&self, seen: &Seen) -> Option<Layer> {
+        let ground = self.ground(seen);
+        let blacks = if self.style.hatch.blacks > 0 { self.blacks(seen) } else { Vec::new() };
+        self.with_context(&ground, |context| hatch::fill(&ground, context, &self.style.hatch, blacks))
+    }
+
+    /// The ground, and the strokes of each layer on it.
+    pub fn strokes(&self, seen: &Seen) -> (Ground, Vec<Hatched>) {
+        let ground = self.ground(seen);
+        let strokes =
+            self.with_context(&ground, |context| hatch::strokes(&ground, context, &self.style.hatch));
+        (ground, strokes)
+    }
+
+    /// Where the camera's frame lies on the page.
+    fn offset(&self) -> Vec2 {
+        Vec2::new(self.page.width - self.camera.width, self.page.height - self.camera.height) / 2.0
+    }
+
+    fn ground(&self, seen: &Seen) -> Ground {
+        Ground::new(seen, self.style.hatch.crumb, self.page.unit, self.offset())
+    }
+
+    /// Calls with all that hatching needs.
+    fn with_context<T>(&self, ground: &Ground, call: impl FnOnce(&HatchContext) -> T) -> T {
+        let Self { fills, scene, page, style, .. } = self;
+        let offset = self.offset();
+        let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect();
+        let materials: Vec<(Arc<str>, Colour)> = scene
+            .materials
+            .iter()
+            .map(|material| (Arc::from(material.name.as_str()), material.colour))
+            .collect();
+        let tones = tones(fills, scene, style);
+        let sampled = style.hatch.layers.iter().any(HatchLayer::samples);
+        let lit = fills.lit();
+        let px = Length::px(1.0).in_unit(page.unit);
+        let shadowed = |points: &[(u32, DVec3)]| fills.shadowed(points);
+        let samples = sampled.then(|| Samples::new(&lit, ground, shadowed, offset, SAMPLES_PX * px));
+        let flow = |layer: &HatchLayer| {
+            let (samples, probe) = samples.as_ref()?;
+            let angle = layer.angle.to_radians();
+            let asked = match layer.direction {
+                Direction::Surface => Asked::Bend(angle),
+                Direction::Light => Asked::Shade(angle),
+                Direction::Page | Direction::Uv | Direction::Object => return None,
+            };
+            Some(Flow::new(samples, &samples.axes(probe, asked)))
+        };
+        let flows: Vec<Option<Flow>> = style.hatch.layers.iter().map(flow).collect();
+        let fixed: Vec<Option<Vec<Guide>>> = style
+            .hatch
+            .layers
+            .iter()
+            .enumerate()
+            .map(|(number, layer)| {
+                fixed(&lit, ground, scene, page, offset, layer, hash(style.seed, &[number as u64]))
+            })
+            .collect();
+        let context = HatchContext {
+            unit: page.unit,
+            seed: style.seed,
+            parts: &parts,
+            materials: &materials,
+            tones: &tones,
+            samples: samples.as_ref().map(|(samples, _)| samples),
+            flows: &flows,
+            fixed: &fixed,
+        };
+        call(&context)
+    }
+
+    /// The outlines of what is painted solid, and what is seen there.
+    fn blacks(&self, seen: &Seen) -> Vec<(BezPath, Look)> {
+        let style = self.style;
+        let is_black = |look: &Look| usize::from(look.bin) < style.hatch.blacks;
+        // All that is not black is one bin.
+        let coarser = |look: &Look| Look { tone: 0, cast: false, bin: u16::from(!is_black(look)), ..*look };
+        let options = RegionOptions { crumb: style.hatch.crumb, ..style.region.clone() };
+        let regions = region::gather_as(seen, coarser, &options, &style.chain, self.page.unit);
+        let black = region::paint::outlines(&regions, self.offset(), |region| region.look.bin == 0);
+        black.into_iter().map(|(path, region)| (path, region.look)).collect()
+    }
 }
 
 /// Guides of a layer that is fixed to the model.

@@ -16,15 +16,19 @@ pub use stage::Stage;
 
 use crate::chain;
 use crate::drawing::{Drawing, Page, Unit};
-use crate::lines::{self, LineOptions, Surface};
+use crate::hatch::Hatched;
+use crate::lines::{self, FeatureLines, LineOptions, Surface};
+
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
+use crate::region::Ground;
 use crate::scene::{Camera, Scene, paint::Paints};
 use crate::stroke::{self, InkContext};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, ViewMap};
 use fills::{Fills, Paintable};
+use hatching::Hatching;
 use stages::Made;
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
@@ -110,6 +114,24 @@ impl<'a> Prepared<'a> {
     /// this view.
     #[must_use]
     pub fn draw(&self, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
+        self.on_view(camera, |on_view| self.drawn(on_view, camera, page, stage))
+    }
+
+    /// What a view is hatched on, and the strokes of each layer of its hatching, each with what it is
+    /// known by. `None` if the style hatches nothing.
+    #[must_use]
+    pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(Ground, Vec<Hatched>)> {
+        self.on_view(camera, |on_view| {
+            let OnView { fills, map, .. } = on_view;
+            let fills = fills.filter(|_| self.style.hatch.enabled)?;
+            let (scene, style) = (self.scene, self.style);
+            let hatching = Hatching { fills, scene, page: &page, camera, style };
+            Some(hatching.strokes(&fills.see(&map, &page)))
+        })
+    }
+
+    /// Decides what is seen of the lines of a view.
+    fn on_view<T>(&self, camera: &Camera, call: impl FnOnce(OnView) -> T) -> T {
         let Self { scene, style, sought, paints, .. } = self;
         let mut report = Report::default();
         let mut watch = Stopwatch::start();
@@ -120,25 +142,30 @@ impl<'a> Prepared<'a> {
         let surface = refined.as_ref().unwrap_or(&self.surface);
         let own = refined.as_ref().filter(|_| fills::is_lit(style)).map(Paintable::new);
         let paintable = own.as_ref().or(self.paintable.as_ref());
-        let mesh = &surface.mesh;
-        let view = View::new(mesh, camera);
+        let view = View::new(&surface.mesh, camera);
         report.stages_ms.topology = watch.lap_ms();
 
-        let mut feature_lines = lines::extract(surface, &view, sought);
+        let mut lines = lines::extract(surface, &view, sought);
         let mut warnings = Vec::new();
         let fills = paintable.zip(paints.as_ref()).map(|(paintable, paints)| {
             Fills::new(surface, paintable, &view, scene, paints, style, &mut warnings)
         });
         if let Some(fills) = &fills {
-            fills.add_tone_borders(&mut feature_lines);
+            fills.add_tone_borders(&mut lines);
         }
         report.stages_ms.features = watch.lap_ms();
 
-        let mut map = viewmap::build(mesh, &view, &feature_lines, sought);
+        let map = viewmap::build(&surface.mesh, &view, &lines, sought);
         report.stages_ms.visibility = watch.lap_ms();
+        let (view, lines, fills) = (&view, &lines, fills.as_ref());
+        call(OnView { surface, view, lines, fills, map, report, watch, warnings })
+    }
 
+    fn drawn(&self, on_view: OnView, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
+        let Self { scene, style, paints, .. } = self;
+        let OnView { surface, view, lines, fills, mut map, mut report, mut watch, warnings } = on_view;
         let mut layers = Vec::new();
-        if let Some(fills) = &fills {
+        if let Some(fills) = fills {
             let seen = fills.see(&map, &page);
             if style.region.enabled {
                 let (painted, regions) = fills.paint(&seen, &page, camera, style);
@@ -148,7 +175,7 @@ impl<'a> Prepared<'a> {
             report.counts.leaks = seen.leaks;
             report.stages_ms.regions = watch.lap_ms();
             if style.hatch.enabled {
-                layers.extend(hatching::hatch(fills, &seen, scene, &page, camera, style));
+                layers.extend(Hatching { fills, scene, page: &page, camera, style }.layer(&seen));
                 report.stages_ms.hatching = watch.lap_ms();
             }
             fills::keep_inked(&mut map, style);
@@ -166,24 +193,36 @@ impl<'a> Prepared<'a> {
         match stage {
             None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
             Some(stage) => {
-                let (view, lines) = (&view, &feature_lines);
                 let made = Made { surface, view, lines, map: &map, chains: &chains, style, page: &page };
                 layers = stages::draw(stage, &made);
             }
         }
         report.stages_ms.strokes = watch.lap_ms();
 
-        report.counts.feature_edges = feature_lines.segments.len() as u64;
+        report.counts.feature_edges = lines.segments.len() as u64;
         report.counts.ray_tests = map.tests;
         report.counts.contour_arcs = map.arcs.arcs;
         report.counts.contour_breaks = map.arcs.broken;
         report.counts.chains = chains.len() as u64;
         report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
-        report.warnings = defects::of_mesh(mesh, scene).lines();
+        report.warnings = defects::of_mesh(&surface.mesh, scene).lines();
         report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
         report.warnings.extend(warnings);
         (Drawing { title: title(scene), page, layers }, report)
     }
+}
+
+/// A view whose lines are seen or hidden.
+struct OnView<'a> {
+    surface: &'a Surface,
+    view: &'a View,
+    lines: &'a FeatureLines,
+    /// Where surfaces are painted or hatched.
+    fills: Option<&'a Fills<'a>>,
+    map: ViewMap,
+    report: Report,
+    watch: Stopwatch,
+    warnings: Vec<String>,
 }
 
 /// Points of a path, control points counted.
