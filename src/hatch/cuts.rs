@@ -6,6 +6,7 @@
 //! come and go, and none jumps. Source: Praun, Hoppe, Webb and Finkelstein, "Real-time hatching", SIGGRAPH
 //! 2001, section 4, where levels of detail of textures do the same.
 
+use glam::DVec3;
 use kurbo::Point;
 use rustc_hash::FxHashMap;
 
@@ -15,7 +16,8 @@ use crate::math::noise::hash;
 use crate::region::Ground;
 use crate::region::level_curves::LevelCurve;
 
-/// Guides along the visible parts of level curves, `pitch` (page units) apart where they are densest.
+/// Guides along the visible parts of level curves, `pitch` (page units) apart where they are densest, of a
+/// model of a size.
 /// `are_seen` tells of points of the page, with a nearness each, whether nothing is in front there.
 #[must_use]
 pub fn guides(
@@ -23,6 +25,7 @@ pub fn guides(
     curves: &[LevelCurve],
     are_seen: impl Fn(&[(Point, f64)]) -> Vec<bool>,
     pitch: f64,
+    size: f64,
     seed: u64,
 ) -> Vec<Guide> {
     let mut pieces: Vec<(u32, f64, f64, u32)> = Vec::new();
@@ -44,7 +47,7 @@ pub fn guides(
         })
         .collect();
     let seen = are_seen(&middles);
-    let mut counts: FxHashMap<(usize, i64), u64> = FxHashMap::default();
+    let mut counts: FxHashMap<u64, u64> = FxHashMap::default();
     let mut guides = Vec::new();
     for ((number, from, to, facet), _) in pieces.into_iter().zip(seen).filter(|(_, seen)| *seen) {
         let curve = &curves[number as usize];
@@ -58,8 +61,12 @@ pub fn guides(
         crowding.extend(inner.map(|k| curve.density[k] * pitch));
         crowding.push(value_at(&curve.density, to) * pitch);
         crowding.resize(line.len(), value_at(&curve.density, to) * pitch);
-        let count = counts.entry((curve.part.index(), curve.level)).or_default();
-        let id = hash(seed, &[curve.part.index() as u64, curve.level.cast_unsigned(), *count]);
+        // A piece is known by its part, its level, and where in the model it lies, roughly.
+        let middle = point_at(&curve.points, f64::midpoint(from, to));
+        let [x, y, z] = (middle / (size * ROUGHLY)).round().to_array().map(|x| (x as i64).cast_unsigned());
+        let name = hash(seed, &[curve.part.index() as u64, curve.level.cast_unsigned(), x, y, z]);
+        let count = counts.entry(name).or_default();
+        let id = hash(name, &[*count]);
         *count += 1;
         guides.push(Guide { line, rank: rank(curve.level), id, scope: Scope::Facet(facet), crowding });
     }
@@ -69,4 +76,12 @@ pub fn guides(
 fn value_at(values: &[f64], place: f64) -> f64 {
     let k = (place as usize).min(values.len() - 2);
     values[k] + (values[k + 1] - values[k]) * (place - k as f64)
+}
+
+/// Pieces of one curve that are told apart lie this part of the model's size from each other.
+const ROUGHLY: f64 = 0.3;
+
+fn point_at(points: &[DVec3], place: f64) -> DVec3 {
+    let k = (place as usize).min(points.len() - 2);
+    points[k].lerp(points[k + 1], place - k as f64)
 }

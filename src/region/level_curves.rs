@@ -24,6 +24,8 @@ pub struct LevelCurve {
     pub density: Vec<f64>,
     /// The part of the model on which it lies.
     pub part: PartId,
+    /// Its points in the model, local space.
+    pub points: Vec<DVec3>,
     /// How near each point is, as image space has it.
     pub nearness: Vec<f64>,
 }
@@ -169,7 +171,7 @@ fn chains(lit: &Lit, offset: Vec2, pieces: &[Piece]) -> Vec<LevelCurve> {
                 })
                 .collect();
             let Piece { level, part, .. } = pieces[first];
-            curves.push(LevelCurve { line, level, density, part, nearness });
+            curves.push(LevelCurve { line, points, level, density, part, nearness });
         }
     }
     curves

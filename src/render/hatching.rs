@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use kurbo::{BezPath, Point, Vec2};
 
 use super::fills::Fills;
-use crate::drawing::{Layer, Length, Page};
+use crate::drawing::{Layer, Length, Page, Unit};
 use crate::hatch::guide::rank;
 use crate::hatch::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Hatched, Tone, cuts};
 use crate::lines::Lit;
@@ -116,6 +116,23 @@ impl Hatching<'_> {
     }
 }
 
+/// A warning where a table asks for more ink than the layers can give.
+pub(super) fn too_dark(style: &Style, unit: Unit) -> Option<String> {
+    let asked = style.hatch.coverage.iter().skip(style.hatch.blacks).copied().fold(0.0, f64::max);
+    let most = hatch::most_covered(&style.hatch, unit);
+    (style.hatch.enabled && asked > most + SAME_COVERAGE).then(|| {
+        let percent = |share: f64| (share * 100.0).round();
+        format!(
+            "hatching.coverage asks for {} % of ink, but its layers cover {} % at most: make strokes wider or add a layer",
+            percent(asked),
+            percent(most),
+        )
+    })
+}
+
+/// Coverage that differs by this little is the same.
+const SAME_COVERAGE: f64 = 0.02;
+
 /// Guides of a layer that is fixed to the model.
 fn fixed(
     lit: &Lit,
@@ -160,7 +177,7 @@ fn fixed(
         Direction::Page | Direction::Surface | Direction::Light => return None,
     };
     let seen = |points: &[(Point, f64)]| are_seen(lit, offset, points);
-    Some(cuts::guides(ground, &curves, seen, pitch, seed))
+    Some(cuts::guides(ground, &curves, seen, pitch, mesh.size, seed))
 }
 
 /// Sets of cuts are this much closer than strokes lie on a surface that faces the eye.

@@ -208,6 +208,7 @@ impl<'a> Prepared<'a> {
         report.warnings = defects::of_mesh(&surface.mesh, scene).lines();
         report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
         report.warnings.extend(warnings);
+        report.warnings.extend(hatching::too_dark(style, page.unit));
         (Drawing { title: title(scene), page, layers }, report)
     }
 }
