@@ -1,9 +1,10 @@
-//! Numbers without meaning: tolerances, colours, pictures, patterns of names, deterministic functions.
+//! Numbers without meaning: tolerances, colours, pictures, patterns of names, chance, deterministic functions.
 
 pub mod colour;
 pub mod factor;
 pub mod function;
 pub mod glob;
 pub mod linear;
+pub mod noise;
 pub mod picture;
 pub mod tolerance;

@@ -1,0 +1,106 @@
+//! Chance without a clock: numbers that look random, made from whole numbers by hashing, and
+//! smooth noise along a line (value noise on the integers, after Perlin 1985, Lewis 1989).
+
+/// An odd number near 2^64 divided by the golden ratio: successive multiples lie far apart.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// A well-mixed number from a seed and any number of words; the order and number of words count.
+#[must_use]
+pub fn hash(seed: u64, words: &[u64]) -> u64 {
+    let mut state = mix(seed ^ GOLDEN);
+    for word in words {
+        state = mix(state.wrapping_add(GOLDEN) ^ mix(word.wrapping_add(GOLDEN)));
+    }
+    state
+}
+
+/// The finisher of SplitMix64 (Steele, Lea and Flood 2014): every bit in depends on every bit out.
+const fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// A number in [0, 1) from a hash; 53 bits of it are used.
+#[must_use]
+pub const fn unit(hash: u64) -> f64 {
+    (hash >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Smooth noise in [-1, 1] at a place on the line: a number by chance at every integer, joined by
+/// cubics that are level there, so the first derivative is continuous. It never repeats.
+/// Places that are no number give 0.
+#[must_use]
+pub fn smooth(seed: u64, x: f64) -> f64 {
+    if !x.is_finite() {
+        return 0.0;
+    }
+    let floor = x.floor();
+    let at = |lattice: f64| 2.0 * unit(hash(seed, &[(lattice as i64).cast_unsigned()])) - 1.0;
+    let (here, next) = (at(floor), at(floor + 1.0));
+    let t = x - floor;
+    here + (next - here) * (t * t * (3.0 - 2.0 * t))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hashes_depend_on_all_they_are_given() {
+        let all = [
+            hash(0, &[]),
+            hash(1, &[]),
+            hash(0, &[0]),
+            hash(0, &[1]),
+            hash(0, &[0, 0]),
+            hash(0, &[0, 1]),
+            hash(0, &[1, 0]),
+            hash(1, &[0, 1]),
+        ];
+        for (i, a) in all.iter().enumerate() {
+            for b in &all[i + 1..] {
+                // Independent 64-bit numbers differ in about 32 bits.
+                assert!((10..=54).contains(&(a ^ b).count_ones()), "{a:x} {b:x}");
+            }
+        }
+        assert_eq!(hash(7, &[1, 2, 3]), hash(7, &[1, 2, 3]));
+    }
+
+    #[test]
+    fn units_are_spread_evenly() {
+        let mut tenths = [0usize; 10];
+        for word in 0..10_000 {
+            let unit = unit(hash(3, &[word]));
+            assert!((0.0..1.0).contains(&unit));
+            tenths[(unit * 10.0) as usize] += 1;
+        }
+        assert!(tenths.iter().all(|count| (900..1100).contains(count)), "{tenths:?}");
+        assert!((unit(u64::MAX) - 1.0).abs() < 1e-15 && unit(u64::MAX) < 1.0);
+    }
+
+    #[test]
+    fn noise_is_smooth_and_takes_its_range() {
+        let step = 1e-4;
+        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        for i in -200_000..200_000 {
+            let x = f64::from(i) * 1e-3 + 0.000_05;
+            let slopes = [x - step, x].map(|x| (smooth(5, x + step) - smooth(5, x)) / step);
+            // A cubic between levels 2 apart is nowhere steeper than 3 and bends by at most 12.
+            assert!(slopes[0].abs() < 3.001 && (slopes[1] - slopes[0]).abs() < 13.0 * step, "{x}");
+            low = low.min(smooth(5, x));
+            high = high.max(smooth(5, x));
+        }
+        assert!(low < -0.95 && low >= -1.0 && high > 0.95 && high <= 1.0, "{low} {high}");
+    }
+
+    #[test]
+    fn noise_passes_its_lattice_and_bears_any_number() {
+        assert_eq!(smooth(9, 4.0), 2.0 * unit(hash(9, &[4])) - 1.0);
+        assert_ne!(smooth(9, -3.0), smooth(9, 3.0));
+        for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(smooth(1, x), 0.0);
+        }
+        assert!(smooth(1, 1e300).abs() <= 1.0 && smooth(1, -1e300).abs() <= 1.0);
+    }
+}
