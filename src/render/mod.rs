@@ -153,8 +153,15 @@ impl<'a> Prepared<'a> {
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =
             scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
-        let context =
-            InkContext { unit: page.unit, parts: &parts, materials: &materials, hidden: style.lines.hidden };
+        let context = InkContext {
+            unit: page.unit,
+            parts: &parts,
+            materials: &materials,
+            hidden: style.lines.hidden,
+            seed: style.seed,
+            painted: style.region.enabled,
+            names: &[],
+        };
         match stage {
             None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
             Some(stage) => {

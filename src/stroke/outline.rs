@@ -1,20 +1,16 @@
-//! The outline of a line that swells and fades with its strength.
+//! The outline of a line of varying width.
 //!
 //! Points close together along the axis are moved to either side by half the width there; Béziers
-//! are fitted to both sides and joined by the caps. On the inside of a bend a side is never farther
-//! off than the bend's centre, so that it does not turn back on itself.
+//! are fitted to both sides and joined by the caps. A line without a hand is drawn without corners: on the
+//! inside of a bend a side is never farther off than the bend's centre, so that it does not turn back on
+//! itself. For the others see [`super::sides`].
 
-use kurbo::{BezPath, ParamCurve, Point, Vec2};
+use kurbo::{BezPath, Point, Vec2};
 
-use crate::chain::Chain;
+use super::axis::{Axis, length};
+use super::sides::{REACH, Side};
 use crate::chain::fit::{end_tangent, fit, tangent_of, unit};
-use crate::drawing::Cap;
-
-/// Distance of the points along the axis, px.
-const STEP_PX: f64 = 1.0;
-
-/// Length over which the strength is evened out, px.
-const EVEN_PX: f64 = 10.0;
+use crate::drawing::{Cap, Join};
 
 /// How far the sides may lie from what they are fitted to, px.
 const TOLERANCE_PX: f64 = 0.1;
@@ -22,52 +18,56 @@ const TOLERANCE_PX: f64 = 0.1;
 /// The inner side of a bend keeps this part of the way to its centre.
 const INNER: f64 = 0.7;
 
-/// Directions and bends are taken over this many points on either side.
-const REACH: isize = 2;
-
 /// Handle of a quarter circle of radius 1.
 const QUARTER: f64 = 0.552_284_749_830_793_4;
 
-/// An outline and the mean width of the line.
-pub(super) struct Outline {
-    pub path: BezPath,
-    pub width: f64,
-}
-
-/// How the width follows the strength.
-pub(super) struct Swell {
-    /// Width at full strength, user units.
-    pub width: f64,
-    /// The part of the width that is lost where there is no strength, 0 to 1.
-    pub fade: f64,
+/// The shape of ends and corners.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nib {
     pub cap: Cap,
+    pub join: Join,
     /// User units in a px.
     pub px: f64,
 }
 
-/// Whether the line is weaker anywhere than it can be.
-pub(super) fn varies(chain: &Chain) -> bool {
-    chain.samples.iter().any(|sample| sample.strength < 1.0)
+/// The outline of a line from its distances to the left and to the right at every point of its axis;
+/// `None` for one without length.
+pub(super) fn outline(axis: &Axis, halves: [&[f64]; 2], nib: &Nib) -> Option<BezPath> {
+    if axis.len() < 3 {
+        return None;
+    }
+    let [left, right] = [(halves[0], 1.0), (halves[1], -1.0)];
+    let left = Side::new(axis, left.0, left.1, nib.join);
+    let right = Side::new(axis, right.0, right.1, nib.join).reversed();
+    let tolerance = TOLERANCE_PX * nib.px;
+    let mut path = BezPath::new();
+    if axis.closed {
+        left.add_loop_to(tolerance, &mut path);
+        right.add_loop_to(tolerance, &mut path);
+        return Some(path);
+    }
+    let ends = [axis.points.first()?, axis.points.last()?];
+    let (&start, &end) = (left.points.first()?, left.points.last()?);
+    let (&back, &home) = (right.points.first()?, right.points.last()?);
+    path.move_to(start);
+    left.add_to(tolerance, &mut path);
+    cap(&mut path, *ends[1], end, back, nib);
+    right.add_to(tolerance, &mut path);
+    cap(&mut path, *ends[0], home, start, nib);
+    path.close_path();
+    Some(path)
 }
 
-/// The outline of a chain; `None` for one without length.
-pub(super) fn outline(chain: &Chain, swell: &Swell) -> Option<Outline> {
-    let axis = dense(&chain.path, STEP_PX * swell.px);
+/// The outline of a line without corners.
+pub(super) fn soft_outline(axis: &Axis, widths: &[f64], nib: &Nib) -> Option<BezPath> {
     let n = axis.len();
     if n < 3 {
         return None;
     }
-    let arcs = arcs(&axis);
-    let total = *arcs.last()?;
-    let strengths = even(&strengths(chain, &arcs), chain.closed, (EVEN_PX / STEP_PX) as usize);
-    let widths: Vec<f64> = strengths.iter().map(|s| swell.width * (1.0 - swell.fade * (1.0 - s))).collect();
-    let pairs = widths.windows(2).zip(arcs.windows(2));
-    let area: f64 = pairs.map(|(w, a)| (w[0] + w[1]) / 2.0 * (a[1] - a[0])).sum();
-
-    let [left, right] = sides(&axis, &widths, chain.closed);
-    let tolerance = TOLERANCE_PX * swell.px;
+    let (points, tolerance) = (&axis.points, TOLERANCE_PX * nib.px);
+    let [left, right] = sides(points, widths, axis.closed);
     let mut path = BezPath::new();
-    if chain.closed {
+    if axis.closed {
         for side in [left, right.into_iter().rev().collect()] {
             path.move_to(side[0]);
             let seam = unit(side[1] - side[n - 2]);
@@ -78,94 +78,12 @@ pub(super) fn outline(chain: &Chain, swell: &Swell) -> Option<Outline> {
         let back: Vec<Point> = right.into_iter().rev().collect();
         path.move_to(left[0]);
         add_side(&left, tolerance, &mut path);
-        cap(&mut path, axis[n - 1], left[n - 1], back[0], swell);
+        cap(&mut path, points[n - 1], left[n - 1], back[0], nib);
         add_side(&back, tolerance, &mut path);
-        cap(&mut path, axis[0], back[n - 1], left[0], swell);
+        cap(&mut path, points[0], back[n - 1], left[0], nib);
         path.close_path();
     }
-    Some(Outline { path, width: area / total.max(f64::MIN_POSITIVE) })
-}
-
-/// Points on a path, about a step apart; a closed path ends where it begins.
-fn dense(path: &BezPath, step: f64) -> Vec<Point> {
-    let mut points: Vec<Point> = Vec::new();
-    for segment in path.segments() {
-        let cubic = segment.to_cubic();
-        let length = length(cubic.p1 - cubic.p0) + length(cubic.p2 - cubic.p1) + length(cubic.p3 - cubic.p2);
-        let count = (length / step).ceil().clamp(1.0, 1e6) as usize;
-        if points.is_empty() {
-            points.push(segment.start());
-        }
-        points.extend((1..=count).map(|k| segment.eval(k as f64 / count as f64)));
-    }
-    points.dedup();
-    points
-}
-
-/// Arc length at each point.
-fn arcs(points: &[Point]) -> Vec<f64> {
-    let mut arc = 0.0;
-    let mut arcs = Vec::with_capacity(points.len());
-    for (i, p) in points.iter().enumerate() {
-        if i > 0 {
-            arc += length(*p - points[i - 1]);
-        }
-        arcs.push(arc);
-    }
-    arcs
-}
-
-/// The strength at each arc length of the path, which runs beside the chain's points.
-fn strengths(chain: &Chain, at: &[f64]) -> Vec<f64> {
-    let mut points = chain.points.clone();
-    let mut samples: Vec<f64> = chain.samples.iter().map(|sample| sample.strength).collect();
-    if chain.closed {
-        points.extend(chain.points.first());
-        samples.extend(chain.samples.first().map(|sample| sample.strength));
-    }
-    let own = arcs(&points);
-    let (Some(own_total), Some(total)) = (own.last(), at.last()) else { return Vec::new() };
-    let scale = own_total / total.max(f64::MIN_POSITIVE);
-    let mut side = 0;
-    at.iter()
-        .map(|arc| {
-            let arc = arc * scale;
-            while side + 2 < own.len() && own[side + 1] < arc {
-                side += 1;
-            }
-            let next = (side + 1).min(own.len() - 1);
-            let way = own[next] - own[side];
-            let t = if way > 0.0 { ((arc - own[side]) / way).clamp(0.0, 1.0) } else { 0.0 };
-            samples[side] + (samples[next] - samples[side]) * t
-        })
-        .collect()
-}
-
-/// Values evened out by two running means; at the ends of an open line the window shrinks, so that
-/// the ends stay.
-fn even(values: &[f64], closed: bool, window: usize) -> Vec<f64> {
-    let n = values.len();
-    let mut even = values.to_vec();
-    for _ in 0..2 {
-        // Closed lines repeat their first point.
-        let ring = n - 1;
-        let mut sums = vec![0.0; n + 1];
-        for i in 0..n {
-            sums[i + 1] = sums[i] + even[i];
-        }
-        let mean = |i: usize| {
-            if closed {
-                let reach = (window / 2).min(ring / 2);
-                let ids = (0..=2 * reach).map(|k| (i + ring + k - reach) % ring);
-                ids.map(|k| even[k]).sum::<f64>() / (2 * reach + 1) as f64
-            } else {
-                let reach = (window / 2).min(i).min(n - 1 - i);
-                (sums[i + reach + 1] - sums[i - reach]) / (2 * reach + 1) as f64
-            }
-        };
-        even = (0..n).map(mean).collect();
-    }
-    even
+    Some(path)
 }
 
 /// The points moved by half the width to the left and to the right.
@@ -210,16 +128,16 @@ fn add_side(points: &[Point], tolerance: f64, path: &mut BezPath) {
 }
 
 /// From the one side round the end of the axis to the other.
-fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, swell: &Swell) {
+fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, nib: &Nib) {
     let radius = from - middle;
-    if length(radius) < TOLERANCE_PX * swell.px {
+    if length(radius) < TOLERANCE_PX * nib.px {
         path.line_to(to);
         return;
     }
     // Out of the end of the line.
     let out = Vec2::new(-radius.y, radius.x);
     let opposite = to - middle;
-    match swell.cap {
+    match nib.cap {
         Cap::Butt => {}
         Cap::Square => {
             path.line_to(from + out);
@@ -233,10 +151,6 @@ fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, swell: &Swell)
         }
     }
     path.line_to(to);
-}
-
-fn length(v: Vec2) -> f64 {
-    v.hypot2().sqrt()
 }
 
 #[cfg(test)]
