@@ -159,92 +159,185 @@ mod tests {
 
     use super::*;
     use crate::chain::Sample;
-    use crate::lines::LineKind;
     use crate::math::function::{cos, sin};
-    use crate::mesh::{MaterialId, PartId};
+    use crate::math::noise::{hash, smooth, unit as chance};
+    use crate::stroke::axis::arcs;
 
-    const SWELL: Swell = Swell { width: 4.0, fade: 1.0, cap: Cap::Round, px: 1.0 };
+    const NIB: Nib = Nib { cap: Cap::Round, join: Join::Round, px: 1.0 };
 
-    fn chain(points: Vec<Point>, strength: impl Fn(f64) -> f64, closed: bool) -> Chain {
-        let n = points.len() as f64 - 1.0;
-        let mut path = BezPath::new();
-        path.move_to(points[0]);
-        points[1..].iter().for_each(|p| path.line_to(*p));
-        if closed {
-            path.close_path();
-        }
-        let sample = |i: usize| Sample { depth: 1.0, strength: strength(i as f64 / n) };
-        Chain {
-            samples: (0..points.len()).map(sample).collect(),
-            points,
-            closed,
-            kind: LineKind::Suggestive,
-            silhouette: false,
-            invisibility: 0,
-            both_seen: true,
-            part: PartId(0),
-            material: MaterialId(0),
-            smooth: true,
-            path,
-        }
+    fn axis(points: Vec<Point>, corners: Vec<usize>, closed: bool) -> Axis {
+        let samples = vec![Sample::new(1.0, 1.0); points.len()];
+        Axis { arcs: arcs(&points), points, samples, corners, closed }
     }
 
-    /// Whether any two sides of a flattened closed path cross.
-    fn crosses(path: &BezPath) -> bool {
+    /// A polyline with points a px apart and corners where it turns.
+    fn polyline(vertices: &[(f64, f64)]) -> Axis {
+        let mut points = vec![Point::from(vertices[0])];
+        let mut corners = Vec::new();
+        for pair in vertices.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(Point::from);
+            let count = (length(b - a)).ceil() as usize;
+            points.extend((1..=count).map(|k| a.lerp(b, k as f64 / count as f64)));
+            corners.push(points.len() - 1);
+        }
+        corners.pop();
+        axis(points, corners, false)
+    }
+
+    fn both(axis: &Axis, widths: &[f64], nib: &Nib) -> BezPath {
+        let halves: Vec<f64> = widths.iter().map(|w| w / 2.0).collect();
+        outline(axis, [&halves, &halves], nib).expect("an outline")
+    }
+
+    /// Where two sides of a flattened closed path cross.
+    fn crossing(path: &BezPath) -> Option<Point> {
         let mut points: Vec<Point> = Vec::new();
-        kurbo::flatten(path, 0.05, |element| points.extend(element.end_point()));
+        kurbo::flatten(path, 0.02, |element| points.extend(element.end_point()));
         points.dedup_by(|a, b| length(*a - *b) < 1e-3);
         let n = points.len();
         let side = |i: usize| (points[i], points[(i + 1) % n]);
         let turn = |a: Point, b: Point, c: Point| (b - a).cross(c - a);
-        (0..n).any(|i| {
-            (i + 2..n).filter(|j| !(i == 0 && *j + 1 == n)).any(|j| {
-                let ((a, b), (c, d)) = (side(i), side(j));
+        (0..n).find_map(|i| {
+            let crosses = |j: &usize| {
+                let ((a, b), (c, d)) = (side(i), side(*j));
                 turn(a, b, c) * turn(a, b, d) < -1e-9 && turn(c, d, a) * turn(c, d, b) < -1e-9
-            })
+            };
+            (i + 2..n).filter(|j| !(i == 0 && *j + 1 == n)).find(crosses).map(|_| points[i])
         })
     }
 
+    fn whole(path: &BezPath) {
+        if let Some(at) = crossing(path) {
+            panic!("crosses itself at {at:?}: {}", path.to_svg());
+        }
+    }
+
     #[test]
-    fn a_straight_line_that_fades_is_a_wedge() {
+    fn a_straight_line_that_swells_is_a_wedge() {
         let line: Vec<Point> = (0..=100).map(|i| Point::new(f64::from(i), 50.0)).collect();
-        let wedge = outline(&chain(line, |t| t, false), &SWELL).expect("an outline");
-        assert!((wedge.width - 2.0).abs() < 0.05, "{}", wedge.width);
+        let line = axis(line, vec![], false);
+        let widths: Vec<f64> = (0..=100).map(|i| 0.04 * f64::from(i)).collect();
         // The wedge and the half circle at its thick end.
         let area = 200.0 + std::f64::consts::PI * 2.0;
-        assert!((wedge.path.area().abs() - area).abs() < 4.0, "{}", wedge.path.area());
-        assert!(wedge.path.elements().len() < 12, "{:?}", wedge.path);
-        assert_eq!(wedge.path.elements().last(), Some(&PathEl::ClosePath));
-        assert!(!crosses(&wedge.path));
+        for wedge in [both(&line, &widths, &NIB), soft_outline(&line, &widths, &NIB).unwrap()] {
+            assert!((wedge.area().abs() - area).abs() < 4.0, "{}", wedge.area());
+            assert!(wedge.elements().len() < 12, "{wedge:?}");
+            assert_eq!(wedge.elements().last(), Some(&PathEl::ClosePath));
+            whole(&wedge);
+        }
     }
 
     #[test]
     fn tight_bends_do_not_fold() {
-        // A hairpin of radius 1 between straight legs, under a pen of width 4.
+        // A hairpin of radius 3 between straight legs, under a pen of width 5.
         let mut line: Vec<Point> = (0..40).map(|i| Point::new(f64::from(i), 0.0)).collect();
         line.extend((0..=8).map(|i| {
             let angle = std::f64::consts::PI * f64::from(i) / 8.0;
             Point::new(40.0 + 3.0 * sin(angle), 3.0 - 3.0 * cos(angle))
         }));
         line.extend((0..40).map(|i| Point::new(39.0 - f64::from(i), 6.0)));
-        let wide = Swell { width: 5.0, ..SWELL };
-        let bent = outline(&chain(line, |t| 4.0 * t * (1.0 - t), false), &wide).expect("an outline");
-        assert!(!crosses(&bent.path), "{}", bent.path.to_svg());
-        assert!(bent.path.elements().len() < 30, "{}", bent.path.elements().len());
+        let bent = axis(line, vec![], false);
+        let part = |arc: f64| arc / bent.length();
+        let widths: Vec<f64> = bent.arcs.iter().map(|s| 20.0 * part(*s) * (1.0 - part(*s))).collect();
+        for path in [both(&bent, &widths, &NIB), soft_outline(&bent, &widths, &NIB).unwrap()] {
+            whole(&path);
+            assert!(path.elements().len() < 36, "{}", path.elements().len());
+        }
+    }
+
+    #[test]
+    fn corners_are_sharp_inside_and_joined_outside() {
+        let corner = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0, 60.0)]);
+        let widths = vec![6.0; corner.len()];
+        let nib = |join| Nib { cap: Cap::Butt, join, ..NIB };
+        let quarter = std::f64::consts::PI * 9.0 / 4.0;
+        for (join, outside) in [(Join::Miter, 9.0), (Join::Bevel, 4.5), (Join::Round, quarter)] {
+            let path = both(&corner, &widths, &nib(join));
+            whole(&path);
+            // Two legs of 60 by 6 that share a square of 3 by 3, and the corner.
+            let area = 2.0 * 360.0 - 9.0 + outside;
+            assert!((path.area().abs() - area).abs() < 0.3, "{join:?}: {} {area}", path.area());
+            assert_ne!(path.winding(Point::new(57.1, 2.9)), 0);
+            assert_eq!(path.winding(Point::new(56.9, 3.1)), 0, "{}", path.to_svg());
+        }
+        // A corner of 150 degrees: too sharp for a mitre of 4.
+        let needle = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0 - 51.96, 30.0)]);
+        for join in [Join::Miter, Join::Bevel, Join::Round] {
+            let path = both(&needle, &vec![4.0; needle.len()], &nib(join));
+            whole(&path);
+            assert!(path.bounding_box().x1 < 69.0, "{:?}", path.bounding_box());
+        }
+    }
+
+    #[test]
+    fn random_lines_with_corners_do_not_fold() {
+        for case in 0..300_u64 {
+            let dice = |k: u64| chance(hash(case, &[k]));
+            // Legs longer than the pen is wide and turns up to 150 degrees, never twice to the same side, so
+            // that the line does not come back to itself.
+            let mut vertices = vec![(0.0, 0.0)];
+            let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0);
+            for k in 0..5 {
+                let leg = 26.0 + 30.0 * dice(10 + k);
+                x += leg * cos(heading);
+                y += leg * sin(heading);
+                vertices.push((x, y));
+                let turn = (0.4 + 2.2 * dice(20 + k)) * if k % 2 == 0 { 1.0 } else { -1.0 };
+                heading += turn;
+            }
+            let line = polyline(&vertices);
+            let width = 2.0 + 3.0 * dice(1);
+            let widths: Vec<f64> =
+                line.arcs.iter().map(|s| width * (0.7 + 0.3 * smooth(case, s / 20.0))).collect();
+            for join in [Join::Miter, Join::Bevel, Join::Round] {
+                whole(&both(&line, &widths, &Nib { join, ..NIB }));
+            }
+        }
+    }
+
+    #[test]
+    fn random_curves_do_not_fold() {
+        for case in 0..300_u64 {
+            // The heading wanders, with bends down to less than half the pen's width, but not at the ends.
+            let (mut at, mut points) = (Point::ZERO, vec![Point::ZERO]);
+            for k in 0..160 {
+                let calm = (f64::from(k.min(160 - k)) / 24.0).min(1.0);
+                let heading = 1.3 * calm * smooth(hash(case, &[0]), f64::from(k) / 9.0);
+                at += Vec2::new(cos(heading), sin(heading));
+                points.push(at);
+            }
+            let line = axis(points, vec![], false);
+            let widths: Vec<f64> = line.arcs.iter().map(|s| 5.0 + 3.0 * smooth(case, s / 25.0)).collect();
+            whole(&both(&line, &widths, &NIB));
+        }
     }
 
     #[test]
     fn a_closed_line_is_a_ring() {
-        let ring: Vec<Point> = (0..60)
-            .map(|i| std::f64::consts::TAU * f64::from(i) / 60.0)
+        let ring: Vec<Point> = (0..=250)
+            .map(|i| std::f64::consts::TAU * f64::from(i % 250) / 250.0)
             .map(|angle| Point::new(100.0 + 40.0 * cos(angle), 100.0 + 40.0 * sin(angle)))
             .collect();
-        let made = outline(&chain(ring, |t| 0.6 + 0.3 * cos(std::f64::consts::TAU * t), true), &SWELL);
-        let path = made.expect("an outline").path;
-        assert_eq!(path.elements().iter().filter(|e| matches!(e, PathEl::ClosePath)).count(), 2);
-        assert_eq!(path.winding(Point::new(100.0, 100.0)), 0);
-        assert_ne!(path.winding(Point::new(140.0, 100.0)), 0);
-        let area = std::f64::consts::TAU * 40.0 * 4.0 * 0.6;
-        assert!((path.area().abs() - area).abs() < 0.05 * area, "{} {area}", path.area());
+        let ring = axis(ring, vec![], true);
+        let part = |arc: f64| std::f64::consts::TAU * arc / ring.length();
+        let widths: Vec<f64> = ring.arcs.iter().map(|s| 2.4 + 1.2 * cos(part(*s))).collect();
+        for path in [both(&ring, &widths, &NIB), soft_outline(&ring, &widths, &NIB).unwrap()] {
+            assert_eq!(path.elements().iter().filter(|e| matches!(e, PathEl::ClosePath)).count(), 2);
+            assert_eq!(path.winding(Point::new(100.0, 100.0)), 0);
+            assert_ne!(path.winding(Point::new(140.0, 100.0)), 0);
+            let area = std::f64::consts::TAU * 40.0 * 2.4;
+            assert!((path.area().abs() - area).abs() < 0.05 * area, "{} {area}", path.area());
+        }
+        let square = polyline(&[(0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0), (0.0, 0.0)]);
+        let corners = [0].into_iter().chain(square.corners).collect();
+        let square = axis(square.points, corners, true);
+        let path = both(&square, &vec![4.0; square.len()], &Nib { join: Join::Miter, ..NIB });
+        assert!(
+            (path.area().abs() - (54.0 * 54.0 - 46.0 * 46.0)).abs() < 0.1,
+            "{} {}",
+            path.area(),
+            path.to_svg()
+        );
+        assert_eq!(path.elements().len(), 12, "{path:?}");
     }
 }

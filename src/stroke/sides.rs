@@ -6,7 +6,7 @@
 
 use kurbo::{BezPath, Point, Vec2};
 
-use super::axis::{Axis, add_stretch, length};
+use super::axis::{Axis, add_stretch};
 use crate::chain::fit::{fit, unit};
 use crate::drawing::Join;
 use crate::math::function::{atan2, cos, sin};
@@ -19,6 +19,18 @@ const IN_INK: f64 = 0.985;
 
 /// How far along the axis ink is looked for, half widths.
 const WINDOW: f64 = 7.0;
+
+/// Where a side crosses itself is looked for among so many points before and after those in the ink.
+const BEYOND: usize = 5;
+
+/// Points of a side nearer to a crossing than this part of their spacing crowd.
+const CROWD: f64 = 0.6;
+
+/// No more good points than this between bad ones are good by chance.
+const CHANCE: usize = 2;
+
+/// So many points before and after those in the ink go where they are a spike.
+const SPIKE: usize = 2;
 
 /// A joint that would point out farther than this, half widths, is cut off, as in SVG.
 const MITER_LIMIT: f64 = 4.0;
@@ -50,8 +62,9 @@ impl Side {
     pub fn new(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Self {
         let raw = raw(axis, halves, sign, join);
         let bad: Vec<bool> = raw.iter().map(|p| p.dropped || in_ink(axis, halves, p)).collect();
-        let side = cleaned(&raw, &bad, axis.closed);
-        if side.points.len() > 1 { side } else { cleaned(&raw, &vec![false; raw.len()], axis.closed) }
+        let near = CROWD * axis.length() / (axis.len().max(2) - 1) as f64;
+        let side = cleaned(&raw, &bad, axis.closed, near);
+        if side.points.len() > 1 { side } else { cleaned(&raw, &vec![false; raw.len()], axis.closed, near) }
     }
 
     /// The same, run through from its other end.
@@ -109,15 +122,11 @@ fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
             let [comes, leaves] = axis.at_corner(i);
             let (from, to) = (normal(comes), normal(leaves));
             let outer = comes.cross(leaves) * sign > 0.0;
-            let ends = [p + from * half, p + to * half];
             if outer {
-                let sharp = join != Join::Round;
-                points.push(SidePoint { corner: sharp, ..plain(ends[0]) });
-                points.extend(
-                    joint(p, from, to, half, join).map(|at| SidePoint { corner: sharp, ..plain(at) }),
-                );
-                points.push(SidePoint { corner: sharp, ..plain(ends[1]) });
+                let corner = join != Join::Round;
+                points.extend(joint(p, from, to, half, join).map(|at| SidePoint { corner, ..plain(at) }));
             } else {
+                let ends = [p + from * half, p + to * half];
                 points.extend(ends.map(|at| SidePoint { dropped: true, ..plain(at) }));
             }
             continue;
@@ -133,27 +142,25 @@ fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
     points
 }
 
-/// What lies between the two ends of the sides at the outside of a corner.
+/// The points of a side at the outside of a corner.
 fn joint(p: Point, from: Vec2, to: Vec2, half: f64, join: Join) -> impl Iterator<Item = Point> {
-    let between: Vec<Point> = match join {
-        Join::Bevel => Vec::new(),
-        Join::Miter => {
-            let middle = unit(from + to);
-            let cosine = middle.dot(from);
-            if cosine * MITER_LIMIT > 1.0 { vec![p + middle * (half / cosine)] } else { Vec::new() }
-        }
+    let middle = unit(from + to);
+    let cosine = middle.dot(from);
+    let points: Vec<Point> = match join {
+        Join::Miter if cosine * MITER_LIMIT > 1.0 => vec![p + middle * (half / cosine)],
+        Join::Miter | Join::Bevel => vec![p + from * half, p + to * half],
         Join::Round => {
             let turn = atan2(from.cross(to), from.dot(to));
-            let count = (turn.abs() / ROUND_STEP).ceil() as usize;
+            let count = (turn.abs() / ROUND_STEP).ceil().max(1.0) as usize;
             let at = |k: usize| {
                 let angle = turn * k as f64 / count as f64;
                 let (s, c) = (sin(angle), cos(angle));
                 p + Vec2::new(from.x * c - from.y * s, from.x * s + from.y * c) * half
             };
-            (1..count).map(at).collect()
+            (0..=count).map(at).collect()
         }
     };
-    between.into_iter()
+    points.into_iter()
 }
 
 /// Whether a point of a side lies in the ink of points of the axis near its own.
@@ -190,10 +197,54 @@ fn in_ink(axis: &Axis, halves: &[f64], point: &SidePoint) -> bool {
 }
 
 /// The points that are not bad, and where the side crosses itself instead of those that are.
-fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool) -> Side {
+/// Points nearer than `near` to such a crossing go as well: they would bend the curves that end there.
+fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
     let n = raw.len();
+    let mut keep: Vec<bool> = bad.iter().map(|bad| !bad).collect();
+    if !closed && n > 0 {
+        // The caps begin here.
+        keep[0] = true;
+        keep[n - 1] = true;
+    }
+    // A few good points between bad ones are by chance.
+    for i in 1..n {
+        let run = if bad[i - 1] { keep[i..].iter().take_while(|keep| **keep).count() } else { 0 };
+        if (1..=CHANCE).contains(&run) && i + run < n {
+            keep[i..i + run].fill(false);
+        }
+    }
+    let Some(first) = keep.iter().position(|keep| *keep) else { return Side::default() };
+    // What comes after a point instead of the bad ones: a corner, perhaps at a crossing.
+    let mut after: Vec<Option<Option<Point>>> = vec![None; n];
+    let mut before = first;
+    for step in 1..=n {
+        let i = (first + step) % n;
+        if !keep[i] || (i == before && step < n) || (!closed && step + first >= n) {
+            continue;
+        }
+        if (before + 1) % n != i {
+            let (back, ahead, at) = crossing_near(raw, before, i, closed);
+            for k in 0..back {
+                keep[(before + n - k) % n] = false;
+            }
+            for k in 0..ahead {
+                keep[(i + k) % n] = false;
+            }
+            let (from, to) = ((before + n - back) % n, (i + ahead) % n);
+            after[from] = Some(at);
+            if let Some(at) = at {
+                // Its neighbours would bend the curves that end at the crossing.
+                for k in [from, to] {
+                    keep[k] &=
+                        (raw[k].at - at).hypot2() >= near * near || (!closed && (k == 0 || k + 1 == n));
+                }
+            }
+            before = to;
+        } else {
+            before = i;
+        }
+    }
     let mut side = Side::default();
-    let Some(first) = (0..n).find(|i| !bad[*i]) else { return side };
     let mut push = |at: Point, corner: bool| {
         if side.points.last() == Some(&at) {
             if let Some(last) = side.corners.last_mut() {
@@ -204,30 +255,50 @@ fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool) -> Side {
             side.corners.push(corner);
         }
     };
-    let mut before = first;
-    push(raw[first].at, raw[first].corner);
-    for step in 1..=n {
-        let i = (first + step) % n;
-        if (!closed && first + step >= n) || bad[i] {
-            continue;
+    let mut cut = false;
+    for i in 0..n {
+        if keep[i] {
+            push(raw[i].at, raw[i].corner || cut || after[i] == Some(None));
+            cut = after[i] == Some(None);
         }
-        let gap = (i + n - before) % n;
-        if gap > 1 {
-            let (a, b) = (raw[before].at, raw[(before + 1) % n].at);
-            let (c, d) = (raw[(i + n - 1) % n].at, raw[i].at);
-            let mid = if length(a - d) > 0.0 { a.midpoint(d) } else { a };
-            push(crossing(a, b, c, d).unwrap_or(mid), true);
+        if let Some(Some(at)) = after[i] {
+            push(at, true);
         }
-        if step < n {
-            push(raw[i].at, raw[i].corner);
-        }
-        before = i;
     }
     if closed && side.points.len() > 1 && side.points.first() == side.points.last() {
         side.points.pop();
-        side.corners.pop();
+        side.corners[0] |= side.corners.pop().unwrap_or_default();
     }
     side
+}
+
+/// Where the side crosses itself first near a gap between two points: how many points before and after the gap
+/// lie beyond the crossing as well, and where it is. None if it does not.
+fn crossing_near(
+    raw: &[SidePoint],
+    before: usize,
+    next: usize,
+    closed: bool,
+) -> (usize, usize, Option<Point>) {
+    let n = raw.len();
+    let inside = |back: usize, ahead: usize| closed || (back <= before && next + ahead < n);
+    for beyond in (0..=2 * BEYOND).rev() {
+        for back in 0..=beyond.min(BEYOND) {
+            let ahead = beyond - back;
+            if ahead > BEYOND || 2 * (back + ahead) + 4 > n || !inside(back, ahead) {
+                continue;
+            }
+            let a = (before + n - back) % n;
+            let d = (next + ahead) % n;
+            let (b, c) = ((a + 1) % n, (d + n - 1) % n);
+            if let Some(at) = crossing(raw[a].at, raw[b].at, raw[c].at, raw[d].at) {
+                return (back, ahead, Some(at));
+            }
+        }
+    }
+    // A spike without width: its tip goes.
+    let ends = !closed && (before < SPIKE || next + SPIKE >= n);
+    if ends || 4 * SPIKE + 4 > n { (0, 0, None) } else { (SPIKE, SPIKE, None) }
 }
 
 /// Where two segments cross.
