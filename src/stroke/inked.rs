@@ -10,7 +10,7 @@ use super::axis::Axis;
 use super::brush::{self, Brush};
 use super::outline::{Nib, outline};
 use super::pen::Pen;
-use super::pieces::{End, Piece, breaks, parted, united};
+use super::pieces::{End, Piece, broken, parted};
 use super::tremor::Tremor;
 use super::widths::{Setting, mean, taper, widths};
 use crate::chain::Chain;
@@ -61,8 +61,6 @@ impl Inked<'_> {
         let seed = hash(context.seed, &[self.identity(context)]);
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
         let lifts = hand.overshoot.value > 0.0;
-        let own = breaks(self.axis.length(), in_unit(hand.breaks), in_unit(hand.break_gap), hash(seed, &[0]));
-        let gaps = united(self.gaps.to_vec(), own);
         let ends = [0, 1].map(|side| End {
             tapers: !self.joined[side],
             runs_on: !self.joined[side] && !self.chain.covered[side],
@@ -72,7 +70,12 @@ impl Inked<'_> {
         let thick = widths(&axis, &setting);
         // The widths travel in place of the strengths, which they have used up.
         axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
-        let pieces = parted(&axis, &gaps, lifts, ends, px);
+        let (mean, gap) = (in_unit(hand.breaks), in_unit(hand.break_gap));
+        let pieces: Vec<Piece> = parted(&axis, self.gaps, lifts, ends, px)
+            .into_iter()
+            .enumerate()
+            .flat_map(|(k, piece)| broken(piece, mean, gap, hash(seed, &[0, k as u64]), px))
+            .collect();
         let mut shapes = Vec::new();
         for pass in 0..u64::from(hand.passes.max(1)) {
             let pass_seed = hash(seed, &[1, pass]);

@@ -28,6 +28,9 @@ impl End {
     const LIFTED: Self = Self { tapers: true, runs_on: true };
 }
 
+/// Most gaps that the hand leaves in a line.
+const MOST_BREAKS: f64 = 10_000.0;
+
 /// Lines with gaps in them are whole in between at least over this length, px.
 const SHORTEST_PX: f64 = 0.75;
 
@@ -55,52 +58,36 @@ pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2]
             pieces.push(Piece { axis: axis.cut(from, to), ends });
         }
     };
-    for (i, (cut, end)) in cuts.iter().enumerate() {
+    let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return pieces };
+    if !axis.closed {
+        let (gap, end) = &cuts[0];
+        add(*first, gap[0], [ends[0], *end]);
+    }
+    for (i, (gap, end)) in cuts.iter().enumerate() {
         match cuts.get(i + 1) {
-            Some((next, then)) => add(cut[1], next[0], [*end, *then]),
+            Some((next, then)) => add(gap[1], next[0], [*end, *then]),
             None if axis.closed => {
                 let (next, then) = &cuts[0];
-                add(cut[1], next[0] + total, [*end, *then]);
+                add(gap[1], next[0] + total, [*end, *then]);
             }
-            None => add(cut[1], total, [*end, ends[1]]),
+            None => add(gap[1], *last, [*end, ends[1]]),
         }
-    }
-    if !axis.closed {
-        let (first, end) = &cuts[0];
-        add(0.0, first[0], [ends[0], *end]);
-        pieces.rotate_right(usize::from(first[0] >= SHORTEST_PX * px));
     }
     pieces
 }
 
-/// Gaps of about a length, on the mean so far from each other; how many there are does not depend on the
-/// seed.
-pub(super) fn breaks(total: f64, mean: f64, gap: f64, seed: u64) -> Vec<[f64; 2]> {
-    if mean <= 0.0 || gap <= 0.0 {
-        return Vec::new();
-    }
-    let count = (total / mean).round().clamp(0.0, 10_000.0) as usize;
-    let step = total / count.max(1) as f64;
+/// The same piece with gaps of about a length that the hand leaves, on the mean so far from each other; how
+/// many there are does not depend on the seed.
+pub(super) fn broken(piece: Piece, mean: f64, gap: f64, seed: u64, px: f64) -> Vec<Piece> {
+    let total = piece.axis.length();
+    let count = if mean > 0.0 { (total / mean).round().min(MOST_BREAKS) as usize } else { 0 };
+    let (Some(first), true) = (piece.axis.arcs.first(), count > 0 && gap > 0.0) else { return vec![piece] };
+    let step = total / count as f64;
     let chance = |k: usize, word: u64| unit(hash(seed, &[k as u64, word]));
-    (0..count)
-        .map(|k| {
-            let middle = (k as f64 + 0.2 + 0.6 * chance(k, 0)) * step;
-            let half = (gap * (0.6 + 0.8 * chance(k, 1)) / 2.0).min(0.15 * step);
-            [middle - half, middle + half]
-        })
-        .collect()
-}
-
-/// Two lists of gaps as one, those that meet joined.
-pub(super) fn united(mut gaps: Vec<[f64; 2]>, more: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    gaps.extend(more);
-    gaps.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let mut joined: Vec<[f64; 2]> = Vec::with_capacity(gaps.len());
-    for gap in gaps {
-        match joined.last_mut() {
-            Some(last) if gap[0] <= last[1] => last[1] = last[1].max(gap[1]),
-            _ => joined.push(gap),
-        }
-    }
-    joined
+    let gaps = (0..count).map(|k| {
+        let middle = first + (k as f64 + 0.2 + 0.6 * chance(k, 0)) * step;
+        let half = (gap * (0.6 + 0.8 * chance(k, 1)) / 2.0).min(0.15 * step);
+        [middle - half, middle + half]
+    });
+    parted(&piece.axis, &gaps.collect::<Vec<_>>(), false, piece.ends, px)
 }
