@@ -1,6 +1,7 @@
 //! [`Brush`]: a shape that is laid along lines: drawn once over each line or again and again.
 //!
-//! Source: strokes with a shape of their own, mapped along the line by its arc length, Claes et al., fig. 5e;
+//! Source: lines drawn with a shape of their own, Claes, Di Fiore, Vansichem and Van Reeth, Fast 3D cartoon
+//! rendering with improved quality by exploiting graphics hardware, 2001, fig. 5e; mapped by arc length as in
 //! Hsu and Lee, Drawing and animation using skeletal strokes, SIGGRAPH 1994.
 
 use kurbo::{BezPath, PathEl, Point, Vec2};
@@ -68,6 +69,10 @@ pub(super) fn drawn(
         _ => ratio * pen,
     };
     let copies = if brush.repeats { (total / one).round().clamp(1.0, MOST_COPIES) } else { 1.0 };
+    // Once over a line that is shorter than the brush in proportion it is thinner, not a blot.
+    let thinner = if brush.repeats { 1.0 } else { (total / (ratio * pen).max(f64::MIN_POSITIVE)).min(1.0) };
+    let thick: Vec<f64> = thick.iter().map(|width| width * thinner).collect();
+    let thick = &thick[..];
     match &brush.shape {
         BrushShape::Profile(profile, _) => {
             let at = |side: usize| -> Vec<f64> {

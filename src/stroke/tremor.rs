@@ -31,7 +31,7 @@ pub(super) struct Tremor {
 }
 
 impl Tremor {
-    /// Moves the points, each no farther than its limit.
+    /// Moves the points, each less far than its limit.
     pub fn shake(&self, axis: &mut Axis, limits: &[f64]) {
         if self.amplitude <= 0.0 && self.stray <= 0.0 {
             return;
@@ -49,11 +49,12 @@ impl Tremor {
             };
             let way = across + drift;
             let far = way.hypot2().sqrt();
-            axis.points[i] + if far > limits[i] { way * (limits[i] / far) } else { way }
+            axis.points[i] + way * within(far, limits[i])
         });
         axis.points = moved.collect();
     }
 
+    /// The finer and the longer wave together, -1 to 1.
     fn tremor(&self, arc: f64) -> f64 {
         let [length, share] = FINE;
         (1.0 - share) * self.noise(0, arc, self.wave) + share * self.noise(1, arc, self.wave * length)
@@ -84,4 +85,12 @@ impl Tremor {
         let before = |arc: f64| smooth(seed, arc / wave);
         before(arc) * (1.0 - share) + before(arc - round) * share
     }
+}
+
+/// The part of a way that keeps it within a limit, without a kink.
+fn within(way: f64, limit: f64) -> f64 {
+    if limit.is_infinite() {
+        return 1.0;
+    }
+    limit / (limit * limit + way * way).sqrt().max(f64::MIN_POSITIVE)
 }

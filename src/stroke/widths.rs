@@ -131,24 +131,26 @@ fn handedness(axis: &Axis) -> f64 {
 }
 
 /// Thins the ends of an open axis that are to be tapered, over a length: (2 - t) t of the width, t from 0 at
-/// the end to 1.
+/// the end to 1. Lines shorter than that are thinner throughout, as they would be dots.
 pub(super) fn taper(axis: &Axis, widths: &mut [f64], ends: [bool; 2], over: f64, to: f64, least: f64) {
     let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return };
-    let both = ends[0] && ends[1];
-    let over = over.min((last - first) * if both { 0.5 } else { 1.0 });
-    if over <= 0.0 {
+    let count = ends.iter().filter(|end| **end).count();
+    let total = last - first;
+    if count == 0 || over <= 0.0 || total <= 0.0 {
         return;
     }
-    let part = |way: f64| {
-        let t = (way / over).clamp(0.0, 1.0);
-        to + (1.0 - to) * t * (2.0 - t)
-    };
+    let eased = |t: f64| to + (1.0 - to) * t * (2.0 - t);
+    let whole = eased((total / over).min(1.0));
+    let over = over.min(total / count as f64);
+    widths.iter_mut().for_each(|width| *width *= whole);
+    let part = |way: f64| eased((way / over).clamp(0.0, 1.0));
     for (width, arc) in widths.iter_mut().zip(&axis.arcs) {
         for (end, way) in [(ends[0], arc - first), (ends[1], last - arc)] {
             if end {
-                *width = (*width * part(way)).max(least.min(*width));
+                *width *= part(way);
             }
         }
+        *width = width.max(least);
     }
 }
 
