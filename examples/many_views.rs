@@ -26,7 +26,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| part.name.as_str().into()).collect();
     let materials: Vec<_> = scene.materials.iter().map(|m| (m.name.as_str().into(), m.colour)).collect();
     let hidden = style.lines.hidden;
-    let context = InkContext { unit: Unit::Px, parts: &parts, materials: &materials, hidden };
+    let context = InkContext {
+        unit: Unit::Px,
+        parts: &parts,
+        materials: &materials,
+        hidden,
+        seed: style.seed,
+        painted: false,
+        names: &[],
+    };
     let page = Page { width: 600.0, height: 600.0, unit: Unit::Px, background: style.background };
 
     let six = [

@@ -4,13 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 9] = [
+const DOCUMENTS: [&str; 10] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "docs/styles.md",
     "docs/exactness.md",
     "docs/fills.md",
+    "docs/lines.md",
     "docs/smooth.md",
     "docs/stages.md",
     "examples/README.md",

@@ -215,6 +215,16 @@ fn numbers_out_of_range_are_refused() {
         "lines.crease_deg=nan",
         "pen.colour={ shade = 2 }",
         "pen.dash=[0, 0]",
+        "pen.swell.taper_to=1.5",
+        "pen.swell.lit=-1",
+        "pen.hand.passes=0",
+        "pen.hand.passes=9",
+        "pen.hand.tremor=-1",
+        "pen.brush={}",
+        "pen.brush=broom",
+        "pen.brush={ path = \"M0 0L1 1\", image = \"a.png\" }",
+        "pen.brush={ path = \"M0 0L9 0\" }",
+        "pen.brush={ path = \"hello\" }",
         "chain.smooth=-1",
         "seed=-1",
         "chain.fit=2",
@@ -272,7 +282,7 @@ fn the_defaults_of_the_documentation_are_those_of_the_code() {
     let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
     assert_eq!(style.stroke.pen, ligne::stroke::Pen::default());
     assert_eq!(style.background, Some(Colour::WHITE));
-    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncontours = \"auto\"\ncrease_deg = 40\nhidden = \"none\"\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n[light]\nfrom_model = true\nsources = []\nambient = 0\nwrap = 0\nocclusion = 0\n[fills]\nenabled = false\nthresholds = [0.5]\nlit = 1\ncast_shadows = false\nseams = \"underlap\"\nunderlap = 0.6\ncrumb = 2\nfit_tolerance = 0.05\n[fills.highlight]\nenabled = false\nthresholds = [0.5]\nexponent = 40\ncolour = \"#ffffff\"\nstrength = 0.7\n[fills.gooch]\nenabled = false\ncool = \"#00008c\"\nwarm = \"#4d4d00\"\ncool_share = 0.25\nwarm_share = 0.5\n";
+    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncontours = \"auto\"\ncrease_deg = 40\nhidden = \"none\"\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\nhalo = 0\nbrush = \"none\"\n[pen.swell]\ntaper = 0\ntaper_to = 0.2\nbend = 0\nbend_radius = 40\nlit = 0\nnear = 0\ngap = 0\n[pen.hand]\ntremor = 0\ntremor_length = 60\novershoot = 0\nbreaks = 0\nbreak_gap = 3\npasses = 1\nstray = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n[light]\nfrom_model = true\nsources = []\nambient = 0\nwrap = 0\nocclusion = 0\n[fills]\nenabled = false\nthresholds = [0.5]\nlit = 1\ncast_shadows = false\nseams = \"underlap\"\nunderlap = 0.6\ncrumb = 2\nfit_tolerance = 0.05\n[fills.highlight]\nenabled = false\nthresholds = [0.5]\nexponent = 40\ncolour = \"#ffffff\"\nstrength = 0.7\n[fills.gooch]\nenabled = false\ncool = \"#00008c\"\nwarm = \"#4d4d00\"\ncool_share = 0.25\nwarm_share = 0.5\n";
     let sheets = Sheets::new("documented", &[("all.toml", documented)]);
     assert_eq!(Style::load(&sheets.path("all.toml"), &[]).unwrap(), style);
 }

@@ -35,6 +35,21 @@ done
 "$ligne" draw $models/knot.ply $pictures/fills-knot.svg --style comic-flats --set lines.enabled=false --size 320x240 --azimuth 0 --elevation 30 --precision 1
 "$ligne" draw $models/pump.glb $pictures/fills-pump.svg --style toon --size 640x440 --precision 1
 
+# docs/lines.md: pens
+lines() {
+    "$ligne" draw "$1" "$pictures/lines-$2.svg" --size 320x240 --precision 2 "${@:3}"
+}
+wide=(--set pen.width=1.6 --set pen.contour.width=2.6 --set pen.silhouette.width=3.4)
+lines $models/teapot.obj taper --azimuth 20 "${wide[@]}" --set pen.swell.taper=36 --set pen.swell.taper_to=0.1
+lines $models/teapot.obj lit --azimuth 20 "${wide[@]}" --set pen.swell.taper=20 --set pen.swell.lit=0.75
+lines $models/teapot.obj bend --azimuth 20 "${wide[@]}" --set pen.swell.taper=30 --set pen.swell.bend=0.9 --set pen.swell.gap=0.6
+lines $models/bracket.stl sketch --azimuth 140 --set pen.width=0.8 --set pen.contour.width=0.8 --set pen.silhouette.width=1 \
+    --set pen.swell.taper=24 --set pen.hand.tremor=0.9 --set pen.hand.overshoot=8 --set pen.hand.passes=2
+lines $models/knot.ply halo --azimuth 0 --elevation 30 --set lines.hidden=solid --set pen.halo=3 \
+    --set pen.contour.width=1.2 --set pen.silhouette.width=1.2 --set pen.hidden.width=0.8
+lines $models/knot.ply brush --azimuth 0 --elevation 30 --set pen.contour.width=4 --set pen.silhouette.width=6 \
+    --set 'pen.brush={ path = "M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z" }'
+
 # docs/stages.md
 "$ligne" draw $models/bear.ply $pictures/stage-field.png --stage field --size 400x480 --azimuth 25 --elevation 12
 "$ligne" draw $models/knot.ply $pictures/stage-zeros.svg --stage zeros --size 480x400 --precision 1

@@ -132,7 +132,7 @@ impl Line {
 }
 
 fn sample(vertex: &ViewVertex) -> Sample {
-    Sample { depth: vertex.depth, strength: f64::from(vertex.strength) }
+    Sample::new(vertex.depth, f64::from(vertex.strength))
 }
 
 /// Distance from a point to a segment, squared.

@@ -47,15 +47,33 @@ pub struct Sample {
     /// How strong the line is here, 0 to 1. Only suggestive contours, ridges and valleys are ever
     /// weaker than 1.
     pub strength: f64,
+    /// The diffuse light on the surface beside the line, 0 to 1; 1 where nobody asked.
+    pub light: f64,
+    /// How far what lies behind the line is from it, 0 to 1; 1 before background, and where nobody
+    /// asked.
+    pub gap: f64,
+    /// On which side of the line, as it runs, the nearer surface lies: 1 on the left, -1 on the right, 0
+    /// where both are as near, and where nobody asked.
+    pub side: f64,
 }
 
 impl Sample {
+    /// A sample of which only depth and strength are known.
+    #[must_use]
+    pub const fn new(depth: f64, strength: f64) -> Self {
+        Self { depth, strength, light: 1.0, gap: 1.0, side: 0.0 }
+    }
+
     /// What lies between two points of a line, at part `t` of the way.
     #[must_use]
     pub fn lerp(self, to: Self, t: f64) -> Self {
+        let mix = |from: f64, to: f64| from + (to - from) * t;
         Self {
-            depth: self.depth + (to.depth - self.depth) * t,
-            strength: self.strength + (to.strength - self.strength) * t,
+            depth: mix(self.depth, to.depth),
+            strength: mix(self.strength, to.strength),
+            light: mix(self.light, to.light),
+            gap: mix(self.gap, to.gap),
+            side: mix(self.side, to.side),
         }
     }
 }
@@ -85,6 +103,11 @@ pub struct Chain {
     pub material: MaterialId,
     /// Whether it lies on a smooth surface.
     pub smooth: bool,
+    /// Whether a surface covers the line at its first and last point, so that it ends in the drawing, but
+    /// not on the surface.
+    pub covered: [bool; 2],
+    /// Smallest number of the feature segments that it has pieces of.
+    pub segment: u32,
     /// The curve that is drawn: fitted Béziers, or the polyline of `points`.
     pub path: BezPath,
 }
@@ -155,7 +178,7 @@ pub(crate) fn curve(
         tidy: 0.0,
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
     };
-    let sample = Sample { depth: 0.0, strength: 1.0 };
+    let sample = Sample::new(0.0, 1.0);
     let mut line = Line { closed, ..Line::default() };
     for (point, soft) in points.iter().zip(soft) {
         line.push(*point, sample, *soft, false);
@@ -183,6 +206,8 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
         part: raw.class.part,
         material: raw.class.material,
         smooth: raw.smooth,
+        covered: raw.covered,
+        segment: raw.segment,
         path,
     }
 }

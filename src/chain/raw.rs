@@ -27,6 +27,8 @@ pub(super) struct Raw {
     /// Length of a crease, each piece weighted by how much it turns beyond what may be noise; a
     /// right angle counts once. 0 for other lines.
     pub pronounced: f64,
+    /// Smallest number of the feature segments that it has pieces of.
+    pub segment: u32,
 }
 
 impl Raw {
@@ -68,6 +70,7 @@ impl Raw {
             vertices: edges().flat_map(|edge| [edge.start, edge.end]).collect(),
             covered: ends.map(|v| map.vertices[v.index()].kind == ViewVertexKind::TJunction),
             pronounced,
+            segment: edges().map(|edge| edge.segment).min().unwrap_or(0),
         })
     }
 

@@ -107,6 +107,7 @@ pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: 
             used[at / 2] = true;
             if at / 2 != i {
                 whole.pronounced += raws[at / 2].pronounced;
+                whole.segment = whole.segment.min(raws[at / 2].segment);
                 whole.vertices.extend(&raws[at / 2].vertices);
             }
             let line = &raws[at / 2].line;

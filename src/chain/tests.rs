@@ -421,7 +421,7 @@ proptest! {
     fn simplifying_twice_is_simplifying_once(lines in walks(), tolerance in 0.1_f64..9.0) {
         for (points, ..) in lines {
             let mut line = line::Line::default();
-            points.iter().for_each(|(x, y)| line.push(Point::new(*x, *y), Sample { depth: 1.0, strength: 1.0 }, true, false));
+            points.iter().for_each(|(x, y)| line.push(Point::new(*x, *y), Sample::new(1.0, 1.0), true, false));
             let once = simplify::simplify(&line, tolerance);
             prop_assert_eq!(simplify::simplify(&once, tolerance), once);
         }

@@ -1,5 +1,6 @@
 //! The pipeline, on one screen.
 
+mod beside;
 pub mod defects;
 mod fills;
 mod hatching;
@@ -27,6 +28,7 @@ use crate::stroke::{self, InkContext};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, ViewMap};
+use beside::Beside;
 use fills::{Fills, Paintable};
 use hatching::Hatching;
 use stages::Made;
@@ -182,14 +184,24 @@ impl<'a> Prepared<'a> {
         }
         centre_on_page(&mut map, camera, &page);
 
-        let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
+        let mut chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
         report.stages_ms.chains = watch.lap_ms();
 
+        let margin = margin(camera, &page);
+        beside::ask(&mut chains, &Beside { scene, surface, view: &view, style, margin, unit: page.unit });
+        let names = beside::names(&feature_lines, surface, &style.stroke);
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =
             scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
-        let context =
-            InkContext { unit: page.unit, parts: &parts, materials: &materials, hidden: style.lines.hidden };
+        let context = InkContext {
+            unit: page.unit,
+            parts: &parts,
+            materials: &materials,
+            hidden: style.lines.hidden,
+            seed: style.seed,
+            painted: style.region.enabled,
+            names: &names,
+        };
         match stage {
             None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
             Some(stage) => {
@@ -239,12 +251,17 @@ fn points(path: &kurbo::BezPath) -> u64 {
 
 /// Moves the picture from the camera's frame to the middle of the page.
 fn centre_on_page(map: &mut ViewMap, camera: &Camera, page: &Page) {
-    let margin = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
+    let margin = margin(camera, page);
     if margin != Vec2::ZERO {
         for vertex in &mut map.vertices {
             vertex.position += margin;
         }
     }
+}
+
+/// From the camera's frame to the page.
+fn margin(camera: &Camera, page: &Page) -> Vec2 {
+    Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0
 }
 
 /// The model's name: its file without folder and ending.

@@ -1,10 +1,22 @@
 //! Strokes: chains with their ink, as the line layers of a drawing.
 
+mod axis;
+pub mod brush;
+pub mod brush_source;
 pub mod dash;
+mod ends;
+mod halo;
+pub mod hand;
+mod inked;
 pub mod options;
 mod outline;
 pub mod pen;
+mod pieces;
+mod sides;
+pub mod swell;
 pub mod travel;
+mod tremor;
+mod widths;
 
 use std::sync::Arc;
 
@@ -12,14 +24,20 @@ use kurbo::BezPath;
 use rayon::prelude::*;
 
 pub use crate::math::glob::Glob;
+pub use brush::{Brush, BrushShape};
+pub use brush_source::{BrushChange, BrushSource};
+pub use hand::{Hand, HandChange};
 pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
 pub use pen::{Ink, Pen, PenChange};
+pub use swell::{Swell, SwellChange};
 
 use crate::chain::Chain;
 use crate::drawing::{Layer, LayerKind, Length, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
 use crate::lines::HiddenLines;
 use crate::math::colour::Colour;
-use outline::Swell;
+use axis::Axis;
+use inked::{Inked, Shape};
+use outline::Nib;
 
 /// What strokes need of the scene and the page: names, colours and the unit.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +50,19 @@ pub struct InkContext<'a> {
     pub materials: &'a [(Arc<str>, Colour)],
     /// What becomes of hidden chains.
     pub hidden: HiddenLines,
+    /// The hand: seeds all that varies by chance.
+    pub seed: u64,
+    /// Whether surfaces are painted under the lines, so that lines must not leave their borders.
+    pub painted: bool,
+    /// For feature segments, by their number, what lasts while the eye moves; 0 = nothing. May be empty.
+    pub names: &'a [u64],
+}
+
+impl InkContext<'_> {
+    /// User units in a px.
+    fn px(&self) -> f64 {
+        Length::px(1.0).in_unit(self.unit)
+    }
 }
 
 /// Turns chains into the layers `hidden-lines` and `lines`, back to front; empty ones are absent.
@@ -53,8 +84,12 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     let mut layers = Vec::new();
     for (kind, mut chains) in [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)] {
         chains.sort_by_key(|chain| (std::cmp::Reverse(chain.kind), chain.silhouette));
-        let marks: Vec<Mark> =
-            chains.par_iter().filter_map(|chain| mark(chain, context, &selection.pen(chain))).collect();
+        let pens: Vec<Pen> = chains.par_iter().map(|chain| selection.pen(chain)).collect();
+        let marks = if pens.iter().any(Pen::has_hand) {
+            handmade(&chains, &pens, context)
+        } else {
+            chains.par_iter().zip(&pens).filter_map(|(chain, pen)| mark(chain, context, pen)).collect()
+        };
         let parted = match options.layers.by {
             LayersBy::Visibility => vec![Layer { kind, pen: None, marks }],
             LayersBy::Pen => by_pen(kind, marks, context.unit),
@@ -69,45 +104,95 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     layers
 }
 
-/// One chain with its pen; `None` if it has no path or its pen no width.
-fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
-    let width = pen.width.in_unit(context.unit);
-    if chain.path.elements().len() < 2 || width <= 0.0 {
-        return None;
-    }
+/// The marks of chains some of which have a hand, or are cut by the halos of others.
+fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Mark> {
+    let px = context.px();
+    let axes: Vec<Axis> = chains.par_iter().map(|chain| Axis::of(chain, px).evened(px)).collect();
+    let depths = chains.iter().flat_map(|chain| &chain.samples).map(|sample| sample.depth);
+    let depths = depths.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], d| [l.min(d), h.max(d)]);
+    let reach = |pen: &Pen| {
+        let halo = pen.halo.in_unit(context.unit);
+        if halo > 0.0 { halo + pen.width.in_unit(context.unit) / 2.0 } else { 0.0 }
+    };
+    let haloed: Vec<halo::Haloed> =
+        axes.iter().zip(pens).map(|(axis, pen)| halo::Haloed { axis, reach: reach(pen) }).collect();
+    let gaps = halo::gaps(&haloed, depths, px);
+    let joined = ends::joined(chains, px);
+    let of_chain = |i: usize| -> Vec<Mark> {
+        let (chain, pen) = (chains[i], &pens[i]);
+        let width = pen.width.in_unit(context.unit);
+        if chain.path.elements().len() < 2 || width <= 0.0 {
+            return Vec::new();
+        }
+        if !pen.has_hand() && gaps[i].is_empty() {
+            return mark(chain, context, pen).into_iter().collect();
+        }
+        let solid = is_solid(chain, context, pen);
+        let (axis, joined, gaps) = (&axes[i], joined[i], &gaps[i]);
+        let shapes = Inked { chain, axis, pen, joined, gaps, depths, solid }.shapes(context);
+        let painted = shapes.into_iter().map(|shape| match shape {
+            Shape::Path(path, closed) => stroked(path, closed, chain, context, pen),
+            Shape::Outline { path, axis, width: mean } => {
+                let colour = colour(chain, context, pen);
+                let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
+                Mark { path, paint, provenance: provenance(chain, context) }
+            }
+        });
+        painted.collect()
+    };
+    let marks: Vec<Vec<Mark>> = (0..chains.len()).into_par_iter().map(of_chain).collect();
+    marks.into_iter().flatten().collect()
+}
+
+/// Whether a chain is drawn without dashes.
+fn is_solid(chain: &Chain, context: &InkContext, pen: &Pen) -> bool {
+    pen.dash.is_empty() || (chain.invisibility > 0 && context.hidden == HiddenLines::Solid)
+}
+
+/// The colour of a chain's ink.
+fn colour(chain: &Chain, context: &InkContext, pen: &Pen) -> Colour {
     let material = context.materials.get(chain.material.index());
     let mut colour = match pen.colour {
         Ink::Fixed(colour) => colour,
         Ink::Shade(shade) => material.map_or(Colour::BLACK, |(_, base)| base.darker(shade)),
     };
     colour.a = (f64::from(colour.a) * pen.opacity).round() as u8;
-    let solid = pen.dash.is_empty() || (chain.invisibility > 0 && context.hidden == HiddenLines::Solid);
-    if solid
-        && pen.fade > 0.0
-        && outline::varies(chain)
-        && let Some(outline) = outline::outline(
-            chain,
-            &Swell { width, fade: pen.fade, cap: pen.cap, px: Length::px(1.0).in_unit(context.unit) },
-        )
-    {
-        let axis = chain.path.clone();
-        return Some(Mark {
-            path: outline.path,
-            paint: Paint::Outline(OutlinePaint { colour, axis, width: outline.width, pen_width: width }),
-            provenance: provenance(chain, context),
-        });
+    colour
+}
+
+/// One chain with its pen; `None` if it has no path or its pen no width.
+fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
+    let width = pen.width.in_unit(context.unit);
+    if chain.path.elements().len() < 2 || width <= 0.0 {
+        return None;
     }
-    let (dash, dash_offset) = if solid {
+    let fades = pen.fade > 0.0 && chain.samples.iter().any(|sample| sample.strength < 1.0);
+    if is_solid(chain, context, pen) && fades {
+        let axis = Axis::of(chain, context.px());
+        let widths = widths::faded(&axis, width, pen.fade);
+        let nib = Nib { cap: pen.cap, join: pen.join, px: context.px() };
+        if let Some(path) = outline::soft_outline(&axis, &widths, &nib) {
+            let (colour, mean) = (colour(chain, context, pen), widths::mean(&axis, &widths));
+            let axis = chain.path.clone();
+            let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
+            return Some(Mark { path, paint, provenance: provenance(chain, context) });
+        }
+    }
+    Some(stroked(chain.path.clone(), chain.closed, chain, context, pen))
+}
+
+/// A path stroked with a chain's pen.
+fn stroked(path: BezPath, closed: bool, chain: &Chain, context: &InkContext, pen: &Pen) -> Mark {
+    let (dash, dash_offset) = if is_solid(chain, context, pen) {
         (Vec::new(), 0.0)
     } else {
         let period: Vec<f64> = pen.dash.iter().map(|length| length.in_unit(context.unit)).collect();
-        dash::fit(&chain.path, chain.closed, &period)
+        dash::fit(&path, closed, &period)
     };
-    Some(Mark {
-        path: chain.path.clone(),
-        paint: Paint::Stroke(StrokePaint { width, colour, cap: pen.cap, join: pen.join, dash, dash_offset }),
-        provenance: provenance(chain, context),
-    })
+    let width = pen.width.in_unit(context.unit);
+    let colour = colour(chain, context, pen);
+    let paint = Paint::Stroke(StrokePaint { width, colour, cap: pen.cap, join: pen.join, dash, dash_offset });
+    Mark { path, paint, provenance: provenance(chain, context) }
 }
 
 /// The chain's classes and names.

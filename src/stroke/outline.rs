@@ -1,20 +1,16 @@
-//! The outline of a line that swells and fades with its strength.
+//! The outline of a line of varying width.
 //!
 //! Points close together along the axis are moved to either side by half the width there; Béziers
-//! are fitted to both sides and joined by the caps. On the inside of a bend a side is never farther
-//! off than the bend's centre, so that it does not turn back on itself.
+//! are fitted to both sides and joined by the caps. A line without a hand is drawn without corners: on the
+//! inside of a bend a side is never farther off than the bend's centre, so that it does not turn back on
+//! itself. For the others see [`super::sides`].
 
-use kurbo::{BezPath, ParamCurve, Point, Vec2};
+use kurbo::{BezPath, Point, Vec2};
 
-use crate::chain::Chain;
+use super::axis::{Axis, length};
+use super::sides::{REACH, Side};
 use crate::chain::fit::{end_tangent, fit, tangent_of, unit};
-use crate::drawing::Cap;
-
-/// Distance of the points along the axis, px.
-const STEP_PX: f64 = 1.0;
-
-/// Length over which the strength is evened out, px.
-const EVEN_PX: f64 = 10.0;
+use crate::drawing::{Cap, Join};
 
 /// How far the sides may lie from what they are fitted to, px.
 const TOLERANCE_PX: f64 = 0.1;
@@ -22,52 +18,56 @@ const TOLERANCE_PX: f64 = 0.1;
 /// The inner side of a bend keeps this part of the way to its centre.
 const INNER: f64 = 0.7;
 
-/// Directions and bends are taken over this many points on either side.
-const REACH: isize = 2;
-
 /// Handle of a quarter circle of radius 1.
 const QUARTER: f64 = 0.552_284_749_830_793_4;
 
-/// An outline and the mean width of the line.
-pub(super) struct Outline {
-    pub path: BezPath,
-    pub width: f64,
-}
-
-/// How the width follows the strength.
-pub(super) struct Swell {
-    /// Width at full strength, user units.
-    pub width: f64,
-    /// The part of the width that is lost where there is no strength, 0 to 1.
-    pub fade: f64,
+/// The shape of ends and corners.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nib {
     pub cap: Cap,
+    pub join: Join,
     /// User units in a px.
     pub px: f64,
 }
 
-/// Whether the line is weaker anywhere than it can be.
-pub(super) fn varies(chain: &Chain) -> bool {
-    chain.samples.iter().any(|sample| sample.strength < 1.0)
+/// The outline of a line from its distances to the left and to the right at every point of its axis;
+/// `None` for one without length.
+pub(super) fn outline(axis: &Axis, halves: [&[f64]; 2], nib: &Nib) -> Option<BezPath> {
+    if axis.len() < 3 {
+        return None;
+    }
+    let [left, right] = [(halves[0], 1.0), (halves[1], -1.0)];
+    let left = Side::new(axis, left.0, left.1, nib.join);
+    let right = Side::new(axis, right.0, right.1, nib.join).reversed();
+    let tolerance = TOLERANCE_PX * nib.px;
+    let mut path = BezPath::new();
+    if axis.closed {
+        left.add_loop_to(tolerance, &mut path);
+        right.add_loop_to(tolerance, &mut path);
+        return Some(path);
+    }
+    let ends = [axis.points.first()?, axis.points.last()?];
+    let (&start, &end) = (left.points.first()?, left.points.last()?);
+    let (&back, &home) = (right.points.first()?, right.points.last()?);
+    path.move_to(start);
+    left.add_to(tolerance, &mut path);
+    cap(&mut path, *ends[1], end, back, nib);
+    right.add_to(tolerance, &mut path);
+    cap(&mut path, *ends[0], home, start, nib);
+    path.close_path();
+    Some(path)
 }
 
-/// The outline of a chain; `None` for one without length.
-pub(super) fn outline(chain: &Chain, swell: &Swell) -> Option<Outline> {
-    let axis = dense(&chain.path, STEP_PX * swell.px);
+/// The outline of a line without corners.
+pub(super) fn soft_outline(axis: &Axis, widths: &[f64], nib: &Nib) -> Option<BezPath> {
     let n = axis.len();
     if n < 3 {
         return None;
     }
-    let arcs = arcs(&axis);
-    let total = *arcs.last()?;
-    let strengths = even(&strengths(chain, &arcs), chain.closed, (EVEN_PX / STEP_PX) as usize);
-    let widths: Vec<f64> = strengths.iter().map(|s| swell.width * (1.0 - swell.fade * (1.0 - s))).collect();
-    let pairs = widths.windows(2).zip(arcs.windows(2));
-    let area: f64 = pairs.map(|(w, a)| (w[0] + w[1]) / 2.0 * (a[1] - a[0])).sum();
-
-    let [left, right] = sides(&axis, &widths, chain.closed);
-    let tolerance = TOLERANCE_PX * swell.px;
+    let (points, tolerance) = (&axis.points, TOLERANCE_PX * nib.px);
+    let [left, right] = sides(points, widths, axis.closed);
     let mut path = BezPath::new();
-    if chain.closed {
+    if axis.closed {
         for side in [left, right.into_iter().rev().collect()] {
             path.move_to(side[0]);
             let seam = unit(side[1] - side[n - 2]);
@@ -78,94 +78,12 @@ pub(super) fn outline(chain: &Chain, swell: &Swell) -> Option<Outline> {
         let back: Vec<Point> = right.into_iter().rev().collect();
         path.move_to(left[0]);
         add_side(&left, tolerance, &mut path);
-        cap(&mut path, axis[n - 1], left[n - 1], back[0], swell);
+        cap(&mut path, points[n - 1], left[n - 1], back[0], nib);
         add_side(&back, tolerance, &mut path);
-        cap(&mut path, axis[0], back[n - 1], left[0], swell);
+        cap(&mut path, points[0], back[n - 1], left[0], nib);
         path.close_path();
     }
-    Some(Outline { path, width: area / total.max(f64::MIN_POSITIVE) })
-}
-
-/// Points on a path, about a step apart; a closed path ends where it begins.
-fn dense(path: &BezPath, step: f64) -> Vec<Point> {
-    let mut points: Vec<Point> = Vec::new();
-    for segment in path.segments() {
-        let cubic = segment.to_cubic();
-        let length = length(cubic.p1 - cubic.p0) + length(cubic.p2 - cubic.p1) + length(cubic.p3 - cubic.p2);
-        let count = (length / step).ceil().clamp(1.0, 1e6) as usize;
-        if points.is_empty() {
-            points.push(segment.start());
-        }
-        points.extend((1..=count).map(|k| segment.eval(k as f64 / count as f64)));
-    }
-    points.dedup();
-    points
-}
-
-/// Arc length at each point.
-fn arcs(points: &[Point]) -> Vec<f64> {
-    let mut arc = 0.0;
-    let mut arcs = Vec::with_capacity(points.len());
-    for (i, p) in points.iter().enumerate() {
-        if i > 0 {
-            arc += length(*p - points[i - 1]);
-        }
-        arcs.push(arc);
-    }
-    arcs
-}
-
-/// The strength at each arc length of the path, which runs beside the chain's points.
-fn strengths(chain: &Chain, at: &[f64]) -> Vec<f64> {
-    let mut points = chain.points.clone();
-    let mut samples: Vec<f64> = chain.samples.iter().map(|sample| sample.strength).collect();
-    if chain.closed {
-        points.extend(chain.points.first());
-        samples.extend(chain.samples.first().map(|sample| sample.strength));
-    }
-    let own = arcs(&points);
-    let (Some(own_total), Some(total)) = (own.last(), at.last()) else { return Vec::new() };
-    let scale = own_total / total.max(f64::MIN_POSITIVE);
-    let mut side = 0;
-    at.iter()
-        .map(|arc| {
-            let arc = arc * scale;
-            while side + 2 < own.len() && own[side + 1] < arc {
-                side += 1;
-            }
-            let next = (side + 1).min(own.len() - 1);
-            let way = own[next] - own[side];
-            let t = if way > 0.0 { ((arc - own[side]) / way).clamp(0.0, 1.0) } else { 0.0 };
-            samples[side] + (samples[next] - samples[side]) * t
-        })
-        .collect()
-}
-
-/// Values evened out by two running means; at the ends of an open line the window shrinks, so that
-/// the ends stay.
-fn even(values: &[f64], closed: bool, window: usize) -> Vec<f64> {
-    let n = values.len();
-    let mut even = values.to_vec();
-    for _ in 0..2 {
-        // Closed lines repeat their first point.
-        let ring = n - 1;
-        let mut sums = vec![0.0; n + 1];
-        for i in 0..n {
-            sums[i + 1] = sums[i] + even[i];
-        }
-        let mean = |i: usize| {
-            if closed {
-                let reach = (window / 2).min(ring / 2);
-                let ids = (0..=2 * reach).map(|k| (i + ring + k - reach) % ring);
-                ids.map(|k| even[k]).sum::<f64>() / (2 * reach + 1) as f64
-            } else {
-                let reach = (window / 2).min(i).min(n - 1 - i);
-                (sums[i + reach + 1] - sums[i - reach]) / (2 * reach + 1) as f64
-            }
-        };
-        even = (0..n).map(mean).collect();
-    }
-    even
+    Some(path)
 }
 
 /// The points moved by half the width to the left and to the right.
@@ -210,16 +128,16 @@ fn add_side(points: &[Point], tolerance: f64, path: &mut BezPath) {
 }
 
 /// From the one side round the end of the axis to the other.
-fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, swell: &Swell) {
+fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, nib: &Nib) {
     let radius = from - middle;
-    if length(radius) < TOLERANCE_PX * swell.px {
+    if length(radius) < TOLERANCE_PX * nib.px {
         path.line_to(to);
         return;
     }
     // Out of the end of the line.
     let out = Vec2::new(-radius.y, radius.x);
     let opposite = to - middle;
-    match swell.cap {
+    match nib.cap {
         Cap::Butt => {}
         Cap::Square => {
             path.line_to(from + out);
@@ -235,102 +153,191 @@ fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, swell: &Swell)
     path.line_to(to);
 }
 
-fn length(v: Vec2) -> f64 {
-    v.hypot2().sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use kurbo::{PathEl, Shape};
 
     use super::*;
     use crate::chain::Sample;
-    use crate::lines::LineKind;
     use crate::math::function::{cos, sin};
-    use crate::mesh::{MaterialId, PartId};
+    use crate::math::noise::{hash, smooth, unit as chance};
+    use crate::stroke::axis::arcs;
 
-    const SWELL: Swell = Swell { width: 4.0, fade: 1.0, cap: Cap::Round, px: 1.0 };
+    const NIB: Nib = Nib { cap: Cap::Round, join: Join::Round, px: 1.0 };
 
-    fn chain(points: Vec<Point>, strength: impl Fn(f64) -> f64, closed: bool) -> Chain {
-        let n = points.len() as f64 - 1.0;
-        let mut path = BezPath::new();
-        path.move_to(points[0]);
-        points[1..].iter().for_each(|p| path.line_to(*p));
-        if closed {
-            path.close_path();
-        }
-        let sample = |i: usize| Sample { depth: 1.0, strength: strength(i as f64 / n) };
-        Chain {
-            samples: (0..points.len()).map(sample).collect(),
-            points,
-            closed,
-            kind: LineKind::Suggestive,
-            silhouette: false,
-            invisibility: 0,
-            both_seen: true,
-            part: PartId(0),
-            material: MaterialId(0),
-            smooth: true,
-            path,
-        }
+    fn axis(points: Vec<Point>, corners: Vec<usize>, closed: bool) -> Axis {
+        let samples = vec![Sample::new(1.0, 1.0); points.len()];
+        Axis { arcs: arcs(&points), points, samples, corners, closed }
     }
 
-    /// Whether any two sides of a flattened closed path cross.
-    fn crosses(path: &BezPath) -> bool {
+    /// A polyline with points a px apart and corners where it turns.
+    fn polyline(vertices: &[(f64, f64)]) -> Axis {
+        let mut points = vec![Point::from(vertices[0])];
+        let mut corners = Vec::new();
+        for pair in vertices.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(Point::from);
+            let count = (length(b - a)).ceil() as usize;
+            points.extend((1..=count).map(|k| a.lerp(b, k as f64 / count as f64)));
+            corners.push(points.len() - 1);
+        }
+        corners.pop();
+        axis(points, corners, false)
+    }
+
+    fn both(axis: &Axis, widths: &[f64], nib: &Nib) -> BezPath {
+        let halves: Vec<f64> = widths.iter().map(|w| w / 2.0).collect();
+        outline(axis, [&halves, &halves], nib).expect("an outline")
+    }
+
+    /// Where two sides of a flattened closed path cross.
+    fn crossing(path: &BezPath) -> Option<Point> {
         let mut points: Vec<Point> = Vec::new();
-        kurbo::flatten(path, 0.05, |element| points.extend(element.end_point()));
+        kurbo::flatten(path, 0.02, |element| points.extend(element.end_point()));
         points.dedup_by(|a, b| length(*a - *b) < 1e-3);
         let n = points.len();
         let side = |i: usize| (points[i], points[(i + 1) % n]);
         let turn = |a: Point, b: Point, c: Point| (b - a).cross(c - a);
-        (0..n).any(|i| {
-            (i + 2..n).filter(|j| !(i == 0 && *j + 1 == n)).any(|j| {
-                let ((a, b), (c, d)) = (side(i), side(j));
+        (0..n).find_map(|i| {
+            let crosses = |j: &usize| {
+                let ((a, b), (c, d)) = (side(i), side(*j));
                 turn(a, b, c) * turn(a, b, d) < -1e-9 && turn(c, d, a) * turn(c, d, b) < -1e-9
-            })
+            };
+            (i + 2..n).filter(|j| !(i == 0 && *j + 1 == n)).find(crosses).map(|_| points[i])
         })
     }
 
+    fn whole(path: &BezPath) {
+        if let Some(at) = crossing(path) {
+            panic!("crosses itself at {at:?}: {}", path.to_svg());
+        }
+    }
+
     #[test]
-    fn a_straight_line_that_fades_is_a_wedge() {
+    fn a_straight_line_that_swells_is_a_wedge() {
         let line: Vec<Point> = (0..=100).map(|i| Point::new(f64::from(i), 50.0)).collect();
-        let wedge = outline(&chain(line, |t| t, false), &SWELL).expect("an outline");
-        assert!((wedge.width - 2.0).abs() < 0.05, "{}", wedge.width);
+        let line = axis(line, vec![], false);
+        let widths: Vec<f64> = (0..=100).map(|i| 0.04 * f64::from(i)).collect();
         // The wedge and the half circle at its thick end.
         let area = 200.0 + std::f64::consts::PI * 2.0;
-        assert!((wedge.path.area().abs() - area).abs() < 4.0, "{}", wedge.path.area());
-        assert!(wedge.path.elements().len() < 12, "{:?}", wedge.path);
-        assert_eq!(wedge.path.elements().last(), Some(&PathEl::ClosePath));
-        assert!(!crosses(&wedge.path));
+        for wedge in [both(&line, &widths, &NIB), soft_outline(&line, &widths, &NIB).unwrap()] {
+            assert!((wedge.area().abs() - area).abs() < 4.0, "{}", wedge.area());
+            assert!(wedge.elements().len() < 12, "{wedge:?}");
+            assert_eq!(wedge.elements().last(), Some(&PathEl::ClosePath));
+            whole(&wedge);
+        }
     }
 
     #[test]
     fn tight_bends_do_not_fold() {
-        // A hairpin of radius 1 between straight legs, under a pen of width 4.
+        // A hairpin of radius 3 between straight legs, under a pen of width 5.
         let mut line: Vec<Point> = (0..40).map(|i| Point::new(f64::from(i), 0.0)).collect();
         line.extend((0..=8).map(|i| {
             let angle = std::f64::consts::PI * f64::from(i) / 8.0;
             Point::new(40.0 + 3.0 * sin(angle), 3.0 - 3.0 * cos(angle))
         }));
         line.extend((0..40).map(|i| Point::new(39.0 - f64::from(i), 6.0)));
-        let wide = Swell { width: 5.0, ..SWELL };
-        let bent = outline(&chain(line, |t| 4.0 * t * (1.0 - t), false), &wide).expect("an outline");
-        assert!(!crosses(&bent.path), "{}", bent.path.to_svg());
-        assert!(bent.path.elements().len() < 30, "{}", bent.path.elements().len());
+        let bent = axis(line, vec![], false);
+        let part = |arc: f64| arc / bent.length();
+        let widths: Vec<f64> = bent.arcs.iter().map(|s| 20.0 * part(*s) * (1.0 - part(*s))).collect();
+        for path in [both(&bent, &widths, &NIB), soft_outline(&bent, &widths, &NIB).unwrap()] {
+            whole(&path);
+            assert!(path.elements().len() < 36, "{}", path.elements().len());
+        }
+    }
+
+    #[test]
+    fn corners_are_sharp_inside_and_joined_outside() {
+        let corner = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0, 60.0)]);
+        let widths = vec![6.0; corner.len()];
+        let nib = |join| Nib { cap: Cap::Butt, join, ..NIB };
+        let quarter = std::f64::consts::PI * 9.0 / 4.0;
+        for (join, outside) in [(Join::Miter, 9.0), (Join::Bevel, 4.5), (Join::Round, quarter)] {
+            let path = both(&corner, &widths, &nib(join));
+            whole(&path);
+            // Two legs of 60 by 6 that share a square of 3 by 3, and the corner.
+            let area = 2.0 * 360.0 - 9.0 + outside;
+            assert!((path.area().abs() - area).abs() < 0.3, "{join:?}: {} {area}", path.area());
+            assert_ne!(path.winding(Point::new(57.1, 2.9)), 0);
+            assert_eq!(path.winding(Point::new(56.9, 3.1)), 0, "{}", path.to_svg());
+        }
+        // A corner of 150 degrees: too sharp for a mitre of 4.
+        let needle = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0 - 51.96, 30.0)]);
+        for join in [Join::Miter, Join::Bevel, Join::Round] {
+            let path = both(&needle, &vec![4.0; needle.len()], &nib(join));
+            whole(&path);
+            assert!(path.bounding_box().x1 < 69.0, "{:?}", path.bounding_box());
+        }
+    }
+
+    #[test]
+    fn random_lines_with_corners_do_not_fold() {
+        for case in 0..300_u64 {
+            let dice = |k: u64| chance(hash(case, &[k]));
+            // Legs longer than the pen is wide and turns up to 150 degrees, never twice to the same side, so
+            // that the line does not come back to itself.
+            let mut vertices = vec![(0.0, 0.0)];
+            let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0);
+            for k in 0..5 {
+                let leg = 26.0 + 30.0 * dice(10 + k);
+                x += leg * cos(heading);
+                y += leg * sin(heading);
+                vertices.push((x, y));
+                let turn = (0.4 + 2.2 * dice(20 + k)) * if k % 2 == 0 { 1.0 } else { -1.0 };
+                heading += turn;
+            }
+            let line = polyline(&vertices);
+            let width = 2.0 + 3.0 * dice(1);
+            let widths: Vec<f64> =
+                line.arcs.iter().map(|s| width * (0.7 + 0.3 * smooth(case, s / 20.0))).collect();
+            for join in [Join::Miter, Join::Bevel, Join::Round] {
+                whole(&both(&line, &widths, &Nib { join, ..NIB }));
+            }
+        }
+    }
+
+    #[test]
+    fn random_curves_do_not_fold() {
+        for case in 0..300_u64 {
+            // The heading wanders, with bends down to less than half the pen's width, but not at the ends.
+            let (mut at, mut points) = (Point::ZERO, vec![Point::ZERO]);
+            for k in 0..160 {
+                let calm = (f64::from(k.min(160 - k)) / 24.0).min(1.0);
+                let heading = 1.3 * calm * smooth(hash(case, &[0]), f64::from(k) / 9.0);
+                at += Vec2::new(cos(heading), sin(heading));
+                points.push(at);
+            }
+            let line = axis(points, vec![], false);
+            let widths: Vec<f64> = line.arcs.iter().map(|s| 5.0 + 3.0 * smooth(case, s / 25.0)).collect();
+            whole(&both(&line, &widths, &NIB));
+        }
     }
 
     #[test]
     fn a_closed_line_is_a_ring() {
-        let ring: Vec<Point> = (0..60)
-            .map(|i| std::f64::consts::TAU * f64::from(i) / 60.0)
+        let ring: Vec<Point> = (0..=250)
+            .map(|i| std::f64::consts::TAU * f64::from(i % 250) / 250.0)
             .map(|angle| Point::new(100.0 + 40.0 * cos(angle), 100.0 + 40.0 * sin(angle)))
             .collect();
-        let made = outline(&chain(ring, |t| 0.6 + 0.3 * cos(std::f64::consts::TAU * t), true), &SWELL);
-        let path = made.expect("an outline").path;
-        assert_eq!(path.elements().iter().filter(|e| matches!(e, PathEl::ClosePath)).count(), 2);
-        assert_eq!(path.winding(Point::new(100.0, 100.0)), 0);
-        assert_ne!(path.winding(Point::new(140.0, 100.0)), 0);
-        let area = std::f64::consts::TAU * 40.0 * 4.0 * 0.6;
-        assert!((path.area().abs() - area).abs() < 0.05 * area, "{} {area}", path.area());
+        let ring = axis(ring, vec![], true);
+        let part = |arc: f64| std::f64::consts::TAU * arc / ring.length();
+        let widths: Vec<f64> = ring.arcs.iter().map(|s| 2.4 + 1.2 * cos(part(*s))).collect();
+        for path in [both(&ring, &widths, &NIB), soft_outline(&ring, &widths, &NIB).unwrap()] {
+            assert_eq!(path.elements().iter().filter(|e| matches!(e, PathEl::ClosePath)).count(), 2);
+            assert_eq!(path.winding(Point::new(100.0, 100.0)), 0);
+            assert_ne!(path.winding(Point::new(140.0, 100.0)), 0);
+            let area = std::f64::consts::TAU * 40.0 * 2.4;
+            assert!((path.area().abs() - area).abs() < 0.05 * area, "{} {area}", path.area());
+        }
+        let square = polyline(&[(0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0), (0.0, 0.0)]);
+        let corners = [0].into_iter().chain(square.corners).collect();
+        let square = axis(square.points, corners, true);
+        let path = both(&square, &vec![4.0; square.len()], &Nib { join: Join::Miter, ..NIB });
+        assert!(
+            (path.area().abs() - (54.0 * 54.0 - 46.0 * 46.0)).abs() < 0.1,
+            "{} {}",
+            path.area(),
+            path.to_svg()
+        );
+        assert_eq!(path.elements().len(), 12, "{path:?}");
     }
 }

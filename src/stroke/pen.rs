@@ -1,8 +1,14 @@
 //! [`Pen`]: width, colour, ends, corners and dashes of strokes, and the changes that rules make to it.
 
+use std::sync::Arc;
+
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use super::brush::Brush;
+use super::brush_source::BrushChange;
+use super::hand::{Hand, HandChange};
+use super::swell::{Swell, SwellChange};
 use crate::drawing::{Cap, Join, Length};
 use crate::math::colour::Colour;
 
@@ -34,6 +40,22 @@ pub struct Pen {
     /// How much of its width a line loses where it is weakest: 0 = none, 1 = all. Only suggestive
     /// contours, ridges and valleys are ever weak. Default: 1.
     pub fade: f64,
+    /// How the width varies along a line. Default: not.
+    pub swell: Swell,
+    /// What chance does to a line. Default: nothing.
+    pub hand: Hand,
+    /// How far beside the line nothing farther is drawn where it passes over; 0 = no halo. Default: 0.
+    pub halo: Length,
+    /// A shape that is laid along lines in place of a plain width. Default: none.
+    pub brush: Option<Arc<Brush>>,
+}
+
+impl Pen {
+    /// Whether lines are more than strokes of the pen's width that fade.
+    #[must_use]
+    pub fn has_hand(&self) -> bool {
+        self.swell.is_on() || self.hand.is_on() || self.halo.value > 0.0 || self.brush.is_some()
+    }
 }
 
 impl Default for Pen {
@@ -46,6 +68,10 @@ impl Default for Pen {
             dash: Vec::new(),
             opacity: 1.0,
             fade: 1.0,
+            swell: Swell::default(),
+            hand: Hand::default(),
+            halo: Length::px(0.0),
+            brush: None,
         }
     }
 }
@@ -71,6 +97,14 @@ pub struct PenChange {
     /// Part of the width that is lost where a line is weakest, 0 to 1.
     #[serde(deserialize_with = "fraction")]
     pub fade: Option<f64>,
+    /// How the width varies.
+    pub swell: SwellChange,
+    /// What chance does.
+    pub hand: HandChange,
+    /// How wide the halo is.
+    pub halo: Option<Length>,
+    /// The shape along lines.
+    pub brush: Option<BrushChange>,
 }
 
 impl PenChange {
@@ -96,6 +130,14 @@ impl PenChange {
         }
         if let Some(fade) = self.fade {
             pen.fade = fade;
+        }
+        self.swell.apply(&mut pen.swell);
+        self.hand.apply(&mut pen.hand);
+        if let Some(halo) = self.halo {
+            pen.halo = halo;
+        }
+        if let Some(brush) = &self.brush {
+            pen.brush = brush.brush();
         }
     }
 }

@@ -11,7 +11,7 @@ fn chain(kind: LineKind, x: f64) -> Chain {
     path.move_to(points[0]);
     path.line_to(points[1]);
     Chain {
-        samples: vec![Sample { depth: 1.0, strength: 1.0 }; 2],
+        samples: vec![Sample::new(1.0, 1.0); 2],
         points,
         closed: false,
         kind,
@@ -21,6 +21,8 @@ fn chain(kind: LineKind, x: f64) -> Chain {
         part: PartId(0),
         material: MaterialId(0),
         smooth: false,
+        covered: [false; 2],
+        segment: 0,
         path,
     }
 }
@@ -30,8 +32,15 @@ fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
     let style = Style::load(style, &sets).unwrap();
     let parts: Vec<Arc<str>> = vec!["body".into(), "bolt-1".into(), "".into()];
     let materials = [("steel".into(), Colour::rgb(100, 200, 50)), ("brass".into(), Colour::WHITE)];
-    let context =
-        InkContext { unit: Unit::Px, parts: &parts, materials: &materials, hidden: style.lines.hidden };
+    let context = InkContext {
+        unit: Unit::Px,
+        parts: &parts,
+        materials: &materials,
+        hidden: style.lines.hidden,
+        seed: style.seed,
+        painted: false,
+        names: &[],
+    };
     ink(chains, &context, &style.stroke)
 }
 

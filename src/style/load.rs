@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::Style;
+use super::brush_file::place_brushes;
 use super::fault::{self, nearest};
 use super::fills::set_aside;
 use super::ramp_source::place_pictures;
@@ -58,7 +59,9 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
             }
             next = Some(found);
         }
-        place_pictures(&mut table, source.folder.as_deref().unwrap_or(Path::new("")));
+        let folder = source.folder.as_deref().unwrap_or(Path::new(""));
+        place_pictures(&mut table, folder);
+        place_brushes(&mut table, folder);
         sheets.push(table);
     }
     let mut merged = Table::new();
@@ -71,6 +74,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     merged.remove("extends");
     let mut sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
     sheet.fills.read_pictures()?;
+    sheet.read_brushes()?;
     Ok(sheet.into_style())
 }
 

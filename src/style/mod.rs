@@ -1,5 +1,6 @@
 //! [`Style`]: style sheets in TOML, the options of every stage.
 
+mod brush_file;
 mod fault;
 mod fills;
 mod hatching;

@@ -4,15 +4,19 @@ use serde::de::Visitor;
 use serde::{Deserialize, Deserializer};
 
 use super::Style;
+use super::brush_file::read_brush;
 use super::fills::FillsTable;
 use super::hatching::HatchingTable;
 use crate::chain::ChainOptions;
 use crate::drawing::{Cap, Join, Length};
+use crate::error::Error;
 use crate::field::LightOptions;
 use crate::lines::{LineKind, LineOptions};
 use crate::math::colour::Colour;
 use crate::stroke::pen::{dash, fraction};
-use crate::stroke::{Condition, Ink, LayerOptions, Pen, PenChange, Rule, StrokeOptions};
+use crate::stroke::{
+    BrushChange, Condition, HandChange, Ink, LayerOptions, Pen, PenChange, Rule, StrokeOptions, SwellChange,
+};
 
 /// A whole style sheet; every key may be left out.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -60,6 +64,10 @@ struct PenTable {
     opacity: Option<f64>,
     #[serde(deserialize_with = "fraction")]
     fade: Option<f64>,
+    swell: SwellChange,
+    hand: HandChange,
+    halo: Option<Length>,
+    brush: Option<BrushChange>,
 
     contour: PenChange,
     border: PenChange,
@@ -82,6 +90,15 @@ struct PenTable {
 }
 
 impl Sheet {
+    /// Reads the files of brushes.
+    pub fn read_brushes(&mut self) -> Result<(), Error> {
+        self.pen
+            .brushes()
+            .chain(self.rule.iter_mut().map(|rule| &mut rule.pen.brush))
+            .flatten()
+            .try_for_each(read_brush)
+    }
+
     /// The options that the sheet stands for.
     pub fn into_style(self) -> Style {
         let mut stroke = self.pen.into_options();
@@ -105,12 +122,36 @@ impl Sheet {
 }
 
 impl PenTable {
+    /// The brushes of all pens.
+    fn brushes(&mut self) -> impl Iterator<Item = &mut Option<BrushChange>> {
+        let pens = [
+            &mut self.contour,
+            &mut self.border,
+            &mut self.crease,
+            &mut self.material,
+            &mut self.intersection,
+            &mut self.suggestive,
+            &mut self.ridge,
+            &mut self.valley,
+            &mut self.isophote,
+            &mut self.artist,
+            &mut self.image,
+            &mut self.wire,
+            &mut self.motion,
+            &mut self.thin,
+            &mut self.thick,
+            &mut self.silhouette,
+            &mut self.hidden,
+        ];
+        pens.into_iter().map(|pen| &mut pen.brush).chain([&mut self.brush])
+    }
+
     /// The default pen and one rule for each named pen, weakest claim first: a line's kind, then
     /// whether it is thick or thin, then whether it is a silhouette, then whether it is hidden.
     fn into_options(self) -> StrokeOptions {
         let mut pen = Pen::default();
-        let Self { width, colour, cap, join, dash, opacity, fade, .. } = self;
-        PenChange { width, colour, cap, join, dash, opacity, fade }.apply(&mut pen);
+        let Self { width, colour, cap, join, dash, opacity, fade, swell, hand, halo, brush, .. } = self;
+        PenChange { width, colour, cap, join, dash, opacity, fade, swell, hand, halo, brush }.apply(&mut pen);
 
         let kinds = [
             (LineKind::Contour, self.contour),

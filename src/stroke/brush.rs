@@ -1,0 +1,214 @@
+//! [`Brush`]: a shape that is laid along lines: drawn once over each line or again and again.
+//!
+//! Source: lines drawn with a shape of their own, Claes, Di Fiore, Vansichem and Van Reeth, Fast 3D cartoon
+//! rendering with improved quality by exploiting graphics hardware, 2001, fig. 5e; mapped by arc length as in
+//! Hsu and Lee, Drawing and animation using skeletal strokes, SIGGRAPH 1994.
+
+use kurbo::{BezPath, PathEl, Point, Vec2};
+
+use super::axis::{Axis, add_stretch, length};
+use super::outline::{Nib, outline};
+use super::widths::mean;
+use crate::chain::fit::unit;
+use crate::drawing::{Length, Unit};
+
+/// A shape along a line. Its x runs along the line from 0 to 1; its y lies across it, -0.5 on the left edge
+/// of the pen and 0.5 on the right.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Brush {
+    /// The shape.
+    pub shape: BrushShape,
+    /// Whether it is drawn again and again instead of once over the whole line.
+    pub repeats: bool,
+    /// Length of one of those, about; 0: as long as it is in proportion to the pen's width.
+    pub length: Length,
+}
+
+/// The shape of a brush.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BrushShape {
+    /// A filled path, and how much longer than wide it is.
+    Path(BezPath, f64),
+    /// How far the ink reaches to the left and to the right of the middle at places evenly along the line, in
+    /// widths of the pen (0 to 0.5), and how much longer than wide it is.
+    Profile(Vec<[f64; 2]>, f64),
+}
+
+/// Most copies of a brush along a line.
+const MOST_COPIES: f64 = 10_000.0;
+
+/// How far the edges of a brush may lie from where they ought to, px.
+const TOLERANCE_PX: f64 = 0.06;
+
+/// Points on the edges of a brush are about this far apart, px.
+const STEP_PX: f64 = 1.0;
+
+/// Directions across a line are taken over this many points to either side, times half the pen's width.
+const TURN: f64 = 1.0;
+
+/// A brush turns by more than this at a corner of its own (cosine of 20 degrees).
+const CORNER_COSINE: f64 = 0.94;
+
+/// The outline of a line drawn with a brush, and its mean width. `thick` are the widths at the points of the
+/// axis.
+pub(super) fn drawn(
+    brush: &Brush,
+    axis: &Axis,
+    thick: &[f64],
+    nib: &Nib,
+    unit: Unit,
+) -> Option<(BezPath, f64)> {
+    let total = axis.length();
+    let pen = mean(axis, thick);
+    if total <= 0.0 || axis.len() < 3 {
+        return None;
+    }
+    let (BrushShape::Path(_, ratio) | BrushShape::Profile(_, ratio)) = &brush.shape;
+    let one = match brush.length.in_unit(unit) {
+        length if length > 0.0 => length,
+        _ => ratio * pen,
+    };
+    let copies = if brush.repeats { (total / one).round().clamp(1.0, MOST_COPIES) } else { 1.0 };
+    // Once over a line that is shorter than the brush in proportion it is thinner, not a blot.
+    let thinner = if brush.repeats { 1.0 } else { (total / (ratio * pen).max(f64::MIN_POSITIVE)).min(1.0) };
+    let thick: Vec<f64> = thick.iter().map(|width| width * thinner).collect();
+    let thick = &thick[..];
+    match &brush.shape {
+        BrushShape::Profile(profile, _) => {
+            let at = |side: usize| -> Vec<f64> {
+                let of = |(arc, width): (&f64, &f64)| {
+                    let place = (arc - axis.arcs[0]) / total * copies;
+                    width * sample(profile, place, side, brush.repeats || axis.closed)
+                };
+                axis.arcs.iter().zip(thick).map(of).collect()
+            };
+            let (left, right) = (at(0), at(1));
+            let both: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l + r).collect();
+            let path = outline(axis, [&left, &right], nib)?;
+            Some((path, mean(axis, &both)))
+        }
+        BrushShape::Path(shape, _) => {
+            let map = Map { axis, thick, copies, total };
+            let mut path = BezPath::new();
+            for copy in 0..copies as usize {
+                map.add(shape, copy, nib.px, &mut path);
+            }
+            use kurbo::Shape;
+            let area = path.area().abs();
+            (path.elements().len() > 2).then_some((path, area / total))
+        }
+    }
+}
+
+/// A side of a profile at a place, of which each copy is 1 long.
+fn sample(profile: &[[f64; 2]], place: f64, side: usize, around: bool) -> f64 {
+    let n = profile.len();
+    if n == 0 {
+        return 0.5;
+    }
+    // A place at the very end belongs to the last copy.
+    let within = if place > 0.0 && place == place.floor() && !around { 1.0 } else { place - place.floor() };
+    let at = within * n as f64 - 0.5;
+    let (low, t) = (at.floor(), at - at.floor());
+    let get = |i: f64| {
+        let i = if around { i.rem_euclid(n as f64) } else { i.clamp(0.0, n as f64 - 1.0) };
+        profile[(i as usize).min(n - 1)][side]
+    };
+    get(low) + (get(low + 1.0) - get(low)) * t
+}
+
+/// From a brush to the page.
+struct Map<'a> {
+    axis: &'a Axis,
+    thick: &'a [f64],
+    copies: f64,
+    total: f64,
+}
+
+impl Map<'_> {
+    /// The place of a point of a brush; x counts copies.
+    fn at(&self, p: Point) -> Point {
+        let axis = self.axis;
+        let beyond = (p.x.clamp(0.0, self.copies) - p.x) / self.copies * self.total;
+        let mut arc = axis.arcs[0] + p.x.clamp(0.0, self.copies) / self.copies * self.total;
+        arc = arc.clamp(axis.arcs[0], axis.arcs[axis.len() - 1]);
+        let next = axis.arcs.partition_point(|a| *a < arc).clamp(1, axis.len() - 1);
+        let (a, b) = (axis.arcs[next - 1], axis.arcs[next]);
+        let t = if b > a { (arc - a) / (b - a) } else { 0.0 };
+        let width = self.thick[next - 1] + (self.thick[next] - self.thick[next - 1]) * t;
+        let along = self.along(next - 1).lerp(self.along(next), t);
+        let along = unit(along);
+        let middle = axis.points[next - 1].lerp(axis.points[next], t);
+        middle - along * beyond + Vec2::new(-along.y, along.x) * (p.y * width)
+    }
+
+    /// Direction at a point, over about a width of the pen, corners or not.
+    fn along(&self, i: usize) -> Vec2 {
+        let reach = (self.thick[i] / 2.0 * TURN).ceil().max(2.0) as isize;
+        let k = i as isize;
+        unit(self.axis.point(k + reach) - self.axis.point(k - reach))
+    }
+
+    /// Adds a copy of the brush to a path.
+    fn add(&self, shape: &BezPath, copy: usize, px: f64, path: &mut BezPath) {
+        let place = |p: Point| self.at(Point::new(p.x + copy as f64, p.y));
+        let long = self.total / self.copies;
+        let mut run: Vec<Point> = Vec::new();
+        let mut last: Option<Vec2> = None;
+        let mut start = Point::ZERO;
+        let tolerance = TOLERANCE_PX * px;
+        let flush = |run: &mut Vec<Point>, path: &mut BezPath| {
+            if run.len() > 1 {
+                add_stretch(run, tolerance, path);
+            }
+            run.clear();
+        };
+        let mut here = Point::ZERO;
+        for element in shape.elements() {
+            let cubic = match *element {
+                PathEl::MoveTo(p) => {
+                    flush(&mut run, path);
+                    (here, start, last) = (p, p, None);
+                    path.move_to(place(p));
+                    continue;
+                }
+                PathEl::LineTo(p) => line(here, p),
+                PathEl::QuadTo(q, p) => kurbo::QuadBez::new(here, q, p).raise(),
+                PathEl::CurveTo(q, r, p) => kurbo::CubicBez::new(here, q, r, p),
+                PathEl::ClosePath => line(here, start),
+            };
+            let ways = [cubic.p1 - cubic.p0, cubic.p3 - cubic.p2];
+            let ways = ways.map(|way| if way.hypot2() > 0.0 { way } else { cubic.p3 - cubic.p0 });
+            if last.is_some_and(|last| unit(last).dot(unit(ways[0])) < CORNER_COSINE) {
+                flush(&mut run, path);
+            }
+            if run.is_empty() {
+                run.push(place(cubic.p0));
+            }
+            let extent = [cubic.p1 - cubic.p0, cubic.p2 - cubic.p1, cubic.p3 - cubic.p2];
+            let size: f64 = extent.iter().map(|v| (v.x.abs() * long) + v.y.abs() * self.thick[0]).sum();
+            let count = (size / (STEP_PX * px)).ceil().clamp(4.0, 4096.0) as usize;
+            for k in 1..=count {
+                let p = place(kurbo::ParamCurve::eval(&cubic, k as f64 / count as f64));
+                if run.last().is_none_or(|q| length(p - *q) > 1e-9 * px) {
+                    run.push(p);
+                }
+            }
+            last = Some(ways[1]);
+            here = cubic.p3;
+            if matches!(element, PathEl::ClosePath) {
+                flush(&mut run, path);
+                path.close_path();
+                last = None;
+            }
+        }
+        flush(&mut run, path);
+        if !matches!(path.elements().last(), Some(PathEl::ClosePath) | None) {
+            path.close_path();
+        }
+    }
+}
+
+fn line(a: Point, b: Point) -> kurbo::CubicBez {
+    kurbo::CubicBez::new(a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b)
+}

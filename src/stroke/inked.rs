@@ -1,0 +1,202 @@
+//! Lines with a hand: from a chain and its pen to the shapes that are painted.
+//!
+//! The axis of the chain is cut where nothing is drawn; each piece runs on at its ends, is given its
+//! widths, and is moved a little; what comes out is a path or the outline of a line of varying width.
+
+use kurbo::BezPath;
+
+use super::InkContext;
+use super::axis::Axis;
+use super::brush::{self, Brush};
+use super::outline::{Nib, outline};
+use super::pen::Pen;
+use super::pieces::{End, Piece, broken, parted};
+use super::tremor::Tremor;
+use super::widths::{Setting, mean, taper, widths};
+use crate::chain::Chain;
+use crate::lines::LineKind;
+use crate::math::noise::{hash, unit};
+
+/// Where surfaces are painted, lines that bound them stay over their borders by this, px.
+const OVER_BORDER_PX: f64 = 0.3;
+
+/// An end runs on by this part of what it may, at least.
+const LEAST_OVERSHOOT: f64 = 0.35;
+
+/// Widths that differ by no more than this part of the pen's are one width.
+const SAME_WIDTH: f64 = 1e-6;
+
+/// Chains of the same kind and part that begin in the same square of this size, px, are drawn by the same
+/// hand, where nothing in the model tells them apart.
+const CELL_PX: f64 = 96.0;
+
+/// What is painted for a piece of a chain.
+#[derive(Debug, Clone)]
+pub(super) enum Shape {
+    /// A path of the pen's width, and whether it is closed.
+    Path(BezPath, bool),
+    /// The outline of a line, its axis and its mean width.
+    Outline { path: BezPath, axis: BezPath, width: f64 },
+}
+
+/// A chain and what it is to be drawn with.
+pub(super) struct Inked<'a> {
+    pub chain: &'a Chain,
+    pub axis: &'a Axis,
+    pub pen: &'a Pen,
+    /// Whether its ends are joined by chains that go on.
+    pub joined: [bool; 2],
+    /// Where nearer lines pass over it.
+    pub gaps: &'a [[f64; 2]],
+    /// The depths of the nearest and the farthest line.
+    pub depths: [f64; 2],
+    /// Whether its width may vary: not that of dashed lines.
+    pub solid: bool,
+}
+
+impl Inked<'_> {
+    /// The shapes of the line, pass by pass.
+    pub fn shapes(&self, context: &InkContext) -> Vec<Shape> {
+        let (hand, px) = (&self.pen.hand, context.px());
+        let seed = hash(context.seed, &[self.identity(context)]);
+        let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
+        let lifts = hand.overshoot.value > 0.0;
+        let ends = [0, 1].map(|side| End {
+            tapers: !self.joined[side],
+            runs_on: !self.joined[side] && !self.chain.covered[side],
+        });
+        let setting = self.setting(context);
+        let mut axis = self.axis.clone();
+        let thick = widths(&axis, &setting);
+        // The widths travel in place of the strengths, which they have used up.
+        axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
+        let (mean, gap) = (in_unit(hand.breaks), in_unit(hand.break_gap));
+        let pieces: Vec<Piece> = parted(&axis, self.gaps, lifts, ends, px)
+            .into_iter()
+            .enumerate()
+            .flat_map(|(k, piece)| broken(piece, mean, gap, hash(seed, &[0, k as u64]), px))
+            .collect();
+        let mut shapes = Vec::new();
+        for pass in 0..u64::from(hand.passes.max(1)) {
+            let pass_seed = hash(seed, &[1, pass]);
+            let mut pins = axis.corner_arcs();
+            if !axis.closed {
+                pins.extend([0.0, axis.length()]);
+            }
+            let tremor = Tremor {
+                amplitude: in_unit(hand.tremor),
+                wave: in_unit(hand.tremor_length),
+                stray: if pass > 0 { in_unit(hand.stray) } else { 0.0 },
+                seed: pass_seed,
+                pins,
+                round: axis.closed.then(|| axis.length()),
+            };
+            for (k, piece) in pieces.iter().enumerate() {
+                let mut piece = piece.clone();
+                for side in 0..2 {
+                    if piece.ends[side].runs_on && !piece.axis.closed {
+                        let chance = unit(hash(pass_seed, &[2, k as u64, side as u64]));
+                        let part = LEAST_OVERSHOOT + (1.0 - LEAST_OVERSHOOT) * chance;
+                        piece.axis.extend(side, in_unit(hand.overshoot) * part, px);
+                    }
+                }
+                shapes.extend(self.shape(piece, &tremor, pass, &setting, context));
+            }
+        }
+        shapes
+    }
+
+    fn shape(
+        &self,
+        piece: Piece,
+        tremor: &Tremor,
+        pass: u64,
+        setting: &Setting,
+        context: &InkContext,
+    ) -> Option<Shape> {
+        let (swell, px) = (&self.pen.swell, context.px());
+        let Piece { mut axis, ends } = piece;
+        let mut thick: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
+        if !axis.closed && swell.taper.value > 0.0 {
+            let over = swell.taper.in_unit(context.unit);
+            let ends = ends.map(|end| end.tapers);
+            taper(&axis, &mut thick, ends, over, swell.taper_to, setting.least());
+        }
+        let limits: Vec<f64> = if setting.covers && pass == 0 {
+            let own = |width: &f64| (width / 2.0 - OVER_BORDER_PX * px).max(0.0);
+            if self.solid { thick.iter().map(own).collect() } else { vec![own(&setting.width); thick.len()] }
+        } else {
+            vec![f64::INFINITY; thick.len()]
+        };
+        tremor.shake(&mut axis, &limits);
+        let path = axis.path(px);
+        if path.elements().len() < 2 {
+            return None;
+        }
+        if let (true, Some(brush)) = (self.solid, &self.pen.brush) {
+            return self.brushed(brush, &axis, &thick, path, context);
+        }
+        let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
+        let varies = high - low > SAME_WIDTH * setting.width
+            || (high - setting.width).abs() > SAME_WIDTH * setting.width;
+        if !(self.solid && varies) {
+            return Some(Shape::Path(path, axis.closed));
+        }
+        let halves: Vec<f64> = thick.iter().map(|width| width / 2.0).collect();
+        let nib = Nib { cap: self.pen.cap, join: self.pen.join, px };
+        let width = mean(&axis, &thick);
+        outline(&axis, [&halves, &halves], &nib).map(|outline| Shape::Outline {
+            path: outline,
+            axis: path,
+            width,
+        })
+    }
+
+    /// A piece drawn with a brush.
+    fn brushed(
+        &self,
+        brush: &Brush,
+        axis: &Axis,
+        thick: &[f64],
+        path: BezPath,
+        context: &InkContext,
+    ) -> Option<Shape> {
+        let px = context.px();
+        let nib = Nib { cap: self.pen.cap, join: self.pen.join, px };
+        let (outline, width) = brush::drawn(brush, axis, thick, &nib, context.unit)?;
+        Some(Shape::Outline { path: outline, axis: path, width })
+    }
+
+    fn setting(&self, context: &InkContext) -> Setting {
+        let pen = self.pen;
+        Setting {
+            width: pen.width.in_unit(context.unit),
+            fade: pen.fade,
+            swell: pen.swell,
+            px: context.px(),
+            depths: self.depths,
+            bend_radius: pen.swell.bend_radius.in_unit(context.unit),
+            covers: context.painted && self.chain.invisibility == 0 && bounds(self.chain.kind),
+        }
+    }
+
+    /// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where
+    /// it runs along them, elsewhere from about where it begins.
+    fn identity(&self, context: &InkContext) -> u64 {
+        let chain = self.chain;
+        let known = context.names.get(chain.segment as usize).copied().unwrap_or(0);
+        let begins = || {
+            let cell = |x: f64| ((x / (CELL_PX * context.px())).floor() as i64).cast_unsigned();
+            let p = chain.points.first().copied().unwrap_or_default();
+            hash(1, &[cell(p.x), cell(p.y)])
+        };
+        let place = if known == 0 { begins() } else { known };
+        hash(place, &[chain.kind as u64, u64::from(chain.part.0)])
+    }
+}
+
+/// Whether painted surfaces may end at lines of a kind.
+fn bounds(kind: LineKind) -> bool {
+    use LineKind::{Border, Contour, Crease, Intersection, Isophote, Material};
+    matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote)
+}

@@ -1,0 +1,93 @@
+//! Cuts an axis where nothing is drawn: halos of nearer lines, and gaps that the hand leaves; and lifts the
+//! pen at corners.
+
+use super::axis::Axis;
+use crate::math::noise::{hash, unit};
+
+/// The hand lifts at corners that turn by more than this (cosine of 35 degrees).
+const LIFT_COSINE: f64 = 0.819;
+
+/// A part of an axis, and what its ends are.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    pub axis: Axis,
+    pub ends: [End; 2],
+}
+
+/// What may happen at an end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct End {
+    pub tapers: bool,
+    pub runs_on: bool,
+}
+
+impl End {
+    /// The end at a gap.
+    const GAP: Self = Self { tapers: true, runs_on: false };
+    /// The end at a corner at which the pen is lifted.
+    const LIFTED: Self = Self { tapers: true, runs_on: true };
+}
+
+/// Most gaps that the hand leaves in a line.
+const MOST_BREAKS: f64 = 10_000.0;
+
+/// Lines with gaps in them are whole in between at least over this length, px.
+const SHORTEST_PX: f64 = 0.75;
+
+/// The parts of an axis outside of gaps (arc lengths, ascending, not beyond its ends but in a closed axis);
+/// with `lifts`, corners part them as well. `ends` are what the ends of an open axis are.
+pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2], px: f64) -> Vec<Piece> {
+    let total = axis.length();
+    let mut cuts: Vec<([f64; 2], End)> = gaps.iter().map(|gap| (*gap, End::GAP)).collect();
+    if lifts {
+        let sharp = axis.corners.iter().filter(|c| {
+            let [comes, leaves] = axis.at_corner(**c);
+            comes.dot(leaves) < LIFT_COSINE
+        });
+        let inside = |arc: f64| gaps.iter().any(|[from, to]| *from <= arc && arc <= *to);
+        let at = sharp.map(|c| axis.arcs[*c]).filter(|arc| !inside(*arc));
+        cuts.extend(at.map(|arc| ([arc; 2], End::LIFTED)));
+        cuts.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    }
+    if cuts.is_empty() {
+        return vec![Piece { axis: axis.clone(), ends }];
+    }
+    let mut pieces = Vec::new();
+    let mut add = |from: f64, to: f64, ends: [End; 2]| {
+        if to - from >= SHORTEST_PX * px {
+            pieces.push(Piece { axis: axis.cut(from, to), ends });
+        }
+    };
+    let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return pieces };
+    if !axis.closed {
+        let (gap, end) = &cuts[0];
+        add(*first, gap[0], [ends[0], *end]);
+    }
+    for (i, (gap, end)) in cuts.iter().enumerate() {
+        match cuts.get(i + 1) {
+            Some((next, then)) => add(gap[1], next[0], [*end, *then]),
+            None if axis.closed => {
+                let (next, then) = &cuts[0];
+                add(gap[1], next[0] + total, [*end, *then]);
+            }
+            None => add(gap[1], *last, [*end, ends[1]]),
+        }
+    }
+    pieces
+}
+
+/// The same piece with gaps of about a length that the hand leaves, on the mean so far from each other; how
+/// many there are does not depend on the seed.
+pub(super) fn broken(piece: Piece, mean: f64, gap: f64, seed: u64, px: f64) -> Vec<Piece> {
+    let total = piece.axis.length();
+    let count = if mean > 0.0 { (total / mean).round().min(MOST_BREAKS) as usize } else { 0 };
+    let (Some(first), true) = (piece.axis.arcs.first(), count > 0 && gap > 0.0) else { return vec![piece] };
+    let step = total / count as f64;
+    let chance = |k: usize, word: u64| unit(hash(seed, &[k as u64, word]));
+    let gaps = (0..count).map(|k| {
+        let middle = first + (k as f64 + 0.2 + 0.6 * chance(k, 0)) * step;
+        let half = (gap * (0.6 + 0.8 * chance(k, 1)) / 2.0).min(0.15 * step);
+        [middle - half, middle + half]
+    });
+    parted(&piece.axis, &gaps.collect::<Vec<_>>(), false, piece.ends, px)
+}

@@ -1,0 +1,98 @@
+//! Reads the files of brushes: paths of SVG files, and image strips.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use kurbo::BezPath;
+use toml::Value;
+
+use crate::error::Error;
+use crate::math::picture::Picture;
+use crate::stroke::{Brush, BrushChange, BrushSource};
+
+/// Bytes of a brush that are read.
+const GREATEST_FILE: u64 = 1 << 24;
+
+/// Reads the file of a brush.
+pub(super) fn read_brush(change: &mut BrushChange) -> Result<(), Error> {
+    if let BrushChange::Unread(source) = change {
+        let brush = read(source)?;
+        *change = BrushChange::Brush(Arc::new(brush));
+    }
+    Ok(())
+}
+
+/// Makes the paths of brushes in a sheet relative to what the sheet's own path is relative to.
+pub(super) fn place_brushes(sheet: &mut toml::Table, folder: &Path) {
+    let place = |pen: &mut toml::Table| {
+        let Some(Value::Table(brush)) = pen.get_mut("brush") else { return };
+        for key in ["file", "image"] {
+            if let Some(Value::String(path)) = brush.get_mut(key) {
+                *path = folder.join(&*path).to_string_lossy().into_owned();
+            }
+        }
+    };
+    if let Some(Value::Table(pens)) = sheet.get_mut("pen") {
+        place(pens);
+        pens.iter_mut().filter_map(|(_, pen)| pen.as_table_mut()).for_each(place);
+    }
+    if let Some(Value::Array(rules)) = sheet.get_mut("rule") {
+        let pens = rules.iter_mut().filter_map(|rule| rule.get_mut("pen")?.as_table_mut());
+        pens.for_each(place);
+    }
+}
+
+fn read(source: &BrushSource) -> Result<Brush, Error> {
+    let path = &source.file;
+    let unread = |error: std::io::Error| {
+        Error::new(format!("cannot read the brush: {error}")).in_file(path).remedy("check the path")
+    };
+    if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
+        return Err(unfit(path, "is too large"));
+    }
+    let bytes = std::fs::read(path).map_err(unread)?;
+    let brush = if source.is_image {
+        Picture::decode(&bytes).and_then(|picture| Brush::of_picture(&picture, source.repeats, source.length))
+    } else {
+        outlines(&bytes).and_then(|shape| Brush::of_path(&shape, source.repeats, source.length))
+    };
+    brush.map_err(|message| unfit(path, message))
+}
+
+/// The paths of an SVG file as one.
+fn outlines(bytes: &[u8]) -> Result<BezPath, String> {
+    fn gather(group: &usvg::Group, all: &mut BezPath) {
+        use usvg::tiny_skia_path::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
+        for node in group.children() {
+            match node {
+                usvg::Node::Group(inner) => gather(inner, all),
+                usvg::Node::Path(path) => {
+                    let placed = path.data().clone().transform(path.abs_transform());
+                    for segment in placed.iter().flat_map(|path| path.segments()) {
+                        let at = |p: usvg::tiny_skia_path::Point| (f64::from(p.x), f64::from(p.y));
+                        match segment {
+                            MoveTo(p) => all.move_to(at(p)),
+                            LineTo(p) => all.line_to(at(p)),
+                            QuadTo(q, p) => all.quad_to(at(q), at(p)),
+                            CubicTo(q, r, p) => all.curve_to(at(q), at(r), at(p)),
+                            Close => all.close_path(),
+                        }
+                    }
+                }
+                usvg::Node::Image(_) | usvg::Node::Text(_) => {}
+            }
+        }
+    }
+    let tree =
+        usvg::Tree::from_data(bytes, &usvg::Options::default()).map_err(|e| format!("is no SVG ({e})"))?;
+    let mut all = BezPath::new();
+    gather(tree.root(), &mut all);
+    Ok(all)
+}
+
+fn unfit(path: &Path, message: impl fmt::Display) -> Error {
+    Error::new(format!("the brush {message}"))
+        .in_file(path)
+        .remedy("give an SVG file with a filled path, or a PNG or JPEG picture of a stroke")
+}
