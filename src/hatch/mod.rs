@@ -9,13 +9,22 @@
 
 pub mod clip;
 pub mod cuts;
+mod disc;
+mod domain;
+pub mod dots;
 pub mod flow;
+pub mod grain;
 pub mod guide;
 pub mod lay;
 pub mod mark;
 pub mod options;
+mod scan;
+pub mod stipple;
 pub mod streamlines;
+#[cfg(test)]
+mod tests;
 pub mod tone;
+mod voronoi;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -24,10 +33,13 @@ use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+pub use dots::{CellDots, DotScreen, ToneBorders, dots};
 pub use flow::Flow;
+pub use grain::{Grain, Tooth, grain, speckle};
 pub use guide::{Guide, Scope};
 pub use lay::{Hand, HatchStroke};
 pub use options::{Direction, HatchLayer, HatchOptions, Kind};
+pub use stipple::{Stipple, stipple};
 pub use tone::Tone;
 
 use crate::drawing::Join;

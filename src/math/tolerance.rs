@@ -121,3 +121,15 @@ pub const LIFT_PX: f64 = 0.6;
 
 /// Points of borders nearer than this (px) to the line through those around them are passed over.
 pub const THIN_PX: f64 = 0.01;
+
+/// Borders that cross the row of a grid this near to each other (steps of the grid) cross it in one place.
+pub const SCAN_OF_STEP: f64 = 1e-6;
+
+/// The outline of a dot lies no farther than this (px) from its circle and the borders that cut it.
+pub const DOT_PX: f64 = 0.01;
+
+/// What borders leave of a dot is left out if its area is less than that of a square of this side (px).
+pub const DOT_CRUMB_PX: f64 = 0.1;
+
+/// Where a border just touches a dot, the dot is made smaller by this part of itself.
+pub const DOT_NUDGE: f64 = 1e-5;

@@ -1,0 +1,145 @@
+//! [`Scan`]: the cells that the rows of a turned grid run through.
+//!
+//! Each row is met with the pieces of border that cross it, so what it costs to know the cells of all
+//! points of a grid depends on the borders, not on the points.
+
+use kurbo::{Point, Vec2};
+use rayon::prelude::*;
+
+use crate::math::function::{cos, sin};
+use crate::math::tolerance;
+use crate::region::Ground;
+use crate::region::ground::PAPER;
+
+/// A square grid, turned and laid on the page.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid {
+    pub origin: Point,
+    /// Unit vector along its rows; columns run a quarter turn from it, from x to y.
+    along: Vec2,
+    /// User units from one point to the next.
+    pub step: f64,
+}
+
+impl Grid {
+    /// A grid whose rows run at `angle` radians from the x axis, turning from x to y.
+    pub fn new(origin: Point, angle: f64, step: f64) -> Self {
+        Self { origin, along: Vec2::new(cos(angle), sin(angle)), step }
+    }
+
+    /// The place of a point, in steps along rows and columns.
+    pub fn place(&self, p: Point) -> Point {
+        let from = p - self.origin;
+        Point::new(self.along.dot(from) / self.step, self.along.cross(from) / self.step)
+    }
+
+    /// The point of the page at a place of the grid.
+    pub fn point(&self, x: f64, y: f64) -> Point {
+        let across = Vec2::new(-self.along.y, self.along.x);
+        self.origin + (self.along * x + across * y) * self.step
+    }
+}
+
+/// Where a row goes over from one cell to the next.
+#[derive(Debug, Clone, Copy)]
+struct Crossing {
+    x: f64,
+    /// How x changes with y: what crosses at the same place is ordered as it goes on.
+    slope: f64,
+    before: u32,
+    after: u32,
+}
+
+/// The rows of a grid, and in which cells they run.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Scan {
+    /// The number of the first row.
+    pub first: i64,
+    starts: Vec<u32>,
+    crossings: Vec<Crossing>,
+}
+
+impl Scan {
+    /// Scans a ground along the rows of a grid.
+    pub fn new(ground: &Ground, grid: &Grid) -> Self {
+        let placed: Vec<[Point; 2]> =
+            ground.pieces.par_iter().with_min_len(256).map(|piece| piece.ends.map(|p| grid.place(p))).collect();
+        let heights = || placed.iter().flatten().map(|p| p.y);
+        let low = heights().fold(f64::INFINITY, f64::min).ceil();
+        let high = heights().fold(f64::NEG_INFINITY, f64::max).floor();
+        if !(low <= high && high - low < MOST_ROWS) {
+            return Self::default();
+        }
+        let first = low as i64;
+        // A row belongs to a piece from its lower end on, up to its upper end but without it.
+        let rows = |[a, b]: [Point; 2]| {
+            let (low, high) = (a.y.min(b.y).ceil() as i64, a.y.max(b.y).ceil() as i64);
+            (low - first) as usize..(high - first) as usize
+        };
+        let mut starts = vec![0u32; (high as i64 - first) as usize + 2];
+        for ends in &placed {
+            rows(*ends).for_each(|row| starts[row + 1] += 1);
+        }
+        for k in 1..starts.len() {
+            starts[k] += starts[k - 1];
+        }
+        let mut next = starts.clone();
+        let empty = Crossing { x: 0.0, slope: 0.0, before: PAPER, after: PAPER };
+        let mut crossings = vec![empty; starts.last().copied().unwrap_or_default() as usize];
+        for (piece, ends) in ground.pieces.iter().zip(&placed) {
+            // What runs towards greater y has its first side where x is less.
+            let [a, b] = *ends;
+            let (low, high, [before, after]) =
+                if a.y < b.y { (a, b, piece.sides) } else { (b, a, [piece.sides[1], piece.sides[0]]) };
+            let slope = (high.x - low.x) / (high.y - low.y);
+            for row in rows(*ends) {
+                let y = (first + row as i64) as f64;
+                let crossing = Crossing { x: low.x + (y - low.y) * slope, slope, before, after };
+                crossings[next[row] as usize] = crossing;
+                next[row] += 1;
+            }
+        }
+        let mut scan = Self { first, starts, crossings };
+        for row in 0..scan.rows() {
+            let own = scan.range(row);
+            order(&mut scan.crossings[own]);
+        }
+        scan
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    fn range(&self, row: usize) -> std::ops::Range<usize> {
+        self.starts[row] as usize..self.starts[row + 1] as usize
+    }
+
+    /// The stretches of a row that lie in cells other than paper: from where to where along it, and the
+    /// cell.
+    pub fn stretches(&self, row: usize) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
+        let own = &self.crossings[self.range(row)];
+        let pairs = own.windows(2).map(|pair| (pair[0].x, pair[1].x, pair[0].after));
+        pairs.filter(|(from, to, cell)| *cell != PAPER && from < to)
+    }
+}
+
+/// Orders the crossings of a row; where rounding leaves their order open, cells decide.
+fn order(row: &mut [Crossing]) {
+    row.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.slope.total_cmp(&b.slope)).then(a.after.cmp(&b.after)));
+    let mut cell = PAPER;
+    for k in 0..row.len() {
+        if row[k].before != cell {
+            let near = |c: &Crossing| c.x - row[k].x < tolerance::SCAN_OF_STEP;
+            let fits = row[k..].iter().take_while(|c| near(c)).position(|c| c.before == cell);
+            if let Some(ahead) = fits {
+                row[k..=k + ahead].rotate_right(1);
+            }
+        }
+        cell = row[k].after;
+    }
+}
+
+/// A grid with more rows than this is too fine to be drawn.
+const MOST_ROWS: f64 = 65_536.0;
