@@ -43,7 +43,17 @@ fn patch(bin: u16) -> Ground {
 
 fn context(tones: &[Tone], seed: u64) -> HatchContext<'_> {
     let unit = Unit::Px;
-    HatchContext { unit, seed, parts: &[], materials: &[], tones, samples: None, flows: &[], fixed: &[] }
+    HatchContext {
+        unit,
+        seed,
+        parts: &[],
+        materials: &[],
+        tones,
+        samples: None,
+        flows: &[],
+        fixed: &[],
+        paper: Colour::WHITE,
+    }
 }
 
 /// The strokes of all layers on a patch, by what they are known by.

@@ -290,7 +290,8 @@ fn thinned(points: &[Vec2], off: f64) -> Vec<Vec2> {
             let t = ((p - a).dot(way) / length2).clamp(0.0, 1.0);
             (a + way * t - p).hypot2()
         };
-        let farthest = (first + 1..last).map(|k| (distance2(points[k]), k)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let farthest =
+            (first + 1..last).map(|k| (distance2(points[k]), k)).max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, k)) = farthest.filter(|(distance2, _)| *distance2 > off * off) {
             open.extend([(first, k), (k, last)]);
         }
@@ -412,9 +413,7 @@ mod tests {
                 let cell = 8.0 / f64::from(n);
                 at(f64::from(k % n) * cell - 4.0 + cell / 2.0, f64::from(k / n) * cell - 4.0 + cell / 2.0)
             });
-            let within = samples.filter(|p| {
-                (*p - DISC.centre).hypot2() < 16.0 && outline.winding(*p) != 0
-            });
+            let within = samples.filter(|p| (*p - DISC.centre).hypot2() < 16.0 && outline.winding(*p) != 0);
             let wanted = within.count() as f64 * 64.0 / f64::from(n * n);
             let inside = outline.winding(DISC.centre) != 0;
             let got = cut(&ring(&star), inside);

@@ -67,7 +67,8 @@ pub fn dots(
     let size = Size { coverage, least };
 
     // The size that each lattice point asks for in its own cell, row by row.
-    let rows: Vec<Vec<Spot>> = (0..scan.rows()).into_par_iter().map(|row| spots(&scan, row, &grid, &size)).collect();
+    let rows: Vec<Vec<Spot>> =
+        (0..scan.rows()).into_par_iter().map(|row| spots(&scan, row, &grid, &size)).collect();
     let mut inked = vec![false; ground.cells.len()];
     rows.iter().flatten().for_each(|spot| inked[spot.cell as usize] |= spot.radius > 0.0);
     for piece in &ground.pieces {

@@ -16,9 +16,11 @@ pub mod flow;
 pub mod grain;
 pub mod guide;
 pub mod lay;
+mod lines;
 pub mod mark;
 pub mod options;
 mod scan;
+mod share;
 pub mod stipple;
 pub mod streamlines;
 #[cfg(test)]
@@ -26,12 +28,10 @@ mod tests;
 pub mod tone;
 mod voronoi;
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 pub use dots::{CellDots, DotScreen, ToneBorders, dots};
 pub use flow::Flow;
@@ -39,17 +39,16 @@ pub use grain::{Grain, Tooth, grain, speckle};
 pub use guide::{Guide, Scope};
 pub use lay::{Hand, HatchStroke};
 pub use options::{Direction, HatchLayer, HatchOptions, Kind};
+pub use share::most_covered;
 pub use stipple::{Stipple, stipple};
 pub use tone::Tone;
 
-use crate::drawing::Join;
-use crate::drawing::{Layer, LayerKind, Length, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
+use crate::drawing::{Layer, LayerKind, Length, Mark, Paint, Provenance, Unit};
 use crate::math::colour::Colour;
-use crate::math::function::{pow, tan};
 use crate::math::noise::hash;
 use crate::region::{Ground, Look, Samples};
 use crate::stroke::Ink;
-use mark::Nib;
+use share::{Shares, shares};
 use streamlines::{Spacing, streamlines};
 
 /// What hatching needs beside the ground.
@@ -67,6 +66,8 @@ pub struct HatchContext<'a> {
     pub tones: &'a [Tone],
     /// The page asked at the points of a lattice, for layers that need it: see [`HatchLayer::samples`].
     pub samples: Option<&'a Samples>,
+    /// Colour of the paper.
+    pub paper: Colour,
     /// For each layer that follows the surface or its light, the flow of its strokes.
     pub flows: &'a [Option<Flow<'a>>],
     /// For each layer that is fixed to the model, its guides.
@@ -78,14 +79,6 @@ pub struct HatchContext<'a> {
 pub struct Hatched {
     /// The strokes, in the order of their guides.
     pub strokes: Vec<HatchStroke>,
-}
-
-/// How dense a layer is in each cell of a ground.
-struct Shares {
-    /// The part of the paper that the layer covers.
-    covered: Vec<f64>,
-    /// The same as a part of what it covers at most.
-    density: Vec<f64>,
 }
 
 /// The strokes of each layer that is made of lines; none for the others.
@@ -129,10 +122,66 @@ pub fn fill(
     };
     let mut marks: Vec<Mark> = blacks.into_iter().map(black).collect();
     for (number, (layer, hatched)) in options.layers.iter().zip(&hatched).enumerate() {
-        marks.extend(lines(ground, context, options, number, layer, hatched));
+        match layer.kind {
+            Kind::Lines => marks.extend(lines::lines(ground, context, options, number, layer, hatched)),
+            Kind::Dots | Kind::Stipple => marks.extend(spots(ground, context, options, number, layer)),
+        }
     }
     (!marks.is_empty()).then_some(Layer { kind: LayerKind::Hatching, pen: None, marks })
 }
+
+/// The part of the paper that a layer covers at a point of a cell: as the light is there, or the bin.
+fn covered_at(ground: &Ground, context: &HatchContext, layer: &HatchLayer, cell: u32, p: Point) -> f64 {
+    let own = &ground.cells[cell as usize];
+    let Some(tone) = context.tones.get(own.look.paint.index()).or(context.tones.last()) else { return 0.0 };
+    let samples = context.samples.filter(|_| layer.graded);
+    match samples.and_then(|samples| samples.light(own.facet, p)) {
+        Some(light) => tone.of_light(light),
+        None => tone.of_bin(own.look.bin),
+    }
+}
+
+/// The marks of a layer of dots: one for each cell.
+fn spots(
+    ground: &Ground,
+    context: &HatchContext,
+    options: &HatchOptions,
+    number: usize,
+    layer: &HatchLayer,
+) -> Vec<Mark> {
+    let long = |length: Length| length.in_unit(context.unit);
+    let fullest: Vec<f64> = options.layers.iter().map(|layer| share::fullest(layer, context.unit)).collect();
+    let inked = shares(ground, context, options, number);
+    let coverage = |cell: u32, p: Point| {
+        if inked.covered[cell as usize] <= 0.0 {
+            return 0.0;
+        }
+        let covered = covered_at(ground, context, layer, cell, p);
+        tone::shares(covered, &fullest).get(number).copied().unwrap_or_default()
+    };
+    let px = long(Length::px(1.0));
+    let seed = hash(context.seed, &[number as u64]);
+    let cells = if layer.kind == Kind::Dots {
+        let tone_borders = if layer.graded { ToneBorders::Whole } else { ToneBorders::Cut };
+        // The page's y points down, so that angles turn the other way.
+        let angle = -layer.angle.to_radians();
+        let screen = DotScreen { pitch: long(layer.pitch()), angle, origin: Point::ZERO, tone_borders, px };
+        dots(ground, &screen, &coverage)
+    } else {
+        let (radius, uneven) = (long(layer.width) / 2.0, layer.uneven);
+        stipple(ground, &Stipple { radius, uneven, rounds: ROUNDS, seed, px }, &coverage)
+    };
+    let mark = |dots: CellDots| {
+        let look = ground.cells[dots.cell as usize].look;
+        let mut colour = colour(layer.colour, look, context);
+        colour.a = (f64::from(colour.a) * layer.opacity).round() as u8;
+        Mark { path: dots.path, paint: Paint::Fill(colour), provenance: provenance(look, context) }
+    };
+    cells.into_iter().map(mark).collect()
+}
+
+/// Rounds of relaxing a stippling: enough to be even, too few to become a lattice.
+const ROUNDS: u32 = 24;
 
 /// Guides in the direction of a layer.
 fn guides(
@@ -193,148 +242,6 @@ fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> Hand {
         px: long(Length::px(1.0)),
         seed: hash(context.seed, &[number as u64]),
     }
-}
-
-/// The part of the paper that a layer covers where `density` of its strokes are drawn.
-///
-/// Strokes that stray from their lines fall on each other, the more the denser they are: what strokes laid
-/// down by chance would cover is 1 - exp(-x) for x times the paper of ink (Poisson).
-fn covers(layer: &HatchLayer, unit: Unit, density: f64) -> f64 {
-    if layer.kind != Kind::Lines || layer.swell {
-        return density * MOST_COVERED;
-    }
-    let [pitch, width, length, gap, bow] =
-        [layer.pitch(), layer.width, layer.length, layer.gap, layer.bow].map(|length| length.in_unit(unit));
-    let inked = if length > 0.0 { length / (length + gap) } else { 1.0 };
-    let ink = density * width * mark::mean_width(layer, unit) / pitch * inked;
-    let turn = length * tan(layer.turn.to_radians().min(1.0)) / 4.0;
-    let astray = (STRAYS * (layer.stray + (turn + bow / 2.0) / pitch)).min(1.0) * density;
-    (ink - astray * (ink - (1.0 - pow(std::f64::consts::E, -ink)))).min(MOST_COVERED)
-}
-
-/// Strokes that stray by all of their distance on average lie as by chance.
-const STRAYS: f64 = 0.9;
-
-/// The part of the paper that a layer covers at most.
-fn fullest(layer: &HatchLayer, unit: Unit) -> f64 {
-    covers(layer, unit, 1.0).max(f64::MIN_POSITIVE)
-}
-
-/// What all layers of a hatching cover together at most: tables that ask for more do not get it.
-#[must_use]
-pub fn most_covered(options: &HatchOptions, unit: Unit) -> f64 {
-    1.0 - options.layers.iter().map(|layer| 1.0 - fullest(layer, unit)).product::<f64>()
-}
-
-/// The part of a layer's strokes that covers a part of the paper.
-fn density(layer: &HatchLayer, unit: Unit, share: f64) -> f64 {
-    if share <= 0.0 {
-        return 0.0;
-    }
-    if share >= fullest(layer, unit) {
-        return 1.0;
-    }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        if covers(layer, unit, middle) < share { low = middle } else { high = middle }
-    }
-    f64::midpoint(low, high)
-}
-
-/// Bisections that find a density.
-const HALVINGS: usize = 30;
-
-/// Screens leave at least this little of the paper, so that lines stay lines.
-const MOST_COVERED: f64 = 0.98;
-
-/// How dense a layer is in each cell.
-fn shares(ground: &Ground, context: &HatchContext, options: &HatchOptions, number: usize) -> Shares {
-    let fullest: Vec<f64> = options.layers.iter().map(|layer| fullest(layer, context.unit)).collect();
-    let mut known: FxHashMap<u64, f64> = FxHashMap::default();
-    let covered: Vec<f64> = ground
-        .cells
-        .iter()
-        .map(|cell| {
-            let black = usize::from(cell.look.bin) < options.blacks;
-            if cell.facet == 0 || black {
-                return 0.0;
-            }
-            let tone = context.tones.get(cell.look.paint.index()).or(context.tones.last());
-            let coverage = tone.map_or(0.0, |tone| tone.of_bin(cell.look.bin));
-            tone::shares(coverage, &fullest).get(number).copied().unwrap_or_default()
-        })
-        .collect();
-    // Few cells differ.
-    let mut of = |share: f64| {
-        *known.entry(share.to_bits()).or_insert_with(|| density(&options.layers[number], context.unit, share))
-    };
-    let density = covered.iter().map(|share| of(*share)).collect();
-    Shares { covered, density }
-}
-
-/// The marks of a layer of lines: one for each facet and degree of pressure.
-fn lines(
-    ground: &Ground,
-    context: &HatchContext,
-    options: &HatchOptions,
-    number: usize,
-    layer: &HatchLayer,
-    hatched: &Hatched,
-) -> Vec<Mark> {
-    let mut sets: BTreeMap<(u32, usize), Vec<&HatchStroke>> = BTreeMap::new();
-    for stroke in &hatched.strokes {
-        let facet = ground.cells[stroke.cell as usize].facet;
-        sets.entry((facet, mark::degree(stroke.pressure))).or_default().push(stroke);
-    }
-    let fullest: Vec<f64> = options.layers.iter().map(|layer| fullest(layer, context.unit)).collect();
-    let px = Length::px(1.0).in_unit(context.unit);
-    let [pitch, width] = [layer.pitch(), layer.width].map(|length| length.in_unit(context.unit));
-    let sets: Vec<((u32, usize), Vec<&HatchStroke>)> = sets.into_iter().collect();
-    sets.par_iter()
-        .map(|((_, degree), strokes)| {
-            let cell = strokes[0].cell;
-            let look = ground.cells[cell as usize].look;
-            let tone = context.tones.get(look.paint.index()).or(context.tones.last());
-            let swollen = |cell: u32, p: Point| {
-                let facet = ground.cells[cell as usize].facet;
-                let light = context.samples.and_then(|samples| samples.light(facet, p));
-                let of = |tone: &Tone| match light {
-                    Some(light) => tone.of_light(light),
-                    None => tone.of_bin(ground.cells[cell as usize].look.bin),
-                };
-                let covered = tone.map_or(0.0, of);
-                tone::shares(covered, &fullest).get(number).copied().unwrap_or_default() * pitch
-            };
-            let pressure = if layer.pressure > 0.0 { mark::pressure(*degree) } else { 1.0 };
-            let nib = Nib { width: width * pressure, taper: layer.taper, px };
-            let mut axis = BezPath::new();
-            strokes.iter().for_each(|stroke| mark::add_line(stroke, px, &mut axis));
-            let mut colour = colour(layer.colour, look, context);
-            colour.a = (f64::from(colour.a) * layer.opacity * f64::midpoint(1.0, pressure)).round() as u8;
-            let (path, paint) = if layer.swell || layer.taper > 0.0 {
-                let mut path = BezPath::new();
-                for stroke in strokes {
-                    let own = |p: Point| swollen(stroke.cell, p);
-                    mark::add_outline(stroke, &nib, layer.swell.then_some(&own), &mut path);
-                }
-                let mean =
-                    if layer.swell { pitch / 2.0 } else { nib.width * mark::mean_width(layer, context.unit) };
-                (path, Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: nib.width }))
-            } else {
-                let stroke = StrokePaint {
-                    width: nib.width,
-                    colour,
-                    cap: layer.cap,
-                    join: Join::Round,
-                    dash: Vec::new(),
-                    dash_offset: 0.0,
-                };
-                (axis, Paint::Stroke(stroke))
-            };
-            Mark { path, paint, provenance: provenance(look, context) }
-        })
-        .collect()
 }
 
 /// The colour of an ink on what looks so.

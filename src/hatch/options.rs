@@ -98,6 +98,9 @@ pub struct HatchLayer {
     /// Strokes as wide as the tone is dark, in place of more or fewer of them: line screens and
     /// engravings. Default: false.
     pub swell: bool,
+    /// Whether swelling lines, dots and stippling follow the light evenly, in place of bin by bin. Default:
+    /// true.
+    pub graded: bool,
     /// Colour; also a darker shade of the material. Default: `#1a1a1a`.
     pub colour: Ink,
     /// 0 to 1. Default: 1.
@@ -151,6 +154,7 @@ impl Default for HatchLayer {
             lpi: None,
             width: Length::px(1.0),
             swell: false,
+            graded: true,
             colour: Ink::Fixed(Colour::rgb(0x1a, 0x1a, 0x1a)),
             opacity: 1.0,
             cap: Cap::Butt,

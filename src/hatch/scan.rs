@@ -62,8 +62,12 @@ pub(super) struct Scan {
 impl Scan {
     /// Scans a ground along the rows of a grid.
     pub fn new(ground: &Ground, grid: &Grid) -> Self {
-        let placed: Vec<[Point; 2]> =
-            ground.pieces.par_iter().with_min_len(256).map(|piece| piece.ends.map(|p| grid.place(p))).collect();
+        let placed: Vec<[Point; 2]> = ground
+            .pieces
+            .par_iter()
+            .with_min_len(256)
+            .map(|piece| piece.ends.map(|p| grid.place(p)))
+            .collect();
         let heights = || placed.iter().flatten().map(|p| p.y);
         let low = heights().fold(f64::INFINITY, f64::min).ceil();
         let high = heights().fold(f64::NEG_INFINITY, f64::max).floor();

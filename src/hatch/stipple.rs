@@ -128,10 +128,11 @@ impl<'a> Facet<'a> {
                 let squares = runs.iter().flat_map(|run| (run.from..run.to).map(move |column| (run, column)));
                 squares
                     .map(|(run, column)| {
-                        let ink = known.entry((column.div_euclid(ASKED_APART), run.cell)).or_insert_with(|| {
-                            let wanted = coverage(run.cell, grid.point(column as f64, run.row as f64));
-                            (wanted.clamp(0.0, 1.0) * f64::from(BLACK)).round() as u16
-                        });
+                        let ink =
+                            known.entry((column.div_euclid(ASKED_APART), run.cell)).or_insert_with(|| {
+                                let wanted = coverage(run.cell, grid.point(column as f64, run.row as f64));
+                                (wanted.clamp(0.0, 1.0) * f64::from(BLACK)).round() as u16
+                            });
                         ((run.row - top) as usize * width + (column - left) as usize, *ink)
                     })
                     .collect()
@@ -305,7 +306,9 @@ impl Fence<'_> {
         for _ in 0..if is_dense { 0 } else { MOVES } {
             let offs = border.iter().map(|ends| (nearest(*ends, moved.centre), ends));
             let distance = |p: Point| (p - moved.centre).hypot2();
-            let Some((p, [a, b])) = offs.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))) else { break };
+            let Some((p, [a, b])) = offs.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))) else {
+                break;
+            };
             let is_within = (*b - *a).cross(moved.centre - *a) > 0.0;
             let off = distance(p).sqrt();
             if (is_within && off >= moved.radius) || off <= 0.0 {

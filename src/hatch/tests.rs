@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use kurbo::{BezPath, Point, Shape};
 
 use crate::mesh::{MaterialId, PaintId, PartId};
-use crate::region::ground::{Cell, Ground, Piece};
 use crate::region::Look;
+use crate::region::ground::{Cell, Ground, Piece};
 
 /// A ground whose cells are polygons in facets, turning from x to y; cell 0 is paper. Polygons that touch
 /// share their corners.

@@ -207,7 +207,8 @@ impl Buckets {
     fn new(patch: &Patch, sites: &[[f64; 2]]) -> Self {
         let size = [patch.width as f64, patch.height as f64];
         // Two sites a bucket, were the box full.
-        let side = (2.0 * size[0] * size[1] / sites.len() as f64).sqrt().clamp(2.0, size[0].max(size[1]).max(2.0));
+        let side =
+            (2.0 * size[0] * size[1] / sites.len() as f64).sqrt().clamp(2.0, size[0].max(size[1]).max(2.0));
         let across = size.map(|size| (size / side) as usize + 1);
         let mut buckets = Self { side, across, starts: Vec::new(), sites: Vec::new() };
         let of: Vec<usize> = sites.iter().map(|site| buckets.bucket(*site)).collect();

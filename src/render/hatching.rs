@@ -8,7 +8,7 @@ use kurbo::{BezPath, Point, Vec2};
 use super::fills::Fills;
 use crate::drawing::{Layer, Length, Page, Unit};
 use crate::hatch::guide::rank;
-use crate::hatch::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Hatched, Tone, cuts};
+use crate::hatch::{self, Direction, Flow, Grain, Guide, HatchContext, HatchLayer, Hatched, Tone, cuts};
 use crate::lines::Lit;
 use crate::math::colour::Colour;
 use crate::math::function::{cos, sin};
@@ -97,6 +97,7 @@ impl Hatching<'_> {
             materials: &materials,
             tones: &tones,
             samples: samples.as_ref().map(|(samples, _)| samples),
+            paper: style.background.unwrap_or(Colour::WHITE),
             flows: &flows,
             fixed: &fixed,
         };
@@ -114,6 +115,14 @@ impl Hatching<'_> {
         let black = region::paint::outlines(&regions, self.offset(), |region| region.look.bin == 0);
         black.into_iter().map(|(path, region)| (path, region.look)).collect()
     }
+}
+
+/// The grain of the paper, if it shows.
+pub(super) fn paper(page: &Page, style: &Style) -> Option<Layer> {
+    let usual = Grain::default();
+    let contrast = usual.contrast * (2.0 * style.grain).min(1.0);
+    let density = usual.density * (1.0 + 2.0 * style.grain);
+    (style.grain > 0.0).then(|| hatch::grain(page, &Grain { density, contrast, seed: style.seed })).flatten()
 }
 
 /// A warning where a table asks for more ink than the layers can give.

@@ -16,7 +16,7 @@ pub use report::{Report, Stopwatch};
 pub use stage::Stage;
 
 use crate::chain;
-use crate::drawing::{Drawing, Page, Unit};
+use crate::drawing::{Drawing, Layer, Page, Unit};
 use crate::hatch::Hatched;
 use crate::lines::{self, FeatureLines, LineOptions, Surface};
 
@@ -166,13 +166,13 @@ impl<'a> Prepared<'a> {
     fn drawn(&self, on_view: OnView, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
         let Self { scene, style, paints, .. } = self;
         let OnView { surface, view, lines, fills, mut map, mut report, mut watch, warnings } = on_view;
-        let mut layers = Vec::new();
+        let mut layers: Vec<Layer> = hatching::paper(&page, style).into_iter().collect();
         if let Some(fills) = fills {
             let seen = fills.see(&map, &page);
             if style.region.enabled {
                 let (painted, regions) = fills.paint(&seen, &page, camera, style);
                 report.counts.regions = regions.regions.len() as u64;
-                layers = painted;
+                layers.extend(painted);
             }
             report.counts.leaks = seen.leaks;
             report.stages_ms.regions = watch.lap_ms();
@@ -189,7 +189,7 @@ impl<'a> Prepared<'a> {
 
         let margin = margin(camera, &page);
         beside::ask(&mut chains, &Beside { scene, surface, view: &view, style, margin, unit: page.unit });
-        let names = beside::names(&feature_lines, surface, &style.stroke);
+        let names = beside::names(lines, surface, &style.stroke);
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =
             scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();

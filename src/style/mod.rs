@@ -22,6 +22,8 @@ use crate::stroke::StrokeOptions;
 pub struct Style {
     /// Colour of the paper; `None` leaves it transparent. Default: white.
     pub background: Option<Colour>,
+    /// How much the grain of the paper shows, 0 to 1. Default: 0.
+    pub grain: f64,
     /// Which lines are sought and drawn.
     pub lines: LineOptions,
     /// How lines are linked, tidied, smoothed and fitted.
@@ -50,7 +52,9 @@ impl Default for Style {
 }
 
 /// The built-in sheets, by name: the file styles/NAME.toml.
-const BUILT_IN: [(&str, &str); 18] = [
+const BUILT_IN: [(&str, &str); 22] = [
+    ("blueprint", include_str!("../../styles/blueprint.toml")),
+    ("comic", include_str!("../../styles/comic.toml")),
     ("comic-flats", include_str!("../../styles/comic-flats.toml")),
     ("engraving", include_str!("../../styles/engraving.toml")),
     ("flat", include_str!("../../styles/flat.toml")),
@@ -64,6 +68,8 @@ const BUILT_IN: [(&str, &str); 18] = [
     ("pencil-plain", include_str!("../../styles/pencil-plain.toml")),
     ("plotter", include_str!("../../styles/plotter.toml")),
     ("rim", include_str!("../../styles/rim.toml")),
+    ("sketch", include_str!("../../styles/sketch.toml")),
+    ("stipple", include_str!("../../styles/stipple.toml")),
     ("suggestive", include_str!("../../styles/suggestive.toml")),
     ("technical", include_str!("../../styles/technical.toml")),
     ("toon", include_str!("../../styles/toon.toml")),

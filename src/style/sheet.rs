@@ -42,11 +42,13 @@ pub(super) struct Sheet {
 struct PageTable {
     #[serde(deserialize_with = "colour_or_none")]
     background: Option<Colour>,
+    #[serde(deserialize_with = "fraction")]
+    grain: Option<f64>,
 }
 
 impl Default for PageTable {
     fn default() -> Self {
-        Self { background: Some(Colour::WHITE) }
+        Self { background: Some(Colour::WHITE), grain: None }
     }
 }
 
@@ -108,6 +110,7 @@ impl Sheet {
         let (shade, hatch) = self.hatching.into_options();
         Style {
             background: self.page.background,
+            grain: self.page.grain.unwrap_or_default(),
             lines: self.lines,
             chain: self.chain,
             stroke,

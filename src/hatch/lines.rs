@@ -1,0 +1,106 @@
+//! Strokes of one layer as marks: one for each facet and degree of pressure.
+
+use std::collections::BTreeMap;
+
+use kurbo::{BezPath, Point};
+use rayon::prelude::*;
+
+use super::lay::HatchStroke;
+use super::mark::{self, Nib};
+use super::options::{HatchLayer, HatchOptions};
+use super::share::fullest;
+use super::{HatchContext, Hatched, Tooth, colour, covered_at, provenance, speckle, tone};
+use crate::drawing::{Join, Length, Mark, OutlinePaint, Paint, StrokePaint};
+use crate::math::noise::hash;
+use crate::region::{Ground, Look};
+
+/// The marks of a layer of lines: one for each facet and degree of pressure.
+pub(super) fn lines(
+    ground: &Ground,
+    context: &HatchContext,
+    options: &HatchOptions,
+    number: usize,
+    layer: &HatchLayer,
+    hatched: &Hatched,
+) -> Vec<Mark> {
+    let mut sets: BTreeMap<(u32, usize), Vec<&HatchStroke>> = BTreeMap::new();
+    for stroke in &hatched.strokes {
+        let facet = ground.cells[stroke.cell as usize].facet;
+        sets.entry((facet, mark::degree(stroke.pressure))).or_default().push(stroke);
+    }
+    let fullest: Vec<f64> = options.layers.iter().map(|layer| fullest(layer, context.unit)).collect();
+    let px = Length::px(1.0).in_unit(context.unit);
+    let [pitch, width] = [layer.pitch(), layer.width].map(|length| length.in_unit(context.unit));
+    let sets: Vec<((u32, usize), Vec<&HatchStroke>)> = sets.into_iter().collect();
+    sets.par_iter()
+        .map(|((_, degree), strokes)| {
+            let cell = strokes[0].cell;
+            let look = ground.cells[cell as usize].look;
+            let swollen = |cell: u32, p: Point| {
+                let covered = covered_at(ground, context, layer, cell, p);
+                tone::shares(covered, &fullest).get(number).copied().unwrap_or_default() * pitch
+            };
+            let pressure = if layer.pressure > 0.0 { mark::pressure(*degree) } else { 1.0 };
+            let nib = Nib { width: width * pressure, taper: layer.taper, px };
+            let mut axis = BezPath::new();
+            strokes.iter().for_each(|stroke| mark::add_line(stroke, px, &mut axis));
+            let mut colour = colour(layer.colour, look, context);
+            colour.a = (f64::from(colour.a) * layer.opacity * f64::midpoint(1.0, pressure)).round() as u8;
+            let (path, paint) = if layer.swell || layer.taper > 0.0 {
+                let mut path = BezPath::new();
+                for stroke in strokes {
+                    let own = |p: Point| swollen(stroke.cell, p);
+                    mark::add_outline(stroke, &nib, layer.swell.then_some(&own), &mut path);
+                }
+                let mean =
+                    if layer.swell { pitch / 2.0 } else { nib.width * mark::mean_width(layer, context.unit) };
+                (path, Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: nib.width }))
+            } else {
+                let stroke = StrokePaint {
+                    width: nib.width,
+                    colour,
+                    cap: layer.cap,
+                    join: Join::Round,
+                    dash: Vec::new(),
+                    dash_offset: 0.0,
+                };
+                (axis, Paint::Stroke(stroke))
+            };
+            let drawn = Mark { path, paint, provenance: provenance(look, context) };
+            std::iter::once(drawn)
+                .chain(tooth(layer, context, number, strokes, nib.width, look))
+                .collect::<Vec<_>>()
+        })
+        .flatten()
+        .collect()
+}
+
+/// What the tooth of the paper leaves white of some strokes.
+fn tooth(
+    layer: &HatchLayer,
+    context: &HatchContext,
+    number: usize,
+    strokes: &[&HatchStroke],
+    width: f64,
+    look: Look,
+) -> Option<Mark> {
+    if layer.grain <= 0.0 {
+        return None;
+    }
+    let px = Length::px(1.0).in_unit(context.unit);
+    let lines: Vec<(BezPath, f64)> = strokes
+        .iter()
+        .map(|stroke| {
+            let mut line = BezPath::new();
+            mark::add_line(stroke, px, &mut line);
+            (line, width)
+        })
+        .collect();
+    let seed = hash(context.seed, &[number as u64, TOOTH]);
+    let path = speckle(&lines, &Tooth { amount: layer.grain / 2.0, seed, px });
+    let paint = Paint::Fill(context.paper);
+    (!path.elements().is_empty()).then(|| Mark { path, paint, provenance: provenance(look, context) })
+}
+
+/// Sets the seed of the paper's tooth apart from those of strokes.
+const TOOTH: u64 = 0x746f_6f74;
