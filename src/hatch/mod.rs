@@ -21,8 +21,6 @@ pub mod options;
 mod scan;
 pub mod stipple;
 pub mod streamlines;
-#[cfg(test)]
-mod tests;
 pub mod tone;
 mod voronoi;
 

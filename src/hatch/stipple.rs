@@ -128,10 +128,11 @@ impl<'a> Facet<'a> {
                 let squares = runs.iter().flat_map(|run| (run.from..run.to).map(move |column| (run, column)));
                 squares
                     .map(|(run, column)| {
-                        let ink = known.entry((column.div_euclid(ASKED_APART), run.cell)).or_insert_with(|| {
-                            let wanted = coverage(run.cell, grid.point(column as f64, run.row as f64));
-                            (wanted.clamp(0.0, 1.0) * f64::from(BLACK)).round() as u16
-                        });
+                        let ink =
+                            known.entry((column.div_euclid(ASKED_APART), run.cell)).or_insert_with(|| {
+                                let wanted = coverage(run.cell, grid.point(column as f64, run.row as f64));
+                                (wanted.clamp(0.0, 1.0) * f64::from(BLACK)).round() as u16
+                            });
                         ((run.row - top) as usize * width + (column - left) as usize, *ink)
                     })
                     .collect()
@@ -305,7 +306,9 @@ impl Fence<'_> {
         for _ in 0..if is_dense { 0 } else { MOVES } {
             let offs = border.iter().map(|ends| (nearest(*ends, moved.centre), ends));
             let distance = |p: Point| (p - moved.centre).hypot2();
-            let Some((p, [a, b])) = offs.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))) else { break };
+            let Some((p, [a, b])) = offs.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))) else {
+                break;
+            };
             let is_within = (*b - *a).cross(moved.centre - *a) > 0.0;
             let off = distance(p).sqrt();
             if (is_within && off >= moved.radius) || off <= 0.0 {
@@ -333,25 +336,3 @@ const HAIR: f64 = 1e-3;
 
 /// Less of a dot than this is not drawn.
 const SCRAP: f64 = 0.4;
-
-#[cfg(test)]
-mod tests {
-    use super::super::tests::{covered, ground, round, square};
-    use super::*;
-
-    const OPTIONS: Stipple = Stipple { radius: 1.0, uneven: 0.1, rounds: 20, seed: 1, px: 1.0 };
-
-    #[test]
-    fn flat_patches_are_as_dark_as_asked() {
-        let patch = ground(&[(1, square(7.0, 9.0, 100.0))]);
-        let mut before = 0.0;
-        for percent in (0..=95).step_by(5) {
-            let asked = f64::from(percent) / 100.0;
-            let made = stipple(&patch, &OPTIONS, &|_, _| asked);
-            let share = made.first().map_or(0.0, |dots| covered(&dots.path, 7.0, 9.0, 100.0));
-            println!("{asked} {share}");
-            assert!(share >= before, "{asked}");
-            before = share;
-        }
-    }
-}
