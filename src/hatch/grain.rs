@@ -13,9 +13,9 @@ use crate::math::noise::{hash, unit};
 /// Specks on the paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grain {
-    /// How many in a square of 100 px. Default: 16.
+    /// How many in a square of 100 px. Default: 24.
     pub density: f64,
-    /// How much darker than the paper the darkest are, 0 to 1. Default: 0.12.
+    /// How much darker than the paper the darkest are, 0 to 1. Default: 0.2.
     pub contrast: f64,
     /// The sheet of paper.
     pub seed: u64,
@@ -23,7 +23,7 @@ pub struct Grain {
 
 impl Default for Grain {
     fn default() -> Self {
-        Self { density: 16.0, contrast: 0.12, seed: 0 }
+        Self { density: 24.0, contrast: 0.2, seed: 0 }
     }
 }
 
@@ -39,7 +39,7 @@ pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
     }
     let side = (area / count).sqrt() * px;
     let [columns, rows] = [page.width, page.height].map(|length| (length / side).ceil() as i64);
-    let mut paths = [const { BezPath::new() }; 3];
+    let mut paths = [(); 3].map(|()| BezPath::new());
     for row in 0..rows {
         for k in 0..columns {
             // To and fro, so that what follows each other is near.
@@ -48,10 +48,9 @@ pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
             let corner = Vec2::new(column as f64, row as f64);
             let at = Point::ORIGIN + (corner + Vec2::new(chance.of(0), chance.of(1))) * side;
             if at.x < page.width && at.y < page.height {
-                let size = chance.of(2);
-                // Most are small.
-                let size = (SMALLEST_PX + (LARGEST_PX - SMALLEST_PX) * size * size) * px;
-                speck(&mut paths[(chance.of(3) * 3.0) as usize % 3], at, size / 2.0, &chance);
+                let size = (SMALLEST_PX + (LARGEST_PX - SMALLEST_PX) * chance.of(2)) * px;
+                let corners = 3 + (chance.of(4) * 4.0) as u64;
+                speck(&mut paths[(chance.of(3) * 3.0) as usize % 3], at, size / 2.0, corners, &chance);
             }
         }
     }
@@ -77,7 +76,7 @@ const LARGEST_PX: f64 = 1.2;
 /// Gaps in pencil strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tooth {
-    /// The part of the strokes' area that is left out, 0 to 0.5.
+    /// The part of the strokes' area that is left out, 0 to about 0.3.
     pub amount: f64,
     /// The sheet of paper.
     pub seed: u64,
@@ -94,6 +93,9 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     if side.is_nan() || side <= 0.0 || tooth.amount <= 0.0 {
         return path;
     }
+    // Where much is left out, specks are wider.
+    let mean = NARROW_OF_SQUARE + WIDER * tooth.amount;
+    let wanted = tooth.amount / (SPECK_OF_WIDTH * mean * mean);
     let mut places: Vec<[i64; 2]> = Vec::new();
     for (stroke, width) in strokes {
         let reach = width / 2.0;
@@ -102,7 +104,7 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
             for row in low.y.floor() as i64..=high.y.floor() as i64 {
                 for column in low.x.floor() as i64..=high.x.floor() as i64 {
                     let chance = Chance::new(tooth.seed, column, row);
-                    let is_wanted = chance.of(0) * SPECK_OF_SQUARE < tooth.amount * chance.rough(tooth.seed);
+                    let is_wanted = chance.of(0) < wanted * chance.rough(tooth.seed);
                     if is_wanted && (chance.place(side) - at).hypot2() <= reach * reach {
                         places.push([row, column]);
                     }
@@ -114,18 +116,22 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     places.dedup();
     for [row, column] in places {
         let chance = Chance::new(tooth.seed, column, row);
-        // As wide as makes their mean area what is reckoned with.
-        let size = side * (0.4 + 0.4 * chance.of(2));
-        speck(&mut path, chance.place(side), size / 2.0, &chance);
+        let size = mean * side * (0.75 + 0.5 * chance.of(2));
+        speck(&mut path, chance.place(side), size / 2.0, 3 + (chance.of(5) * 2.0) as u64, &chance);
     }
     path
 }
 
 /// The side of the squares with one hole of the tooth each.
-const TOOTH_PX: f64 = 1.1;
+const TOOTH_PX: f64 = 1.5;
 
-/// The mean area of a speck, as a part of its square: measured.
-const SPECK_OF_SQUARE: f64 = 0.2;
+/// The mean width of specks, as a part of their squares, and how it grows with what is left out.
+const NARROW_OF_SQUARE: f64 = 0.8;
+const WIDER: f64 = 0.6;
+
+/// The mean area of a speck, as a part of the square of its width, with what lies beside the stroke taken
+/// off: measured.
+const SPECK_OF_WIDTH: f64 = 0.27;
 
 /// Calls for points along a path, no farther apart than `step`.
 fn along(path: &BezPath, step: f64, mut call: impl FnMut(Point)) {
@@ -167,7 +173,7 @@ impl Chance {
 
     /// Where the speck of the square lies.
     fn place(&self, side: f64) -> Point {
-        Point::new(self.column as f64 + self.of(3), self.row as f64 + self.of(4)) * side
+        Point::new((self.column as f64 + self.of(3)) * side, (self.row as f64 + self.of(4)) * side)
     }
 
     /// How rough the paper is around: 0 to 2, 1 on average.
@@ -180,9 +186,8 @@ impl Chance {
 /// Roughness changes from patch to patch of this many squares.
 const PATCH: i64 = 3;
 
-/// Adds a polygon of 3 to 6 corners, stretched by chance.
-fn speck(path: &mut BezPath, at: Point, radius: f64, chance: &Chance) {
-    let corners = 3 + (chance.of(5) * 4.0) as u64;
+/// Adds a polygon, stretched and turned by chance.
+fn speck(path: &mut BezPath, at: Point, radius: f64, corners: u64, chance: &Chance) {
     let turn = std::f64::consts::TAU * chance.of(6);
     let (along, flat) = (Vec2::new(cos(turn), sin(turn)), 0.5 + 0.5 * chance.of(7));
     for k in 0..corners {

@@ -23,8 +23,6 @@ mod scan;
 mod share;
 pub mod stipple;
 pub mod streamlines;
-#[cfg(test)]
-mod tests;
 pub mod tone;
 mod voronoi;
 

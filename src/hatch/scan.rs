@@ -147,3 +147,68 @@ fn order(row: &mut [Crossing]) {
 
 /// A grid with more rows than this is too fine to be drawn.
 const MOST_ROWS: f64 = 65_536.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::noise::{hash, unit};
+    use crate::mesh::{MaterialId, PaintId, PartId};
+    use crate::region::Look;
+    use crate::region::ground::{Cell, Piece};
+
+    const CELL: Cell = Cell {
+        look: Look {
+            part: PartId(0),
+            material: MaterialId(0),
+            paint: PaintId(0),
+            tone: 0,
+            bin: 0,
+            cast: false,
+        },
+        facet: 1,
+        area: 1.0,
+    };
+
+    /// Sectors around a point: cell k from corner k - 1 to corner k, paper around.
+    fn sectors(corners: u64) -> Ground {
+        let middle = Point::new(50.0, 40.0);
+        let corner = |k: u64| {
+            let angle = std::f64::consts::TAU * (k % corners) as f64 / corners as f64;
+            let far = 10.0 + 25.0 * unit(hash(corners, &[k % corners]));
+            middle + Vec2::new(cos(angle), sin(angle)) * far
+        };
+        let cell = |k: u64| ((k + corners - 1) % corners + 1) as u32;
+        let pieces = (1..=corners).flat_map(|k| {
+            let spoke =
+                Piece { ends: [middle, corner(k)], sides: [cell(k + 1), cell(k)], parts_surfaces: true };
+            let rim =
+                Piece { ends: [corner(k - 1), corner(k)], sides: [cell(k), PAPER], parts_surfaces: true };
+            [spoke, rim]
+        });
+        Ground::of_pieces(vec![CELL; corners as usize + 1], pieces.collect())
+    }
+
+    #[test]
+    fn rows_run_through_the_cells_that_points_lie_in() {
+        for corners in [3, 5, 12, 80] {
+            let ground = sectors(corners);
+            for (angle, step) in [(0.0, 1.0), (0.7, 0.31), (-2.0, 2.5)] {
+                // Rows of the first grid pass exactly through the middle.
+                let grid = Grid::new(Point::new(0.0, 0.0), angle, step);
+                let scan = Scan::new(&ground, &grid);
+                let mut inside = 0;
+                for row in 0..scan.rows() {
+                    let y = (scan.first + row as i64) as f64;
+                    for (from, to, cell) in scan.stretches(row).filter(|(from, to, _)| to - from > 1e-3) {
+                        for part in [0.01, 0.5, 0.99] {
+                            let p = grid.point(from + (to - from) * part, y);
+                            assert_eq!(ground.cell_at(p), cell, "{corners} {angle} {p:?}");
+                            inside += 1;
+                        }
+                    }
+                }
+                assert!(inside > 20);
+            }
+        }
+    }
+}

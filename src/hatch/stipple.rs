@@ -336,25 +336,3 @@ const HAIR: f64 = 1e-3;
 
 /// Less of a dot than this is not drawn.
 const SCRAP: f64 = 0.4;
-
-#[cfg(test)]
-mod tests {
-    use super::super::tests::{covered, ground, round, square};
-    use super::*;
-
-    const OPTIONS: Stipple = Stipple { radius: 1.0, uneven: 0.1, rounds: 20, seed: 1, px: 1.0 };
-
-    #[test]
-    fn flat_patches_are_as_dark_as_asked() {
-        let patch = ground(&[(1, square(7.0, 9.0, 100.0))]);
-        let mut before = 0.0;
-        for percent in (0..=95).step_by(5) {
-            let asked = f64::from(percent) / 100.0;
-            let made = stipple(&patch, &OPTIONS, &|_, _| asked);
-            let share = made.first().map_or(0.0, |dots| covered(&dots.path, 7.0, 9.0, 100.0));
-            println!("{asked} {share}");
-            assert!(share >= before, "{asked}");
-            before = share;
-        }
-    }
-}

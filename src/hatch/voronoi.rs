@@ -307,3 +307,70 @@ fn along_hilbert(levels: u32, x: u32, y: u32) -> u64 {
     }
     along
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wanted ink that rises to the right, with a hole.
+    fn patch(width: usize, height: usize) -> Patch {
+        let ink = |k: usize| {
+            let (x, y) = (k % width, k / width);
+            let is_hole = x.abs_diff(width / 3) < 9 && y.abs_diff(height / 2) < 7;
+            if is_hole { 0 } else { (x * usize::from(BLACK) / width) as u16 }
+        };
+        Patch { width, height, ink: (0..width * height).map(ink).collect() }
+    }
+
+    fn chance(k: usize) -> [f64; 3] {
+        use crate::math::noise::{hash, unit};
+        [0, 1, 2].map(|word| unit(hash(7, &[k as u64, word])))
+    }
+
+    #[test]
+    fn squares_belong_to_the_nearest_site() {
+        let patch = patch(97, 61);
+        for count in [1, 2, 40, 700] {
+            let sites = patch.strewn(count, chance);
+            assert_eq!(sites.len(), count);
+            for (k, owner) in patch.owners(&sites).into_iter().enumerate() {
+                if patch.ink[k] == 0 {
+                    assert_eq!(owner, NOBODY);
+                    continue;
+                }
+                let at = [(k % 97) as f64 + 0.5, (k / 97) as f64 + 0.5];
+                let least = sites.iter().map(|site| distance2(*site, at)).fold(f64::INFINITY, f64::min);
+                assert!(distance2(sites[owner as usize], at) < least + 1e-4, "{count} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn shares_at_rest_hold_the_same_ink() {
+        let patch = patch(240, 200);
+        let count = 600;
+        let mut sites = patch.strewn(count, chance);
+        let spread = |sites: &[[f64; 2]]| {
+            let inks = patch.inks(&patch.owners(sites), count);
+            let mean = patch.total() / count as f64;
+            (inks.iter().map(|ink| (ink - mean) * (ink - mean)).sum::<f64>() / count as f64).sqrt() / mean
+        };
+        let before = spread(&sites);
+        patch.relax(&mut sites, 30);
+        let after = spread(&sites);
+        assert!(before > 0.2 && after < 0.12, "{before} {after}");
+    }
+
+    #[test]
+    fn hilberts_curve_goes_from_square_to_square() {
+        let mut at = vec![[0i64; 2]; 64 * 64];
+        for y in 0..64 {
+            for x in 0..64 {
+                at[along_hilbert(6, x, y) as usize] = [i64::from(x), i64::from(y)];
+            }
+        }
+        let is_step =
+            |pair: &[[i64; 2]]| (pair[0][0] - pair[1][0]).abs() + (pair[0][1] - pair[1][1]).abs() == 1;
+        assert!(at.windows(2).all(is_step));
+    }
+}

@@ -188,7 +188,7 @@ impl<'a> Prepared<'a> {
         report.stages_ms.chains = watch.lap_ms();
 
         let margin = margin(camera, &page);
-        beside::ask(&mut chains, &Beside { scene, surface, view: &view, style, margin, unit: page.unit });
+        beside::ask(&mut chains, &Beside { scene, surface, view, style, margin, unit: page.unit });
         let names = beside::names(lines, surface, &style.stroke);
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =
