@@ -104,6 +104,13 @@ impl Shading {
         self.channels.iter().position(|channel| *channel == Channel::Shade)
     }
 
+    /// Whether any surface falls into several tones, beside the bins of its hatching.
+    #[must_use]
+    pub fn has_tones(&self) -> bool {
+        let others = || (0..self.channels.len()).filter(|channel| self.bins() != Some(*channel));
+        self.tones.iter().any(|tones| others().any(|channel| !tones.levels(channel).is_empty()))
+    }
+
     /// Light from one direction on light grey, with levels on max(L·n, 0).
     #[must_use]
     pub fn from_direction(towards_light: DVec3, levels: Vec<f64>) -> Self {

@@ -77,6 +77,10 @@ struct Band<'a> {
     levels: &'a [f64],
     /// Values that are off by no more than this cannot be told apart.
     alike: f64,
+    /// How far the curve may lie from where the level is, px.
+    near: f64,
+    /// How far the value at a point of the curve may be from the level.
+    exact: f64,
     /// Lengths of the face's sides in the image: opposite corners 0, 1, 2.
     sides: [f64; 3],
     /// Their lengths in space.
@@ -177,7 +181,14 @@ impl<'a> Tracer<'a> {
                     continue;
                 }
                 let alike = alike(levels);
-                let band = Band { face, channel, shadowed: *shadowed, levels, alike, sides, spans, turns };
+                // Strokes of a hatching end there, one by one: less will do.
+                let (near, exact) = if shading.bins() == Some(channel) {
+                    (tolerance::BIN_PX, tolerance::BIN_VALUE)
+                } else {
+                    (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
+                };
+                let shadowed = *shadowed;
+                let band = Band { face, channel, shadowed, levels, alike, near, exact, sides, spans, turns };
                 let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
                 self.cut(&band, nodes, 0);
             }
@@ -273,8 +284,7 @@ impl<'a> Tracer<'a> {
         // What a cosine is off its chord at most.
         let off = turn * turn / 8.0 * self.lit.shading.steepness();
         let length = extent(&band.sides, a.weights, b.weights);
-        turn <= MOST_TURN
-            && off * length <= tolerance::ISOPHOTE_PX * self.ready.px * (a.value - b.value).abs()
+        turn <= MOST_TURN && off * length <= band.near * self.ready.px * (a.value - b.value).abs()
     }
 
     /// Whether the value along a side bends so much that a level would cross it elsewhere.
@@ -300,7 +310,7 @@ impl<'a> Tracer<'a> {
         }
         let crossed = band.levels.partition_point(|level| *level < low - off)
             < band.levels.partition_point(|level| *level <= high + off);
-        crossed && off * length > tolerance::ISOPHOTE_PX * self.ready.px * (high - low)
+        crossed && off * length > band.near * self.ready.px * (high - low)
     }
 
     fn draw(&mut self, band: &Band, nodes: [Node; 3]) {
@@ -340,7 +350,7 @@ impl<'a> Tracer<'a> {
         for _ in 0..MOST_ROUNDS {
             t = t_low + (t_high - t_low) * (-f_low / (f_high - f_low)).clamp(0.0, 1.0);
             let f = self.node(band, at(t)).value - level;
-            if f.abs() <= tolerance::ISOPHOTE_VALUE || t_high - t_low <= f64::EPSILON {
+            if f.abs() <= band.exact || t_high - t_low <= f64::EPSILON {
                 break;
             }
             if f < 0.0 {

@@ -84,6 +84,15 @@ pub const ISOPHOTE_PX: f64 = 0.03;
 /// Where a tone is this near to a level (of tones from 0 to 1), its border is found.
 pub const ISOPHOTE_VALUE: f64 = 1e-7;
 
+/// How far the border of a bin of hatching may lie from where the light says, px.
+pub const BIN_PX: f64 = 0.3;
+
+/// Between two tones of a hatching the light may be off by this much.
+pub const BIN_VALUE: f64 = 1e-3;
+
+/// How far points are left out of borders that only hatching has, px.
+pub const THIN_BIN_PX: f64 = 0.1;
+
 /// Regions are cut on a grid of this many steps along the longer side of the frame.
 pub const REGION_STEPS: f64 = 1_048_576.0;
 

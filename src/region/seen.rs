@@ -53,7 +53,9 @@ pub fn see(lit: &Lit, map: &ViewMap, shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u
     let step = frame.width.max(frame.height) / tolerance::REGION_STEPS;
     let px = Length::px(1.0).in_unit(unit);
     let segments = segments(map, [frame.width, frame.height], step);
-    let segments = thin::thinned(&segments, tolerance::THIN_PX * px / step);
+    let of_tone = if lit.shading.has_tones() { tolerance::THIN_PX } else { tolerance::THIN_BIN_PX };
+    let fine = |border: Border| if border.is_tone() { of_tone } else { tolerance::THIN_PX };
+    let segments = thin::thinned(&segments, |border| fine(border) * px / step);
     let noded = noding::node(&segments, tolerance::BRIDGE_PX * px / step);
     let cut = Triangulation::new(noded);
 

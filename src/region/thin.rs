@@ -13,9 +13,9 @@ pub(super) type Segments = Vec<([GridPoint; 2], Border)>;
 
 const NONE: u32 = u32::MAX;
 
-/// The same lines with fewer points: none moves farther than `tolerance` (steps of the grid), and
-/// points where lines meet or end stay.
-pub(super) fn thinned(segments: &Segments, tolerance: f64) -> Segments {
+/// The same lines with fewer points: none moves farther than the `tolerance` of its border (steps of the
+/// grid), and points where lines meet or end stay.
+pub(super) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) -> Segments {
     let lines = Lines::new(segments);
     let mut done = vec![false; segments.len()];
     let mut out = Segments::new();
@@ -30,7 +30,8 @@ pub(super) fn thinned(segments: &Segments, tolerance: f64) -> Segments {
                 }
                 points.clear();
                 lines.follow(first, end, &mut done, &mut points);
-                simplify(&points, tolerance, segments[first].1, &mut out);
+                let border = segments[first].1;
+                simplify(&points, tolerance(border), border, &mut out);
             }
         }
     }
@@ -164,7 +165,7 @@ mod tests {
         let mut segments: Segments =
             (0..10).map(|k| ([[10 * k, 0], [10 * k + 10, 0]], Border::Soft)).collect();
         segments.push(([[50, 0], [50, 40]], Border::Soft));
-        let mut thin = thinned(&segments, 0.5);
+        let mut thin = thinned(&segments, |_| 0.5);
         thin.sort_unstable();
         assert_eq!(
             thin,
@@ -189,7 +190,7 @@ mod tests {
             ]
         };
         let segments: Segments = (0..200).map(|k| ([at(k), at((k + 1) % 200)], Border::Soft)).collect();
-        let thin = thinned(&segments, 10.0);
+        let thin = thinned(&segments, |_| 10.0);
         assert!((12..60).contains(&thin.len()), "{}", thin.len());
         let mut ends: Vec<GridPoint> = thin.iter().flat_map(|(ends, _)| *ends).collect();
         ends.sort_unstable();
