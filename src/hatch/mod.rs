@@ -8,6 +8,7 @@
 //! animation, 2000, section 3.3, with strokes in place of textures.
 
 pub mod clip;
+mod cut;
 pub mod cuts;
 mod disc;
 mod domain;
