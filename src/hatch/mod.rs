@@ -180,7 +180,7 @@ fn spots(
 }
 
 /// Rounds of relaxing a stippling: enough to be even, too few to become a lattice.
-const ROUNDS: u32 = 24;
+const ROUNDS: u32 = 8;
 
 /// Guides in the direction of a layer.
 fn guides(
