@@ -10,7 +10,8 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
-use super::disc::{Cut, Disc};
+use super::cut::Cut;
+use super::disc::Disc;
 use super::domain::{BLANK, Domains, border, nearest};
 use super::scan::{Grid, Scan};
 use crate::math::function::acos;
@@ -61,9 +62,11 @@ pub fn dots(
     screen: &DotScreen,
     coverage: &(dyn Fn(u32, Point) -> f64 + Sync),
 ) -> Vec<CellDots> {
-    let grid = Grid::new(screen.origin, screen.angle, screen.pitch);
+    let area: f64 = ground.cells.iter().map(|cell| cell.area).sum();
+    let pitch = screen.pitch.max((area / MOST_DOTS).sqrt());
+    let grid = Grid::new(screen.origin, screen.angle, pitch);
     let scan = Scan::new(ground, &grid);
-    let least = tolerance::DOT_PX * screen.px / screen.pitch;
+    let least = tolerance::DOT_PX * screen.px / pitch;
     let size = Size { coverage, least };
 
     // The size that each lattice point asks for in its own cell, row by row.
@@ -96,6 +99,9 @@ pub fn dots(
         .collect();
     gathered(ground.cells.len(), &marks, screen.px)
 }
+
+/// Screens of more dots than this are too fine to be seen, and are made coarser.
+pub(super) const MOST_DOTS: f64 = 4e6;
 
 /// A lattice point in a cell.
 #[derive(Debug, Clone, Copy)]

@@ -198,3 +198,60 @@ fn speck(path: &mut BezPath, at: Point, radius: f64, corners: u64, chance: &Chan
     }
     path.close_path();
 }
+
+#[cfg(test)]
+mod tests {
+    use kurbo::Shape;
+
+    use super::*;
+    use crate::drawing::Unit;
+
+    const PAGE: Page = Page { width: 600.0, height: 400.0, unit: Unit::Px, background: None };
+
+    fn specks(path: &BezPath) -> Vec<BezPath> {
+        let ends = path.elements().split_inclusive(|element| matches!(element, PathEl::ClosePath));
+        ends.map(|speck| speck.iter().copied().collect()).collect()
+    }
+
+    #[test]
+    fn paper_has_as_many_specks_as_asked_of_the_size_told() {
+        let layer = grain(&PAGE, &Grain::default()).expect("specks");
+        assert_eq!(layer.marks.len(), 3);
+        let all: Vec<BezPath> = layer.marks.iter().flat_map(|mark| specks(&mark.path)).collect();
+        assert!((all.len() as f64 - 24.0 * 24.0).abs() < 20.0, "{}", all.len());
+        for speck in &all {
+            let around = speck.bounding_box();
+            assert!(around.width() <= LARGEST_PX && around.height() <= LARGEST_PX);
+            assert!((4..=7).contains(&speck.elements().len()));
+        }
+        assert_eq!(grain(&PAGE, &Grain { density: 0.0, ..Grain::default() }), None);
+    }
+
+    #[test]
+    fn paper_is_the_same_in_px_and_mm() {
+        let scale = 25.4 / 96.0;
+        let page = Page { width: 600.0 * scale, height: 400.0 * scale, unit: Unit::Mm, background: None };
+        let [px, mm] = [PAGE, page].map(|page| grain(&page, &Grain::default()).expect("specks"));
+        for (px, mm) in px.marks.iter().zip(&mm.marks) {
+            let [px, mm] = [px, mm].map(|mark| mark.path.bounding_box());
+            assert!((px.x1 * scale - mm.x1).abs() < 1e-6 && (px.y0 * scale - mm.y0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn strokes_lose_what_is_asked() {
+        let mut stroke = BezPath::new();
+        stroke.move_to((10.0, 10.0));
+        stroke.curve_to((300.0, 40.0), (500.0, 250.0), (560.0, 390.0));
+        let ink = stroke.perimeter(0.01) * 4.0;
+        for amount in [0.05, 0.1, 0.2] {
+            let tooth = Tooth { amount, seed: 3, px: 1.0 };
+            let path = speckle(&[(stroke.clone(), 4.0)], &tooth);
+            let lost = specks(&path).iter().map(|speck| speck.area().abs()).sum::<f64>() / ink;
+            assert!((0.6..1.5).contains(&(lost / amount)), "{amount}: {lost}");
+            // Twice the same stroke has the same holes.
+            assert_eq!(speckle(&[(stroke.clone(), 4.0), (stroke.clone(), 4.0)], &tooth), path);
+        }
+        assert!(speckle(&[(stroke, 4.0)], &Tooth { amount: 0.0, seed: 3, px: 1.0 }).elements().is_empty());
+    }
+}

@@ -8,6 +8,7 @@
 //! animation, 2000, section 3.3, with strokes in place of textures.
 
 pub mod clip;
+mod cut;
 pub mod cuts;
 mod disc;
 mod domain;
@@ -179,7 +180,7 @@ fn spots(
 }
 
 /// Rounds of relaxing a stippling: enough to be even, too few to become a lattice.
-const ROUNDS: u32 = 24;
+const ROUNDS: u32 = 8;
 
 /// Guides in the direction of a layer.
 fn guides(

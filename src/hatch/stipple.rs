@@ -13,8 +13,10 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::CellDots;
-use super::disc::{Cut, Disc};
+use super::cut::Cut;
+use super::disc::Disc;
 use super::domain::{border, nearest};
+use super::dots::MOST_DOTS;
 use super::scan::{Grid, Scan};
 use super::voronoi::{BLACK, NOBODY, Patch};
 use crate::math::noise::{hash, unit};
@@ -44,6 +46,8 @@ pub fn stipple(
     coverage: &(dyn Fn(u32, Point) -> f64 + Sync),
 ) -> Vec<CellDots> {
     let area: f64 = ground.cells.iter().map(|cell| cell.area).sum();
+    let least = (area / (PI * MOST_DOTS)).sqrt();
+    let options = &Stipple { radius: options.radius.max(least), ..*options };
     let side = (options.radius * SQUARE_OF_RADIUS).max((area / MOST_SQUARES).sqrt());
     if side.is_nan() || side <= 0.0 {
         return Vec::new();
