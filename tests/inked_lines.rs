@@ -299,6 +299,11 @@ fn farther_lines_break_off_before_nearer_ones() {
         let gap = 2.0 * (2.0 + 5.0) / s;
         assert!((inked - (200.0 + 180.0 - gap)).abs() < 0.01, "{degrees}: {inked}");
     }
+    // Hidden lines break off as well.
+    let mut hidden = chain(&[(100.0, 10.0), (100.0, 190.0)], [2.0; 2]);
+    hidden.invisibility = 1;
+    let drawn = marks(&[near.clone(), hidden], &self::style(&["pen.halo=5", "lines.hidden=solid"]));
+    assert_eq!(drawn.len(), 3);
     // A T-junction backs off; a line that meets the other one in space does not, however steeply it recedes.
     let below = chain(&[(100.0, 100.0), (100.0, 180.0)], [2.0; 2]);
     let inked: f64 = marks(&[near.clone(), below], &style).iter().map(|mark| length(axis(mark))).sum();
@@ -404,6 +409,34 @@ fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
     let wanted = 4.0 * (1.0 - 0.7 * (1.0 - 0.6 / (0.2 * size)));
     assert!(inner.iter().all(|mark| (width(mark) - wanted).abs() < 0.1), "{} {wanted}", width(inner[0]));
     assert!(outer.iter().all(|mark| (width(mark) - 4.0).abs() < 0.1));
+}
+
+#[test]
+fn the_hand_lasts_while_the_eye_moves() {
+    let model = scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
+    let drawn = |degrees: f64, sets: &[&str]| {
+        let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
+        let camera = orthographic(DVec3::new(5.0 * s, -5.0 * c, 3.0), DVec3::ZERO, 4.0);
+        let drawing = render(&model, &camera, &style(sets));
+        lines(&drawing).iter().map(|mark| axis(mark).clone()).collect::<Vec<_>>()
+    };
+    let tremor = ["pen.hand.tremor=6", "pen.hand.tremor_length=50"];
+    let (still, moved) = (drawn(30.0, &tremor), drawn(30.2, &tremor));
+    let (plain, plain_moved) = (drawn(30.0, &[]), drawn(30.2, &[]));
+    assert!(still.len() == moved.len() && still.len() == plain.len());
+    let strays = |from: &[BezPath], to: &[BezPath]| {
+        let all = from.iter().zip(to).flat_map(|(a, b)| places(a, 5.0).into_iter().map(|p| distance(b, p)));
+        all.fold(0.0, f64::max)
+    };
+    assert!(strays(&still, &plain) > 3.0);
+    let by_eye = strays(&plain, &plain_moved);
+    assert!(strays(&still, &moved) < by_eye + 0.5, "{} {by_eye}", strays(&still, &moved));
+}
+
+#[test]
+fn the_shortest_lines_are_drawn_too() {
+    let dot = chain(&[(10.0, 10.0), (10.5, 10.2)], [1.0; 2]);
+    assert_eq!(marks(&[dot], &style(&["pen.swell.taper=20"])).len(), 1);
 }
 
 /// A style with everything at once.

@@ -23,6 +23,9 @@ const OVER_BORDER_PX: f64 = 0.3;
 /// An end runs on by this part of what it may, at least.
 const LEAST_OVERSHOOT: f64 = 0.35;
 
+/// No end runs on by more than this part of its line.
+const MOST_OVERSHOOT: f64 = 0.2;
+
 /// Widths that differ by no more than this part of the pen's are one width.
 const SAME_WIDTH: f64 = 1e-6;
 
@@ -93,11 +96,13 @@ impl Inked<'_> {
             };
             for (k, piece) in pieces.iter().enumerate() {
                 let mut piece = piece.clone();
+                let long = piece.axis.length();
                 for side in 0..2 {
                     if piece.ends[side].runs_on && !piece.axis.closed {
                         let chance = unit(hash(pass_seed, &[2, k as u64, side as u64]));
                         let part = LEAST_OVERSHOOT + (1.0 - LEAST_OVERSHOOT) * chance;
-                        piece.axis.extend(side, in_unit(hand.overshoot) * part, px);
+                        let most = in_unit(hand.overshoot).min(MOST_OVERSHOOT * long);
+                        piece.axis.extend(side, most * part, px);
                     }
                 }
                 shapes.extend(self.shape(piece, &tremor, pass, &setting, context));
@@ -115,7 +120,8 @@ impl Inked<'_> {
         context: &InkContext,
     ) -> Option<Shape> {
         let (swell, px) = (&self.pen.swell, context.px());
-        let Piece { mut axis, ends } = piece;
+        let Piece { axis, ends } = piece;
+        let mut axis = axis.subdivided();
         let mut thick: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
         if !axis.closed && swell.taper.value > 0.0 {
             let over = swell.taper.in_unit(context.unit);
