@@ -173,7 +173,7 @@ fn lines_that_go_on_do_not_taper_where_they_are_joined() {
 fn widths_follow_depth_light_gap_and_bends() {
     let far = chain(&[(0.0, 50.0), (100.0, 50.0), (200.0, 50.0)], [2.0, 4.0]);
     let near = style(&["pen.swell.near=0.5"]);
-    let drawn = marks(&[far.clone()], &near);
+    let drawn = marks(std::slice::from_ref(&far), &near);
     for (x, wanted) in [(20.0, 3.8), (100.0, 3.0), (150.0, 2.5)] {
         let width = width_at(&drawn[0], x, 50.0);
         assert!((width - wanted).abs() < 0.1, "{x}: {width}, not {wanted}");
@@ -183,9 +183,9 @@ fn widths_follow_depth_light_gap_and_bends() {
         (sample.light, sample.gap) = (x, x);
     }
     for (x, light) in [(50.0, 0.25), (100.0, 0.5), (150.0, 0.75)] {
-        let darker = width_at(&marks(&[lit.clone()], &style(&["pen.swell.lit=0.6"]))[0], x, 50.0);
+        let darker = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.lit=0.6"]))[0], x, 50.0);
         assert!((darker - 4.0 * (1.0 - 0.6 * light)).abs() < 0.1, "{x}: {darker}");
-        let deeper = width_at(&marks(&[lit.clone()], &style(&["pen.swell.gap=0.6"]))[0], x, 50.0);
+        let deeper = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.gap=0.6"]))[0], x, 50.0);
         assert!((deeper - 4.0 * (1.0 - 0.6 * (1.0 - light))).abs() < 0.1, "{x}: {deeper}");
     }
     // A circle bends out all round: x/(1 + x) with x the radius of half effect over its own.
@@ -244,12 +244,13 @@ fn ends_run_on_and_passes_stray_no_farther_than_told() {
     let line = chain(&[(100.0, 50.0), (300.0, 50.0)], [1.0; 2]);
     for seed in 0..20 {
         let seed = format!("seed={seed}");
-        let drawn = marks(&[line.clone()], &style(&["pen.hand.overshoot=12", &seed]));
+        let drawn = marks(std::slice::from_ref(&line), &style(&["pen.hand.overshoot=12", &seed]));
         let bounds = axis(&drawn[0]).bounding_box();
         for over in [100.0 - bounds.x0, bounds.x1 - 300.0] {
             assert!((0.35 * 12.0 - 1e-6..12.0 + 1e-6).contains(&over), "{over}");
         }
-        let sketched = marks(&[line.clone()], &style(&["pen.hand.passes=3", "pen.hand.stray=2", &seed]));
+        let sketched =
+            marks(std::slice::from_ref(&line), &style(&["pen.hand.passes=3", "pen.hand.stray=2", &seed]));
         assert_eq!(sketched.len(), 3);
         assert!(axis(&sketched[0]).bounding_box().height() < 1e-9);
         for mark in &sketched {
@@ -274,7 +275,8 @@ fn ends_run_on_and_passes_stray_no_farther_than_told() {
 fn breaks_are_as_many_as_their_mean_distance_says() {
     let line = chain(&[(0.0, 50.0), (1000.0, 50.0)], [1.0; 2]);
     for seed in 0..10 {
-        let drawn = marks(&[line.clone()], &style(&["pen.hand.breaks=100", &format!("seed={seed}")]));
+        let drawn =
+            marks(std::slice::from_ref(&line), &style(&["pen.hand.breaks=100", &format!("seed={seed}")]));
         assert_eq!(drawn.len(), 11);
         let inked: f64 = drawn.iter().map(|mark| length(axis(mark))).sum();
         // Gaps of 3 px, give or take 40 percent.
@@ -322,7 +324,7 @@ fn brushes_are_laid_along_lines() {
     // A lozenge, twice as long as wide, once over the line and again and again.
     let lozenge = "path=\"M0 5L10 0L20 5L10 10Z\"";
     let line = chain(&[(0.0, 50.0), (200.0, 50.0)], [1.0; 2]);
-    let stretched = marks(&[line.clone()], &style(&[&format!("pen.brush={{{lozenge}}}")]));
+    let stretched = marks(std::slice::from_ref(&line), &style(&[&format!("pen.brush={{{lozenge}}}")]));
     assert!((width_at(&stretched[0], 100.0, 50.0) - 4.0).abs() < 0.1);
     assert!((width_at(&stretched[0], 50.0, 50.0) - 2.0).abs() < 0.1);
     assert!((stretched[0].path.area().abs() - 400.0).abs() < 2.0);
