@@ -74,8 +74,9 @@ fn circle(radius: f64) -> Chain {
     chain
 }
 
-fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
-    let context = InkContext {
+/// What strokes know where there is no scene.
+fn context(style: &Style) -> InkContext<'static> {
+    InkContext {
         unit: Unit::Px,
         parts: &[],
         materials: &[],
@@ -83,8 +84,11 @@ fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
         seed: style.seed,
         painted: style.region.enabled,
         names: &[],
-    };
-    ink(chains, &context, &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
+    }
+}
+
+fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
+    ink(chains, &context(style), &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
 }
 
 fn outline(mark: &Mark) -> &OutlinePaint {
@@ -433,6 +437,76 @@ fn the_hand_lasts_while_the_eye_moves() {
     assert!(strays(&still, &plain) > 3.0);
     let by_eye = strays(&plain, &plain_moved);
     assert!(strays(&still, &moved) < by_eye + 0.5, "{} {by_eye}", strays(&still, &moved));
+}
+
+#[test]
+fn closed_lines_are_cut_as_open_ones_are() {
+    let square = chain(&[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0), (0.0, 0.0)], [2.0; 2]);
+    // The pen is lifted at each corner, also at the seam.
+    let lifted = marks(std::slice::from_ref(&square), &style(&["pen.hand.overshoot=10"]));
+    assert_eq!(lifted.len(), 4);
+    for mark in &lifted {
+        assert!((107.0..=120.0).contains(&length(axis(mark))), "{}", length(axis(mark)));
+    }
+    let broken = marks(std::slice::from_ref(&square), &style(&["pen.hand.breaks=100", "pen.hand.tremor=1"]));
+    assert_eq!(broken.len(), 4);
+    // A halo over the seam, and one elsewhere.
+    for x in [0.0, 50.0] {
+        let near = chain(&[(x - 30.0, -30.0), (x + 30.0, 30.0)], [1.0; 2]);
+        let drawn = marks(&[square.clone(), near], &style(&["pen.halo=5"]));
+        assert_eq!(drawn.len(), 2, "{x}");
+        let inked: f64 = drawn.iter().map(|mark| length(axis(mark))).sum();
+        let gap = 2.0 * 7.0 * 2.0_f64.sqrt();
+        assert!((inked - (400.0 + 60.0 * 2.0_f64.sqrt() - gap)).abs() < 0.02, "{x}: {inked}");
+    }
+    // With a hand and a swell its corners stay where they are.
+    let drawn = marks(&[square], &style(&["pen.hand.tremor=2", "pen.swell.bend=0.5"]));
+    let [mark] = &drawn[..] else { panic!() };
+    for corner in [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)] {
+        assert!(distance(axis(mark), corner.into()) < 0.01);
+        // Round joints of a pen of 4.
+        let out = |c: f64| c + if c > 50.0 { 1.9 } else { -1.9 } * std::f64::consts::FRAC_1_SQRT_2;
+        assert_ne!(mark.path.winding(Point::new(out(corner.0), out(corner.1))), 0);
+    }
+}
+
+#[test]
+fn pages_in_millimetres_are_drawn_alike() {
+    let sets = [
+        "pen.swell.taper=20",
+        "pen.swell.bend=0.5",
+        "pen.hand.tremor=2",
+        "pen.hand.breaks=120",
+        "pen.hand.passes=2",
+        "pen.hand.overshoot=6",
+        "pen.halo=3",
+    ];
+    let brush = ["pen.brush={path=\"M0 5L10 0L20 5L10 10Z\", mode=\"repeat\"}"];
+    for sets in [&sets[..], &brush[..]] {
+        let style = style(sets);
+        let chains = [
+            chain(&[(0.0, 50.0), (300.0, 50.0), (300.0, 250.0)], [1.0; 2]),
+            chain(&[(20.0, 300.0), (280.0, 20.0)], [2.0; 2]),
+            circle(60.0),
+        ];
+        let scale = ligne::drawing::length::MM_PER_PX;
+        let small = chains.clone().map(|mut chain| {
+            chain.points.iter_mut().for_each(|p| *p = (p.to_vec2() * scale).to_point());
+            chain.path.apply_affine(kurbo::Affine::scale(scale));
+            chain
+        });
+        let [px, mm] = [(&chains, Unit::Px), (&small, Unit::Mm)].map(|(chains, unit)| {
+            let layers = ink(chains, &InkContext { unit, ..context(&style) }, &style.stroke);
+            layers.into_iter().flat_map(|layer| layer.marks).collect::<Vec<_>>()
+        });
+        assert_eq!(px.len(), mm.len());
+        for (px, mm) in px.iter().zip(&mm) {
+            let (a, b) = (px.path.bounding_box(), mm.path.bounding_box().scale_from_origin(1.0 / scale));
+            assert!((a.x0 - b.x0).abs() + (a.y1 - b.y1).abs() < 0.05, "{a:?} {b:?}");
+            let (a, b) = (px.path.area().abs(), mm.path.area().abs() / (scale * scale));
+            assert!((a - b).abs() < 0.01 * a + 0.1, "{a} {b}");
+        }
+    }
 }
 
 #[test]
