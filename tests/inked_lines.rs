@@ -460,12 +460,14 @@ fn closed_lines_are_cut_as_open_ones_are() {
         assert!((inked - (400.0 + 60.0 * 2.0_f64.sqrt() - gap)).abs() < 0.02, "{x}: {inked}");
     }
     // With a hand and a swell its corners stay where they are.
-    let drawn = marks(&[square], &style(&["pen.hand.tremor=2", "pen.swell.bend=0.5"]));
+    let mut lit = square;
+    lit.samples.iter_mut().for_each(|sample| sample.light = 0.5);
+    let drawn = marks(&[lit], &style(&["pen.hand.tremor=2", "pen.swell.lit=0.5"]));
     let [mark] = &drawn[..] else { panic!() };
     for corner in [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)] {
         assert!(distance(axis(mark), corner.into()) < 0.01);
-        // Round joints of a pen of 4.
-        let out = |c: f64| c + if c > 50.0 { 1.9 } else { -1.9 } * std::f64::consts::FRAC_1_SQRT_2;
+        // Round joints of a line of 3.
+        let out = |c: f64| c + if c > 50.0 { 1.4 } else { -1.4 } * std::f64::consts::FRAC_1_SQRT_2;
         assert_ne!(mark.path.winding(Point::new(out(corner.0), out(corner.1))), 0);
     }
 }
