@@ -577,11 +577,8 @@ fn another_seed_changes_the_hand_and_nothing_else() {
     assert_eq!(plain[0].layers, plain[1].layers);
 }
 
-#[test]
-fn lines_cover_the_borders_of_what_is_painted() {
-    let model =
-        scene([torus(60, 30, 1.0, 0.4), cuboid(DVec3::new(-0.3, -2.0, -0.3), DVec3::new(0.3, 2.0, 0.3))]);
-    let camera = camera(&model);
+/// How many places on borders of paint have a line on them, and those that lines with a hand leave bare.
+fn bare(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
     let sets = [
         "fills.enabled=true",
         "fills.thresholds=[]",
@@ -593,26 +590,40 @@ fn lines_cover_the_borders_of_what_is_painted() {
         "pen.swell.taper_to=0",
         "pen.swell.bend=0.6",
     ];
-    let plain = render(&model, &camera, &style(&sets[..4]));
-    let hand = render(&model, &camera, &style(&sets));
+    let plain = render(model, camera, &style(&sets[..4]));
+    let hand = render(model, camera, &style(&sets));
     let ink =
         |drawing: &Drawing| -> Vec<BezPath> { lines(drawing).iter().map(|mark| mark.path.clone()).collect() };
     let (straight, shaken) = (ink(&plain), ink(&hand));
     let fills = hand.layers.iter().find(|layer| layer.kind == LayerKind::Fills).expect("fills");
     let (mut asked, mut bare) = (0, Vec::new());
-    for fill in &fills.marks {
-        for p in places(&fill.path, 3.0) {
-            // Only borders with a line on them.
-            if straight.iter().all(|path| distance(path, p) > 0.6) {
-                continue;
-            }
-            asked += 1;
-            let covered = shaken.iter().any(|path| path.winding(p) != 0 || distance(path, p) < 0.05);
-            if !covered {
-                bare.push(p);
-            }
+    for p in fills.marks.iter().flat_map(|fill| places(&fill.path, 3.0)) {
+        if straight.iter().all(|path| distance(path, p) > 1.0) {
+            continue;
+        }
+        asked += 1;
+        if !shaken.iter().any(|path| path.winding(p) != 0 || distance(path, p) < 0.05) {
+            bare.push(p);
         }
     }
+    (asked, bare)
+}
+
+#[test]
+fn lines_cover_the_borders_of_what_is_painted() {
+    let bar = cuboid(DVec3::new(-0.3, -2.0, -0.3), DVec3::new(0.3, 2.0, 0.3));
+    let model = scene([torus(60, 30, 1.0, 0.4), bar]);
+    let (asked, bare) = bare(&model, &camera(&model));
     assert!(asked > 500, "{asked}");
     assert!(bare.is_empty(), "{} of {asked}: {:?}", bare.len(), &bare[..bare.len().min(9)]);
+}
+
+#[test]
+fn lines_cover_the_borders_of_painted_models() {
+    for name in ["teapot.obj", "knot.ply", "bear.ply"] {
+        let model = Scene::open(format!("{}/examples/models/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        let (asked, bare) = bare(&model, &camera(&model));
+        assert!(asked > 500, "{name}: {asked}");
+        assert!(bare.is_empty(), "{name}: {} of {asked}: {:?}", bare.len(), &bare[..bare.len().min(9)]);
+    }
 }

@@ -17,8 +17,10 @@ use crate::chain::Chain;
 use crate::lines::LineKind;
 use crate::math::noise::{hash, unit};
 
-/// Where surfaces are painted, lines that bound them stay over their borders by this, px.
+/// Where surfaces are painted, lines that bound them stay over their borders by this, px; and by this on
+/// smooth surfaces, where lines are smoothed more than borders are.
 const OVER_BORDER_PX: f64 = 0.3;
+const OVER_SMOOTH_BORDER_PX: f64 = 0.6;
 
 /// An end runs on by this part of what it may, at least.
 const LEAST_OVERSHOOT: f64 = 0.35;
@@ -128,11 +130,16 @@ impl Inked<'_> {
             let ends = ends.map(|end| end.tapers);
             taper(&axis, &mut thick, ends, over, swell.taper_to, setting.least());
         }
-        let limits: Vec<f64> = if setting.covers && pass == 0 {
-            let own = |width: &f64| (width / 2.0 - OVER_BORDER_PX * px).max(0.0);
-            if self.solid { thick.iter().map(own).collect() } else { vec![own(&setting.width); thick.len()] }
-        } else {
-            vec![f64::INFINITY; thick.len()]
+        let limits: Vec<f64> = match setting.covers {
+            Some(to_side) if pass == 0 => {
+                let own = |width: &f64| (width / 2.0 - to_side).max(0.0);
+                if self.solid {
+                    thick.iter().map(own).collect()
+                } else {
+                    vec![own(&setting.width); thick.len()]
+                }
+            }
+            _ => vec![f64::INFINITY; thick.len()],
         };
         tremor.shake(&mut axis, &limits);
         let path = axis.path(px);
@@ -175,6 +182,8 @@ impl Inked<'_> {
 
     fn setting(&self, context: &InkContext) -> Setting {
         let pen = self.pen;
+        let covers = context.painted && self.chain.invisibility == 0 && bounds(self.chain.kind);
+        let to_side = if self.chain.smooth { OVER_SMOOTH_BORDER_PX } else { OVER_BORDER_PX };
         Setting {
             width: pen.width.in_unit(context.unit),
             fade: pen.fade,
@@ -182,7 +191,7 @@ impl Inked<'_> {
             px: context.px(),
             depths: self.depths,
             bend_radius: pen.swell.bend_radius.in_unit(context.unit),
-            covers: context.painted && self.chain.invisibility == 0 && bounds(self.chain.kind),
+            covers: covers.then_some(context.px() * to_side),
         }
     }
 
