@@ -74,8 +74,9 @@ fn circle(radius: f64) -> Chain {
     chain
 }
 
-fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
-    let context = InkContext {
+/// What strokes know where there is no scene.
+fn context(style: &Style) -> InkContext<'static> {
+    InkContext {
         unit: Unit::Px,
         parts: &[],
         materials: &[],
@@ -83,8 +84,11 @@ fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
         seed: style.seed,
         painted: style.region.enabled,
         names: &[],
-    };
-    ink(chains, &context, &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
+    }
+}
+
+fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
+    ink(chains, &context(style), &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
 }
 
 fn outline(mark: &Mark) -> &OutlinePaint {
@@ -173,7 +177,7 @@ fn lines_that_go_on_do_not_taper_where_they_are_joined() {
 fn widths_follow_depth_light_gap_and_bends() {
     let far = chain(&[(0.0, 50.0), (100.0, 50.0), (200.0, 50.0)], [2.0, 4.0]);
     let near = style(&["pen.swell.near=0.5"]);
-    let drawn = marks(&[far.clone()], &near);
+    let drawn = marks(std::slice::from_ref(&far), &near);
     for (x, wanted) in [(20.0, 3.8), (100.0, 3.0), (150.0, 2.5)] {
         let width = width_at(&drawn[0], x, 50.0);
         assert!((width - wanted).abs() < 0.1, "{x}: {width}, not {wanted}");
@@ -183,9 +187,9 @@ fn widths_follow_depth_light_gap_and_bends() {
         (sample.light, sample.gap) = (x, x);
     }
     for (x, light) in [(50.0, 0.25), (100.0, 0.5), (150.0, 0.75)] {
-        let darker = width_at(&marks(&[lit.clone()], &style(&["pen.swell.lit=0.6"]))[0], x, 50.0);
+        let darker = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.lit=0.6"]))[0], x, 50.0);
         assert!((darker - 4.0 * (1.0 - 0.6 * light)).abs() < 0.1, "{x}: {darker}");
-        let deeper = width_at(&marks(&[lit.clone()], &style(&["pen.swell.gap=0.6"]))[0], x, 50.0);
+        let deeper = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.gap=0.6"]))[0], x, 50.0);
         assert!((deeper - 4.0 * (1.0 - 0.6 * (1.0 - light))).abs() < 0.1, "{x}: {deeper}");
     }
     // A circle bends out all round: x/(1 + x) with x the radius of half effect over its own.
@@ -244,12 +248,13 @@ fn ends_run_on_and_passes_stray_no_farther_than_told() {
     let line = chain(&[(100.0, 50.0), (300.0, 50.0)], [1.0; 2]);
     for seed in 0..20 {
         let seed = format!("seed={seed}");
-        let drawn = marks(&[line.clone()], &style(&["pen.hand.overshoot=12", &seed]));
+        let drawn = marks(std::slice::from_ref(&line), &style(&["pen.hand.overshoot=12", &seed]));
         let bounds = axis(&drawn[0]).bounding_box();
         for over in [100.0 - bounds.x0, bounds.x1 - 300.0] {
             assert!((0.35 * 12.0 - 1e-6..12.0 + 1e-6).contains(&over), "{over}");
         }
-        let sketched = marks(&[line.clone()], &style(&["pen.hand.passes=3", "pen.hand.stray=2", &seed]));
+        let sketched =
+            marks(std::slice::from_ref(&line), &style(&["pen.hand.passes=3", "pen.hand.stray=2", &seed]));
         assert_eq!(sketched.len(), 3);
         assert!(axis(&sketched[0]).bounding_box().height() < 1e-9);
         for mark in &sketched {
@@ -274,7 +279,8 @@ fn ends_run_on_and_passes_stray_no_farther_than_told() {
 fn breaks_are_as_many_as_their_mean_distance_says() {
     let line = chain(&[(0.0, 50.0), (1000.0, 50.0)], [1.0; 2]);
     for seed in 0..10 {
-        let drawn = marks(&[line.clone()], &style(&["pen.hand.breaks=100", &format!("seed={seed}")]));
+        let drawn =
+            marks(std::slice::from_ref(&line), &style(&["pen.hand.breaks=100", &format!("seed={seed}")]));
         assert_eq!(drawn.len(), 11);
         let inked: f64 = drawn.iter().map(|mark| length(axis(mark))).sum();
         // Gaps of 3 px, give or take 40 percent.
@@ -299,6 +305,11 @@ fn farther_lines_break_off_before_nearer_ones() {
         let gap = 2.0 * (2.0 + 5.0) / s;
         assert!((inked - (200.0 + 180.0 - gap)).abs() < 0.01, "{degrees}: {inked}");
     }
+    // Hidden lines break off as well.
+    let mut hidden = chain(&[(100.0, 10.0), (100.0, 190.0)], [2.0; 2]);
+    hidden.invisibility = 1;
+    let drawn = marks(&[near.clone(), hidden], &self::style(&["pen.halo=5", "lines.hidden=solid"]));
+    assert_eq!(drawn.len(), 3);
     // A T-junction backs off; a line that meets the other one in space does not, however steeply it recedes.
     let below = chain(&[(100.0, 100.0), (100.0, 180.0)], [2.0; 2]);
     let inked: f64 = marks(&[near.clone(), below], &style).iter().map(|mark| length(axis(mark))).sum();
@@ -317,7 +328,7 @@ fn brushes_are_laid_along_lines() {
     // A lozenge, twice as long as wide, once over the line and again and again.
     let lozenge = "path=\"M0 5L10 0L20 5L10 10Z\"";
     let line = chain(&[(0.0, 50.0), (200.0, 50.0)], [1.0; 2]);
-    let stretched = marks(&[line.clone()], &style(&[&format!("pen.brush={{{lozenge}}}")]));
+    let stretched = marks(std::slice::from_ref(&line), &style(&[&format!("pen.brush={{{lozenge}}}")]));
     assert!((width_at(&stretched[0], 100.0, 50.0) - 4.0).abs() < 0.1);
     assert!((width_at(&stretched[0], 50.0, 50.0) - 2.0).abs() < 0.1);
     assert!((stretched[0].path.area().abs() - 400.0).abs() < 2.0);
@@ -406,6 +417,106 @@ fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
     assert!(outer.iter().all(|mark| (width(mark) - 4.0).abs() < 0.1));
 }
 
+#[test]
+fn the_hand_lasts_while_the_eye_moves() {
+    let model = scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
+    let drawn = |degrees: f64, sets: &[&str]| {
+        let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
+        let camera = orthographic(DVec3::new(5.0 * s, -5.0 * c, 3.0), DVec3::ZERO, 4.0);
+        let drawing = render(&model, &camera, &style(sets));
+        lines(&drawing).iter().map(|mark| axis(mark).clone()).collect::<Vec<_>>()
+    };
+    let tremor = ["pen.hand.tremor=6", "pen.hand.tremor_length=50"];
+    let (still, moved) = (drawn(30.0, &tremor), drawn(30.2, &tremor));
+    let (plain, plain_moved) = (drawn(30.0, &[]), drawn(30.2, &[]));
+    assert!(still.len() == moved.len() && still.len() == plain.len());
+    let strays = |from: &[BezPath], to: &[BezPath]| {
+        let all = from.iter().zip(to).flat_map(|(a, b)| places(a, 5.0).into_iter().map(|p| distance(b, p)));
+        all.fold(0.0, f64::max)
+    };
+    assert!(strays(&still, &plain) > 3.0);
+    let by_eye = strays(&plain, &plain_moved);
+    assert!(strays(&still, &moved) < by_eye + 0.5, "{} {by_eye}", strays(&still, &moved));
+}
+
+#[test]
+fn closed_lines_are_cut_as_open_ones_are() {
+    let square = chain(&[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0), (0.0, 0.0)], [2.0; 2]);
+    // The pen is lifted at each corner, also at the seam.
+    let lifted = marks(std::slice::from_ref(&square), &style(&["pen.hand.overshoot=10"]));
+    assert_eq!(lifted.len(), 4);
+    for mark in &lifted {
+        assert!((107.0..=120.0).contains(&length(axis(mark))), "{}", length(axis(mark)));
+    }
+    let broken = marks(std::slice::from_ref(&square), &style(&["pen.hand.breaks=100", "pen.hand.tremor=1"]));
+    assert_eq!(broken.len(), 4);
+    // A halo over the seam, and one elsewhere.
+    for x in [0.0, 50.0] {
+        let near = chain(&[(x - 30.0, -30.0), (x + 30.0, 30.0)], [1.0; 2]);
+        let drawn = marks(&[square.clone(), near], &style(&["pen.halo=5"]));
+        assert_eq!(drawn.len(), 2, "{x}");
+        let inked: f64 = drawn.iter().map(|mark| length(axis(mark))).sum();
+        let gap = 2.0 * 7.0 * 2.0_f64.sqrt();
+        assert!((inked - (400.0 + 60.0 * 2.0_f64.sqrt() - gap)).abs() < 0.02, "{x}: {inked}");
+    }
+    // With a hand and a swell its corners stay where they are.
+    let mut lit = square;
+    lit.samples.iter_mut().for_each(|sample| sample.light = 0.5);
+    let drawn = marks(&[lit], &style(&["pen.hand.tremor=2", "pen.swell.lit=0.5"]));
+    let [mark] = &drawn[..] else { panic!() };
+    for corner in [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)] {
+        assert!(distance(axis(mark), corner.into()) < 0.01);
+        // Round joints of a line of 3.
+        let out = |c: f64| c + if c > 50.0 { 1.4 } else { -1.4 } * std::f64::consts::FRAC_1_SQRT_2;
+        assert_ne!(mark.path.winding(Point::new(out(corner.0), out(corner.1))), 0);
+    }
+}
+
+#[test]
+fn pages_in_millimetres_are_drawn_alike() {
+    let sets = [
+        "pen.swell.taper=20",
+        "pen.swell.bend=0.5",
+        "pen.hand.tremor=2",
+        "pen.hand.breaks=120",
+        "pen.hand.passes=2",
+        "pen.hand.overshoot=6",
+        "pen.halo=3",
+    ];
+    let brush = ["pen.brush={path=\"M0 5L10 0L20 5L10 10Z\", mode=\"repeat\"}"];
+    for sets in [&sets[..], &brush[..]] {
+        let style = style(sets);
+        let chains = [
+            chain(&[(0.0, 50.0), (300.0, 50.0), (300.0, 250.0)], [1.0; 2]),
+            chain(&[(20.0, 300.0), (280.0, 20.0)], [2.0; 2]),
+            circle(60.0),
+        ];
+        let scale = ligne::drawing::length::MM_PER_PX;
+        let small = chains.clone().map(|mut chain| {
+            chain.points.iter_mut().for_each(|p| *p = (p.to_vec2() * scale).to_point());
+            chain.path.apply_affine(kurbo::Affine::scale(scale));
+            chain
+        });
+        let [px, mm] = [(&chains, Unit::Px), (&small, Unit::Mm)].map(|(chains, unit)| {
+            let layers = ink(chains, &InkContext { unit, ..context(&style) }, &style.stroke);
+            layers.into_iter().flat_map(|layer| layer.marks).collect::<Vec<_>>()
+        });
+        assert_eq!(px.len(), mm.len());
+        for (px, mm) in px.iter().zip(&mm) {
+            let (a, b) = (px.path.bounding_box(), mm.path.bounding_box().scale_from_origin(1.0 / scale));
+            assert!((a.x0 - b.x0).abs() + (a.y1 - b.y1).abs() < 0.05, "{a:?} {b:?}");
+            let (a, b) = (px.path.area().abs(), mm.path.area().abs() / (scale * scale));
+            assert!((a - b).abs() < 0.01 * a + 0.1, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn the_shortest_lines_are_drawn_too() {
+    let dot = chain(&[(10.0, 10.0), (10.5, 10.2)], [1.0; 2]);
+    assert_eq!(marks(&[dot], &style(&["pen.swell.taper=20"])).len(), 1);
+}
+
 /// A style with everything at once.
 const ALL: [&str; 12] = [
     "pen.swell.taper=20",
@@ -466,11 +577,8 @@ fn another_seed_changes_the_hand_and_nothing_else() {
     assert_eq!(plain[0].layers, plain[1].layers);
 }
 
-#[test]
-fn lines_cover_the_borders_of_what_is_painted() {
-    let model =
-        scene([torus(60, 30, 1.0, 0.4), cuboid(DVec3::new(-0.3, -2.0, -0.3), DVec3::new(0.3, 2.0, 0.3))]);
-    let camera = camera(&model);
+/// How many places on borders of paint have a line on them, and those that lines with a hand leave bare.
+fn bare(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
     let sets = [
         "fills.enabled=true",
         "fills.thresholds=[]",
@@ -482,26 +590,40 @@ fn lines_cover_the_borders_of_what_is_painted() {
         "pen.swell.taper_to=0",
         "pen.swell.bend=0.6",
     ];
-    let plain = render(&model, &camera, &style(&sets[..4]));
-    let hand = render(&model, &camera, &style(&sets));
+    let plain = render(model, camera, &style(&sets[..4]));
+    let hand = render(model, camera, &style(&sets));
     let ink =
         |drawing: &Drawing| -> Vec<BezPath> { lines(drawing).iter().map(|mark| mark.path.clone()).collect() };
     let (straight, shaken) = (ink(&plain), ink(&hand));
     let fills = hand.layers.iter().find(|layer| layer.kind == LayerKind::Fills).expect("fills");
     let (mut asked, mut bare) = (0, Vec::new());
-    for fill in &fills.marks {
-        for p in places(&fill.path, 3.0) {
-            // Only borders with a line on them.
-            if straight.iter().all(|path| distance(path, p) > 0.6) {
-                continue;
-            }
-            asked += 1;
-            let covered = shaken.iter().any(|path| path.winding(p) != 0 || distance(path, p) < 0.05);
-            if !covered {
-                bare.push(p);
-            }
+    for p in fills.marks.iter().flat_map(|fill| places(&fill.path, 3.0)) {
+        if straight.iter().all(|path| distance(path, p) > 1.0) {
+            continue;
+        }
+        asked += 1;
+        if !shaken.iter().any(|path| path.winding(p) != 0 || distance(path, p) < 0.05) {
+            bare.push(p);
         }
     }
+    (asked, bare)
+}
+
+#[test]
+fn lines_cover_the_borders_of_what_is_painted() {
+    let bar = cuboid(DVec3::new(-0.3, -2.0, -0.3), DVec3::new(0.3, 2.0, 0.3));
+    let model = scene([torus(60, 30, 1.0, 0.4), bar]);
+    let (asked, bare) = bare(&model, &camera(&model));
     assert!(asked > 500, "{asked}");
     assert!(bare.is_empty(), "{} of {asked}: {:?}", bare.len(), &bare[..bare.len().min(9)]);
+}
+
+#[test]
+fn lines_cover_the_borders_of_painted_models() {
+    for name in ["teapot.obj", "knot.ply", "bear.ply"] {
+        let model = Scene::open(format!("{}/examples/models/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        let (asked, bare) = bare(&model, &camera(&model));
+        assert!(asked > 500, "{name}: {asked}");
+        assert!(bare.is_empty(), "{name}: {} of {asked}: {:?}", bare.len(), &bare[..bare.len().min(9)]);
+    }
 }

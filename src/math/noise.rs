@@ -91,7 +91,7 @@ mod tests {
             low = low.min(smooth(5, x));
             high = high.max(smooth(5, x));
         }
-        assert!(low < -0.95 && low >= -1.0 && high > 0.95 && high <= 1.0, "{low} {high}");
+        assert!((-1.0..-0.95).contains(&low) && (0.95..=1.0).contains(&high), "{low} {high}");
     }
 
     #[test]

@@ -146,6 +146,16 @@ impl Axis {
         part
     }
 
+    /// The same with a point half-way, if it has no more than two: enough for an outline.
+    pub fn subdivided(mut self) -> Self {
+        if let (&[a, b], &[from, to], &[start, end]) = (&self.points[..], &self.arcs[..], &self.samples[..]) {
+            self.points.insert(1, a.midpoint(b));
+            self.arcs.insert(1, (from + to) / 2.0);
+            self.samples.insert(1, start.lerp(end, 0.5));
+        }
+        self
+    }
+
     fn push(&mut self, (point, sample): (Point, Sample), arc: f64) {
         self.points.push(point);
         self.samples.push(sample);

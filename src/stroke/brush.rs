@@ -43,7 +43,7 @@ const TOLERANCE_PX: f64 = 0.06;
 /// Points on the edges of a brush are about this far apart, px.
 const STEP_PX: f64 = 1.0;
 
-/// Directions across a line are taken over this many points to either side, times half the pen's width.
+/// Directions across a line are taken over this many times half the pen's width to either side.
 const TURN: f64 = 1.0;
 
 /// A brush turns by more than this at a corner of its own (cosine of 20 degrees).
@@ -88,7 +88,7 @@ pub(super) fn drawn(
             Some((path, mean(axis, &both)))
         }
         BrushShape::Path(shape, _) => {
-            let map = Map { axis, thick, copies, total };
+            let map = Map { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
             let mut path = BezPath::new();
             for copy in 0..copies as usize {
                 map.add(shape, copy, nib.px, &mut path);
@@ -123,6 +123,8 @@ struct Map<'a> {
     thick: &'a [f64],
     copies: f64,
     total: f64,
+    /// Distance of the points of the axis.
+    step: f64,
 }
 
 impl Map<'_> {
@@ -144,7 +146,7 @@ impl Map<'_> {
 
     /// Direction at a point, over about a width of the pen, corners or not.
     fn along(&self, i: usize) -> Vec2 {
-        let reach = (self.thick[i] / 2.0 * TURN).ceil().max(2.0) as isize;
+        let reach = (self.thick[i] / 2.0 * TURN / self.step).ceil().max(2.0) as isize;
         let k = i as isize;
         unit(self.axis.point(k + reach) - self.axis.point(k - reach))
     }

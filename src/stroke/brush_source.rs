@@ -81,7 +81,7 @@ impl Brush {
         };
         let reach = |column: usize| {
             let rows = || (0..picture.height).filter(|row| dark(column, *row));
-            match (rows().next(), rows().last()) {
+            match (rows().next(), rows().next_back()) {
                 (Some(top), Some(bottom)) => [middle - top as f64, bottom as f64 + 1.0 - middle],
                 _ => [0.0, 0.0],
             }

@@ -17,11 +17,16 @@ use crate::chain::Chain;
 use crate::lines::LineKind;
 use crate::math::noise::{hash, unit};
 
-/// Where surfaces are painted, lines that bound them stay over their borders by this, px.
+/// Where surfaces are painted, lines that bound them stay over their borders by this, px; and by this on
+/// smooth surfaces, where lines are smoothed more than borders are.
 const OVER_BORDER_PX: f64 = 0.3;
+const OVER_SMOOTH_BORDER_PX: f64 = 0.6;
 
 /// An end runs on by this part of what it may, at least.
 const LEAST_OVERSHOOT: f64 = 0.35;
+
+/// No end runs on by more than this part of its line.
+const MOST_OVERSHOOT: f64 = 0.2;
 
 /// Widths that differ by no more than this part of the pen's are one width.
 const SAME_WIDTH: f64 = 1e-6;
@@ -93,11 +98,13 @@ impl Inked<'_> {
             };
             for (k, piece) in pieces.iter().enumerate() {
                 let mut piece = piece.clone();
+                let long = piece.axis.length();
                 for side in 0..2 {
                     if piece.ends[side].runs_on && !piece.axis.closed {
                         let chance = unit(hash(pass_seed, &[2, k as u64, side as u64]));
                         let part = LEAST_OVERSHOOT + (1.0 - LEAST_OVERSHOOT) * chance;
-                        piece.axis.extend(side, in_unit(hand.overshoot) * part, px);
+                        let most = in_unit(hand.overshoot).min(MOST_OVERSHOOT * long);
+                        piece.axis.extend(side, most * part, px);
                     }
                 }
                 shapes.extend(self.shape(piece, &tremor, pass, &setting, context));
@@ -115,18 +122,24 @@ impl Inked<'_> {
         context: &InkContext,
     ) -> Option<Shape> {
         let (swell, px) = (&self.pen.swell, context.px());
-        let Piece { mut axis, ends } = piece;
+        let Piece { axis, ends } = piece;
+        let mut axis = axis.subdivided();
         let mut thick: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
         if !axis.closed && swell.taper.value > 0.0 {
             let over = swell.taper.in_unit(context.unit);
             let ends = ends.map(|end| end.tapers);
             taper(&axis, &mut thick, ends, over, swell.taper_to, setting.least());
         }
-        let limits: Vec<f64> = if setting.covers && pass == 0 {
-            let own = |width: &f64| (width / 2.0 - OVER_BORDER_PX * px).max(0.0);
-            if self.solid { thick.iter().map(own).collect() } else { vec![own(&setting.width); thick.len()] }
-        } else {
-            vec![f64::INFINITY; thick.len()]
+        let limits: Vec<f64> = match setting.covers {
+            Some(to_side) if pass == 0 => {
+                let own = |width: &f64| (width / 2.0 - to_side).max(0.0);
+                if self.solid {
+                    thick.iter().map(own).collect()
+                } else {
+                    vec![own(&setting.width); thick.len()]
+                }
+            }
+            _ => vec![f64::INFINITY; thick.len()],
         };
         tremor.shake(&mut axis, &limits);
         let path = axis.path(px);
@@ -169,6 +182,8 @@ impl Inked<'_> {
 
     fn setting(&self, context: &InkContext) -> Setting {
         let pen = self.pen;
+        let covers = context.painted && self.chain.invisibility == 0 && bounds(self.chain.kind);
+        let to_side = if self.chain.smooth { OVER_SMOOTH_BORDER_PX } else { OVER_BORDER_PX };
         Setting {
             width: pen.width.in_unit(context.unit),
             fade: pen.fade,
@@ -176,7 +191,7 @@ impl Inked<'_> {
             px: context.px(),
             depths: self.depths,
             bend_radius: pen.swell.bend_radius.in_unit(context.unit),
-            covers: context.painted && self.chain.invisibility == 0 && bounds(self.chain.kind),
+            covers: covers.then_some(context.px() * to_side),
         }
     }
 

@@ -81,15 +81,23 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
             (true, HiddenLines::None) => {}
         }
     }
+    let rank = |chain: &&Chain| (std::cmp::Reverse(chain.kind), chain.silhouette);
+    hidden.sort_by_key(rank);
+    visible.sort_by_key(rank);
+    let (behind, all) = (hidden.len(), [hidden, visible].concat());
+    let pens: Vec<Pen> = all.par_iter().map(|chain| selection.pen(chain)).collect();
+    let mut hidden: Vec<Vec<Mark>> = if pens.iter().any(Pen::has_hand) {
+        handmade(&all, &pens, context)
+    } else {
+        all.par_iter()
+            .zip(&pens)
+            .map(|(chain, pen)| mark(chain, context, pen).into_iter().collect())
+            .collect()
+    };
+    let visible = hidden.split_off(behind);
     let mut layers = Vec::new();
-    for (kind, mut chains) in [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)] {
-        chains.sort_by_key(|chain| (std::cmp::Reverse(chain.kind), chain.silhouette));
-        let pens: Vec<Pen> = chains.par_iter().map(|chain| selection.pen(chain)).collect();
-        let marks = if pens.iter().any(Pen::has_hand) {
-            handmade(&chains, &pens, context)
-        } else {
-            chains.par_iter().zip(&pens).filter_map(|(chain, pen)| mark(chain, context, pen)).collect()
-        };
+    for (kind, marks) in [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)] {
+        let marks: Vec<Mark> = marks.into_iter().flatten().collect();
         let parted = match options.layers.by {
             LayersBy::Visibility => vec![Layer { kind, pen: None, marks }],
             LayersBy::Pen => by_pen(kind, marks, context.unit),
@@ -105,7 +113,7 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
 }
 
 /// The marks of chains some of which have a hand, or are cut by the halos of others.
-fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Mark> {
+fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Mark>> {
     let px = context.px();
     let axes: Vec<Axis> = chains.par_iter().map(|chain| Axis::of(chain, px).evened(px)).collect();
     let depths = chains.iter().flat_map(|chain| &chain.samples).map(|sample| sample.depth);
@@ -117,7 +125,7 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Mark> 
     let haloed: Vec<halo::Haloed> =
         axes.iter().zip(pens).map(|(axis, pen)| halo::Haloed { axis, reach: reach(pen) }).collect();
     let gaps = halo::gaps(&haloed, depths, px);
-    let joined = ends::joined(chains, px);
+    let joined = ends::joined(chains, &axes);
     let of_chain = |i: usize| -> Vec<Mark> {
         let (chain, pen) = (chains[i], &pens[i]);
         let width = pen.width.in_unit(context.unit);
@@ -140,8 +148,7 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Mark> 
         });
         painted.collect()
     };
-    let marks: Vec<Vec<Mark>> = (0..chains.len()).into_par_iter().map(of_chain).collect();
-    marks.into_iter().flatten().collect()
+    (0..chains.len()).into_par_iter().map(of_chain).collect()
 }
 
 /// Whether a chain is drawn without dashes.

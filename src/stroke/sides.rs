@@ -115,8 +115,7 @@ fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
     let count = if axis.closed { n - 1 } else { n };
     let mut points = Vec::with_capacity(count + 8 * axis.corners.len());
     let normal = |along: Vec2| Vec2::new(along.y, -along.x) * sign;
-    for i in 0..count {
-        let (p, half) = (axis.points[i], halves[i]);
+    for (i, (p, half)) in axis.points.iter().copied().zip(halves.iter().copied()).enumerate().take(count) {
         let plain = |at: Point| SidePoint { at, of: i, corner: false, dropped: false };
         if axis.corners.binary_search(&i).is_ok() {
             let [comes, leaves] = axis.at_corner(i);

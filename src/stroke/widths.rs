@@ -18,9 +18,9 @@ const BEND_EVEN_PX: f64 = 24.0;
 /// No line of varying width is thinner than this, px.
 const LEAST_PX: f64 = 0.12;
 
-/// Where surfaces are painted, lines that bound them are nowhere thinner than this, px, so that the border
-/// of the paint stays under them.
-const LEAST_COVER_PX: f64 = 0.7;
+/// Where surfaces are painted, lines that bound them are by this part of a px thicker than what they must
+/// cover.
+const MORE_PX: f64 = 0.1;
 
 /// What widths follow beside the line itself.
 #[derive(Debug, Clone, Copy)]
@@ -36,15 +36,15 @@ pub(super) struct Setting {
     pub depths: [f64; 2],
     /// User units in which bends count by half.
     pub bend_radius: f64,
-    /// Whether the line has to cover the border of something painted.
-    pub covers: bool,
+    /// How far to either side the line has to cover the border of something painted, user units.
+    pub covers: Option<f64>,
 }
 
 impl Setting {
     /// The least width of a line.
     pub fn least(&self) -> f64 {
-        let least = if self.covers { LEAST_COVER_PX } else { LEAST_PX };
-        (least * self.px).min(self.width)
+        let least = self.covers.map_or(LEAST_PX * self.px, |to_side| 2.0 * to_side + MORE_PX * self.px);
+        least.min(self.width)
     }
 }
 
