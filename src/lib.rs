@@ -1,5 +1,5 @@
-//! **ligne** turns a 3D model into a vector drawing: ink lines with exact hidden-line removal, and flat
-//! colour under them.
+//! **ligne** turns a 3D model into a vector drawing: ink lines with exact hidden-line removal, flat
+//! colour under them, and hatching.
 //!
 #![doc = include_str!("../docs/pictures/gear.svg")]
 //!
@@ -22,7 +22,8 @@
 //! [`viewmap::ViewMap`] decides what is visible; [`chain`] links the pieces to long chains;
 //! [`stroke`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
 //! [`export`] writes as SVG, PDF or PNG. Where a style paints surfaces, [`field`] lights them, their
-//! tone borders join the lines, and [`region`] gathers what lies between those that are seen. Many views
+//! tone borders join the lines, and [`region`] gathers what lies between those that are seen; [`hatch`] shades
+//! it with strokes. Many views
 //! of one scene share a [`render::Prepared`]. Each stage can be called by itself; the programs in
 //! `examples/` show how.
 //!

@@ -146,6 +146,19 @@ fn knot_with_cast_shadows() {
 }
 
 #[test]
+fn teapot_in_pencil() {
+    golden("teapot-pencil-plain", &example("teapot.obj"), "pencil-plain");
+}
+
+#[test]
+fn cubes_as_patent_and_comic() {
+    let cubes =
+        || [cuboid(DVec3::ZERO, DVec3::ONE), cuboid(DVec3::new(1.2, 0.0, 0.3), DVec3::new(1.7, 0.6, 0.8))];
+    golden("cubes-patent", &scene(cubes()), "patent");
+    golden("cubes-comic", &scene(cubes()), "comic");
+}
+
+#[test]
 fn a_difference_is_told_by_its_path() {
     let svg = |d: &str| {
         format!(

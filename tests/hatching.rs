@@ -138,7 +138,7 @@ fn darker_tones_keep_all_strokes_of_lighter_ones() {
 #[test]
 fn as_much_is_covered_as_the_table_says() {
     let mut faults = Vec::new();
-    for name in ["pen", "pencil", "pencil-plain", "patent"] {
+    for name in ["pen", "pencil", "pencil-plain", "patent", "sketch", "blueprint"] {
         let style = style(name, &[]);
         let options = black(&style);
         let tone = Tone::new(&style.shade.thresholds, &options.coverage);

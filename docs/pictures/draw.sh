@@ -50,6 +50,17 @@ lines $models/knot.ply halo --azimuth 0 --elevation 30 --set lines.hidden=solid 
 lines $models/knot.ply brush --azimuth 0 --elevation 30 --set pen.contour.width=4 --set pen.silhouette.width=6 \
     --set 'pen.brush={ path = "M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z" }'
 
+# docs/hatching.md and the README: one model in all styles
+hatched() {
+    "$ligne" draw $models/teapot.obj "$pictures/hatch-$1.png" --size 360x270 --azimuth 20 --quiet "${@:2}"
+}
+for style in ink pencil pencil-plain pen engraving stipple woodcut comic sketch patent blueprint toon toon-highlight noir gooch comic-flats rim flat technical suggestive; do
+    hatched $style --style $style
+done
+hatched object --style pen --set 'hatching.layer=[{ direction = "object", angle = 30 }, { direction = "object", angle = -50 }]'
+hatched dots --style stipple --set 'hatching.layer=[{ kind = "dots", lpi = 20 }]'
+"$ligne" draw $models/castle.obj $pictures/castle-pen.png --style pen --size 800x590
+
 # docs/stages.md
 "$ligne" draw $models/bear.ply $pictures/stage-field.png --stage field --size 400x480 --azimuth 25 --elevation 12
 "$ligne" draw $models/knot.ply $pictures/stage-zeros.svg --stage zeros --size 480x400 --precision 1

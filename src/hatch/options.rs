@@ -86,9 +86,10 @@ pub struct HatchLayer {
     pub angle: f64,
     /// By how much the angle differs between parts at most, degrees. Default: 0.
     pub turn_parts: f64,
-    /// Distance of strokes where they are densest; of dots from row to row. Default: 4 px.
-    #[serde(deserialize_with = "above_zero")]
-    pub spacing: Length,
+    /// Distance of strokes where they are densest; of dots from row to row. Default: 4 px; of dots that of a
+    /// screen of 60 lines an inch.
+    #[serde(deserialize_with = "some_above_zero")]
+    pub spacing: Option<Length>,
     /// Dots and lines as a screen of this many lines an inch, in place of `spacing`.
     #[serde(deserialize_with = "lines_per_inch")]
     pub lpi: Option<f64>,
@@ -150,7 +151,7 @@ impl Default for HatchLayer {
             direction: Direction::Page,
             angle: 45.0,
             turn_parts: 0.0,
-            spacing: Length::px(4.0),
+            spacing: None,
             lpi: None,
             width: Length::px(1.0),
             swell: false,
@@ -188,7 +189,9 @@ impl HatchLayer {
     /// Distance from line to line: the spacing, or that of the screen.
     #[must_use]
     pub fn pitch(&self) -> Length {
-        self.lpi.map_or(self.spacing, |lpi| Length::mm(25.4 / lpi))
+        let screen = |lpi: f64| Length::mm(25.4 / lpi);
+        let usual = if self.kind == Kind::Dots { screen(USUAL_SCREEN) } else { Length::px(4.0) };
+        self.lpi.map(screen).or(self.spacing).unwrap_or(usual)
     }
 }
 
@@ -208,6 +211,10 @@ fn above_zero<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Length, D::E
     Err(serde::de::Error::custom("a distance or width of hatching must be at least 0.05"))
 }
 
+fn some_above_zero<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Length>, D::Error> {
+    above_zero(deserializer).map(Some)
+}
+
 fn lines_per_inch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if (1.0..=300.0).contains(&value) {
@@ -217,6 +224,9 @@ fn lines_per_inch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f
         "{value} is not a number of lines an inch; write a number from 1 to 300"
     )))
 }
+
+/// Lines an inch of the screens that comics are printed with.
+const USUAL_SCREEN: f64 = 60.0;
 
 /// Finer hatching than this cannot be seen, and would take for ever.
 const LEAST_LENGTH: f64 = 0.05;

@@ -391,7 +391,7 @@ mod tests {
     fn crowds_meet_in_shared_points_only() {
         for (count, size) in [(60, 400), (120, 1000), (200, 100_000)] {
             let points = scattered(count, size);
-            let segments: Vec<([GridPoint; 2], bool)> =
+            let segments: Vec<([GridPoint; 2], Border)> =
                 points.chunks_exact(2).map(|pair| ([pair[0], pair[1]], Border::Soft)).collect();
             meets_in_points_only(&node(&segments, 0.0));
         }
