@@ -169,6 +169,19 @@ fn lines_that_go_on_do_not_taper_where_they_are_joined() {
     let level = drawn.iter().find(|mark| mark.path.winding(Point::new(50.0, 50.0)) != 0).unwrap();
     assert!((width_at(level, 95.0, 50.0) - 4.0).abs() < 0.1);
     assert!(width_at(level, 5.0, 50.0) < 3.0);
+    // Lines of unlike width meet half-way.
+    let thin = self::style(&["pen.swell.taper=30", "pen.border.width=2"]);
+    let [first, mut second] =
+        [(0.0, 100.0), (100.0, 200.0)].map(|(a, b)| chain(&[(a, 50.0), (b, 50.0)], [1.0; 2]));
+    second.kind = LineKind::Border;
+    for mark in marks(&[first, second], &thin) {
+        let (at, own) =
+            if mark.path.winding(Point::new(50.0, 50.0)) != 0 { (99.0, 4.0) } else { (101.0, 2.0) };
+        let width = width_at(&mark, at, 50.0);
+        assert!((width - 3.0).abs() < 0.15, "{width}");
+        let away = width_at(&mark, 100.0 + 20.0 * (at - 100.0), 50.0);
+        assert!((away - own).abs() < 0.1, "{away}");
+    }
     let upright = drawn.iter().find(|mark| mark.path.winding(Point::new(100.0, 100.0)) != 0).unwrap();
     assert!(upright.path.winding(Point::new(101.5, 55.0)) == 0, "not tapered");
 }

@@ -9,11 +9,14 @@ use crate::chain::Chain;
 /// A line goes on where it turns by no more than this (cosine of 50 degrees).
 const JOINED_COSINE: f64 = 0.643;
 
-/// For each chain, whether another one, as visible or hidden as it is, goes on from its first and its last
-/// point.
-pub(super) fn joined(chains: &[&Chain], axes: &[Axis]) -> Vec<[bool; 2]> {
+/// The end of another chain: its index, and 0 for its first point, 1 for its last.
+pub(super) type End = (usize, usize);
+
+/// For the first and the last point of each chain, the chain that goes on from it, as visible or hidden as it
+/// is, if there is one: the straightest.
+pub(super) fn joined(chains: &[&Chain], axes: &[Axis]) -> Vec<[Option<End>; 2]> {
     // Chains that meet share a node, and so the place of it to the last bit.
-    let mut at: FxHashMap<(u64, u64, bool), Vec<(usize, usize)>> = FxHashMap::default();
+    let mut at: FxHashMap<(u64, u64, bool), Vec<End>> = FxHashMap::default();
     for (i, chain) in chains.iter().enumerate().filter(|(i, chain)| !chain.closed && axes[*i].len() > 1) {
         for (side, p) in [chain.points.first(), chain.points.last()].into_iter().enumerate() {
             if let Some(p) = p {
@@ -21,12 +24,13 @@ pub(super) fn joined(chains: &[&Chain], axes: &[Axis]) -> Vec<[bool; 2]> {
             }
         }
     }
-    let mut joined = vec![[false; 2]; chains.len()];
+    let mut joined = vec![[None; 2]; chains.len()];
     for ends in at.values().filter(|ends| ends.len() > 1) {
         let ways: Vec<Vec2> = ends.iter().map(|(i, side)| axes[*i].end_tangent(*side)).collect();
         for (a, (i, side)) in ends.iter().enumerate() {
-            let goes_on = |b: usize| b != a && ways[a].dot(ways[b]) < -JOINED_COSINE;
-            joined[*i][*side] = (0..ends.len()).any(goes_on);
+            let turn = |b: &usize| ways[a].dot(ways[*b]);
+            let straightest = (0..ends.len()).filter(|b| *b != a).min_by(|b, c| turn(b).total_cmp(&turn(c)));
+            joined[*i][*side] = straightest.filter(|b| turn(b) < -JOINED_COSINE).map(|b| ends[b]);
         }
     }
     joined

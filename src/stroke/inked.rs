@@ -12,7 +12,7 @@ use super::outline::{Nib, outline};
 use super::pen::Pen;
 use super::pieces::{End, Piece, broken, parted};
 use super::tremor::Tremor;
-use super::widths::{Setting, mean, taper, widths};
+use super::widths::{Setting, mean, meet, taper};
 use crate::chain::Chain;
 use crate::lines::LineKind;
 use crate::math::noise::{hash, unit};
@@ -49,8 +49,10 @@ pub(super) struct Inked<'a> {
     pub chain: &'a Chain,
     pub axis: &'a Axis,
     pub pen: &'a Pen,
-    /// Whether its ends are joined by chains that go on.
-    pub joined: [bool; 2],
+    /// Its widths, before its ends are tapered.
+    pub thick: &'a [f64],
+    /// The widths of the lines that go on from its ends.
+    pub joined: [Option<f64>; 2],
     /// Where nearer lines pass over it.
     pub gaps: &'a [[f64; 2]],
     /// The depths of the nearest and the farthest line.
@@ -67,12 +69,15 @@ impl Inked<'_> {
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
         let lifts = hand.overshoot.value > 0.0;
         let ends = [0, 1].map(|side| End {
-            tapers: !self.joined[side],
-            runs_on: !self.joined[side] && !self.chain.covered[side],
+            tapers: self.joined[side].is_none(),
+            runs_on: self.joined[side].is_none() && !self.chain.covered[side],
         });
-        let setting = self.setting(context);
+        let setting = setting(self.chain, self.pen, self.depths, context);
         let mut axis = self.axis.clone();
-        let thick = widths(&axis, &setting);
+        let mut thick = self.thick.to_vec();
+        if self.pen.swell.is_on() && !axis.closed {
+            meet(&axis, &mut thick, self.joined, px);
+        }
         // The widths travel in place of the strengths, which they have used up.
         axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
         let (mean, gap) = (in_unit(hand.breaks), in_unit(hand.break_gap));
@@ -180,21 +185,6 @@ impl Inked<'_> {
         Some(Shape::Outline { path: outline, axis: path, width })
     }
 
-    fn setting(&self, context: &InkContext) -> Setting {
-        let pen = self.pen;
-        let covers = context.painted && self.chain.invisibility == 0 && bounds(self.chain.kind);
-        let to_side = if self.chain.smooth { OVER_SMOOTH_BORDER_PX } else { OVER_BORDER_PX };
-        Setting {
-            width: pen.width.in_unit(context.unit),
-            fade: pen.fade,
-            swell: pen.swell,
-            px: context.px(),
-            depths: self.depths,
-            bend_radius: pen.swell.bend_radius.in_unit(context.unit),
-            covers: covers.then_some(context.px() * to_side),
-        }
-    }
-
     /// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where
     /// it runs along them, elsewhere from about where it begins.
     fn identity(&self, context: &InkContext) -> u64 {
@@ -207,6 +197,21 @@ impl Inked<'_> {
         };
         let place = if known == 0 { begins() } else { known };
         hash(place, &[chain.kind as u64, u64::from(chain.part.0)])
+    }
+}
+
+/// What the widths of a chain follow.
+pub(super) fn setting(chain: &Chain, pen: &Pen, depths: [f64; 2], context: &InkContext) -> Setting {
+    let covers = context.painted && chain.invisibility == 0 && bounds(chain.kind);
+    let to_side = if chain.smooth { OVER_SMOOTH_BORDER_PX } else { OVER_BORDER_PX };
+    Setting {
+        width: pen.width.in_unit(context.unit),
+        fade: pen.fade,
+        swell: pen.swell,
+        px: context.px(),
+        depths,
+        bend_radius: pen.swell.bend_radius.in_unit(context.unit),
+        covers: covers.then_some(context.px() * to_side),
     }
 }
 

@@ -126,6 +126,10 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
         axes.iter().zip(pens).map(|(axis, pen)| halo::Haloed { axis, reach: reach(pen) }).collect();
     let gaps = halo::gaps(&haloed, depths, px);
     let joined = ends::joined(chains, &axes);
+    let thick_of: Vec<Vec<f64>> = (0..chains.len())
+        .into_par_iter()
+        .map(|i| widths::widths(&axes[i], &inked::setting(chains[i], &pens[i], depths, context)))
+        .collect();
     let of_chain = |i: usize| -> Vec<Mark> {
         let (chain, pen) = (chains[i], &pens[i]);
         let width = pen.width.in_unit(context.unit);
@@ -136,8 +140,13 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
             return mark(chain, context, pen).into_iter().collect();
         }
         let solid = is_solid(chain, context, pen);
-        let (axis, joined, gaps) = (&axes[i], joined[i], &gaps[i]);
-        let shapes = Inked { chain, axis, pen, joined, gaps, depths, solid }.shapes(context);
+        let (axis, thick, gaps) = (&axes[i], &thick_of[i], &gaps[i]);
+        let there = |(other, side): (usize, usize)| {
+            let widths = &thick_of[other];
+            if side == 0 { widths.first() } else { widths.last() }.copied()
+        };
+        let joined = joined[i].map(|end| end.and_then(there));
+        let shapes = Inked { chain, axis, pen, thick, joined, gaps, depths, solid }.shapes(context);
         let painted = shapes.into_iter().map(|shape| match shape {
             Shape::Path(path, closed) => stroked(path, closed, chain, context, pen),
             Shape::Outline { path, axis, width: mean } => {

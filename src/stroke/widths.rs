@@ -15,6 +15,9 @@ const BEND_PX: f64 = 5.0;
 /// Length over which bends are evened out, px: a brush does not follow every wiggle.
 const BEND_EVEN_PX: f64 = 24.0;
 
+/// Length over which lines of unlike width that go on in each other become alike, px.
+const MEET_PX: f64 = 16.0;
+
 /// No line of varying width is thinner than this, px.
 const LEAST_PX: f64 = 0.12;
 
@@ -151,6 +154,22 @@ pub(super) fn taper(axis: &Axis, widths: &mut [f64], ends: [bool; 2], over: f64,
             }
         }
         *width = width.max(least);
+    }
+}
+
+/// Brings the ends of a line that go on in others half-way to the widths of these.
+pub(super) fn meet(axis: &Axis, widths: &mut [f64], others: [Option<f64>; 2], px: f64) {
+    let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return };
+    let over = (MEET_PX * px).min((last - first) / 2.0);
+    let (Some(start), Some(end)) = (widths.first().copied(), widths.last().copied()) else { return };
+    if over <= 0.0 {
+        return;
+    }
+    for (width, arc) in widths.iter_mut().zip(&axis.arcs) {
+        for (other, own, way) in [(others[0], start, arc - first), (others[1], end, last - arc)] {
+            let t = (1.0 - way / over).max(0.0);
+            *width += other.map_or(0.0, |other| (other - own) / 2.0 * t * t * (3.0 - 2.0 * t));
+        }
     }
 }
 
