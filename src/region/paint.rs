@@ -65,17 +65,20 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
     layers.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
 }
 
-/// The outlines of regions that are picked, each up to its borders.
+/// The outlines of regions that are picked, each up to its borders, but for a `reach` under those of them
+/// that come after it: where two are painted alike, no paper shines through between them.
 pub(crate) fn outlines(
     regions: &Regions,
     offset: Vec2,
+    reach: f64,
     pick: impl Fn(&Region) -> bool,
 ) -> Vec<(BezPath, Region)> {
-    let rank = vec![0; regions.regions.len()];
+    let numbers = (1..).zip(&regions.regions);
+    let rank: Vec<u32> = numbers.map(|(number, region)| if pick(region) { number } else { 0 }).collect();
     let numbered = regions.regions.iter().enumerate().filter(|(_, region)| pick(region));
     numbered
         .map(|(k, region)| {
-            let mut path = outline(regions, k as u32, &rank, 0.0);
+            let mut path = outline(regions, k as u32, &rank, reach);
             path.apply_affine(Affine::translate(offset));
             (path, region.clone())
         })

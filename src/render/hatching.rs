@@ -112,7 +112,8 @@ impl Hatching<'_> {
         let coarser = |look: &Look| Look { tone: 0, cast: false, bin: u16::from(!is_black(look)), ..*look };
         let options = RegionOptions { crumb: style.hatch.crumb, ..style.region.clone() };
         let regions = region::gather_as(seen, coarser, &options, &style.chain, self.page.unit);
-        let black = region::paint::outlines(&regions, self.offset(), |region| region.look.bin == 0);
+        let reach = style.region.underlap.in_unit(self.page.unit);
+        let black = region::paint::outlines(&regions, self.offset(), reach, |region| region.look.bin == 0);
         black.into_iter().map(|(path, region)| (path, region.look)).collect()
     }
 }
