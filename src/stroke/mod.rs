@@ -4,6 +4,7 @@ mod axis;
 pub mod brush;
 pub mod brush_source;
 pub mod dash;
+mod dense;
 mod ends;
 mod halo;
 pub mod hand;

@@ -161,7 +161,7 @@ mod tests {
     use crate::chain::Sample;
     use crate::math::function::{cos, sin};
     use crate::math::noise::{hash, smooth, unit as chance};
-    use crate::stroke::axis::arcs;
+    use crate::stroke::dense::arcs;
 
     const NIB: Nib = Nib { cap: Cap::Round, join: Join::Round, px: 1.0 };
 
