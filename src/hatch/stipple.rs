@@ -1,10 +1,10 @@
 //! [`stipple`]: dots of one size strewn evenly, as dense as the tone asks.
 //!
-//! Source: Secord, Weighted Voronoi stippling, NPAR 2002, with the changes told in
-//! [`voronoi`](super::voronoi). Every surface is stippled for itself, from a seed that only its own shape
-//! decides. At last each dot is made as large as the ink wanted in its share of the surface, which
-//! differs little from dot to dot; where it is so dark that dots run into each other, what they have in
-//! common is made up for.
+//! Source: Secord, Weighted Voronoi stippling, NPAR 2002. Unlike there, shares are weighed by the square of
+//! the ink wanted: dots at rest then lie as dense as it asks, not as its root. Every surface is stippled
+//! for itself, from a seed that only its own shape decides. At last each dot is made as large as the ink
+//! wanted in its share of the surface, which differs little from dot to dot; where it is so dark that
+//! dots run into each other, what they have in common is made up for.
 
 use std::f64::consts::PI;
 
