@@ -49,18 +49,28 @@ fn every_built_in_style_loads_and_states_its_idea() {
     assert_eq!(
         names,
         [
+            "blueprint",
+            "comic",
             "comic-flats",
+            "engraving",
             "flat",
             "gooch",
             "gradient",
             "ink",
             "noir",
+            "patent",
+            "pen",
+            "pencil",
+            "pencil-plain",
             "plotter",
             "rim",
+            "sketch",
+            "stipple",
             "suggestive",
             "technical",
             "toon",
-            "toon-highlight"
+            "toon-highlight",
+            "woodcut",
         ]
     );
     for name in names {
@@ -229,6 +239,15 @@ fn numbers_out_of_range_are_refused() {
         "seed=-1",
         "chain.fit=2",
         "lines.kinds=contour",
+        "page.grain=2",
+        "hatching.coverage=[0.2, 0.5]",
+        "hatching.coverage=[1.2, 0]",
+        "hatching.thresholds=[0.5, 0.4]",
+        "hatching.layer=[{ spacing = 0 }]",
+        "hatching.layer=[{ lpi = 0.5 }]",
+        "hatching.layer=[{ uneven = 2 }]",
+        "hatching.layer=[{ direction = 'north' }]",
+        "hatching.layer=[{ hatch = 1 }]",
     ] {
         assert!(set(&[change]).is_err(), "{change}");
     }
@@ -247,11 +266,33 @@ fn errors_of_changes_name_the_change() {
         let error = set(&[change]).unwrap_err().to_string();
         assert!(error.starts_with("--set "), "{change}: {error}");
     }
-    let error = set(&["hatching.enabled=false"]).unwrap_err().to_string();
+    let error = set(&["watercolour.enabled=false"]).unwrap_err().to_string();
     assert!(
-        error.contains("unknown key `hatching`; known keys: extends, seed, page, lines, chain"),
+        error.contains("unknown key `watercolour`; known keys: extends, seed, page, lines, chain"),
         "{error}"
     );
+}
+
+#[test]
+fn layers_of_hatching_are_by_default_as_documented() {
+    let manual = include_str!("../docs/styles.md");
+    let section = manual.split("### Layers of hatching").nth(1).expect("the section");
+    let mut keys = 0;
+    let mut sheet = String::from("[[hatching.layer]]\n");
+    for row in section.split("```").next().expect("the table").lines().filter(|row| row.starts_with("| `")) {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        keys += 1;
+        // What follows from other keys has a default in words.
+        if let [key, _, default] = cells[..]
+            && default.starts_with('`')
+            && default.ends_with('`')
+        {
+            sheet += &format!("{} = {}\n", key.trim_matches('`'), default.trim_matches('`'));
+        }
+    }
+    assert!(keys > 20, "{keys}");
+    let style = Style::from_toml(&sheet).unwrap_or_else(|error| panic!("{sheet}\n{error}"));
+    assert_eq!(style.hatch.layers, [ligne::hatch::HatchLayer::default()]);
 }
 
 #[test]
@@ -259,7 +300,7 @@ fn a_missing_sheet_is_named() {
     let error = Style::load("nowhere/my.toml", &[]).unwrap_err().to_string();
     assert!(error.starts_with("nowhere/my.toml: cannot read the style sheet"), "{error}");
     let error = Style::load("watercolour", &[]).unwrap_err().to_string();
-    assert!(error.contains("built-in styles: comic-flats, flat, gooch"), "{error}");
+    assert!(error.contains("built-in styles: blueprint, comic, comic-flats"), "{error}");
 }
 
 #[test]

@@ -38,15 +38,21 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
         let [right, left] = piece.sides;
         if along { (right, left) } else { (left, right) }
     };
+    // Through a corner of borders several pieces are crossed at one place, in no order to rely on.
+    let is_corner = |k: usize| {
+        let near = |other: Option<&(Place, u32, bool)>| {
+            other.is_some_and(|(place, ..)| (place - places[k].0).abs() < SAME_PLACE)
+        };
+        near(places.get(k + 1)) || near(k.checked_sub(1).and_then(|before| places.get(before)))
+    };
     let mut out: Vec<Stretch> = Vec::new();
     let (mut from, mut behind): (Place, Option<u32>) = (0.0, None);
     let mut parts = true;
     for k in 0..=places.len() {
         let next = places.get(k);
         let to = next.map_or(last, |(place, ..)| *place);
-        let ahead = next.map(|(_, piece, along)| sides(*piece, *along).0);
-        if to > from {
-            // Where a line runs through a corner, the pieces there may tell of no cell or of two.
+        let ahead = next.filter(|_| !is_corner(k)).map(|(_, piece, along)| sides(*piece, *along).0);
+        if to - from > SAME_PLACE {
             let cell = match (behind, ahead) {
                 (Some(a), Some(b)) if a == b => a,
                 (Some(a), None) | (None, Some(a)) => a,
@@ -54,7 +60,7 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
             };
             if wanted(cell) {
                 match out.last_mut() {
-                    Some(before) if before.to == from && !parts && from > 0.0 => before.to = to,
+                    Some(before) if from - before.to < SAME_PLACE && !parts && from > 0.0 => before.to = to,
                     _ => out.push(Stretch { from, to, cell, cut: [from > 0.0, true] }),
                 }
             }
@@ -62,7 +68,7 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
         }
         if let Some((place, piece, along)) = next {
             parts |= ground.pieces[*piece as usize].parts_surfaces;
-            behind = Some(sides(*piece, *along).1);
+            behind = (!is_corner(k)).then(|| sides(*piece, *along).1);
             from = *place;
         }
     }
@@ -71,6 +77,9 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
     }
     out
 }
+
+/// Places that differ by less are one.
+const SAME_PLACE: f64 = 1e-9;
 
 /// The point at a place of a polyline.
 #[must_use]
