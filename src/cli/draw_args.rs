@@ -39,6 +39,10 @@ pub(super) struct DrawArgs {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub(super) sets: Vec<String>,
 
+    /// The hand: another number draws the same with another one [default: the style's]
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u32>,
+
     /// A camera record (.json), or the name of a camera of the model
     #[arg(long, value_name = "FILE.json|NAME", help_heading = "View",
         conflicts_with_all = ["view", "azimuth", "elevation", "fov", "ortho", "scale"])]

@@ -83,7 +83,7 @@ impl DrawRequest {
             outputs,
             report: args.report,
             style: args.style,
-            sets: args.sets,
+            sets: args.sets.into_iter().chain(args.seed.map(|seed| format!("seed={seed}"))).collect(),
             background: args.background.map(|background| background.0),
             view,
             up: args.up,

@@ -6,7 +6,6 @@
 //! SIGGRAPH 2000, section 5, there with four directions on the mesh.
 
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 use crate::region::Samples;
 use crate::region::samples::Axis;
@@ -28,45 +27,18 @@ impl<'a> Flow<'a> {
     /// The flow along axes that are given at the points of a lattice.
     #[must_use]
     pub fn new(samples: &'a Samples, given: &[Axis]) -> Self {
-        let (columns, rows) = (samples.columns, samples.rows);
-        let mut axes = given.to_vec();
-        let mut next = axes.clone();
-        for _ in 0..ROUNDS {
-            next.par_chunks_mut(columns.max(1)).enumerate().with_min_len(8).for_each(|(row, out)| {
-                for (column, out) in out.iter_mut().enumerate() {
-                    let k = row * columns + column;
-                    let facet = samples.facets[k];
-                    if facet == 0 {
-                        continue;
-                    }
-                    let mut sum = given[k];
-                    let sure = (sum[0] * sum[0] + sum[1] * sum[1]).sqrt();
-                    let mut count = 0.0;
-                    let mut add = |other: usize| {
-                        if samples.facets[other] == facet {
-                            sum[0] += NEIGHBOUR * axes[other][0];
-                            sum[1] += NEIGHBOUR * axes[other][1];
-                            count += 1.0;
-                        }
-                    };
-                    if column > 0 {
-                        add(k - 1);
-                    }
-                    if column + 1 < columns {
-                        add(k + 1);
-                    }
-                    if row > 0 {
-                        add(k - columns);
-                    }
-                    if row + 1 < rows {
-                        add(k + columns);
-                    }
-                    let whole = sure + NEIGHBOUR * count;
-                    *out = if whole > 0.0 { sum.map(|x| x / whole) } else { sum };
-                }
-            });
-            std::mem::swap(&mut axes, &mut next);
-        }
+        let axes = samples.spread(given.to_vec(), ROUNDS, |k, own, around| {
+            if samples.facets[k] == 0 {
+                return own;
+            }
+            let sure = (given[k][0] * given[k][0] + given[k][1] * given[k][1]).sqrt();
+            let (mut sum, mut whole) = (given[k], sure);
+            for axis in around.into_iter().flatten() {
+                sum = [sum[0] + NEIGHBOUR * axis[0], sum[1] + NEIGHBOUR * axis[1]];
+                whole += NEIGHBOUR;
+            }
+            if whole > 0.0 { sum.map(|x| x / whole) } else { sum }
+        });
         Self { samples, axes }
     }
 

@@ -129,6 +129,38 @@ impl Samples {
         ]
     }
 
+    /// Values that are made anew for a number of rounds, each from what it was and from those of its neighbours
+    /// to the left, to the right, above and below; `None` for those on another facet.
+    #[must_use]
+    pub fn spread<T: Copy + Send + Sync>(
+        &self,
+        mut now: Vec<T>,
+        rounds: usize,
+        anew: impl Fn(usize, T, [Option<T>; 4]) -> T + Sync,
+    ) -> Vec<T> {
+        let (columns, rows) = (self.columns, self.rows);
+        let mut next = now.clone();
+        for _ in 0..rounds {
+            next.par_chunks_mut(columns.max(1)).enumerate().with_min_len(8).for_each(|(row, out)| {
+                for (column, out) in out.iter_mut().enumerate() {
+                    let k = row * columns + column;
+                    let of = |is_there: bool, other: usize| {
+                        (is_there && self.facets[other] == self.facets[k]).then(|| now[other])
+                    };
+                    let around = [
+                        of(column > 0, k.wrapping_sub(1)),
+                        of(column + 1 < columns, k + 1),
+                        of(row > 0, k.wrapping_sub(columns)),
+                        of(row + 1 < rows, k + columns),
+                    ];
+                    *out = anew(k, now[k], around);
+                }
+            });
+            std::mem::swap(&mut now, &mut next);
+        }
+        now
+    }
+
     /// The light on a facet at a point of the page; `None` where the facet is not seen nearby.
     #[must_use]
     pub fn light(&self, facet: u32, p: Point) -> Option<f64> {
@@ -224,41 +256,16 @@ impl Probe<'_> {
 
     /// The unit normals at all points, each evened out over its neighbours on the facet.
     fn smooth_normals(&self, samples: &Samples) -> Vec<DVec3> {
-        let (columns, rows) = (samples.columns, samples.rows);
         let mut normals: Vec<DVec3> = self
             .hits
             .par_iter()
             .with_min_len(1 << 10)
             .map(|hit| hit.map_or(DVec3::ZERO, |(face, at)| self.lit.at(face, at).normal))
             .collect();
-        let mut next = normals.clone();
-        for _ in 0..EVENED {
-            next.par_chunks_mut(columns.max(1)).enumerate().with_min_len(8).for_each(|(row, out)| {
-                for (column, out) in out.iter_mut().enumerate() {
-                    let k = row * columns + column;
-                    let mut sum = normals[k];
-                    let mut add = |other: usize| {
-                        if samples.facets[other] == samples.facets[k] {
-                            sum += normals[other];
-                        }
-                    };
-                    if column > 0 {
-                        add(k - 1);
-                    }
-                    if column + 1 < columns {
-                        add(k + 1);
-                    }
-                    if row > 0 {
-                        add(k - columns);
-                    }
-                    if row + 1 < rows {
-                        add(k + columns);
-                    }
-                    *out = sum.normalize_or_zero();
-                }
-            });
-            std::mem::swap(&mut normals, &mut next);
-        }
+        normals = samples.spread(normals, EVENED, |_, own, around| {
+            let sum: DVec3 = around.into_iter().flatten().sum();
+            (own + sum).normalize_or_zero()
+        });
         normals
     }
 
