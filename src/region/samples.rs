@@ -51,7 +51,6 @@ pub type Axis = [f32; 2];
 /// What faces and light say of each point.
 pub struct Probe<'a> {
     lit: &'a Lit<'a>,
-    offset: Vec2,
     /// The point of the surface at each point of the lattice where one is seen: its face and place.
     hits: Vec<Option<(u32, DVec3)>>,
 }
@@ -103,7 +102,7 @@ impl Samples {
             })
             .collect();
         let samples = Self { pitch, origin, columns, rows, cells, facets, lights };
-        (samples, Probe { lit, offset, hits })
+        (samples, Probe { lit, hits })
     }
 
     /// The point of a number.
@@ -278,12 +277,6 @@ impl Probe<'_> {
         let step = self.lit.mesh.size * STEP_OF_MODEL;
         let [from, to] = [at, at + level * step].map(|p| frame.image_from_local(p).truncate());
         to - from
-    }
-
-    /// Where the image lies on the page.
-    #[must_use]
-    pub const fn offset(&self) -> Vec2 {
-        self.offset
     }
 }
 
