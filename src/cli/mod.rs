@@ -1,9 +1,13 @@
 //! The command line: what was typed, what is meant, one file a command.
 
 mod completions;
+mod config;
+mod defaults;
 mod draw;
 mod draw_args;
 mod info;
+mod keys;
+mod man;
 mod number;
 mod output;
 mod paper;
@@ -16,7 +20,7 @@ mod viewpoint;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::error::Error;
 
@@ -35,6 +39,10 @@ const WRONG: u8 = 2;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+
+    /// Leave ligne.toml aside
+    #[arg(long, global = true)]
+    no_config: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -47,12 +55,23 @@ enum Command {
     Styles(styles::StylesArgs),
     /// Write a completion script for a shell
     Completions(completions::CompletionsArgs),
+    /// Write the manual page
+    Man(man::ManArgs),
 }
 
 /// Runs the program with the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let surroundings = defaults::Surroundings::of_process();
+    let words = defaults::complete(std::env::args_os().collect(), &Cli::command(), &surroundings);
+    let words = match words {
+        Ok(words) => words,
+        Err(error) => {
+            say(&format!("error: {error}"));
+            return ExitCode::from(WRONG);
+        }
+    };
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) => {
             // Nobody is left to tell where this fails.
@@ -65,6 +84,7 @@ pub fn main() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Styles(args) => styles::run(&args),
         Command::Completions(args) => completions::run(&args),
+        Command::Man(args) => man::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
