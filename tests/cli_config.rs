@@ -163,7 +163,10 @@ fn faults_are_shown_with_file_line_and_caret() {
         ("[draw]\nsize = [3, 4]\n", "line 2: a list does not fit here; write text or a number"),
         ("[draw]\nset = { pen.wdith = 3 }\n", "line 2: unknown key `wdith`; did you mean `width`?"),
         ("[draw]\nset = 'pen.width'\n", "line 2: there is no `=`; write KEY=VALUE"),
-        ("[draw]\nview = 'iso'\nazimuth = 3\n", "`azimuth` and `view` exclude each other; leave one out"),
+        (
+            "[draw]\nview = 'iso'\nazimuth = 3\n",
+            "line 3: `view` and `azimuth` exclude each other; leave one out",
+        ),
         ("[draw]\nthreads = 0\n", "line 2: `0` does not fit here"),
         ("[draw]\nreport = 'a.json'\n", "line 2: unknown key `report`"),
         ("[draw]\nview = \n", "line 2: "),
@@ -206,5 +209,5 @@ fn the_manual_has_its_sections() {
         draw.contains(".TH LIGNE-DRAW 1") && draw.contains("--elevation") && draw.contains("LIGNE_STYLE")
     );
     assert!(!folder.ligne("man info").done().out.contains("LIGNE_STYLE"));
-    folder.ligne("man drow").refused("the commands are draw, info");
+    folder.ligne("man drow").refused("did you mean `draw`?");
 }

@@ -23,13 +23,19 @@ pub(super) struct Surroundings {
     pub(super) folder: Option<PathBuf>,
     /// The values of [`VARIABLES`].
     pub(super) variables: [Option<String>; 2],
+    /// Whether no person is at work, but a machine that checks what people did.
+    pub(super) is_ci: bool,
 }
 
 impl Surroundings {
     /// Those of this process.
     pub(super) fn of_process() -> Self {
         let value = |(name, _)| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned());
-        Self { folder: std::env::current_dir().ok(), variables: VARIABLES.map(value) }
+        Self {
+            folder: std::env::current_dir().ok(),
+            variables: VARIABLES.map(value),
+            is_ci: std::env::var_os("CI").is_some_and(|value| !value.is_empty()),
+        }
     }
 }
 
@@ -115,7 +121,7 @@ fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<Given>, Error> {
     let find = || folder.map_or(Ok(None), Config::find);
     Ok(match command {
         "draw" => find()?.map(|config| config.draw),
-        "diff" => find()?.map(|config| config.diff),
+        "diff" => find()?.map(|config| config.diff()),
         _ => None,
     }
     .unwrap_or_default())

@@ -139,6 +139,8 @@ impl Keys<'_> {
             }
             given.push(Given { option: name.to_owned(), words, span: value.span() });
         }
+        // The keys came in the order of the alphabet.
+        given.sort_by_key(|given: &Given| given.span.start);
         self.refuse_contradictions(file, &given)?;
         Ok(given)
     }
@@ -168,6 +170,20 @@ impl Keys<'_> {
         }
         Ok(())
     }
+}
+
+/// Refuses options that mean something only beside another one, where that is not there.
+pub(super) fn refuse_alone(file: &File, given: &[Given]) -> Result<(), Error> {
+    for Given { option, words, span } in given {
+        let mut needs = NEEDS.iter().filter(|(needing, _)| needing == option).map(|(_, needed)| *needed);
+        if let Some(missing) = needs.find(|needed| given.iter().all(|other| other.option != *needed))
+            && !words.is_empty()
+        {
+            let message = format!("`{option}` means nothing without `{missing}`");
+            return Err(file.fault(span, &message, Some("give both, or leave it out")));
+        }
+    }
+    Ok(())
 }
 
 /// Leaves out what typed options displace: the same option, unless it may be given again and adds

@@ -6,6 +6,7 @@ use clap_mangen::roff::{Roff, bold, roman};
 
 use super::defaults::VARIABLES;
 use crate::error::Error;
+use crate::style::fault::nearest;
 
 /// What was typed.
 #[derive(Debug, Args)]
@@ -53,6 +54,7 @@ tolerance = { default = \"0.1px\", lines = \"0.05mm\" }";
 const EXAMPLES: &str = "\
 ligne draw bunny.obj
 ligne draw part.stl sheet.pdf --style technical --view iso --page A4 --scale 1:2
+ligne test drawings --report changes.html
 ligne info drive.glb
 ligne styles ink > mine.toml";
 
@@ -64,8 +66,11 @@ pub(super) fn run(args: &ManArgs) -> Result<(), Error> {
         None => &program,
         Some(name) => program.find_subcommand(name).ok_or_else(|| {
             let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
-            Error::new(format!("there is no command `{name}`"))
-                .remedy(format!("the commands are {}", names.join(", ")))
+            let remedy = match nearest(name, &names) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the commands are {}", names.join(", ")),
+            };
+            Error::new(format!("there is no command `{name}`")).remedy(remedy)
         })?,
     };
     let page =

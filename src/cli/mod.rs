@@ -15,6 +15,7 @@ mod pipeline;
 mod progress;
 mod request;
 mod styles;
+mod test;
 mod viewpoint;
 
 use std::io::Write;
@@ -23,6 +24,9 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::error::Error;
+
+/// Exit status where drawings that were compared differ.
+const DIFFERENCES: u8 = 1;
 
 /// Exit status where the call or an input file is wrong.
 const WRONG: u8 = 2;
@@ -49,6 +53,8 @@ struct Cli {
 enum Command {
     /// Draw a model
     Draw(Box<draw_args::DrawArgs>),
+    /// Draw every case of a folder and compare it with the approved drawing
+    Test(test::TestArgs),
     /// Say what is in a model file, and what is wrong with it
     Info(info::InfoArgs),
     /// List the built-in styles, or show one
@@ -79,15 +85,19 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
         }
     };
+    let all_well = |()| ExitCode::SUCCESS;
     let done = match cli.command {
-        Command::Draw(args) => request::DrawRequest::new(*args).and_then(|request| draw::run(&request)),
-        Command::Info(args) => info::run(&args),
-        Command::Styles(args) => styles::run(&args),
-        Command::Completions(args) => completions::run(&args),
-        Command::Man(args) => man::run(&args),
+        Command::Draw(args) => {
+            request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
+        }
+        Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
+        Command::Info(args) => info::run(&args).map(all_well),
+        Command::Styles(args) => styles::run(&args).map(all_well),
+        Command::Completions(args) => completions::run(&args).map(all_well),
+        Command::Man(args) => man::run(&args).map(all_well),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => status,
         Err(error) => {
             say(&format!("error: {error}"));
             ExitCode::from(WRONG)

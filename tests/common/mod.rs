@@ -50,7 +50,12 @@ impl Folder {
 
     /// Names of the files in it, in the order of the alphabet.
     pub fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).expect("the folder of the test");
+        self.names_in("")
+    }
+
+    /// The same of a folder in it.
+    pub fn names_in(&self, inner: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.0.join(inner)).expect("the folder of the test");
         let mut names: Vec<String> =
             entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
         names.sort();
