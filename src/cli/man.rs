@@ -35,7 +35,8 @@ const FILES: [&str; 4] = [
     "[draw] holds options of ligne draw by their long names: style, set (a table of style keys, or a list of texts), \
      seed, camera, view, azimuth, elevation, fov, ortho, up, only, hide, size, page, landscape, margin, scale, \
      background, precision, dpi, group, id-prefix, threads, quiet, strict.",
-    "[diff] holds tolerance: within which distance lines and fills count as the same, as text or as a table.",
+    "[diff] holds tolerance: within which distance lines and fills count as the same, as text or as a table. \
+     ligne test takes it for cases that say nothing else, and takes nothing else of the file.",
     "Paths in it are relative to the file. Unknown keys and wrong values are refused with file and line.",
 ];
 
