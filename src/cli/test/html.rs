@@ -7,6 +7,7 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
+use super::SHOWN;
 use super::outcome::{Outcome, Totals, Verdict};
 use crate::export::xml::escaped;
 
@@ -35,19 +36,11 @@ fn section(html: &mut String, outcome: &Outcome<'_>, all: bool, blessed: bool) {
     let word = if is_blessed { "blessed" } else { outcome.verdict.word() };
     let name = escaped(&outcome.case.name);
     let _ = writeln!(html, "<section class=\"{word}\">\n<h2>{name} <span>{word}</span></h2>");
-    let summary = outcome.summary();
+    let summary = outcome.summary(blessed);
     if !summary.is_empty() {
         // Some errors go on with a picture of the line that is wrong.
         let tag = if summary.contains('\n') { "pre" } else { "p" };
         let _ = writeln!(html, "<{tag}>{}</{tag}>", text(&summary));
-    }
-    let lines = outcome.lines();
-    if !lines.is_empty() {
-        html.push_str("<ul>\n");
-        for line in lines {
-            let _ = writeln!(html, "<li>{}</li>", escaped(&line));
-        }
-        html.push_str("</ul>\n");
     }
     if all || !matches!(outcome.verdict, Verdict::Passed) {
         html.push_str("<div>\n");
@@ -56,7 +49,26 @@ fn section(html: &mut String, outcome: &Outcome<'_>, all: bool, blessed: bool) {
         picture(html, "difference", outcome.difference().as_deref());
         html.push_str("</div>\n");
     }
+    let lines = outcome.lines();
+    let (first, rest) = lines.split_at(lines.len().min(SHOWN));
+    list(html, first);
+    if !rest.is_empty() {
+        let _ = writeln!(html, "<details>\n<summary>and {} more</summary>", rest.len());
+        list(html, rest);
+        html.push_str("</details>\n");
+    }
     html.push_str("</section>\n");
+}
+
+fn list(html: &mut String, lines: &[String]) {
+    if lines.is_empty() {
+        return;
+    }
+    html.push_str("<ul>\n");
+    for line in lines {
+        let _ = writeln!(html, "<li>{}</li>", escaped(line));
+    }
+    html.push_str("</ul>\n");
 }
 
 /// Escaped, with line breaks kept.

@@ -30,7 +30,7 @@ pub(super) fn document(folder: &str, outcomes: &[Outcome<'_>], blessed: bool) ->
             xml.push_str("/>\n");
             continue;
         };
-        let (kind, message) = (outcome.verdict.word(), escaped(&outcome.summary()));
+        let (kind, message) = (outcome.verdict.word(), escaped(&outcome.summary(blessed)));
         let _ = write!(xml, ">\n<{element} type=\"{kind}\" message=\"{message}\">");
         let lines: Vec<String> = outcome.lines().iter().map(|line| escaped(line)).collect();
         xml.push_str(&lines.join("\n"));

@@ -24,7 +24,7 @@ use crate::diff::Tolerances;
 use crate::error::Error;
 use crate::math::glob::Glob;
 
-/// Findings of a case that are shown; the reports have all.
+/// Findings of a case that are shown at once; the reports have all.
 const SHOWN: usize = 20;
 
 /// What was typed.
@@ -163,7 +163,7 @@ fn told(args: &TestArgs, outcomes: &[Outcome<'_>], totals: Totals, blessed: bool
             Verdict::Differs(_) | Verdict::New if blessed => "blessed",
             _ => outcome.verdict.word(),
         };
-        let (name, summary) = (&outcome.case.name, outcome.summary().replace('\n', "\n         "));
+        let (name, summary) = (&outcome.case.name, outcome.summary(blessed).replace('\n', "\n         "));
         let colon = if summary.is_empty() { "" } else { ": " };
         text.push_str(&format!("{word:7}  {name}{colon}{summary}\n"));
         let lines = outcome.lines();

@@ -89,9 +89,10 @@ impl<'a> Outcome<'a> {
         }
     }
 
-    /// The verdict in a line.
-    pub(super) fn summary(&self) -> String {
+    /// The verdict in a line. `blessed`: what differed or was new has been approved.
+    pub(super) fn summary(&self, blessed: bool) -> String {
         match &self.verdict {
+            Verdict::New if blessed => "drawn for the first time".to_owned(),
             Verdict::Passed => String::new(),
             Verdict::Differs(diff) => diff.summary(),
             Verdict::New => format!("nobody has approved {} yet", self.case.drawing.display()),
