@@ -41,6 +41,7 @@
 
 pub mod chain;
 pub mod cli;
+pub mod diff;
 pub mod drawing;
 pub mod error;
 pub mod export;

@@ -142,3 +142,25 @@ pub const DOT_CRUMB_PX: f64 = 0.1;
 
 /// Where a border just touches a dot, the dot is made smaller by this part of itself.
 pub const DOT_NUDGE: f64 = 1e-5;
+
+/// Widths of lines in two drawings that differ by no more than this (px) are one width, written twice.
+pub const WIDTH_PX: f64 = 2e-3;
+
+/// The same for lengths of dashes (px).
+pub const DASH_PX: f64 = 2e-3;
+
+/// Readers of SVG keep coordinates in single precision: two drawings cannot be compared more finely than this
+/// part of the page's longer side.
+pub const READ_OF_PAGE: f64 = 1e-6;
+
+/// Drawings are compared at least this finely by default, however few decimals they are written with (px).
+pub const COARSEST_STEP_PX: f64 = 0.1;
+
+/// Curves are flattened within this part of the tolerance that they are compared with.
+pub const FLAT_OF_TOLERANCE: f64 = 0.1;
+
+/// Ends this near to each other, as a part of the tolerance, were one point before a line was split.
+pub const JOIN_OF_TOLERANCE: f64 = 1.0;
+
+/// Distances of two lines are found within this part of themselves.
+pub const DISTANCE_SHARE: f64 = 2e-3;

@@ -1,0 +1,303 @@
+//! [`Cover`]: which pieces of a chain lie within tolerance of another drawing's chains.
+//!
+//! The points of a segment that are within r of another segment are those inside its capsule. That is convex, so they
+//! are one interval, whose ends are roots of quadratics: nothing is sampled.
+
+use kurbo::Point;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::chain::Chain;
+use super::grid::Grid;
+use super::groups::{Groups, Likeness};
+
+/// Stretches of a chain shorter than this many tolerances, between two that are alike, are what lines leave that
+/// merely cross it.
+const CROSSING: f64 = 6.0;
+/// Gaps between intervals shorter than this (px) are rounding.
+const ROUNDING_PX: f64 = 1e-7;
+
+/// A stretch of a chain, by arc length in px.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Run {
+    pub from: f64,
+    pub to: f64,
+    /// The best of what lies there in the other drawing; `None` where nothing does.
+    pub likeness: Option<Likeness>,
+    /// The chain that lies there.
+    pub partner: u32,
+}
+
+impl Run {
+    pub(super) fn length(&self) -> f64 {
+        self.to - self.from
+    }
+}
+
+/// What covers a chain.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Cover {
+    /// From its start to its end, without gaps.
+    pub runs: Vec<Run>,
+    /// Length of the chain in px.
+    pub length: f64,
+    /// Whether the chain is a dot.
+    dot: bool,
+}
+
+impl Cover {
+    /// Length of what nothing covers.
+    pub(super) fn bare(&self) -> f64 {
+        self.runs.iter().filter(|run| run.likeness.is_none()).map(Run::length).sum()
+    }
+
+    /// Whether something covers all of it.
+    pub(super) fn is_whole(&self) -> bool {
+        self.runs.iter().all(|run| run.likeness.is_some())
+    }
+
+    /// Whether all of it is as it was.
+    pub(super) fn is_same(&self) -> bool {
+        self.runs.iter().all(|run| run.likeness == Some(Likeness::Same))
+    }
+
+    /// The share of it that is covered.
+    pub(super) fn share(&self) -> f64 {
+        if self.dot { f64::from(u8::from(self.is_whole())) } else { 1.0 - self.bare() / self.length }
+    }
+
+    /// The chains that cover it, the one with the longest stretch first; each with the likeness of that.
+    pub(super) fn partners(&self) -> Vec<(u32, Likeness, f64)> {
+        let mut lengths: FxHashMap<u32, (Likeness, f64)> = FxHashMap::default();
+        for run in &self.runs {
+            if let Some(likeness) = run.likeness {
+                let entry = lengths.entry(run.partner).or_insert((likeness, 0.0));
+                entry.0 = entry.0.min(likeness);
+                entry.1 += run.length();
+            }
+        }
+        let mut list: Vec<(u32, Likeness, f64)> =
+            lengths.into_iter().map(|(partner, (likeness, length))| (partner, likeness, length)).collect();
+        list.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
+        list
+    }
+}
+
+/// What of `others`, which are sorted into `grid`, covers each of the chains.
+pub(super) fn cover(chains: &[Chain], others: &[Chain], grid: &Grid, groups: &Groups) -> Vec<Cover> {
+    chains
+        .par_iter()
+        .map_init(Scratch::default, |scratch, chain| one(chain, others, grid, groups, scratch))
+        .collect()
+}
+
+#[derive(Default)]
+struct Scratch {
+    near: Vec<u32>,
+    intervals: Vec<Interval>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Interval {
+    from: f64,
+    to: f64,
+    likeness: Likeness,
+    partner: u32,
+}
+
+fn one(chain: &Chain, others: &[Chain], grid: &Grid, groups: &Groups, scratch: &mut Scratch) -> Cover {
+    let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+    let mut cover = Cover { length: chain.length(), ..Cover::default() };
+    cover.dot = cover.length == 0.0;
+    let mut at = 0.0;
+    let mut likeness_of: FxHashMap<usize, Option<Likeness>> = FxHashMap::default();
+    for (from, to) in chain.segments() {
+        let length = from.distance(to);
+        grid.near(from, to, tolerance, &mut scratch.near);
+        scratch.intervals.clear();
+        for item in &scratch.near {
+            let Some(segment) = grid.segments.get(*item as usize) else { continue };
+            let Some(other) = others.get(segment.chain as usize) else { continue };
+            let likeness =
+                *likeness_of.entry(other.group).or_insert_with(|| groups.likeness(chain.group, other.group));
+            let Some(likeness) = likeness else { continue };
+            if let Some((start, end)) = within(from, to, segment.from, segment.to, tolerance) {
+                scratch.intervals.push(Interval {
+                    from: at + start * length,
+                    to: at + end * length,
+                    likeness,
+                    partner: segment.chain,
+                });
+            }
+        }
+        runs(at, at + length, &mut scratch.intervals, &mut cover.runs);
+        at += length;
+    }
+    merge(&mut cover.runs);
+    let most = CROSSING * tolerance;
+    // Crossings in bare stretches first: what is left of them may then part others.
+    absorb(&mut cover.runs, most, |run, around| around.likeness.is_none() && run.likeness.is_some());
+    absorb(&mut cover.runs, most, |run, around| {
+        run.likeness.is_some() && around.likeness.is_some() && run.likeness != around.likeness
+    });
+    cover
+}
+
+/// Runs from `start` to `end`: at every place the best of the intervals that cover it.
+fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Run>) {
+    if start == end {
+        // A dot is covered or not.
+        let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner));
+        out.push(Run {
+            from: start,
+            to: end,
+            likeness: best.map(|best| best.likeness),
+            partner: best.map_or(0, |best| best.partner),
+        });
+        return;
+    }
+    intervals.sort_by(|a, b| {
+        (a.likeness, a.partner).cmp(&(b.likeness, b.partner)).then(a.from.total_cmp(&b.from))
+    });
+    let mut free = vec![(start, end)];
+    let first = out.len();
+    for interval in intervals.iter() {
+        if free.is_empty() {
+            break;
+        }
+        let mut rest = Vec::with_capacity(free.len() + 1);
+        for (from, to) in free.drain(..) {
+            let (low, high) = (interval.from.max(from), interval.to.min(to));
+            if high - low <= 0.0 {
+                rest.push((from, to));
+                continue;
+            }
+            out.push(Run {
+                from: low,
+                to: high,
+                likeness: Some(interval.likeness),
+                partner: interval.partner,
+            });
+            rest.extend([(from, low), (high, to)].into_iter().filter(|(a, b)| b - a > ROUNDING_PX));
+        }
+        free = rest;
+    }
+    out.extend(free.into_iter().map(|(from, to)| Run { from, to, likeness: None, partner: 0 }));
+    out[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
+}
+
+/// Joins neighbours of one likeness and one partner.
+fn merge(runs: &mut Vec<Run>) {
+    runs.dedup_by(|next, run| {
+        let alike = next.likeness == run.likeness && (next.partner == run.partner || run.likeness.is_none());
+        if alike {
+            run.to = next.to;
+        }
+        alike
+    });
+}
+
+/// Gives short runs between two of one likeness to these.
+fn absorb(runs: &mut Vec<Run>, most: f64, gives: impl Fn(&Run, &Run) -> bool) {
+    let mut index = 1;
+    while index + 1 < runs.len() {
+        let (before, run, after) = (runs[index - 1], runs[index], runs[index + 1]);
+        if before.likeness == after.likeness && run.length() <= most && gives(&run, &before) {
+            runs[index].likeness = before.likeness;
+            runs[index].partner = before.partner;
+        }
+        index += 1;
+    }
+    merge(runs);
+}
+
+/// The share of the segment from `p` to `q` that is within `r` of the segment from `a` to `b`.
+fn within(p: Point, q: Point, a: Point, b: Point, r: f64) -> Option<(f64, f64)> {
+    let along = q - p;
+    let mut found: Option<(f64, f64)> = None;
+    let mut add = |from: f64, to: f64| {
+        let (from, to) = (from.max(0.0), to.min(1.0));
+        if from <= to {
+            found = Some(found.map_or((from, to), |(low, high)| (low.min(from), high.max(to))));
+        }
+    };
+    let length2 = along.hypot2();
+    for centre in [a, b] {
+        let offset = p - centre;
+        if length2 == 0.0 {
+            if offset.hypot2() <= r * r {
+                add(0.0, 1.0);
+            }
+            continue;
+        }
+        let half = along.dot(offset);
+        let root2 = half * half - length2 * (offset.hypot2() - r * r);
+        if root2 >= 0.0 {
+            let root = root2.sqrt();
+            add((-half - root) / length2, (-half + root) / length2);
+        }
+    }
+    // The strip between the two discs: inside in two directions.
+    let axis = b - a;
+    let size = axis.hypot();
+    if size > 0.0 {
+        let unit = axis / size;
+        let offset = p - a;
+        let across = clip(offset.cross(unit), along.cross(unit), -r, r);
+        let lengthwise = clip(offset.dot(unit), along.dot(unit), 0.0, size);
+        if let Some(((f0, t0), (f1, t1))) = across.zip(lengthwise)
+            && f0.max(f1) <= t0.min(t1)
+        {
+            add(f0.max(f1), t0.min(t1));
+        }
+    }
+    found
+}
+
+/// Where `start + t * rate` lies between two bounds.
+fn clip(start: f64, rate: f64, low: f64, high: f64) -> Option<(f64, f64)> {
+    if rate == 0.0 {
+        return (low..=high).contains(&start).then_some((f64::NEG_INFINITY, f64::INFINITY));
+    }
+    let (t0, t1) = ((low - start) / rate, (high - start) / rate);
+    Some((t0.min(t1), t0.max(t1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::grid::nearest_on;
+    use super::*;
+
+    #[test]
+    fn the_interval_is_that_of_sampling() {
+        let mut state = 5u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1u32 << 24)
+        };
+        let mut hits = 0;
+        for _ in 0..2000 {
+            let mut point = || Point::new(next() * 4.0, next() * 4.0);
+            let (p, q, a, b) = (point(), point(), point(), point());
+            let inside = |t: f64| {
+                let at = p.lerp(q, t);
+                at.distance(nearest_on(a, b, at)) <= 0.5
+            };
+            let sampled: Vec<f64> =
+                (0..=1000).map(|i| f64::from(i) / 1000.0).filter(|t| inside(*t)).collect();
+            match (within(p, q, a, b, 0.5), sampled.first().zip(sampled.last())) {
+                (Some((from, to)), Some((first, last))) => {
+                    hits += 1;
+                    assert!(
+                        (from - first).abs() <= 1.1e-3 && (to - last).abs() <= 1.1e-3,
+                        "{from} {first} {to} {last}"
+                    );
+                }
+                (Some((from, to)), None) => assert!(to - from <= 1.1e-3),
+                (None, Some(_)) => panic!("an interval was not found"),
+                (None, None) => {}
+            }
+        }
+        assert!(hits > 300);
+    }
+}

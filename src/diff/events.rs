@@ -1,0 +1,218 @@
+//! [`Event`]: what became of one chain.
+
+use kurbo::BezPath;
+use rayon::prelude::*;
+use rustc_hash::FxHashSet;
+
+use super::chain::Chain;
+use super::cover::{Cover, Run};
+use super::distance::apart;
+use super::finding::Verdict;
+use super::groups::{Groups, Likeness};
+use super::pair::{Pair, Side, pairs};
+
+/// A chain of which less than this is left lies elsewhere or is gone.
+const LEFT: f64 = 0.1;
+/// What a shift leaves, as a part of the largest distance, for a chain to have moved as it was.
+const RIGID: f64 = 0.05;
+/// What shift, turn and growth leave, likewise.
+const SIMILAR: f64 = 0.25;
+/// A chain that moved is at most this part longer or shorter.
+const GROWTH: f64 = 0.02;
+/// Stretches of other ink shorter than this many tolerances are what ends of lines leave.
+const CRUMB: f64 = 6.0;
+
+/// What became of one chain; lengths in px.
+#[derive(Debug, Clone)]
+pub(super) struct Event {
+    pub verdict: Verdict,
+    pub old: Option<usize>,
+    pub new: Option<usize>,
+    /// Length that it is about.
+    pub size: f64,
+    pub largest: f64,
+    pub p95: f64,
+    pub shift: Option<[f64; 2]>,
+    pub gone: BezPath,
+    pub added: BezPath,
+}
+
+/// What became of the chains of two drawings.
+pub(super) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event> {
+    let pairs = pairs(sides, groups, page);
+    let paired: [FxHashSet<usize>; 2] =
+        [pairs.iter().map(|pair| pair.old).collect(), pairs.iter().map(|pair| pair.new).collect()];
+    let mut events: Vec<Event> = pairs.par_iter().map(|pair| of_pair(sides, pair, groups)).collect();
+    events.extend(repainted(sides, groups));
+    for side in 0..2 {
+        for (index, cover) in sides[side].covers.iter().enumerate() {
+            if !cover.is_whole() && !paired[side].contains(&index) {
+                events.push(of_one(sides, side, index));
+            }
+        }
+    }
+    events
+}
+
+/// A mark that has another form or another place.
+fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
+    let (a, b) = (&sides[0].chains[pair.old], &sides[1].chains[pair.new]);
+    let (cover_a, cover_b) = (&sides[0].covers[pair.old], &sides[1].covers[pair.new]);
+    let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
+    let apart = apart(a, b);
+    let alignment = &pair.alignment;
+    let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID * alignment.largest);
+    let grown = (cover_a.length - cover_b.length).abs();
+    let longest = cover_a.length.max(cover_b.length);
+    let similar = alignment.after_similarity <= (2.0 * tolerance).max(SIMILAR * alignment.largest)
+        && grown <= (4.0 * tolerance).max(GROWTH * longest)
+        && cover_a.share().max(cover_b.share()) < 0.5;
+    let mut event = Event {
+        verdict: if rigid || similar { Verdict::Moved } else { Verdict::Reshaped },
+        old: Some(pair.old),
+        new: Some(pair.new),
+        size: cover_a.length,
+        largest: apart.largest,
+        p95: apart.p95,
+        shift: None,
+        gone: bare(a, cover_a),
+        added: bare(b, cover_b),
+    };
+    if rigid {
+        // Lines slide along themselves unseen: where all went the same way, so did the rest.
+        event.shift = Some([alignment.shift.x, alignment.shift.y]);
+        event.p95 = event.largest;
+    }
+    event
+}
+
+/// A chain with uncovered stretches and without a partner: part of a mark, or all of it.
+fn of_one(sides: &[Side; 2], side: usize, index: usize) -> Event {
+    let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
+    let rest = cover.partners().first().map(|(partner, ..)| *partner as usize);
+    let rest = rest.filter(|_| cover.share() > LEFT);
+    let (mut old, mut new) = if side == 0 { (Some(index), rest) } else { (rest, Some(index)) };
+    let mut event = Event {
+        verdict: Verdict::Reshaped,
+        old,
+        new,
+        size: cover.bare(),
+        largest: 0.0,
+        p95: 0.0,
+        shift: None,
+        gone: BezPath::new(),
+        added: BezPath::new(),
+    };
+    if let Some((a, b)) = old.zip(new) {
+        let apart = apart(&sides[0].chains[a], &sides[1].chains[b]);
+        (event.largest, event.p95) = (apart.largest, apart.p95);
+    } else {
+        event.verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
+        (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
+        (event.old, event.new) = (old, new);
+    }
+    let path = if rest.is_some() { bare(chain, cover) } else { stretch(chain, 0.0, f64::INFINITY) };
+    match side {
+        0 => event.gone = path,
+        _ => event.added = path,
+    }
+    event
+}
+
+/// Chains whose place is taken by another ink or another part.
+fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
+    let other = |side: usize, index: usize| -> Vec<(usize, Likeness, f64)> {
+        let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
+        if !cover.is_whole() || cover.is_same() {
+            return Vec::new();
+        }
+        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+        let crumb = (CRUMB * tolerance).min(0.5 * cover.length);
+        let partners = cover.partners().into_iter();
+        partners
+            .filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)
+            .map(|(partner, likeness, length)| (partner as usize, likeness, length))
+            .collect()
+    };
+    let of_new: Vec<Vec<(usize, Likeness, f64)>> =
+        (0..sides[1].chains.len()).map(|index| other(1, index)).collect();
+    let mut events = Vec::new();
+    let mut told: FxHashSet<usize> = FxHashSet::default();
+    for index in 0..sides[0].chains.len() {
+        let list = other(0, index);
+        let mut drawn_over = !list.is_empty();
+        for (partner, likeness, length) in list {
+            // What covers it is not covered by it: it was drawn twice, and is drawn once.
+            let mutual = of_new[partner].iter().any(|(back, ..)| *back == index)
+                || !sides[1].covers[partner].is_whole();
+            if mutual {
+                drawn_over = false;
+                told.insert(partner);
+                events.push(Event {
+                    verdict: match likeness {
+                        Likeness::Same | Likeness::Ink | Likeness::Both => Verdict::Restyled,
+                        Likeness::Label => Verdict::Relabelled,
+                    },
+                    old: Some(index),
+                    new: Some(partner),
+                    size: length,
+                    largest: 0.0,
+                    p95: 0.0,
+                    shift: None,
+                    gone: BezPath::new(),
+                    added: stretches(&sides[0].chains[index], &sides[0].covers[index], |run| {
+                        run.likeness.is_some_and(|likeness| likeness != Likeness::Same)
+                    }),
+                });
+            }
+        }
+        if drawn_over {
+            events.push(alone(sides, 0, index));
+        }
+    }
+    for (index, list) in of_new.iter().enumerate() {
+        if !list.is_empty() && !told.contains(&index) {
+            events.push(alone(sides, 1, index));
+        }
+    }
+    events
+}
+
+/// A chain that is only in one drawing, though another lies in its place.
+fn alone(sides: &[Side; 2], side: usize, index: usize) -> Event {
+    let path = stretch(&sides[side].chains[index], 0.0, f64::INFINITY);
+    let (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
+    let (gone, added) = if side == 0 { (path, BezPath::new()) } else { (BezPath::new(), path) };
+    let verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
+    let size = sides[side].covers[index].length;
+    Event { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, gone, added }
+}
+
+/// What nothing covers of a chain.
+fn bare(chain: &Chain, cover: &Cover) -> BezPath {
+    stretches(chain, cover, |run| run.likeness.is_none())
+}
+
+fn stretches(chain: &Chain, cover: &Cover, wanted: impl Fn(&Run) -> bool) -> BezPath {
+    let runs = cover.runs.iter().filter(|run| wanted(run));
+    runs.flat_map(|run| stretch(chain, run.from, run.to).into_iter().collect::<Vec<_>>()).collect()
+}
+
+/// A chain between two arc lengths.
+fn stretch(chain: &Chain, from: f64, to: f64) -> BezPath {
+    let mut path = BezPath::new();
+    let mut at = 0.0;
+    for (p, q) in chain.segments() {
+        let length = p.distance(q);
+        let (start, end) = (from.max(at), to.min(at + length));
+        if start <= end {
+            let point = |s: f64| if length > 0.0 { p.lerp(q, (s - at) / length) } else { p };
+            if path.elements().is_empty() {
+                path.move_to(point(start));
+            }
+            path.line_to(point(end));
+        }
+        at += length;
+    }
+    path
+}

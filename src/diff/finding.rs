@@ -1,0 +1,170 @@
+//! [`Diff`] and its [`Finding`]s: what differs, one finding a mark.
+
+use kurbo::{BezPath, Rect};
+use serde::Serialize;
+
+use super::label::Label;
+use super::picture::{Picture, ShapeKind};
+use super::pixels::PixelDiff;
+use super::totals::Totals;
+
+/// What became of a mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// It is only in the first drawing.
+    Removed,
+    /// It is only in the second drawing.
+    Added,
+    /// It has another form: another length, another bend, a hole less.
+    Reshaped,
+    /// It lies elsewhere, whole.
+    Moved,
+    /// It lies where it lay, and is painted differently.
+    Restyled,
+    /// It looks as it did, and belongs to another part, class or layer.
+    Relabelled,
+    /// The page itself has another size.
+    Page,
+}
+
+impl Verdict {
+    /// All verdicts, the gravest first.
+    pub const ALL: [Self; 7] = [
+        Self::Page,
+        Self::Removed,
+        Self::Added,
+        Self::Reshaped,
+        Self::Moved,
+        Self::Restyled,
+        Self::Relabelled,
+    ];
+
+    /// The word for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Removed => "removed",
+            Self::Added => "added",
+            Self::Reshaped => "reshaped",
+            Self::Moved => "moved",
+            Self::Restyled => "restyled",
+            Self::Relabelled => "relabelled",
+            Self::Page => "page",
+        }
+    }
+}
+
+/// The first look at which two drawings are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    /// The files are equal.
+    Bytes,
+    /// Each mark has its equal, point for point; order, grouping and the look of numbers may differ.
+    Structure,
+    /// The same ink lies on the same places, within tolerance.
+    Geometry,
+}
+
+/// One thing that is different about a mark beside its geometry.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Change {
+    /// `colour`, `width`, `dash`, `tone`, `part`, `class`, ….
+    pub what: String,
+    /// What it was.
+    pub old: String,
+    /// What it is.
+    pub new: String,
+}
+
+/// Where a finding is: the box round both the old and the new mark, in px from the page's corner.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Place {
+    /// Left.
+    pub x: f64,
+    /// Top.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Place {
+    pub(super) fn of(rect: Rect) -> Self {
+        let round = |value: f64| (value * 100.0).round() / 100.0;
+        Self {
+            x: round(rect.x0),
+            y: round(rect.y0),
+            width: round(rect.width()),
+            height: round(rect.height()),
+        }
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn middle(&self) -> (f64, f64) {
+        (self.x + self.width / 2.0, self.y + self.height / 2.0)
+    }
+}
+
+/// What became of one mark; lengths in px, areas in square px.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// What became of it.
+    pub verdict: Verdict,
+    /// Line or region.
+    pub kind: ShapeKind,
+    /// What it is, or was before it was relabelled.
+    pub label: Label,
+    /// What else is different.
+    pub changes: Vec<Change>,
+    /// Where.
+    pub place: Place,
+    /// Length of the line or area of the region: the old one, of what is added the new one.
+    pub size: f64,
+    /// How much longer or larger it is now.
+    pub growth: f64,
+    /// The largest distance between old and new: the Hausdorff distance. 0 where there is only one.
+    pub largest: f64,
+    /// 95 % of it is nearer than this to what it was.
+    pub p95: f64,
+    /// How far all of it went, x right and y down, where all of it went the same way.
+    pub shift: Option<[f64; 2]>,
+    /// What is gone of the old one, and what is new of the new one.
+    pub(super) gone: BezPath,
+    pub(super) new: BezPath,
+}
+
+/// What differs between two drawings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diff {
+    /// What differs, the gravest first, then by part, class and place.
+    pub findings: Vec<Finding>,
+    /// The first look at which the drawings are the same; `None` if they are not.
+    pub same_at: Option<Stage>,
+    /// Lengths and areas.
+    pub totals: Totals,
+    /// The tolerance of what has none of its own, in px.
+    pub tolerance_px: f64,
+    /// Tolerances that were given for what neither drawing has.
+    pub unused_tolerances: Vec<String>,
+    /// The comparison of pixels, where it was asked for.
+    pub pixels: Option<PixelDiff>,
+    pub(super) before: Picture,
+    pub(super) after: Picture,
+}
+
+impl Diff {
+    /// Whether nothing differs.
+    #[must_use]
+    pub fn is_same(&self) -> bool {
+        self.same_at.is_some()
+    }
+
+    /// The findings of one verdict.
+    pub fn of(&self, verdict: Verdict) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(move |finding| finding.verdict == verdict)
+    }
+}

@@ -1,0 +1,145 @@
+//! [`Ink`]: how a shape is painted, in a form that can be compared.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::drawing::{Cap, Join};
+use crate::math::colour::Colour;
+use crate::math::tolerance::{DASH_PX, WIDTH_PX};
+
+/// What a shape is painted with.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Paint {
+    /// One colour; the opacity of groups is in it.
+    Colour(Colour),
+    /// Anything else, in words that are equal where the paints are: gradients, patterns, pictures, texts.
+    Other(Arc<str>),
+}
+
+impl Paint {
+    /// Whether the eye sees no difference: opacities are rounded more than once on their way through a file.
+    fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Colour(a), Self::Colour(b)) => {
+                (a.r, a.g, a.b) == (b.r, b.g, b.b) && a.a.abs_diff(b.a) <= 1
+            }
+            _ => self == other,
+        }
+    }
+}
+
+impl fmt::Display for Paint {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Colour(colour) if colour.a == 255 => f.write_str(&colour.hex()),
+            Self::Colour(colour) => {
+                let opaque = Colour { a: 255, ..*colour }.hex();
+                write!(f, "{opaque} at {:.0} %", f64::from(colour.a) / 2.55)
+            }
+            Self::Other(text) => f.write_str(text),
+        }
+    }
+}
+
+/// How a shape is painted; lengths in px.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ink {
+    /// Colour, or what stands for it.
+    pub paint: Paint,
+    /// Width of a line; 0 for regions.
+    pub width: f64,
+    /// Dashes and gaps in turn; empty = solid.
+    pub dash: Vec<f64>,
+    /// Ends of a line.
+    pub cap: Cap,
+    /// Corners of a line.
+    pub join: Join,
+    /// Whether a line is drawn as the outline of its varying width.
+    pub outlined: bool,
+    /// The tone of a region, 0 the darkest.
+    pub tone: Option<u16>,
+    /// How many surfaces hide the line.
+    pub invisibility: u16,
+}
+
+impl Ink {
+    /// A region of this paint.
+    #[must_use]
+    pub const fn region(paint: Paint, tone: Option<u16>) -> Self {
+        Self {
+            paint,
+            width: 0.0,
+            dash: Vec::new(),
+            cap: Cap::Butt,
+            join: Join::Miter,
+            outlined: false,
+            tone,
+            invisibility: 0,
+        }
+    }
+
+    /// Whether a person would say that both look alike.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        self.paint.is_like(&other.paint)
+            && (self.width - other.width).abs() <= WIDTH_PX
+            && same_dash(&self.dash, &other.dash)
+            && (self.cap, self.join, self.outlined) == (other.cap, other.join, other.outlined)
+            && (self.tone, self.invisibility) == (other.tone, other.invisibility)
+    }
+
+    /// What is different, each as what it is, what it was and what it became.
+    pub(super) fn changes(&self, other: &Self) -> Vec<(&'static str, String, String)> {
+        let mut changes = Vec::new();
+        let mut note = |what, differs: bool, old: String, new: String| {
+            if differs {
+                changes.push((what, old, new));
+            }
+        };
+        note("colour", !self.paint.is_like(&other.paint), self.paint.to_string(), other.paint.to_string());
+        let width = |ink: &Self| format!("{} px", trimmed(ink.width));
+        note("width", (self.width - other.width).abs() > WIDTH_PX, width(self), width(other));
+        let dash = |ink: &Self| match ink.dash.as_slice() {
+            [] => "solid".to_owned(),
+            dash => dash.iter().map(|length| trimmed(*length)).collect::<Vec<_>>().join(" "),
+        };
+        note("dash", !same_dash(&self.dash, &other.dash), dash(self), dash(other));
+        let tone = |ink: &Self| ink.tone.map_or_else(|| "none".to_owned(), |tone| tone.to_string());
+        note("tone", self.tone != other.tone, tone(self), tone(other));
+        note("ends", self.cap != other.cap, cap(self.cap).into(), cap(other.cap).into());
+        note("corners", self.join != other.join, join(self.join).into(), join(other.join).into());
+        let drawn = |ink: &Self| if ink.outlined { "outline" } else { "stroke" }.to_owned();
+        note("drawn as", self.outlined != other.outlined, drawn(self), drawn(other));
+        let hidden = |ink: &Self| ink.invisibility.to_string();
+        note("hidden by", self.invisibility != other.invisibility, hidden(self), hidden(other));
+        changes
+    }
+}
+
+fn same_dash(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= DASH_PX)
+}
+
+fn cap(cap: Cap) -> &'static str {
+    match cap {
+        Cap::Butt => "butt",
+        Cap::Round => "round",
+        Cap::Square => "square",
+    }
+}
+
+fn join(join: Join) -> &'static str {
+    match join {
+        Join::Miter => "miter",
+        Join::Round => "round",
+        Join::Bevel => "bevel",
+    }
+}
+
+/// A number of at most three decimals, without needless zeros.
+pub(super) fn trimmed(number: f64) -> String {
+    let text = format!("{number:.3}");
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "" | "-0" => "0".to_owned(),
+        short => short.to_owned(),
+    }
+}

@@ -1,0 +1,292 @@
+//! A file's XML written anew for the reader: every shape has an id by which it is known again, and what the reader
+//! would leave out or look for on the disk stands for itself as a rectangle.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use rustc_hash::{FxHashMap, FxHasher};
+use std::hash::{Hash, Hasher};
+use usvg::roxmltree::{Document, Node};
+
+use super::label::Label;
+use super::numbers;
+use crate::drawing::{LayerKind, Unit};
+use crate::error::Error;
+
+/// Elements that draw.
+const SHAPES: [&str; 8] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use"];
+/// Attributes that say where something is.
+const PLACES: [&str; 16] = [
+    "d",
+    "points",
+    "x",
+    "y",
+    "x1",
+    "y1",
+    "x2",
+    "y2",
+    "cx",
+    "cy",
+    "r",
+    "rx",
+    "ry",
+    "width",
+    "height",
+    "data-axis",
+];
+/// Attributes whose numbers may not be too large either.
+const MEASURES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
+/// The layers that drawings of this program have.
+const LAYERS: [LayerKind; 8] = [
+    LayerKind::Paper,
+    LayerKind::Fills,
+    LayerKind::Shadows,
+    LayerKind::Hatching,
+    LayerKind::Motion,
+    LayerKind::HiddenLines,
+    LayerKind::Lines,
+    LayerKind::Callouts,
+];
+
+/// What the file says of a shape beside its geometry and paint.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Origin {
+    pub label: Arc<Label>,
+    pub tone: Option<u16>,
+    pub invisibility: u16,
+    /// The middle of a line that is drawn as an outline, as path data, and its mean width.
+    pub axis: Option<(String, f64)>,
+    /// Words that stand for a text or a picture.
+    pub words: Option<Arc<str>>,
+}
+
+/// A file that is ready for the reader.
+#[derive(Debug, Default)]
+pub(super) struct Markup {
+    pub svg: String,
+    pub origins: FxHashMap<String, Origin>,
+    /// Most decimals of a coordinate.
+    pub decimals: u8,
+    pub unit: Unit,
+}
+
+/// Writes a document anew.
+pub(super) fn rewrite(document: &Document) -> Result<Markup, Error> {
+    let mut markup = Markup::default();
+    let root = document.root_element();
+    if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
+        markup.unit = Unit::Mm;
+    }
+    markup.element(root, &Around::default())?;
+    Ok(markup)
+}
+
+/// What elements inherit from those around them.
+#[derive(Debug, Clone, Default)]
+struct Around {
+    layer: Arc<str>,
+    part: Option<Arc<str>>,
+}
+
+impl Markup {
+    fn element(&mut self, node: Node, around: &Around) -> Result<(), Error> {
+        let name = node.tag_name().name();
+        if !matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg")) {
+            return Ok(());
+        }
+        if name == "text" || name == "image" {
+            return self.stand_in(node, around);
+        }
+        let around = inside(node, around);
+        self.svg.push('<');
+        self.svg.push_str(name);
+        if node.parent_element().is_none() {
+            self.svg.push_str(
+                " xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\"",
+            );
+        }
+        if SHAPES.contains(&name) {
+            self.shape(node, &around);
+        }
+        for attribute in node.attributes() {
+            let (name, value) = (attribute.name(), attribute.value());
+            self.check(node, name, value)?;
+            match attribute.namespace() {
+                None => {
+                    let _ = write!(self.svg, " {name}=\"");
+                }
+                Some("http://www.w3.org/1999/xlink") => {
+                    let _ = write!(self.svg, " xlink:{name}=\"");
+                }
+                Some("http://www.w3.org/XML/1998/namespace") => {
+                    let _ = write!(self.svg, " xml:{name}=\"");
+                }
+                Some(_) => continue,
+            }
+            escape(&mut self.svg, value);
+            self.svg.push('"');
+        }
+        self.svg.push('>');
+        for child in node.children() {
+            if child.is_element() {
+                self.element(child, &around)?;
+            } else if let Some(text) = child.text().filter(|_| child.is_text()) {
+                escape(&mut self.svg, text);
+            }
+        }
+        let _ = write!(self.svg, "</{name}>");
+        Ok(())
+    }
+
+    /// Remembers what a shape is, and writes an id for it unless it has one.
+    fn shape(&mut self, node: Node, around: &Around) {
+        let mut classes: Vec<Arc<str>> = Vec::new();
+        let mut tone = node.attribute("data-tone").and_then(|tone| tone.parse().ok());
+        for class in node.attribute("class").unwrap_or_default().split_ascii_whitespace() {
+            match class.strip_prefix("tone-").and_then(|tone| tone.parse().ok()) {
+                Some(number) => tone = Some(number),
+                None => classes.push(Arc::from(class)),
+            }
+        }
+        classes.sort_unstable();
+        let label = Label { layer: Arc::clone(&around.layer), classes, part: around.part.clone() };
+        let number = |name| node.attribute(name).and_then(|text| text.parse().ok());
+        let axis = node.attribute("data-axis").zip(number("data-width"));
+        let origin = Origin {
+            label: Arc::new(label),
+            tone,
+            invisibility: node.attribute("data-invisibility").and_then(|text| text.parse().ok()).unwrap_or(0),
+            axis: axis.map(|(axis, width)| (axis.to_owned(), width)),
+            words: None,
+        };
+        self.remember(node, origin);
+    }
+
+    fn remember(&mut self, node: Node, origin: Origin) {
+        let id = match node.attribute("id") {
+            Some(id) => id.to_owned(),
+            None => {
+                // No id that is written by hand begins so.
+                let id = format!("\u{b7}{}", self.origins.len());
+                let _ = write!(self.svg, " id=\"{id}\"");
+                id
+            }
+        };
+        self.origins.insert(id, origin);
+    }
+
+    /// A rectangle in place of a text or a picture: texts are compared by their words, pictures by their bytes.
+    fn stand_in(&mut self, node: Node, around: &Around) -> Result<(), Error> {
+        let around = inside(node, around);
+        self.svg.push_str("<rect");
+        let words = if node.tag_name().name() == "text" {
+            let words: Vec<&str> =
+                node.descendants().filter(Node::is_text).filter_map(|node| node.text()).collect();
+            format!("the text `{}`", words.join("").split_whitespace().collect::<Vec<_>>().join(" "))
+        } else {
+            let mut hasher = FxHasher::default();
+            node.attributes().filter(|a| a.name() == "href").for_each(|a| a.value().hash(&mut hasher));
+            format!("the picture {:016x}", hasher.finish())
+        };
+        let label = Label { layer: around.layer, classes: Vec::new(), part: around.part };
+        let origin = Origin { label: Arc::new(label), words: Some(Arc::from(words)), ..Origin::default() };
+        self.remember(node, origin);
+        let mut sized = false;
+        for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
+            let (name, value) = (attribute.name(), attribute.value());
+            self.check(node, name, value)?;
+            if matches!(
+                name,
+                "id" | "x" | "y" | "width" | "height" | "transform" | "display" | "visibility" | "opacity"
+            ) {
+                // A text may have a place for every letter.
+                let first =
+                    if name.len() == 1 { value.split([' ', ',']).next().unwrap_or("0") } else { value };
+                let _ = write!(self.svg, " {name}=\"");
+                escape(&mut self.svg, first);
+                self.svg.push('"');
+                sized |= name == "width";
+            }
+        }
+        self.svg.push_str(if sized {
+            " fill=\"#000\"/>"
+        } else {
+            " width=\"1\" height=\"1\" fill=\"#000\"/>"
+        });
+        Ok(())
+    }
+
+    /// Refuses numbers out of range, and notes how finely coordinates are written.
+    fn check(&mut self, node: Node, name: &str, value: &str) -> Result<(), Error> {
+        let place = PLACES.contains(&name);
+        if !place && !MEASURES.contains(&name) {
+            return Ok(());
+        }
+        let numbers = numbers::scan(value);
+        if let Some(at) = numbers.too_large {
+            let start: String = value[at..].chars().take(12).collect();
+            let line = node.document().text_pos_at(node.range().start);
+            return Err(Error::new(format!("`{name}` has the number {start}, which is out of range"))
+                .at(format!("line {}, column {}", line.row, line.col))
+                .remedy("keep coordinates below a hundred million"));
+        }
+        if matches!(name, "d" | "points" | "x1" | "y1" | "x2" | "y2" | "cx" | "cy") {
+            self.decimals = self.decimals.max(numbers.decimals);
+        }
+        Ok(())
+    }
+}
+
+/// What the children of an element inherit, or the element itself.
+fn inside(node: Node, around: &Around) -> Around {
+    let mut inner = around.clone();
+    const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+    if node.attribute((INKSCAPE, "groupmode")) == Some("layer") {
+        let id = node.attribute("id").unwrap_or_default();
+        let label = node.attribute((INKSCAPE, "label")).unwrap_or(id);
+        inner.layer = Arc::from(known_layer(id).or(known_layer(label)).unwrap_or(label));
+    }
+    if let Some(part) = node.attribute("data-part") {
+        inner.part = Some(Arc::from(part));
+    }
+    inner
+}
+
+/// The layer of this program that an id means: it may have a prefix, and the number of a pen.
+fn known_layer(id: &str) -> Option<&'static str> {
+    let stem = id.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('-');
+    // The paper's own colour lies below its grain.
+    let stem = stem.trim_end_matches("-colour");
+    let ends = |kind: &&LayerKind| {
+        stem.strip_suffix(kind.id()).is_some_and(|before| before.is_empty() || before.ends_with(['-', '_']))
+    };
+    // `hidden-lines` ends with `lines` as well.
+    LAYERS.iter().filter(ends).map(|kind| kind.id()).max_by_key(|id| id.len())
+}
+
+fn escape(out: &mut String, text: &str) {
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            _ => out.push(c),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::known_layer;
+
+    #[test]
+    fn layers_are_known_by_prefix_and_pen() {
+        assert_eq!(known_layer("lines"), Some("lines"));
+        assert_eq!(known_layer("hidden-lines"), Some("hidden-lines"));
+        assert_eq!(known_layer("page2-hidden-lines-3"), Some("hidden-lines"));
+        assert_eq!(known_layer("paper-colour"), Some("paper"));
+        assert_eq!(known_layer("outlines"), None);
+        assert_eq!(known_layer("sketch"), None);
+    }
+}

@@ -1,0 +1,84 @@
+//! [`Diff`]: what differs between two drawings, told by geometry instead of bytes or pixels.
+//!
+//! Any SVG can be compared. Two drawings are the same if the same ink lies on the same places: how paths are ordered,
+//! grouped, directed, split or joined, whether curves are written as curves, and how numbers look makes no difference.
+//!
+//! 1. [`Picture::from_svg`] reads a file, refusing what would take unbounded time, into shapes in px with ink and label.
+//! 2. Shapes that are equal point for point are set aside (`exact`), so that only what differs costs time.
+//! 3. The others become chains: flattened within a stated error, and joined where they were split (`chain`).
+//! 4. Of each chain of the one drawing, the pieces within tolerance of the other drawing's are found exactly, as
+//!    intervals (`cover`): the directed Hausdorff distance, cut off at the tolerance, with an index (`grid`).
+//! 5. Chains left with uncovered pieces are paired by their nearest likes (`pair`), and each pair is judged (`judge`).
+
+mod align;
+mod area;
+mod chain;
+mod cover;
+mod distance;
+mod events;
+mod exact;
+mod finding;
+mod grid;
+mod groups;
+mod guard;
+mod ink;
+mod json;
+mod judge;
+mod label;
+mod markdown;
+mod markup;
+mod numbers;
+mod overlay;
+mod paint_words;
+mod pair;
+mod picture;
+mod pixels;
+mod read;
+mod regions;
+mod text;
+mod tolerance;
+mod totals;
+
+pub use finding::{Change, Diff, Finding, Place, Stage, Verdict};
+pub use ink::{Ink, Paint};
+pub use label::Label;
+pub use overlay::View;
+pub use picture::{Picture, Shape, ShapeKind};
+pub use pixels::PixelDiff;
+pub use tolerance::Tolerances;
+pub use totals::{Measure, Totals};
+
+/// How two drawings are compared.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DiffOptions {
+    /// How far ink may lie from where it lay. Default: twice the written precision.
+    pub tolerances: Tolerances,
+    /// Whether the drawings are rasterised and compared pixel by pixel as well. Default: no.
+    pub pixels: bool,
+}
+
+/// Compares two drawings.
+///
+/// ```
+/// use ligne::diff::{self, DiffOptions, Picture, Verdict};
+///
+/// let svg = |d: &str| {
+///     format!(r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">
+///         <path class="crease" data-part="lid" fill="none" stroke="#000" d="{d}"/></svg>"##)
+/// };
+/// let before = Picture::from_svg(&svg("M10 10H90"))?;
+///
+/// // The same line, split and written backwards.
+/// let same = Picture::from_svg(&svg("M90 10L50 10M10 10L50 10"))?;
+/// assert!(diff::compare(&before, &same, &DiffOptions::default()).is_same());
+///
+/// let moved = Picture::from_svg(&svg("M10 12H90"))?;
+/// let diff = diff::compare(&before, &moved, &DiffOptions::default());
+/// assert_eq!(diff.findings[0].verdict, Verdict::Moved);
+/// assert_eq!(diff.findings[0].label.part.as_deref(), Some("lid"));
+/// # Ok::<(), ligne::Error>(())
+/// ```
+#[must_use]
+pub fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
+    judge::compare(before, after, options)
+}

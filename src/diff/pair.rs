@@ -1,0 +1,160 @@
+//! Pairs of chains that may be one mark, before and after.
+
+use std::cmp::Ordering;
+
+use kurbo::{Point, Rect};
+use rayon::prelude::*;
+
+use super::align::{Alignment, align};
+use super::chain::Chain;
+use super::cover::Cover;
+use super::distance::places;
+use super::grid::{Grid, nearest_on};
+use super::groups::{Groups, Likeness};
+
+/// A mark is sought no farther than this part of the page's longer side from where it was.
+const REACH_OF_PAGE: f64 = 0.03;
+/// Short marks may still go as far as this part of it.
+const LEAST_REACH_OF_PAGE: f64 = 0.006;
+/// A mark goes no farther than this part of its own size.
+const REACH_OF_MARK: f64 = 0.5;
+/// Where this share of two chains coincides, they are one mark however far the rest went.
+const COMMON: f64 = 0.2;
+/// From how many places of a chain others are looked for, and how many others each place looks for.
+const PLACES: usize = 5;
+const WANTED: usize = 4;
+
+/// One drawing's chains and what the other drawing covers of them.
+#[derive(Debug)]
+pub(super) struct Side {
+    pub chains: Vec<Chain>,
+    pub covers: Vec<Cover>,
+}
+
+/// Two chains that are one mark.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    pub old: usize,
+    pub new: usize,
+    pub alignment: Alignment,
+    cost: f64,
+}
+
+/// Pairs chains that have uncovered stretches, each with one of the other side at most; nearest first.
+pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> {
+    let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
+        let covers = &sides[side].covers;
+        (0..covers.len()).filter(|index| !covers[*index].is_whole()).collect()
+    });
+    if bare.iter().any(Vec::is_empty) {
+        return Vec::new();
+    }
+    let mut found: Vec<Pair> = (0..2)
+        .into_par_iter()
+        .flat_map_iter(|side| {
+            let other = 1 - side;
+            let targets: Vec<Chain> =
+                bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
+            let grid = Grid::new(&targets);
+            let each = bare[side].par_iter().flat_map_iter(|index| {
+                let near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
+                near.into_iter().filter_map(|there| {
+                    let (old, new) = if side == 0 { (*index, there) } else { (there, *index) };
+                    judge(sides, old, new, groups, page)
+                })
+            });
+            each.collect::<Vec<_>>()
+        })
+        .collect();
+    found.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| tie(sides, a, b)));
+    let mut free = [vec![true; sides[0].chains.len()], vec![true; sides[1].chains.len()]];
+    found.retain(|pair| {
+        let both = free[0][pair.old] && free[1][pair.new];
+        if both {
+            (free[0][pair.old], free[1][pair.new]) = (false, false);
+        }
+        both
+    });
+    found
+}
+
+/// Among equals, the same order whichever drawing comes first: by the lesser start, then by the greater one.
+fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
+    let key = |pair: &Pair| {
+        let start = |side: usize, index: usize| {
+            let p = sides[side].chains[index].points.first().copied().unwrap_or(Point::ZERO);
+            (p.x.to_bits(), p.y.to_bits())
+        };
+        let (old, new) = (start(0, pair.old), start(1, pair.new));
+        (old.min(new), old.max(new))
+    };
+    key(a).cmp(&key(b)).then((a.old, a.new).cmp(&(b.old, b.new)))
+}
+
+/// Uncovered chains of the other side that lie near.
+fn candidates(side: &Side, index: usize, bare: &[usize], grid: &Grid, reach: f64) -> Vec<usize> {
+    let chain = &side.chains[index];
+    let partners = side.covers[index].partners().into_iter().map(|(partner, ..)| partner as usize);
+    let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();
+    for place in places(chain, PLACES) {
+        // The nearest few: each with its distance.
+        let near: std::cell::RefCell<Vec<(f64, u32)>> = std::cell::RefCell::default();
+        let see = |item: u32| {
+            let segment = grid.segments[item as usize];
+            let distance = place.distance(nearest_on(segment.from, segment.to, place));
+            if distance > reach {
+                return;
+            }
+            let mut near = near.borrow_mut();
+            match near.iter_mut().find(|(_, chain)| *chain == segment.chain) {
+                Some(entry) => entry.0 = entry.0.min(distance),
+                None => near.push((distance, segment.chain)),
+            }
+        };
+        let enough =
+            |seen: f64| near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= WANTED;
+        grid.rings(place, reach, see, enough);
+        let mut near = near.into_inner();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.extend(near.iter().take(2 * WANTED).map(|(_, chain)| bare[*chain as usize]));
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// The pair, if the two may be one mark.
+fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) -> Option<Pair> {
+    let (a, b) = (&sides[0].chains[old], &sides[1].chains[new]);
+    let likeness = groups.likeness(a.group, b.group)?;
+    let (cover_a, cover_b) = (&sides[0].covers[old], &sides[1].covers[new]);
+    let of = |cover: &Cover, partner: usize| {
+        cover.partners().iter().find(|(p, ..)| *p as usize == partner).map_or(0.0, |(.., length)| *length)
+    };
+    let both = cover_a.length + cover_b.length;
+    let common = if both > 0.0 { (of(cover_a, new) + of(cover_b, old)) / both } else { 0.0 };
+    let alignment = align(a, b);
+    let size = |chain: &Chain| {
+        let bounds = bounds(&chain.points);
+        bounds.width().hypot(bounds.height())
+    };
+    let limit =
+        (REACH_OF_MARK * size(a).max(size(b))).max(LEAST_REACH_OF_PAGE * page).min(REACH_OF_PAGE * page);
+    if common < COMMON && alignment.largest > limit {
+        return None;
+    }
+    let strangeness = match likeness {
+        Likeness::Same => 1.0,
+        Likeness::Ink => 1.5,
+        Likeness::Label => 2.0,
+        Likeness::Both => 4.0,
+    };
+    let cost = alignment.largest * strangeness * (1.0 - 0.9 * common);
+    Some(Pair { old, new, alignment, cost })
+}
+
+/// The box round points.
+pub(super) fn bounds(points: &[Point]) -> Rect {
+    let Some(first) = points.first() else { return Rect::ZERO };
+    points.iter().fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p))
+}

@@ -1,0 +1,85 @@
+//! [`Picture`]: a drawing as it is compared: shapes in px, each with ink and label.
+
+use std::sync::Arc;
+
+use kurbo::BezPath;
+
+use super::ink::Ink;
+use super::label::Label;
+use super::read;
+use crate::drawing::{Drawing, Unit};
+use crate::error::Error;
+use crate::export::SvgOptions;
+
+/// What a shape is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ShapeKind {
+    /// A line: its path is its middle.
+    Line,
+    /// A painted region: its path is its border.
+    Region,
+    /// A region that other shapes are cut off at.
+    Clip,
+}
+
+/// One painted shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Geometry in px, x right, y down, from the page's corner.
+    pub path: BezPath,
+    /// The outline of a line of varying width, in px.
+    pub outline: Option<BezPath>,
+    /// What it is.
+    pub kind: ShapeKind,
+    /// Whether a region counts as inside what is wound round an odd number of times only.
+    pub even_odd: bool,
+    /// How it is painted.
+    pub ink: Ink,
+    /// What the file says of it.
+    pub label: Arc<Label>,
+}
+
+/// A drawing that can be compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Width in px.
+    pub width: f64,
+    /// Height in px.
+    pub height: f64,
+    /// The unit that its size is written in.
+    pub unit: Unit,
+    /// Px in the last decimal that its coordinates are written with.
+    pub step_px: f64,
+    /// Shapes, painted first to last.
+    pub shapes: Arc<[Shape]>,
+    /// The file's text.
+    pub svg: Arc<str>,
+}
+
+impl Picture {
+    /// Reads an SVG file: any that resvg reads; texts are known by their words and pictures by their bytes.
+    ///
+    /// # Errors
+    /// Where the text is no SVG, and where reading it might take more time or memory than its length accounts for:
+    /// groups nested deeply, references that multiply, numbers beyond ten million px. The error names no file.
+    pub fn from_svg(svg: &str) -> Result<Self, Error> {
+        read::picture(svg)
+    }
+
+    /// A drawing as it would be read from its file.
+    ///
+    /// # Errors
+    /// Where the drawing is larger than what is read.
+    pub fn from_drawing(drawing: &Drawing, options: &SvgOptions) -> Result<Self, Error> {
+        Self::from_svg(&drawing.to_svg(options))
+    }
+
+    /// Px in a user unit of the drawing.
+    #[must_use]
+    pub fn px_per_unit(&self) -> f64 {
+        match self.unit {
+            Unit::Px => 1.0,
+            Unit::Mm => 1.0 / crate::drawing::length::MM_PER_PX,
+        }
+    }
+}

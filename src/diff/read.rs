@@ -1,0 +1,252 @@
+//! From SVG to a [`Picture`], by way of usvg: transforms, units and styles resolved.
+
+use std::sync::Arc;
+
+use kurbo::{Affine, BezPath, Point};
+use usvg::tiny_skia_path::PathSegment;
+
+use super::guard;
+use super::ink::{Ink, Paint};
+use super::markup::{self, Markup, Origin};
+use super::paint_words;
+use super::picture::{Picture, Shape, ShapeKind};
+use crate::drawing::{Cap, Join};
+use crate::error::Error;
+use crate::math::colour::Colour;
+
+/// Larger coordinates, in px, are refused.
+const FARTHEST_PX: f64 = 1e8;
+/// Room for the reader's recursion over nested elements, whatever thread calls.
+const STACK_BYTES: usize = 64 << 20;
+
+/// Reads a file.
+pub(super) fn picture(svg: &str) -> Result<Picture, Error> {
+    let reading = std::thread::Builder::new().stack_size(STACK_BYTES);
+    std::thread::scope(|scope| {
+        let thread = reading.spawn_scoped(scope, || read(svg));
+        let thread = thread.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
+        thread
+            .join()
+            .unwrap_or_else(|_| Err(Error::new("the reader of SVG gave up").remedy("save it as plain SVG")))
+    })
+}
+
+fn read(svg: &str) -> Result<Picture, Error> {
+    let markup = markup::rewrite(&guard::parse(svg)?)?;
+    let options = usvg::Options {
+        image_href_resolver: usvg::ImageHrefResolver {
+            resolve_data: Box::new(|_, _, _| None),
+            resolve_string: Box::new(|_, _| None),
+        },
+        ..usvg::Options::default()
+    };
+    let tree = usvg::Tree::from_str(&markup.svg, &options).map_err(|error| {
+        Error::new(format!("is not a drawing: {error}")).remedy("give an SVG file with a width and a height")
+    })?;
+    let size = tree.size();
+    let mut reader = Reader { markup: &markup, shapes: Vec::new() };
+    reader.group(tree.root(), &Inherited::default());
+    let far = |shape: &Shape| {
+        let bounds = shape.path.control_box();
+        let most = bounds.x0.abs().max(bounds.y0.abs()).max(bounds.x1.abs()).max(bounds.y1.abs());
+        // Not a number counts as far.
+        !(most <= FARTHEST_PX)
+    };
+    if let Some(shape) = reader.shapes.iter().find(|shape| far(shape)) {
+        return Err(Error::new(format!("a {} lies more than {FARTHEST_PX} px from the page", shape.label))
+            .remedy("take it out of the drawing"));
+    }
+    let scale = tree.root().children().first().map_or(1.0, |_| root_scale(svg_root(&tree)));
+    Ok(Picture {
+        width: f64::from(size.width()),
+        height: f64::from(size.height()),
+        unit: markup.unit,
+        step_px: scale * 0.1f64.powi(i32::from(markup.decimals)),
+        shapes: Arc::from(reader.shapes),
+        svg: Arc::from(svg),
+    })
+}
+
+/// The transform from user units to px: that of the first group without an id, which the reader adds.
+fn svg_root(tree: &usvg::Tree) -> usvg::Transform {
+    match tree.root().children() {
+        [usvg::Node::Group(only)] if only.id().is_empty() => only.transform(),
+        _ => usvg::Transform::identity(),
+    }
+}
+
+fn root_scale(transform: usvg::Transform) -> f64 {
+    affine(transform).determinant().abs().sqrt()
+}
+
+/// What shapes inherit from the groups around them.
+#[derive(Clone, Default)]
+struct Inherited<'a> {
+    opacity: f64,
+    origin: Option<&'a Origin>,
+    /// Filters that the shape is seen through.
+    effects: Vec<Arc<str>>,
+    clip: bool,
+}
+
+struct Reader<'a> {
+    markup: &'a Markup,
+    shapes: Vec<Shape>,
+}
+
+impl<'a> Reader<'a> {
+    fn origin(&self, id: &str) -> Option<&'a Origin> {
+        self.markup.origins.get(id)
+    }
+
+    fn group(&mut self, group: &usvg::Group, around: &Inherited<'a>) {
+        let mut inherited = around.clone();
+        // `Default` means no group yet.
+        let outer = if around.opacity == 0.0 { 1.0 } else { around.opacity };
+        inherited.opacity = outer * f64::from(group.opacity().get());
+        inherited.origin = self.origin(group.id()).or(around.origin);
+        if !group.filters().is_empty() {
+            inherited.effects.push(Arc::from(format!("{} filters", group.filters().len())));
+        }
+        if group.blend_mode() != usvg::BlendMode::Normal {
+            inherited.effects.push(Arc::from(format!("{:?}", group.blend_mode()).to_lowercase()));
+        }
+        let mut clip = group.clip_path();
+        while let Some(path) = clip {
+            self.group(path.root(), &Inherited { clip: true, ..inherited.clone() });
+            clip = path.clip_path();
+        }
+        let mut mask = group.mask();
+        while let Some(content) = mask {
+            self.group(content.root(), &Inherited { clip: true, ..inherited.clone() });
+            mask = content.mask();
+        }
+        for child in group.children() {
+            match child {
+                usvg::Node::Group(inner) => self.group(inner, &inherited),
+                usvg::Node::Path(path) if path.is_visible() => self.path(path, &inherited),
+                usvg::Node::Path(_) | usvg::Node::Image(_) | usvg::Node::Text(_) => {}
+            }
+        }
+    }
+
+    fn path(&mut self, path: &usvg::Path, inherited: &Inherited<'a>) {
+        let plain = Origin::default();
+        let origin = self.origin(path.id()).or(inherited.origin).unwrap_or(&plain);
+        let to_page = affine(path.abs_transform());
+        let scale = to_page.determinant().abs().sqrt();
+        let geometry = to_page * bez_path(path.data());
+        let kind = |kind| if inherited.clip { ShapeKind::Clip } else { kind };
+        let fill = path.fill().and_then(|fill| {
+            let paint = painted(fill.paint(), fill.opacity().get(), inherited, origin)?;
+            let even_odd = fill.rule() == usvg::FillRule::EvenOdd;
+            let axis = origin.axis.as_ref().and_then(|(axis, width)| {
+                Some((BezPath::from_svg(axis).ok()?, *width)).filter(|(axis, _)| axis.elements().len() > 1)
+            });
+            Some(match axis {
+                Some((axis, width)) => Shape {
+                    path: to_page * axis,
+                    outline: Some(geometry.clone()),
+                    kind: kind(ShapeKind::Line),
+                    even_odd,
+                    ink: Ink {
+                        width: width * scale,
+                        outlined: true,
+                        cap: Cap::Round,
+                        join: Join::Round,
+                        invisibility: origin.invisibility,
+                        ..Ink::region(paint, None)
+                    },
+                    label: Arc::clone(&origin.label),
+                },
+                None => Shape {
+                    path: geometry.clone(),
+                    outline: None,
+                    kind: kind(ShapeKind::Region),
+                    even_odd,
+                    ink: Ink::region(paint, origin.tone),
+                    label: Arc::clone(&origin.label),
+                },
+            })
+        });
+        let stroke = path.stroke().and_then(|stroke| {
+            let paint = painted(stroke.paint(), stroke.opacity().get(), inherited, origin)?;
+            let dash = stroke.dasharray().unwrap_or_default();
+            Some(Shape {
+                path: geometry.clone(),
+                outline: None,
+                kind: kind(ShapeKind::Line),
+                even_odd: false,
+                ink: Ink {
+                    width: f64::from(stroke.width().get()) * scale,
+                    dash: dash.iter().map(|length| f64::from(*length) * scale).collect(),
+                    cap: cap(stroke.linecap()),
+                    join: join(stroke.linejoin()),
+                    tone: origin.tone,
+                    invisibility: origin.invisibility,
+                    ..Ink::region(paint, None)
+                },
+                label: Arc::clone(&origin.label),
+            })
+        });
+        match path.paint_order() {
+            usvg::PaintOrder::FillAndStroke => self.shapes.extend(fill.into_iter().chain(stroke)),
+            usvg::PaintOrder::StrokeAndFill => self.shapes.extend(stroke.into_iter().chain(fill)),
+        }
+    }
+}
+
+/// The paint of a shape; none if it cannot be seen.
+fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Origin) -> Option<Paint> {
+    let opacity = f64::from(opacity) * inherited.opacity;
+    let alpha = (opacity * 255.0).round() as u8;
+    if alpha == 0 && !inherited.clip {
+        return None;
+    }
+    let paint = match (paint, &origin.words) {
+        (_, Some(words)) => Paint::Other(Arc::clone(words)),
+        (usvg::Paint::Color(colour), None) => {
+            Paint::Colour(Colour { r: colour.red, g: colour.green, b: colour.blue, a: alpha })
+        }
+        (other, None) => Paint::Other(Arc::from(paint_words::of(other, alpha))),
+    };
+    if inherited.effects.is_empty() {
+        return Some(paint);
+    }
+    Some(Paint::Other(Arc::from(format!("{paint} through {}", inherited.effects.join(", ")))))
+}
+
+fn affine(t: usvg::Transform) -> Affine {
+    Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from))
+}
+
+fn bez_path(path: &usvg::tiny_skia_path::Path) -> BezPath {
+    let at = |p: usvg::tiny_skia_path::Point| Point::new(f64::from(p.x), f64::from(p.y));
+    let mut out = BezPath::new();
+    for segment in path.segments() {
+        match segment {
+            PathSegment::MoveTo(p) => out.move_to(at(p)),
+            PathSegment::LineTo(p) => out.line_to(at(p)),
+            PathSegment::QuadTo(c, p) => out.quad_to(at(c), at(p)),
+            PathSegment::CubicTo(c1, c2, p) => out.curve_to(at(c1), at(c2), at(p)),
+            PathSegment::Close => out.close_path(),
+        }
+    }
+    out
+}
+
+fn cap(cap: usvg::LineCap) -> Cap {
+    match cap {
+        usvg::LineCap::Butt => Cap::Butt,
+        usvg::LineCap::Round => Cap::Round,
+        usvg::LineCap::Square => Cap::Square,
+    }
+}
+
+fn join(join: usvg::LineJoin) -> Join {
+    match join {
+        usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => Join::Miter,
+        usvg::LineJoin::Round => Join::Round,
+        usvg::LineJoin::Bevel => Join::Bevel,
+    }
+}

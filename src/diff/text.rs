@@ -1,0 +1,254 @@
+//! A [`Diff`] in words: one line a finding, many findings that say the same in one line.
+
+use std::collections::BTreeMap;
+
+use kurbo::Rect;
+
+use super::finding::{Change, Diff, Finding, Place, Stage, Verdict};
+use super::ink::trimmed;
+use super::picture::ShapeKind;
+use crate::drawing::Unit;
+
+/// More findings than this that say the same of one part become one line.
+const FEW: usize = 3;
+
+impl Diff {
+    /// What differs in one line, such as `1 removed, 12 moved (up to 0.5 px)`.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let pixels = self.pixels.as_ref().map(|pixels| format!(", {}", pixels.words())).unwrap_or_default();
+        let unit = self.unit();
+        let same = match self.same_at {
+            Some(Stage::Bytes) => Some("the same bytes".to_owned()),
+            Some(Stage::Structure) => Some("the same marks".to_owned()),
+            Some(Stage::Geometry) => Some(format!("the same within {}", unit.length(self.tolerance_px))),
+            None if self.findings.is_empty() => {
+                Some(format!("the same marks within {}", unit.length(self.tolerance_px)))
+            }
+            None => None,
+        };
+        if let Some(same) = same {
+            return same + &pixels;
+        }
+        let mut words = Vec::new();
+        for verdict in Verdict::ALL {
+            let count = self.of(verdict).count();
+            if count == 0 {
+                continue;
+            }
+            let largest = self.of(verdict).map(|finding| finding.largest).fold(0.0, f64::max);
+            words.push(match verdict {
+                Verdict::Page => "another page size".to_owned(),
+                Verdict::Moved => format!("{count} moved (up to {})", unit.length(largest)),
+                _ => format!("{count} {}", verdict.name()),
+            });
+        }
+        words.join(", ") + &pixels
+    }
+
+    /// What differs, the gravest first: a line a finding, and one line for many findings that say the same.
+    #[must_use]
+    pub fn lines(&self) -> Vec<String> {
+        let lines = self.told().into_iter().map(|told| told.line);
+        let unused =
+            self.unused_tolerances.iter().map(|name| format!("note       no mark is called `{name}`"));
+        lines.chain(unused).collect()
+    }
+
+    /// A line for each finding.
+    #[must_use]
+    pub fn all_lines(&self) -> Vec<String> {
+        self.findings.iter().map(|finding| line(finding, self.unit())).collect()
+    }
+
+    pub(super) fn unit(&self) -> Written {
+        Written { unit: self.before.unit, per_px: 1.0 / self.before.px_per_unit() }
+    }
+
+    /// What is told, and how many findings each line stands for.
+    pub(super) fn told(&self) -> Vec<Told> {
+        let unit = self.unit();
+        let mut groups: BTreeMap<(Verdict, Option<&str>, &[Change], bool), Vec<&Finding>> = BTreeMap::new();
+        for finding in &self.findings {
+            // Whole parts come and go with all that they have.
+            let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
+            let kind = !alone && finding.kind == ShapeKind::Line;
+            let changes: &[Change] = if finding.verdict == Verdict::Moved { &[] } else { &finding.changes };
+            groups
+                .entry((finding.verdict, finding.label.part.as_deref(), changes, kind))
+                .or_default()
+                .push(finding);
+        }
+        let mut told = Vec::new();
+        for ((verdict, part, changes, _), findings) in groups {
+            let whole =
+                part.and_then(|part| self.totals.parts.get(part)).is_some_and(|measure| match verdict {
+                    Verdict::Removed => measure.marks[1] == 0,
+                    Verdict::Added => measure.marks[0] == 0,
+                    _ => false,
+                });
+            if findings.len() <= FEW && !whole {
+                told.extend(findings.iter().map(|f| Told { verdict, count: 1, line: line(f, unit) }));
+                continue;
+            }
+            let count = findings.len();
+            let noun = if whole {
+                format!("part `{}`: all its {count} marks", part.unwrap_or_default())
+            } else {
+                match part {
+                    Some(part) => format!("{count} marks of `{part}`"),
+                    None => format!("{count} marks"),
+                }
+            };
+            let boxes = findings.iter().map(|finding| rect(&finding.place));
+            let place = Place::of(boxes.reduce(|a, b| a.union(b)).unwrap_or_default());
+            let detail = together(&findings, changes, unit);
+            let line = format!("{:<10} {noun} {}: {detail}", verdict.name(), unit.place(&place));
+            told.push(Told { verdict, count, line });
+        }
+        told
+    }
+}
+
+/// A line, and how many findings it stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Told {
+    pub verdict: Verdict,
+    pub count: usize,
+    pub line: String,
+}
+
+fn rect(place: &Place) -> Rect {
+    Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
+}
+
+/// What many findings of one verdict have in common.
+fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String {
+    let largest = findings.iter().map(|f| f.largest).fold(0.0, f64::max);
+    let p95 = findings.iter().map(|f| f.p95).fold(0.0, f64::max);
+    let sum = |kind: ShapeKind| findings.iter().filter(|f| f.kind == kind).map(|f| f.size).sum::<f64>();
+    let (length, area) = (sum(ShapeKind::Line), sum(ShapeKind::Region));
+    let ink = || {
+        let lines = (length > 0.0).then(|| format!("{} of lines", unit.length(length)));
+        let fills = (area > 0.0).then(|| format!("{} of fills", unit.area(area)));
+        lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
+    };
+    match findings.first().map(|f| f.verdict) {
+        Some(Verdict::Moved) => {
+            let first = findings.first().and_then(|f| f.shift);
+            let together = first.filter(|first| {
+                let near =
+                    |s: [f64; 2]| (s[0] - first[0]).hypot(s[1] - first[1]) <= 0.02 * first[0].hypot(first[1]);
+                findings.iter().all(|f| f.shift.is_some_and(near))
+            });
+            match together {
+                Some(shift) => format!("all by {}", way(shift, unit)),
+                None => format!("by up to {}, 95 % within {}", unit.length(largest), unit.length(p95)),
+            }
+        }
+        Some(Verdict::Restyled | Verdict::Relabelled) => format!("{} ({})", changed(changes), ink()),
+        Some(Verdict::Reshaped) => {
+            let growth = findings.iter().map(|f| f.growth).sum::<f64>();
+            let lines = findings.iter().all(|f| f.kind == ShapeKind::Line);
+            format!("up to {} off, {} in all", unit.length(largest), grown(growth, lines, unit))
+        }
+        _ => ink(),
+    }
+}
+
+/// One finding in words.
+pub(super) fn line(finding: &Finding, unit: Written) -> String {
+    let lines = finding.kind == ShapeKind::Line;
+    let size = || if lines { format!("{} long", unit.length(finding.size)) } else { unit.area(finding.size) };
+    let detail = match finding.verdict {
+        Verdict::Page => changed(&finding.changes),
+        Verdict::Removed | Verdict::Added => size(),
+        Verdict::Restyled | Verdict::Relabelled => format!("{}, {}", changed(&finding.changes), size()),
+        Verdict::Moved => match finding.shift {
+            Some(shift) => format!("by {}", way(shift, unit)),
+            None => {
+                format!("by up to {}, 95 % within {}", unit.length(finding.largest), unit.length(finding.p95))
+            }
+        },
+        Verdict::Reshaped => {
+            let off = format!(
+                "up to {} off, 95 % within {}",
+                unit.length(finding.largest),
+                unit.length(finding.p95)
+            );
+            format!("{}, {off}", grown(finding.growth, lines, unit))
+        }
+    };
+    let also = match finding.verdict {
+        Verdict::Moved | Verdict::Reshaped if !finding.changes.is_empty() => {
+            format!("; {}", changed(&finding.changes))
+        }
+        _ => String::new(),
+    };
+    let noun = match (finding.verdict, finding.kind) {
+        (Verdict::Page, _) => "of the drawing".to_owned(),
+        (_, ShapeKind::Region) => format!("fill {}", finding.label).replace("fill fills", "fill"),
+        (_, ShapeKind::Clip) => format!("clip {}", finding.label),
+        (_, ShapeKind::Line) => finding.label.to_string(),
+    };
+    format!("{:<10} {noun} {}: {detail}{also}", finding.verdict.name(), unit.place(&finding.place))
+}
+
+fn grown(growth: f64, lines: bool, unit: Written) -> String {
+    let (amount, more, less) = match lines {
+        true => (unit.length(growth.abs()), "longer", "shorter"),
+        false => (unit.area(growth.abs()), "larger", "smaller"),
+    };
+    match growth {
+        g if g.abs() < 5e-3 => format!("no {more}"),
+        g if g > 0.0 => format!("{amount} {more}"),
+        _ => format!("{amount} {less}"),
+    }
+}
+
+fn way([x, y]: [f64; 2], unit: Written) -> String {
+    let side = |value: f64, plus: &str, minus: &str| match value {
+        v if v.abs() < 5e-4 => None,
+        v => Some(format!("{} {}", unit.number(v.abs()), if v > 0.0 { plus } else { minus })),
+    };
+    let parts: Vec<String> = side(x, "right", "left").into_iter().chain(side(y, "down", "up")).collect();
+    format!("{} ({})", unit.length(x.hypot(y)), parts.join(", "))
+}
+
+pub(super) fn changed(changes: &[Change]) -> String {
+    let of = |change: &Change| format!("{} {} → {}", change.what, change.old, change.new);
+    changes.iter().map(of).collect::<Vec<_>>().join(", ")
+}
+
+/// The unit that lengths are told in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Written {
+    unit: Unit,
+    per_px: f64,
+}
+
+impl Written {
+    fn number(self, px: f64) -> String {
+        let value = px * self.per_px;
+        // Three significant digits are enough to act on.
+        match value.abs() {
+            v if v >= 100.0 => format!("{value:.0}"),
+            v if v >= 10.0 => trimmed((value * 10.0).round() / 10.0),
+            v if v >= 1.0 => trimmed((value * 100.0).round() / 100.0),
+            _ => trimmed(value),
+        }
+    }
+
+    pub(super) fn length(self, px: f64) -> String {
+        format!("{} {}", self.number(px), self.unit.name())
+    }
+
+    pub(super) fn area(self, px2: f64) -> String {
+        format!("{} {}²", self.number(px2 * self.per_px), self.unit.name())
+    }
+
+    fn place(self, place: &Place) -> String {
+        let (x, y) = place.middle();
+        format!("at ({:.0}, {:.0})", x * self.per_px, y * self.per_px)
+    }
+}
