@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 10] = [
+const DOCUMENTS: [&str; 11] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -14,6 +14,7 @@ const DOCUMENTS: [&str; 10] = [
     "docs/lines.md",
     "docs/smooth.md",
     "docs/stages.md",
+    "docs/testing.md",
     "examples/README.md",
 ];
 
@@ -93,9 +94,13 @@ fn tests_that_documents_name_are_there() {
 
 #[test]
 fn options_that_the_readme_names_are_there() {
-    let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args(["draw", "--help"]).output().unwrap();
-    let help = String::from_utf8(help.stdout).unwrap();
-    let known = ["--release", "--path", "--open", "--json", "--example"];
+    let help: String = ["draw", "test"]
+        .map(|command| {
+            let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
+            String::from_utf8(help.stdout).unwrap()
+        })
+        .concat();
+    let known = ["--release", "--path", "--open", "--json", "--example", "--test"];
     let mut options = 0;
     for document in [
         "README.md",
@@ -103,6 +108,7 @@ fn options_that_the_readme_names_are_there() {
         "docs/styles.md",
         "docs/smooth.md",
         "docs/stages.md",
+        "docs/testing.md",
         "examples/README.md",
     ] {
         let text = read(document);

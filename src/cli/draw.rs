@@ -31,15 +31,13 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     if let Some(report) = &request.report {
         check_place(report)?;
     }
-    let mut drawn = match request.threads {
-        None => draw(request, &mut watch)?,
-        Some(n) => rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(n))
-            .build()
-            .map_err(|error| Error::new(format!("cannot start {n} threads: {error}")).at("--threads"))?
-            .install(|| draw(request, &mut watch))?,
-    };
-    tell_warnings(request, &drawn.report)?;
+    let mut drawn = pipeline::in_threads(request.threads, || draw(request, &mut watch))??;
+    refuse_warnings(request, &drawn.report)?;
+    if !request.quiet {
+        for warning in &drawn.report.warnings {
+            say(&format!("warning: {}: {warning}", request.model.display()));
+        }
+    }
     write(request, &mut drawn, &mut watch)?;
     if !request.quiet {
         for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
@@ -101,20 +99,21 @@ fn default_dpi(unit: Unit) -> f64 {
     }
 }
 
-/// Names the warnings; under `--strict` they are errors.
-fn tell_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
-    let model = request.model.display();
-    if request.strict && !report.warnings.is_empty() {
-        return Err(Error::new(report.warnings.join("; "))
-            .in_file(&request.model)
-            .remedy("mend the model, or draw without --strict"));
+/// Under `--strict` warnings are errors.
+fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
+    if !request.strict || report.warnings.is_empty() {
+        return Ok(());
     }
-    if !request.quiet {
-        for warning in &report.warnings {
-            say(&format!("warning: {model}: {warning}"));
-        }
-    }
-    Ok(())
+    Err(Error::new(report.warnings.join("; "))
+        .in_file(&request.model)
+        .remedy("mend the model, or draw without --strict"))
+}
+
+/// The bytes of a request's first output, which is not written.
+pub(super) fn encoded(request: &DrawRequest) -> Result<Vec<u8>, Error> {
+    let drawn = draw(request, &mut Stopwatch::start())?;
+    refuse_warnings(request, &drawn.report)?;
+    Ok(drawn.encoded.into_iter().next().unwrap_or_default())
 }
 
 /// Writes all outputs and the report, all or none.

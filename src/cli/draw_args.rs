@@ -31,7 +31,7 @@ pub(super) struct DrawArgs {
     #[arg(short = 'o', long = "output", value_name = "OUT")]
     pub(super) outputs: Vec<PathBuf>,
 
-    /// Name of a built-in style, or a style sheet
+    /// Name of a built-in style, or a style sheet [env: LIGNE_STYLE]
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "ink")]
     pub(super) style: String,
 
@@ -139,7 +139,8 @@ pub(super) struct DrawArgs {
             .try_map(|name| Stage::parse(&name).ok_or("no such stage")))]
     pub(super) stage: Option<Stage>,
 
-    /// Number of threads; the drawing is the same with any [default: one a core]
+    /// Number of threads; the drawing is the same with any [env: LIGNE_THREADS] [default:
+    /// one a core]
     #[arg(long, value_name = "N", help_heading = "Output",
         value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,

@@ -1,9 +1,13 @@
 //! The command line: what was typed, what is meant, one file a command.
 
 mod completions;
+mod config;
+mod defaults;
 mod draw;
 mod draw_args;
 mod info;
+mod keys;
+mod man;
 mod number;
 mod output;
 mod paper;
@@ -11,14 +15,18 @@ mod pipeline;
 mod progress;
 mod request;
 mod styles;
+mod test;
 mod viewpoint;
 
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::error::Error;
+
+/// Exit status where drawings that were compared differ.
+const DIFFERENCES: u8 = 1;
 
 /// Exit status where the call or an input file is wrong.
 const WRONG: u8 = 2;
@@ -35,24 +43,41 @@ const WRONG: u8 = 2;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+
+    /// Leave ligne.toml aside
+    #[arg(long, global = true)]
+    no_config: bool,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Draw a model
     Draw(Box<draw_args::DrawArgs>),
+    /// Draw every case of a folder and compare it with the approved drawing
+    Test(test::TestArgs),
     /// Say what is in a model file, and what is wrong with it
     Info(info::InfoArgs),
     /// List the built-in styles, or show one
     Styles(styles::StylesArgs),
     /// Write a completion script for a shell
     Completions(completions::CompletionsArgs),
+    /// Write the manual page
+    Man(man::ManArgs),
 }
 
 /// Runs the program with the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let surroundings = defaults::Surroundings::of_process();
+    let words = defaults::complete(std::env::args_os().collect(), &Cli::command(), &surroundings);
+    let words = match words {
+        Ok(words) => words,
+        Err(error) => {
+            say(&format!("error: {error}"));
+            return ExitCode::from(WRONG);
+        }
+    };
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) => {
             // Nobody is left to tell where this fails.
@@ -60,14 +85,19 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
         }
     };
+    let all_well = |()| ExitCode::SUCCESS;
     let done = match cli.command {
-        Command::Draw(args) => request::DrawRequest::new(*args).and_then(|request| draw::run(&request)),
-        Command::Info(args) => info::run(&args),
-        Command::Styles(args) => styles::run(&args),
-        Command::Completions(args) => completions::run(&args),
+        Command::Draw(args) => {
+            request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
+        }
+        Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
+        Command::Info(args) => info::run(&args).map(all_well),
+        Command::Styles(args) => styles::run(&args).map(all_well),
+        Command::Completions(args) => completions::run(&args).map(all_well),
+        Command::Man(args) => man::run(&args).map(all_well),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => status,
         Err(error) => {
             say(&format!("error: {error}"));
             ExitCode::from(WRONG)

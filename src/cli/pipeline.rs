@@ -60,3 +60,12 @@ pub(super) fn svg(drawing: &Drawing, choices: &SvgChoices) -> Vec<u8> {
 pub(super) fn png(drawing: &Drawing, dpi: f64) -> Result<Vec<u8>, Error> {
     drawing.to_png(&PngOptions { resolution: Resolution::Dpi(dpi) })
 }
+
+/// Works with so many threads, or with as many as there are cores.
+pub(super) fn in_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
+    let Some(n) = threads else { return Ok(work()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n)).build();
+    let pool =
+        pool.map_err(|error| Error::new(format!("cannot start {n} threads: {error}")).at("--threads"))?;
+    Ok(pool.install(work))
+}

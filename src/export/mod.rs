@@ -7,7 +7,7 @@ pub mod pdf;
 mod pdf_content;
 pub mod png;
 pub mod svg;
-mod xml;
+pub(crate) mod xml;
 
 pub use png::{PngOptions, Resolution};
 pub use svg::{Grouping, SvgOptions};

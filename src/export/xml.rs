@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 /// Writes text for an attribute or an element: markup is escaped, characters that XML cannot
 /// hold are replaced by U+FFFD.
-pub(super) fn escape(out: &mut Vec<u8>, text: &str) {
+pub(crate) fn escape(out: &mut Vec<u8>, text: &str) {
     let plain = |byte: u8| byte >= 0x20 && !matches!(byte, b'&' | b'<' | b'>' | b'"') && byte < 0xef;
     if text.bytes().all(plain) {
         out.extend_from_slice(text.as_bytes());
@@ -26,6 +26,13 @@ pub(super) fn escape(out: &mut Vec<u8>, text: &str) {
         };
         out.extend_from_slice(replacement);
     }
+}
+
+/// Text with markup escaped, see [`escape`].
+pub(crate) fn escaped(text: &str) -> String {
+    let mut out = Vec::with_capacity(text.len());
+    escape(&mut out, text);
+    String::from_utf8_lossy(&out).into_owned()
 }
 
 /// Ids given away so far.

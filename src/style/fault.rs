@@ -1,20 +1,25 @@
-//! What is wrong in a style sheet, with its line, a caret under the place and the nearest known key.
+//! What is wrong in a TOML file, with its line, a caret under the place and the nearest known key.
 
 use std::ops::Range;
 
 use crate::error::Error;
 
-/// An error of a sheet's text: at its line, with the line and a caret.
-pub(super) fn in_sheet(text: &str, error: &toml::de::Error) -> Error {
+/// An error of a file's text: at its line, with the line and a caret.
+pub(crate) fn in_sheet(text: &str, error: &toml::de::Error) -> Error {
     let (message, advice) = explain(error.message());
-    let Some(span) = error.span() else {
-        return with_remedy(Error::new(message), advice.as_deref(), None);
-    };
-    let (number, column, line, width) = locate(text, &span);
+    match error.span() {
+        Some(span) => at_span(text, &span, &message, advice.as_deref()),
+        None => with_remedy(Error::new(message), advice.as_deref(), None),
+    }
+}
+
+/// An error about a place in a file's text: at its line, with the line and a caret.
+pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Option<&str>) -> Error {
+    let (number, column, line, width) = locate(text, span);
     let gutter = number.to_string();
     let blank = " ".repeat(gutter.len());
     let picture = format!(" {gutter} | {line}\n {blank} | {}{}", " ".repeat(column), "^".repeat(width));
-    with_remedy(Error::new(message).at(format!("line {number}")), advice.as_deref(), Some(&picture))
+    with_remedy(Error::new(message).at(format!("line {number}")), advice, Some(&picture))
 }
 
 /// An error of a change on the command line: the place is the change itself.
@@ -46,7 +51,7 @@ pub(super) fn place_of_value(text: &str, key: &str) -> String {
 }
 
 /// The known word that was most likely meant: at most a third of its letters differ.
-pub(super) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     known
         .iter()
         .map(|candidate| (distance(word, candidate), *candidate))

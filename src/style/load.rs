@@ -122,6 +122,15 @@ fn read(text: &str) -> Result<(Sheet, Table), toml::de::Error> {
     Ok((toml::from_str(text)?, toml::from_str(text)?))
 }
 
+/// A change, checked, with the paths of pictures and brushes in it relative to what `folder` is
+/// relative to.
+pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
+    let mut table = change(set)?;
+    place_pictures(&mut table, folder);
+    place_brushes(&mut table, folder);
+    Ok(table.iter().map(|(key, value)| format!("{key}={value}")).collect())
+}
+
 /// One change of the command line as a table.
 fn change(set: &str) -> Result<Table, Error> {
     let wrong = |message: &str| {

@@ -1,12 +1,14 @@
 //! [`Style`]: style sheets in TOML, the options of every stage.
 
 mod brush_file;
-mod fault;
+pub(crate) mod fault;
 mod fills;
 mod hatching;
 mod load;
 mod ramp_source;
 mod sheet;
+
+pub(crate) use load::placed_change;
 
 use crate::chain::ChainOptions;
 use crate::error::Error;

@@ -35,7 +35,9 @@ impl Folder {
     }
 
     pub fn write(&self, name: &str, text: &str) {
-        fs::write(self.0.join(name), text).expect("a file of the test");
+        let path = self.0.join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder of the test");
+        fs::write(path, text).expect("a file of the test");
     }
 
     pub fn read(&self, name: &str) -> Vec<u8> {
@@ -48,7 +50,12 @@ impl Folder {
 
     /// Names of the files in it, in the order of the alphabet.
     pub fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).expect("the folder of the test");
+        self.names_in("")
+    }
+
+    /// The same of a folder in it.
+    pub fn names_in(&self, inner: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.0.join(inner)).expect("the folder of the test");
         let mut names: Vec<String> =
             entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
         names.sort();
@@ -66,10 +73,25 @@ impl Folder {
         Run::new(output)
     }
 
+    /// Runs `ligne` in the folder, with environment variables.
+    pub fn run_with(&self, variables: &[(&str, &str)], line: &str) -> Run {
+        let mut command = self.command(&line.split_whitespace().collect::<Vec<_>>());
+        Run::new(command.envs(variables.iter().copied()).output().expect("the program runs"))
+    }
+
+    /// The path of a file in it.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
     /// `ligne`, not yet started.
     pub fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ligne"));
         command.args(args).current_dir(&self.0);
+        // What the machine that runs the tests prefers is no matter of theirs.
+        for variable in ["LIGNE_STYLE", "LIGNE_THREADS", "CI"] {
+            command.env_remove(variable);
+        }
         command
     }
 }
@@ -89,7 +111,7 @@ pub struct Run {
 }
 
 impl Run {
-    fn new(output: Output) -> Self {
+    pub fn new(output: Output) -> Self {
         Self {
             status: output.status.code(),
             out: String::from_utf8_lossy(&output.stdout).into_owned(),

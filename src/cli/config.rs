@@ -1,0 +1,107 @@
+//! `ligne.toml`: what a project draws with unless told otherwise.
+//!
+//! It is looked for in the working folder and then in each folder above. The table `[draw]` holds
+//! options of `ligne draw`, the table `[diff]` the tolerance within which drawings count as the same.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Command};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::draw_args::DrawArgs;
+use super::keys::{File, Given, Keys, word};
+use crate::diff::Tolerances;
+use crate::error::Error;
+
+/// The name of the file.
+const NAME: &str = "ligne.toml";
+
+/// Options of `ligne draw` that are of one call, or of one's own files, rather than of a project.
+pub(super) const OF_ONE_CALL: [&str; 4] = ["output", "report", "stage", "help"];
+
+/// The tables of the file.
+const TABLES: [&str; 2] = ["draw", "diff"];
+
+/// What a `ligne.toml` says.
+#[derive(Debug, Default)]
+pub(super) struct Config {
+    /// Options of `ligne draw`.
+    pub(super) draw: Vec<Given>,
+    /// Within which drawings count as the same, as one would type it.
+    pub(super) tolerance: Option<String>,
+}
+
+impl Config {
+    /// Finds the file upward from a folder and reads it.
+    pub(super) fn find(folder: &Path) -> Result<Option<Self>, Error> {
+        let mut above = PathBuf::new();
+        for candidate in folder.ancestors() {
+            if candidate.join(NAME).is_file() {
+                return Self::read(&above.join(NAME)).map(Some);
+            }
+            above.push("..");
+        }
+        Ok(None)
+    }
+
+    fn read(path: &Path) -> Result<Self, Error> {
+        let file = File::read(path, NAME)?;
+        let (table, values) = (file.table()?, file.values()?);
+        let mut config = Self::default();
+        for (key, value) in &table {
+            let name = key.get_ref().as_ref();
+            let DeValue::Table(table) = value.get_ref() else {
+                let known = TABLES.contains(&name);
+                return Err(if known { file.misfit(value, "a table") } else { file.unknown(key, &TABLES) });
+            };
+            match (name, values.get(name).and_then(toml::Value::as_table)) {
+                ("draw", Some(values)) => {
+                    let command = DrawArgs::augment_args(Command::new("draw"));
+                    let keys = Keys { command: &command, without: &OF_ONE_CALL, others: &[] };
+                    config.draw = keys.read(&file, table, values)?;
+                }
+                ("diff", _) => {
+                    for (key, value) in table {
+                        if key.get_ref() != "tolerance" {
+                            return Err(file.unknown(key, &["tolerance"]));
+                        }
+                        config.tolerance = Some(tolerance(&file, value)?);
+                    }
+                }
+                _ => return Err(file.unknown(key, &TABLES)),
+            }
+        }
+        Ok(config)
+    }
+
+    /// What it says to `ligne diff`.
+    pub(super) fn diff(&self) -> Vec<Given> {
+        let words = |text: &String| vec![word("tolerance", Some(text))];
+        let given = |text| Given { option: "tolerance".to_owned(), words: words(text), span: 0..0 };
+        self.tolerance.iter().map(given).collect()
+    }
+}
+
+/// A tolerance as it is typed: of text, or of a table whose keys are layers, classes, `lines`, `fills`
+/// and `default`.
+pub(super) fn tolerance(file: &File, value: &Spanned<DeValue<'_>>) -> Result<String, Error> {
+    let check = |text: String, value: &Spanned<DeValue<'_>>| match Tolerances::parse(&text) {
+        Ok(_) => Ok(text),
+        Err(error) => Err(file.adopt(&error, &value.span())),
+    };
+    let length = |value: &Spanned<DeValue<'_>>| match value.get_ref() {
+        DeValue::String(text) => Ok(text.clone().into_owned()),
+        DeValue::Integer(px) => Ok(px.to_string()),
+        DeValue::Float(px) => Ok(px.to_string()),
+        _ => Err(file.misfit(value, "a length such as \"0.1px\"")),
+    };
+    let DeValue::Table(table) = value.get_ref() else {
+        return length(value).and_then(|text| check(text, value));
+    };
+    let mut parts = Vec::new();
+    for (name, value) in table {
+        parts.push(check(format!("{}={}", name.get_ref(), length(value)?), value)?);
+    }
+    Ok(parts.join(","))
+}

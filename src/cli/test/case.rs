@@ -1,0 +1,99 @@
+//! [`Case`]: a file that says what is drawn of which model, and how far it may stray from the approved drawing.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Command, FromArgMatches};
+use toml::de::DeValue;
+
+use crate::cli::config::{OF_ONE_CALL, tolerance};
+use crate::cli::draw_args::DrawArgs;
+use crate::cli::keys::{File, Keys, refuse_alone};
+use crate::cli::request::DrawRequest;
+use crate::diff::Tolerances;
+use crate::error::Error;
+
+/// Keys of a case that are no options of `ligne draw`.
+const OWN: [&str; 3] = ["model", "drawing", "tolerance"];
+
+/// Options that change nothing of the drawing.
+const WITHOUT_EFFECT: [&str; 3] = ["threads", "quiet", "dpi"];
+
+/// A drawing that is kept under test.
+#[derive(Debug)]
+pub(super) struct Case {
+    /// Its path in the folder of cases, with `/` and without `.toml`.
+    pub(super) name: String,
+    /// Where the approved drawing lies.
+    pub(super) drawing: PathBuf,
+    /// What is to be drawn; or what is wrong with the file.
+    pub(super) order: Result<Order, Error>,
+}
+
+/// What a case asks for.
+#[derive(Debug)]
+pub(super) struct Order {
+    pub(super) request: DrawRequest,
+    /// Over those of the project.
+    pub(super) tolerances: Tolerances,
+}
+
+impl Case {
+    /// Reads a case. One that is wrong is a case as well: it fails.
+    pub(super) fn read(name: String, path: &Path) -> Self {
+        match read(path) {
+            Ok((drawing, order)) => Self {
+                name,
+                drawing: drawing.unwrap_or_else(|| path.with_extension("svg")),
+                order: Ok(order),
+            },
+            Err(error) => Self { name, drawing: path.with_extension("svg"), order: Err(error) },
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
+    let file = File::read(path, "the case")?;
+    let (table, values) = (file.table()?, file.values()?);
+    let command = DrawArgs::augment_args(Command::new("draw"));
+    let without = [&OF_ONE_CALL[..], &WITHOUT_EFFECT].concat();
+    let given = Keys { command: &command, without: &without, others: &OWN }.read(&file, &table, &values)?;
+    refuse_alone(&file, &given)?;
+
+    let path_of = |key: &str| match table.get(key) {
+        None => Ok(None),
+        Some(value) => match value.get_ref() {
+            DeValue::String(path) => Ok(Some((file.folder.join(path.as_ref()), value.span()))),
+            _ => Err(file.misfit(value, "a path")),
+        },
+    };
+    let Some((model, _)) = path_of("model")? else {
+        return Err(Error::new("there is no `model`")
+            .in_file(path)
+            .remedy("write model = \"PATH\", relative to this file; or begin the name of a file that is no case with _"));
+    };
+    let drawing = path_of("drawing")?;
+    if let Some((drawing, span)) = &drawing
+        && drawing.extension().is_none_or(|ending| ending != "svg")
+    {
+        let shown = drawing.display();
+        return Err(file.fault(span, &format!("{shown} is no SVG"), Some("end the name with .svg")));
+    }
+    let tolerances = match table.get("tolerance") {
+        Some(value) => Tolerances::parse(&tolerance(&file, value)?)?,
+        None => Tolerances::default(),
+    };
+
+    let options = given.into_iter().flat_map(|given| given.words);
+    let model = model.into_os_string();
+    let words = std::iter::once("draw".to_owned()).chain(options).chain(["--".to_owned()]).map(Into::into);
+    let matches = command.try_get_matches_from(words.chain([model, "-".into()]));
+    let typed = matches.and_then(|matches| DrawArgs::from_arg_matches(&matches));
+    let typed = typed.map_err(|error| {
+        let message = error.to_string();
+        let first = message.lines().next().unwrap_or_default();
+        Error::new(first.trim_start_matches("error: ")).in_file(path)
+    })?;
+    let mut request = DrawRequest::new(typed).map_err(|error| error.in_file(path))?;
+    request.quiet = true;
+    Ok((drawing.map(|(drawing, _)| drawing), Order { request, tolerances }))
+}

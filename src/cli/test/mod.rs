@@ -1,0 +1,190 @@
+//! `ligne test`: draws every case of a folder and compares it with the approved drawing.
+
+mod case;
+mod folder;
+mod html;
+mod junit;
+mod keep;
+mod outcome;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use rayon::prelude::*;
+
+use self::folder::Folder;
+use self::outcome::{Outcome, Totals, Verdict};
+use super::config::Config;
+use super::defaults::Surroundings;
+use super::output::{Staging, check_place};
+use super::progress::Progress;
+use super::{DIFFERENCES, WRONG, pipeline, print, say};
+use crate::diff::Tolerances;
+use crate::error::Error;
+use crate::math::glob::Glob;
+
+/// Findings of a case that are shown at once; the reports have all.
+const SHOWN: usize = 20;
+
+/// What was typed.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  ligne test drawings                            compare every case in drawings/ with its drawing
+  ligne test drawings --report changes.html      and look at what changed
+  ligne test drawings --bless                    approve the drawings as they are now
+  ligne test drawings --junit results.xml        for a service that runs tests
+
+A case is a file such as drawings/lid.toml, beside its approved drawing lid.svg:
+  model = \"../models/lid.glb\"
+  view = \"iso\"
+  style = \"technical\"
+  tolerance = \"0.1px\"")]
+pub(super) struct TestArgs {
+    /// The folder of cases; or the file of one case
+    folder: PathBuf,
+
+    /// Only the cases whose name matches, may be given again
+    #[arg(long, value_name = "GLOB", value_parser = |glob: &str| Ok::<_, std::convert::Infallible>(Glob::new(glob)))]
+    only: Vec<Glob>,
+
+    /// Approve the drawings that differ or are new; refused where the variable CI is set
+    #[arg(long)]
+    bless: bool,
+
+    /// Write a page that shows what changed: before, after and difference
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+
+    /// Show the drawings that passed as well
+    #[arg(long, requires = "report")]
+    report_all: bool,
+
+    /// Write the results as JUnit XML
+    #[arg(long, value_name = "FILE.xml")]
+    junit: Option<PathBuf>,
+
+    /// Write NAME.actual.svg and NAME.diff.svg of the cases that fail into this folder
+    #[arg(long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+
+    /// Number of threads; the results are the same with any [env: LIGNE_THREADS] [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Say nothing of cases that pass
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Draws, compares, says what came of it, and writes what was asked for.
+pub(super) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings) -> Result<ExitCode, Error> {
+    if args.bless && surroundings.is_ci {
+        return Err(Error::new("the variable CI is set, and drawings are approved by people")
+            .at("--bless")
+            .remedy("look at the drawings, bless them on your own machine and commit them"));
+    }
+    for file in args.report.iter().chain(&args.junit) {
+        check_place(file)?;
+    }
+    let tolerances = tolerances(no_config, surroundings)?;
+    let folder = Folder::read(&args.folder, &args.only)?;
+    let progress = Progress::start(args.quiet, &args.folder);
+    progress.step("drawing");
+    let draw = || folder.cases.par_iter().map(|case| Outcome::of(case, &tolerances)).collect::<Vec<_>>();
+    let outcomes = pipeline::in_threads(args.threads, draw)?;
+    drop(progress);
+
+    let totals = Totals::of(&outcomes);
+    // As everywhere, nothing is written where something is wrong.
+    let blessed = args.bless && totals.errors == 0;
+    write(args, &outcomes, blessed)?;
+    print(told(args, &outcomes, totals, blessed).as_bytes())?;
+    for orphan in &folder.orphans {
+        say(&format!("warning: {}: no case draws this; remove it, or write a case for it", orphan.display()));
+    }
+    Ok(match totals {
+        Totals { errors: 1.., .. } => ExitCode::from(WRONG),
+        Totals { differ: 0, new: 0, .. } => ExitCode::SUCCESS,
+        _ if blessed => ExitCode::SUCCESS,
+        _ => ExitCode::from(DIFFERENCES),
+    })
+}
+
+/// Those of `ligne.toml`; nothing else of it reaches into cases, which say all that they are drawn with.
+fn tolerances(no_config: bool, surroundings: &Surroundings) -> Result<Tolerances, Error> {
+    let config = match &surroundings.folder {
+        Some(folder) if !no_config => Config::find(folder)?,
+        _ => None,
+    };
+    let text = config.and_then(|config| config.tolerance);
+    text.map_or(Ok(Tolerances::default()), |text| Tolerances::parse(&text))
+}
+
+fn passed(outcome: &Outcome<'_>, blessed: bool) -> bool {
+    match outcome.verdict {
+        Verdict::Passed => true,
+        Verdict::Differs(_) | Verdict::New => blessed,
+        Verdict::Error(_) => false,
+    }
+}
+
+/// Writes the drawings that are approved, and the reports: all or none of them.
+fn write(args: &TestArgs, outcomes: &[Outcome<'_>], blessed: bool) -> Result<(), Error> {
+    let mut staging = Staging::default();
+    if blessed {
+        for outcome in outcomes {
+            if let (Verdict::Differs(_) | Verdict::New, Some(after)) = (&outcome.verdict, &outcome.after) {
+                staging.add(&outcome.case.drawing, after.as_bytes())?;
+            }
+        }
+    }
+    let folder = args.folder.to_string_lossy();
+    if let Some(path) = &args.report {
+        staging.add(path, html::page(&folder, outcomes, args.report_all, blessed).as_bytes())?;
+    }
+    if let Some(path) = &args.junit {
+        staging.add(path, junit::document(&folder, outcomes, blessed).as_bytes())?;
+    }
+    if let Some(kept) = &args.output {
+        keep::keep(kept, outcomes, |outcome| passed(outcome, blessed))?;
+    }
+    staging.commit()
+}
+
+/// A line a case, what differs below it, and the totals.
+fn told(args: &TestArgs, outcomes: &[Outcome<'_>], totals: Totals, blessed: bool) -> String {
+    let mut text = String::new();
+    for outcome in outcomes {
+        if args.quiet && matches!(outcome.verdict, Verdict::Passed) {
+            continue;
+        }
+        let word = match outcome.verdict {
+            Verdict::Differs(_) | Verdict::New if blessed => "blessed",
+            _ => outcome.verdict.word(),
+        };
+        let (name, summary) = (&outcome.case.name, outcome.summary(blessed).replace('\n', "\n         "));
+        let colon = if summary.is_empty() { "" } else { ": " };
+        text.push_str(&format!("{word:7}  {name}{colon}{summary}\n"));
+        let lines = outcome.lines();
+        for line in lines.iter().take(SHOWN) {
+            text.push_str(&format!("         {line}\n"));
+        }
+        if lines.len() > SHOWN {
+            text.push_str(&format!("         and {} more\n", lines.len() - SHOWN));
+        }
+    }
+    let Totals { differ, new, errors, .. } = totals;
+    if !args.quiet || differ + new + errors > 0 {
+        text.push_str(&totals.line(blessed));
+        text.push('\n');
+    }
+    if args.bless && !blessed {
+        text.push_str("Nothing is blessed while a case cannot be drawn.\n");
+    } else if !blessed && differ + new > 0 {
+        text.push_str(
+            "Look at the drawings with --report FILE.html; where they are meant, accept them with --bless.\n",
+        );
+    }
+    text
+}
