@@ -6,8 +6,9 @@ use super::chain::Chain;
 use super::distance::places;
 use super::grid::nearest_on;
 
-/// Places that are compared along each chain.
-const PLACES: usize = 33;
+/// Places that are compared along each chain: enough for its points, within bounds.
+const FEWEST: usize = 5;
+const MOST: usize = 33;
 
 /// Two chains laid beside each other by arc length; in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,8 +25,9 @@ pub(super) struct Alignment {
 
 /// The alignment of two chains with the smallest largest distance; the same, but for its sign, either way round.
 pub(super) fn align(a: &Chain, b: &Chain) -> Alignment {
-    let on_a: Vec<Point> = places(a, PLACES).collect();
-    let on_b: Vec<Point> = places(b, PLACES).collect();
+    let count = (a.points.len().max(b.points.len()) * 2 - 1).clamp(FEWEST, MOST);
+    let on_a: Vec<Point> = places(a, count).collect();
+    let on_b: Vec<Point> = places(b, count).collect();
     let mut best: Option<Alignment> = None;
     let mut offer = |a: &[Point], b: &[Point]| {
         let found = measure(a, b);
@@ -35,8 +37,8 @@ pub(super) fn align(a: &Chain, b: &Chain) -> Alignment {
     };
     if a.closed && b.closed {
         // Round chains may begin anywhere: at their least point, or where the other one's is nearest.
-        let turned_b = on_a.first().map_or_else(|| on_b.clone(), |start| from_nearest(b, *start));
-        let turned_a = on_b.first().map_or_else(|| on_a.clone(), |start| from_nearest(a, *start));
+        let turned_b = on_a.first().map_or_else(|| on_b.clone(), |start| from_nearest(b, *start, count));
+        let turned_a = on_b.first().map_or_else(|| on_a.clone(), |start| from_nearest(a, *start, count));
         for (a, b) in [(&on_a, &on_b), (&on_a, &turned_b), (&turned_a, &on_b)] {
             offer(a, b);
             offer(a, &reversed(b));
@@ -53,7 +55,7 @@ fn reversed(points: &[Point]) -> Vec<Point> {
 }
 
 /// Places along a closed chain, from the one nearest to a point.
-fn from_nearest(chain: &Chain, start: Point) -> Vec<Point> {
+fn from_nearest(chain: &Chain, start: Point, count: usize) -> Vec<Point> {
     let nearest = chain
         .segments()
         .enumerate()
@@ -61,12 +63,12 @@ fn from_nearest(chain: &Chain, start: Point) -> Vec<Point> {
             (start.distance_squared(nearest_on(p, q, start)), index, nearest_on(p, q, start))
         })
         .min_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((_, index, point)) = nearest else { return places(chain, PLACES).collect() };
+    let Some((_, index, point)) = nearest else { return places(chain, count).collect() };
     let mut points = vec![point];
     points.extend_from_slice(&chain.points[index + 1..]);
     points.extend(chain.points.iter().skip(1).take(index));
     points.push(point);
-    places(&Chain { points, ..chain.clone() }, PLACES).collect()
+    places(&Chain { points, ..chain.clone() }, count).collect()
 }
 
 fn measure(a: &[Point], b: &[Point]) -> Alignment {

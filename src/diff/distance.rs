@@ -8,8 +8,10 @@ use crate::math::tolerance::DISTANCE_SHARE;
 
 /// Polylines of more segments are searched by a grid.
 const FEW: usize = 48;
-/// Places along each polyline that percentiles are taken of.
-const PLACES: usize = 128;
+/// Places along each polyline that percentiles are taken of: so many a point, within bounds.
+const PLACES: usize = 8;
+const FEWEST: usize = 20;
+const MOST: usize = 128;
 /// Distances smaller than this (px) are not told apart.
 const LEAST_PX: f64 = 1e-4;
 
@@ -26,8 +28,9 @@ pub(super) struct Apart {
 pub(super) fn apart(a: &Chain, b: &Chain) -> Apart {
     let (near_a, near_b) = (Near::new(a), Near::new(b));
     let largest = near_b.farthest(a, near_a.farthest(b, 0.0));
-    let mut all: Vec<f64> = places(a, PLACES).map(|p| near_b.nearest(p).1).collect();
-    all.extend(places(b, PLACES).map(|p| near_a.nearest(p).1));
+    let count = |chain: &Chain| (chain.points.len() * PLACES).clamp(FEWEST, MOST);
+    let mut all: Vec<f64> = places(a, count(a)).map(|p| near_b.nearest(p).1).collect();
+    all.extend(places(b, count(b)).map(|p| near_a.nearest(p).1));
     all.sort_by(f64::total_cmp);
     let p95 = all.get((all.len() * 95).div_ceil(100).saturating_sub(1)).copied().unwrap_or(0.0);
     Apart { largest: largest.max(p95), p95 }

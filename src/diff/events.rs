@@ -16,7 +16,7 @@ const LEFT: f64 = 0.1;
 /// What a shift leaves, as a part of the largest distance, for a chain to have moved as it was.
 const RIGID: f64 = 0.05;
 /// What shift, turn and growth leave, likewise.
-const SIMILAR: f64 = 0.6;
+const SIMILAR: f64 = 0.4;
 /// Stretches of other ink shorter than this many tolerances are what ends of lines leave.
 const CRUMB: f64 = 6.0;
 

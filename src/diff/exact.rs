@@ -8,9 +8,16 @@ use rustc_hash::{FxHashMap, FxHasher};
 use super::groups::Groups;
 use super::picture::{Picture, Shape};
 
-/// The shapes of either picture that have no equal in the other one. Each shape is the equal of one other: a line
-/// that is drawn twice in one picture remains once.
-pub(super) fn rest(before: &Picture, after: &Picture, groups: &Groups) -> [Vec<usize>; 2] {
+/// What is equal, and what is not.
+pub(super) struct Parted {
+    /// Places of equal shapes in both pictures.
+    pub equal: Vec<(usize, usize)>,
+    /// The shapes of either picture that have no equal in the other one.
+    pub rest: [Vec<usize>; 2],
+}
+
+/// Finds what is equal. Each shape is the equal of one other: a line that is drawn twice in one picture remains once.
+pub(super) fn part(before: &Picture, after: &Picture, groups: &Groups) -> Parted {
     let hash = |shape: &Shape, group: usize| {
         let mut hasher = FxHasher::default();
         group.hash(&mut hasher);
@@ -22,7 +29,7 @@ pub(super) fn rest(before: &Picture, after: &Picture, groups: &Groups) -> [Vec<u
         waiting.entry(hash(shape, *group)).or_default().push(index);
     }
     let mut gone = vec![true; before.shapes.len()];
-    let mut new = Vec::new();
+    let (mut equal_pairs, mut new) = (Vec::new(), Vec::new());
     for (index, (shape, group)) in after.shapes.iter().zip(&groups.of_shape[1]).enumerate() {
         let equal = |other: &usize| {
             groups.of_shape[0].get(*other) == Some(group)
@@ -34,11 +41,14 @@ pub(super) fn rest(before: &Picture, after: &Picture, groups: &Groups) -> [Vec<u
         let candidates = waiting.get_mut(&hash(shape, *group));
         let found = candidates.and_then(|list| list.iter().rposition(equal).map(|at| list.remove(at)));
         match found {
-            Some(other) => gone[other] = false,
+            Some(other) => {
+                gone[other] = false;
+                equal_pairs.push((other, index));
+            }
             None => new.push(index),
         }
     }
-    [(0..gone.len()).filter(|index| gone[*index]).collect(), new]
+    Parted { equal: equal_pairs, rest: [(0..gone.len()).filter(|index| gone[*index]).collect(), new] }
 }
 
 fn hash_path(path: &BezPath, hasher: &mut FxHasher) {

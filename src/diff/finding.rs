@@ -22,6 +22,8 @@ pub enum Verdict {
     Moved,
     /// It lies where it lay, and is painted differently.
     Restyled,
+    /// It lies over a mark that lay over it, or under one that lay under it.
+    Restacked,
     /// It looks as it did, and belongs to another part, class or layer.
     Relabelled,
     /// The page itself has another size.
@@ -30,13 +32,14 @@ pub enum Verdict {
 
 impl Verdict {
     /// All verdicts, the gravest first.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Page,
         Self::Removed,
         Self::Added,
         Self::Reshaped,
         Self::Moved,
         Self::Restyled,
+        Self::Restacked,
         Self::Relabelled,
     ];
 
@@ -49,6 +52,7 @@ impl Verdict {
             Self::Reshaped => "reshaped",
             Self::Moved => "moved",
             Self::Restyled => "restyled",
+            Self::Restacked => "restacked",
             Self::Relabelled => "relabelled",
             Self::Page => "page",
         }

@@ -19,6 +19,7 @@ use super::pair::Side;
 use super::picture::{Picture, Shape, ShapeKind};
 use super::pixels;
 use super::regions;
+use super::stacking;
 use super::tolerance::default_px;
 use super::totals::Totals;
 
@@ -44,11 +45,12 @@ pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
     }
     diff.findings.extend(page(before, after));
     let groups = Groups::new([before, after], &options.tolerances);
-    let rest = exact::rest(before, after, &groups);
+    let exact::Parted { equal: mut stayed, rest } = exact::part(before, after, &groups);
     let structure = rest.iter().all(Vec::is_empty);
     if !structure {
-        diff.findings.extend(findings(before, after, &rest, &groups));
+        diff.findings.extend(findings(before, after, &rest, &groups, &mut stayed));
     }
+    diff.findings.extend(stacking::findings(before, after, stayed));
     diff.findings.sort_by(|a, b| {
         let key = |finding: &Finding| (finding.verdict, finding.label.clone());
         let place = |finding: &Finding| (finding.place.y, finding.place.x);
@@ -70,8 +72,14 @@ pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
     diff
 }
 
-/// What became of the shapes that have no equal.
-fn findings(before: &Picture, after: &Picture, rest: &[Vec<usize>; 2], groups: &Groups) -> Vec<Finding> {
+/// What became of the shapes that have no equal; those that lie where they lay are added to what stayed.
+fn findings(
+    before: &Picture,
+    after: &Picture,
+    rest: &[Vec<usize>; 2],
+    groups: &Groups,
+    stayed: &mut Vec<(usize, usize)>,
+) -> Vec<Finding> {
     let chains = [
         chain::of(before, &rest[0], &groups.of_shape[0], groups),
         chain::of(after, &rest[1], &groups.of_shape[1], groups),
@@ -82,6 +90,13 @@ fn findings(before: &Picture, after: &Picture, rest: &[Vec<usize>; 2], groups: &
     let [a, b] = chains;
     let [cover_a, cover_b] = covers;
     let sides = [Side { chains: a, covers: cover_a }, Side { chains: b, covers: cover_b }];
+    for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
+        let partner =
+            cover.partners().first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
+        stayed.extend(
+            chain.shapes.first().copied().zip(partner.and_then(|other| other.shapes.first().copied())),
+        );
+    }
     let page = before.width.max(before.height).max(after.width.max(after.height));
     let events = events(&sides, groups, page);
     let teller = Teller { pictures: [before, after], sides: &sides };

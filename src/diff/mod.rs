@@ -35,6 +35,7 @@ mod picture;
 mod pixels;
 mod read;
 mod regions;
+mod stacking;
 mod text;
 mod tolerance;
 mod totals;

@@ -129,7 +129,7 @@ impl Layers {
     /// What a finding takes away.
     fn old(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         match finding.verdict {
-            Verdict::Page | Verdict::Restyled | Verdict::Relabelled => {}
+            Verdict::Page | Verdict::Restyled | Verdict::Restacked | Verdict::Relabelled => {}
             _ => self.piece(finding, &finding.gone, GONE, to, width, note),
         }
     }
@@ -138,7 +138,7 @@ impl Layers {
     fn new(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         let colour = match finding.verdict {
             Verdict::Page => return,
-            Verdict::Restyled => RESTYLED,
+            Verdict::Restyled | Verdict::Restacked => RESTYLED,
             Verdict::Relabelled => RELABELLED,
             _ => NEW,
         };

@@ -20,9 +20,11 @@ const LEAST_REACH_OF_PAGE: f64 = 0.006;
 const REACH_OF_MARK: f64 = 0.5;
 /// Where this share of two chains coincides, they are one mark however far the rest went.
 const COMMON: f64 = 0.2;
-/// From how many places of a chain others are looked for, and how many others each place looks for.
+/// From how many places of a chain others are looked for, how many others each place looks for, and how many of all
+/// found are looked at closely.
 const PLACES: usize = 5;
 const WANTED: usize = 4;
+const CLOSELY: usize = 6;
 
 /// One drawing's chains and what the other drawing covers of them.
 #[derive(Debug)]
@@ -57,7 +59,10 @@ pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
                 bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
             let grid = Grid::new(&targets);
             let each = bare[side].par_iter().flat_map_iter(|index| {
-                let near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
+                let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
+                let chain = &sides[side].chains[*index];
+                near.sort_by_cached_key(|there| ends_apart(chain, &sides[other].chains[*there]).to_bits());
+                near.truncate(CLOSELY);
                 near.into_iter().filter_map(|there| {
                     let (old, new) = if side == 0 { (*index, there) } else { (there, *index) };
                     judge(sides, old, new, groups, page)
@@ -121,6 +126,18 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &Grid, reach: f64
     found.sort_unstable();
     found.dedup();
     found
+}
+
+/// How far the ends of two chains lie apart, squared and at least 0: a first guess at whether they are one mark.
+fn ends_apart(a: &Chain, b: &Chain) -> f64 {
+    let ends = |chain: &Chain| {
+        let start = chain.points.first().copied().unwrap_or(Point::ZERO);
+        let end = if chain.closed { chain.points.get(chain.points.len() / 2) } else { chain.points.last() };
+        (start, end.copied().unwrap_or(start))
+    };
+    let ((a0, a1), (b0, b1)) = (ends(a), ends(b));
+    let forth = a0.distance_squared(b0) + a1.distance_squared(b1);
+    forth.min(a0.distance_squared(b1) + a1.distance_squared(b0))
 }
 
 /// The pair, if the two may be one mark.

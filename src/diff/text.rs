@@ -146,6 +146,7 @@ fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String 
                 None => format!("by up to {}, 95 % within {}", unit.length(largest), unit.length(p95)),
             }
         }
+        Some(Verdict::Restacked) => changed(changes),
         Some(Verdict::Restyled | Verdict::Relabelled) => format!("{} ({})", changed(changes), ink()),
         Some(Verdict::Reshaped) => {
             let growth = findings.iter().map(|f| f.growth).sum::<f64>();
@@ -161,7 +162,7 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
     let lines = finding.kind == ShapeKind::Line;
     let size = || if lines { format!("{} long", unit.length(finding.size)) } else { unit.area(finding.size) };
     let detail = match finding.verdict {
-        Verdict::Page => changed(&finding.changes),
+        Verdict::Page | Verdict::Restacked => changed(&finding.changes),
         Verdict::Removed | Verdict::Added => size(),
         Verdict::Restyled | Verdict::Relabelled => format!("{}, {}", changed(&finding.changes), size()),
         Verdict::Moved => match finding.shift {

@@ -41,7 +41,12 @@ impl Images {
     }
 
     /// Writes what differs beside its place.
-    pub(super) fn add(&self, told: &[(String, Told)], view: View, staging: &mut Staging) -> Result<(), Error> {
+    pub(super) fn add(
+        &self,
+        told: &[(String, Told)],
+        view: View,
+        staging: &mut Staging,
+    ) -> Result<(), Error> {
         for (name, told) in told {
             let Told::Both(diff) = told else { continue };
             if diff.is_same() {
@@ -63,6 +68,8 @@ fn bytes(diff: &Diff, view: View, format: Format) -> Result<Vec<u8>, Error> {
     let drawing = diff.picture(view);
     match format {
         Format::Png => pipeline::png(&drawing, DPI),
-        Format::Svg | Format::Pdf | Format::SvgToStdout => Ok(drawing.to_svg(&SvgOptions::default()).into_bytes()),
+        Format::Svg | Format::Pdf | Format::SvgToStdout => {
+            Ok(drawing.to_svg(&SvgOptions::default()).into_bytes())
+        }
     }
 }

@@ -47,7 +47,7 @@ fn paint(line: &str) -> String {
         Some(Verdict::Removed) => "31",
         Some(Verdict::Added) => "32",
         Some(Verdict::Moved | Verdict::Reshaped) => "34",
-        Some(Verdict::Restyled | Verdict::Page) => "33",
+        Some(Verdict::Restyled | Verdict::Restacked | Verdict::Page) => "33",
         Some(Verdict::Relabelled) => "35",
         None => return line.to_owned(),
     };
@@ -86,7 +86,10 @@ pub(super) fn markdown(told: &[(String, Told)], args: &DiffArgs) -> String {
     for (name, told) in told.iter().filter(|(_, told)| !told.is_same()) {
         match told {
             Told::Only(side) => {
-                out += &format!("### {name}\n\nThe drawing is {}.\n\n", if *side == 0 { "removed" } else { "new" });
+                out += &format!(
+                    "### {name}\n\nThe drawing is {}.\n\n",
+                    if *side == 0 { "removed" } else { "new" }
+                );
             }
             Told::Both(diff) => out += &(diff.to_markdown(name) + "\n"),
         }
