@@ -3,7 +3,7 @@
 use super::output::{Format, Staging, check_place};
 use super::progress::Progress;
 use super::request::DrawRequest;
-use super::viewpoint::{Viewpoint, viewpoint};
+use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{number, pipeline, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
@@ -17,6 +17,8 @@ const PRINT_DPI: f64 = 300.0;
 /// A drawing in all its formats, not yet written.
 struct Drawn {
     drawing: Drawing,
+    /// From where it was seen.
+    seen: View,
     report: Report,
     /// One an output, in their order.
     encoded: Vec<Vec<u8>>,
@@ -89,7 +91,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
         })
     });
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
-    Ok(Drawn { drawing, report, encoded })
+    Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded })
 }
 
 fn default_dpi(unit: Unit) -> f64 {
@@ -111,9 +113,14 @@ fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> 
 
 /// The bytes of a request's first output, which is not written.
 pub(super) fn encoded(request: &DrawRequest) -> Result<Vec<u8>, Error> {
+    Ok(encoded_and_seen(request)?.0)
+}
+
+/// The same, and from where it was seen, so that another model can be seen likewise.
+pub(super) fn encoded_and_seen(request: &DrawRequest) -> Result<(Vec<u8>, View), Error> {
     let drawn = draw(request, &mut Stopwatch::start())?;
     refuse_warnings(request, &drawn.report)?;
-    Ok(drawn.encoded.into_iter().next().unwrap_or_default())
+    Ok((drawn.encoded.into_iter().next().unwrap_or_default(), drawn.seen))
 }
 
 /// Writes all outputs and the report, all or none.
@@ -174,6 +181,7 @@ mod tests {
         let counts = Counts { paths: 74, triangles: 69_451, ..Counts::default() };
         let drawn = Drawn {
             drawing: Drawing { title: String::new(), page, layers: Vec::new() },
+            seen: View::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
             report: Report { counts, ..Report::default() },
             encoded: Vec::new(),
         };

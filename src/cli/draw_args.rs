@@ -31,6 +31,23 @@ pub(super) struct DrawArgs {
     #[arg(short = 'o', long = "output", value_name = "OUT")]
     pub(super) outputs: Vec<PathBuf>,
 
+    #[command(flatten)]
+    pub(super) how: HowArgs,
+
+    /// Write what the drawing took and what it holds, as JSON
+    #[arg(long, value_name = "FILE.json", help_heading = "Output")]
+    pub(super) report: Option<PathBuf>,
+
+    /// Draw what a stage of the pipeline made, each thing in its own colour: docs/stages.md
+    #[arg(long, value_name = "NAME", help_heading = "Output",
+        value_parser = PossibleValuesParser::new(Stage::ALL.map(Stage::name))
+            .try_map(|name| Stage::parse(&name).ok_or("no such stage")))]
+    pub(super) stage: Option<Stage>,
+}
+
+/// How a model is drawn: what `ligne draw`, `ligne diff` and cases of `ligne test` have in common.
+#[derive(Debug, Clone, Args)]
+pub(super) struct HowArgs {
     /// Name of a built-in style, or a style sheet [env: LIGNE_STYLE]
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "ink")]
     pub(super) style: String,
@@ -128,16 +145,6 @@ pub(super) struct DrawArgs {
     /// Put before every id in SVG, so that several drawings fit in one page
     #[arg(long, value_name = "PREFIX", help_heading = "Output", value_parser = id_prefix)]
     pub(super) id_prefix: Option<String>,
-
-    /// Write what the drawing took and what it holds, as JSON
-    #[arg(long, value_name = "FILE.json", help_heading = "Output")]
-    pub(super) report: Option<PathBuf>,
-
-    /// Draw what a stage of the pipeline made, each thing in its own colour: docs/stages.md
-    #[arg(long, value_name = "NAME", help_heading = "Output",
-        value_parser = PossibleValuesParser::new(Stage::ALL.map(Stage::name))
-            .try_map(|name| Stage::parse(&name).ok_or("no such stage")))]
-    pub(super) stage: Option<Stage>,
 
     /// Number of threads; the drawing is the same with any [env: LIGNE_THREADS] [default:
     /// one a core]

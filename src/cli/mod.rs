@@ -3,6 +3,7 @@
 mod completions;
 mod config;
 mod defaults;
+mod diff;
 mod draw;
 mod draw_args;
 mod info;
@@ -53,6 +54,8 @@ struct Cli {
 enum Command {
     /// Draw a model
     Draw(Box<draw_args::DrawArgs>),
+    /// Compare two drawings by geometry
+    Diff(Box<diff::DiffArgs>),
     /// Draw every case of a folder and compare it with the approved drawing
     Test(test::TestArgs),
     /// Say what is in a model file, and what is wrong with it
@@ -90,6 +93,7 @@ pub fn main() -> ExitCode {
         Command::Draw(args) => {
             request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
         }
+        Command::Diff(args) => diff::run(&args),
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
         Command::Info(args) => info::run(&args).map(all_well),
         Command::Styles(args) => styles::run(&args).map(all_well),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::draw_args::{DrawArgs, GroupBy};
+use super::draw_args::{DrawArgs, GroupBy, HowArgs};
 use super::output::{Format, Output};
 use super::paper::{Extent, Measure};
 use super::viewpoint::{Lens, View};
@@ -60,6 +60,15 @@ impl DrawRequest {
         }
         let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
         check_apart(&args.model, &outputs, args.report.as_deref())?;
+        let request = Self::of_model(args.model, args.how)?;
+        Ok(Self { outputs, report: args.report, stage: args.stage, ..request })
+    }
+
+    /// What is meant by a model and how it is drawn: SVG on standard output.
+    ///
+    /// # Errors
+    /// Where options do not go together.
+    pub(super) fn of_model(model: PathBuf, args: HowArgs) -> Result<Self, Error> {
         // clap drops what an option requires where that conflicts with another option given.
         let alone = [("--scale", args.scale.is_some()), ("--landscape", args.landscape)];
         if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given && args.page.is_none()) {
@@ -79,9 +88,9 @@ impl DrawRequest {
         };
         let page = args.page.map(|page| if args.landscape { page.lying() } else { page });
         Ok(Self {
-            model: args.model,
-            outputs,
-            report: args.report,
+            model,
+            outputs: vec![Output { path: PathBuf::from("-"), format: Format::SvgToStdout }],
+            report: None,
             style: args.style,
             sets: args.sets.into_iter().chain(args.seed.map(|seed| format!("seed={seed}"))).collect(),
             background: args.background.map(|background| background.0),
@@ -93,7 +102,7 @@ impl DrawRequest {
             margin: args.margin,
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             dpi: args.dpi,
-            stage: args.stage,
+            stage: None,
             threads: args.threads,
             quiet: args.quiet,
             strict: args.strict,

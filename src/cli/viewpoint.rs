@@ -24,6 +24,8 @@ pub(super) enum View {
     Named(NamedView, Option<Lens>),
     /// Angles, each as in the three-quarter view unless told otherwise; perspective likewise.
     Angles { azimuth_deg: Option<f64>, elevation_deg: Option<f64>, lens: Option<Lens> },
+    /// As another drawing was seen, whatever is in the frame.
+    Fixed(Camera, Paper),
 }
 
 /// How lines of sight run.
@@ -56,6 +58,7 @@ pub(super) fn viewpoint(request: &DrawRequest, scene: &Scene) -> Result<Viewpoin
     let (extent, unit) = request.extent.unwrap_or((square, Unit::Px));
     let (direction, lens) = match &request.view {
         View::Recorded(name) => return recorded(request, scene, name),
+        View::Fixed(camera, paper) => return Ok(Viewpoint { camera: *camera, paper: *paper, warning: None }),
         View::Named(view, lens) => {
             (Camera::named(*view, scene.up), lens.unwrap_or(Lens::Orthographic { scale: None }))
         }

@@ -16,9 +16,7 @@ const LEFT: f64 = 0.1;
 /// What a shift leaves, as a part of the largest distance, for a chain to have moved as it was.
 const RIGID: f64 = 0.05;
 /// What shift, turn and growth leave, likewise.
-const SIMILAR: f64 = 0.25;
-/// A chain that moved is at most this part longer or shorter.
-const GROWTH: f64 = 0.02;
+const SIMILAR: f64 = 0.6;
 /// Stretches of other ink shorter than this many tolerances are what ends of lines leave.
 const CRUMB: f64 = 6.0;
 
@@ -63,9 +61,8 @@ fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
     let alignment = &pair.alignment;
     let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID * alignment.largest);
     let grown = (cover_a.length - cover_b.length).abs();
-    let longest = cover_a.length.max(cover_b.length);
     let similar = alignment.after_similarity <= (2.0 * tolerance).max(SIMILAR * alignment.largest)
-        && grown <= (4.0 * tolerance).max(GROWTH * longest)
+        && grown <= (4.0 * tolerance).max(alignment.largest)
         && cover_a.share().max(cover_b.share()) < 0.5;
     let mut event = Event {
         verdict: if rigid || similar { Verdict::Moved } else { Verdict::Reshaped },

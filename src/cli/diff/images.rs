@@ -1,0 +1,68 @@
+//! Pictures of what differs.
+
+use std::path::{Path, PathBuf};
+
+use super::Told;
+use super::sides::Pairing;
+use crate::cli::output::{Format, Output, Staging, check_place};
+use crate::cli::pipeline;
+use crate::diff::{Diff, View};
+use crate::error::Error;
+use crate::export::SvgOptions;
+
+/// Pixels to the inch in PNG.
+const DPI: f64 = 96.0;
+
+/// Where the pictures go.
+pub(super) enum Images {
+    File(Output),
+    Folder(PathBuf),
+}
+
+impl Images {
+    /// The place, checked before any work is done.
+    pub(super) fn new(path: &Path, pairing: &Pairing) -> Result<Self, Error> {
+        if pairing.folders {
+            if path.is_dir() {
+                return Ok(Self::Folder(path.to_path_buf()));
+            }
+            return Err(Error::new("is not a folder, and each drawing that differs needs a picture")
+                .in_file(path)
+                .remedy("create the folder first"));
+        }
+        check_place(path)?;
+        let output = Output::new(path.to_path_buf())?;
+        match output.format {
+            Format::Svg | Format::Png => Ok(Self::File(output)),
+            Format::Pdf | Format::SvgToStdout => Err(Error::new("differences are drawn as SVG or PNG")
+                .in_file(path)
+                .remedy("end the name with .svg or .png")),
+        }
+    }
+
+    /// Writes what differs beside its place.
+    pub(super) fn add(&self, told: &[(String, Told)], view: View, staging: &mut Staging) -> Result<(), Error> {
+        for (name, told) in told {
+            let Told::Both(diff) = told else { continue };
+            if diff.is_same() {
+                continue;
+            }
+            match self {
+                Self::File(output) => staging.add(&output.path, &bytes(diff, view, output.format)?)?,
+                Self::Folder(folder) => {
+                    let flat = format!("{}.svg", name.trim_end_matches(".svg").replace('/', "-"));
+                    staging.add(&folder.join(flat), &bytes(diff, view, Format::Svg)?)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn bytes(diff: &Diff, view: View, format: Format) -> Result<Vec<u8>, Error> {
+    let drawing = diff.picture(view);
+    match format {
+        Format::Png => pipeline::png(&drawing, DPI),
+        Format::Svg | Format::Pdf | Format::SvgToStdout => Ok(drawing.to_svg(&SvgOptions::default()).into_bytes()),
+    }
+}

@@ -1,0 +1,132 @@
+//! `ligne diff`: what differs between two drawings, two models, or two folders of them.
+
+mod folders;
+mod images;
+mod sides;
+mod tell;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use self::images::Images;
+use self::sides::Pairing;
+use super::draw_args::HowArgs;
+use super::output::Staging;
+use super::{DIFFERENCES, pipeline, print};
+use crate::diff::{self, Diff, DiffOptions, Tolerances, View};
+use crate::error::Error;
+
+const EXAMPLES: &str = "Examples:
+  ligne diff old.svg new.svg                           what differs, a line each
+  ligne diff old.svg new.svg --tolerance lines=0.05mm,fills=0.2mm --image changes.svg
+  ligne diff v1/drive.glb v2/drive.glb --view iso      two models, drawn alike
+  ligne diff approved/ drawn/ --markdown > summary.md  two folders, paired by name
+
+Exit status: 0 the same, 1 something differs, 2 the call or a file is wrong.";
+
+/// What was typed.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct DiffArgs {
+    /// The old drawing (.svg), model (.obj, .gltf, .glb, .stl, .ply) or folder
+    before: PathBuf,
+
+    /// The new one
+    after: PathBuf,
+
+    /// How far ink may lie from where it lay: 0.1px, or by class or layer such as
+    /// lines=0.05mm,fills=0.2mm [default: twice the written precision]
+    #[arg(long, value_name = "LENGTH", help_heading = "Comparison", value_parser = tolerances)]
+    tolerance: Option<Tolerances>,
+
+    /// Compare pixel by pixel as well
+    #[arg(long, help_heading = "Comparison")]
+    pixels: bool,
+
+    /// Tell each mark in a line of its own
+    #[arg(long, help_heading = "Comparison", conflicts_with_all = ["json", "markdown"])]
+    all: bool,
+
+    /// Tell as JSON
+    #[arg(long, help_heading = "Comparison", conflicts_with = "markdown")]
+    json: bool,
+
+    /// Tell as Markdown, for a pull request
+    #[arg(long, help_heading = "Comparison")]
+    markdown: bool,
+
+    /// Draw what differs, if anything does: gone in red, new in green; of folders a folder
+    #[arg(long, value_name = "OUT.svg|png", help_heading = "Comparison")]
+    image: Option<PathBuf>,
+
+    /// Draw both beside each other rather than over each other
+    #[arg(long, help_heading = "Comparison", requires = "image")]
+    side_by_side: bool,
+
+    #[command(flatten)]
+    how: HowArgs,
+}
+
+fn tolerances(text: &str) -> Result<Tolerances, String> {
+    Tolerances::parse(text).map_err(|error| error.to_string())
+}
+
+/// What became of one drawing.
+enum Told {
+    /// It is in both.
+    Both(Box<Diff>),
+    /// It is in one folder only, the first or the second.
+    Only(usize),
+}
+
+impl Told {
+    fn is_same(&self) -> bool {
+        matches!(self, Self::Both(diff) if diff.is_same())
+    }
+}
+
+/// Compares, tells, and draws what differs.
+pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
+    let pairing = Pairing::new(&args.before, &args.after)?;
+    let images = args.image.as_deref().map(|path| Images::new(path, &pairing)).transpose()?;
+    let options = DiffOptions { tolerances: args.tolerance.clone().unwrap_or_default(), pixels: args.pixels };
+    let told = pipeline::in_threads(args.how.threads, || told(args, &pairing, &options))??;
+    if let Some(images) = images {
+        let view = if args.side_by_side { View::SideBySide } else { View::Over };
+        let mut staging = Staging::default();
+        images.add(&told, view, &mut staging)?;
+        staging.commit()?;
+    }
+    let text = match (&pairing, args.json, args.markdown) {
+        (_, true, _) => tell::json(&told, &pairing),
+        (_, _, true) => tell::markdown(&told, args),
+        _ if args.how.quiet => String::new(),
+        _ => tell::text(&told, &pairing, args.all),
+    };
+    print(text.as_bytes())?;
+    Ok(match told.iter().all(|(_, told)| told.is_same()) {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(DIFFERENCES),
+    })
+}
+
+/// What became of each drawing, by name.
+fn told(args: &DiffArgs, pairing: &Pairing, options: &DiffOptions) -> Result<Vec<(String, Told)>, Error> {
+    let mut told = Vec::new();
+    for (name, sides) in &pairing.names {
+        told.push((
+            name.clone(),
+            match sides {
+                [Some(before), Some(after)] => {
+                    let [before, after] = sides::pictures(before, after, &args.how)?;
+                    Told::Both(Box::new(diff::compare(&before, &after, options)))
+                }
+                [Some(_), None] => Told::Only(0),
+                _ => Told::Only(1),
+            },
+        ));
+    }
+    Ok(told)
+}

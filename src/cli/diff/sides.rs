@@ -1,0 +1,104 @@
+//! What is compared with what: two files, or the files of two folders by their names.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::folders;
+use crate::cli::draw;
+use crate::cli::draw_args::HowArgs;
+use crate::cli::request::DrawRequest;
+use crate::diff::Picture;
+use crate::error::Error;
+
+/// Files larger than this are no drawings that a person keeps.
+const MOST_BYTES: u64 = 1 << 30;
+/// Endings of models.
+pub(super) const MODELS: [&str; 5] = ["obj", "gltf", "glb", "stl", "ply"];
+
+/// The files to compare, by name.
+#[derive(Debug)]
+pub(super) struct Pairing {
+    pub(super) names: BTreeMap<String, [Option<PathBuf>; 2]>,
+    /// Whether they are of two folders.
+    pub(super) folders: bool,
+}
+
+impl Pairing {
+    /// Pairs two files, or the files of two folders.
+    ///
+    /// # Errors
+    /// Where the one is a folder and the other is not, or there is nothing to compare.
+    pub(super) fn new(before: &Path, after: &Path) -> Result<Self, Error> {
+        match (before.is_dir(), after.is_dir()) {
+            (false, false) => {
+                let name = after.display().to_string();
+                let files = [Some(before.to_path_buf()), Some(after.to_path_buf())];
+                Ok(Self { names: BTreeMap::from([(name, files)]), folders: false })
+            }
+            (true, true) => {
+                let mut names: BTreeMap<String, [Option<PathBuf>; 2]> = BTreeMap::new();
+                for (side, folder) in [before, after].into_iter().enumerate() {
+                    for (name, path) in folders::drawings(folder)? {
+                        names.entry(name).or_default()[side] = Some(path);
+                    }
+                }
+                if names.is_empty() {
+                    return Err(Error::new("neither folder has a drawing or a model in it")
+                        .in_file(before)
+                        .remedy("name folders with .svg files"));
+                }
+                Ok(Self { names, folders: true })
+            }
+            (first, _) => {
+                let (folder, file) = if first { (before, after) } else { (after, before) };
+                let remedy = format!("name the drawing in it that {} is to be compared with", file.display());
+                Err(Error::new("is a folder, the other one is not").in_file(folder).remedy(remedy))
+            }
+        }
+    }
+}
+
+/// Both drawings. Models are drawn, the second one as the first one is seen.
+pub(super) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Picture; 2], Error> {
+    let mut request = None;
+    let mut read = |path: &Path| -> Result<Picture, Error> {
+        if !is_model(path) {
+            return picture(path, &text(path)?);
+        }
+        let mut own = DrawRequest::of_model(path.to_path_buf(), how.clone())?;
+        own.quiet = true;
+        if let Some(seen) = request.take() {
+            own.view = seen;
+        }
+        let (svg, seen) = draw::encoded_and_seen(&own)?;
+        request = Some(seen);
+        picture(path, &String::from_utf8_lossy(&svg))
+    };
+    Ok([read(before)?, read(after)?])
+}
+
+fn picture(path: &Path, svg: &str) -> Result<Picture, Error> {
+    Picture::from_svg(svg).map_err(|error| error.in_file(path))
+}
+
+fn is_model(path: &Path) -> bool {
+    path.extension().is_some_and(|e| MODELS.iter().any(|model| e.eq_ignore_ascii_case(model)))
+}
+
+/// The text of a drawing.
+fn text(path: &Path) -> Result<String, Error> {
+    let unread = |error: std::io::Error| {
+        Error::new(format!("cannot read the drawing: {error}")).in_file(path).remedy("check the path")
+    };
+    let size = std::fs::metadata(path).map_err(unread)?.len();
+    if size > MOST_BYTES {
+        return Err(Error::new("is larger than a gigabyte").in_file(path).remedy("give a smaller drawing"));
+    }
+    let bytes = std::fs::read(path).map_err(unread)?;
+    String::from_utf8(bytes).map_err(|error| {
+        Error::new("is not SVG: not UTF-8 text")
+            .in_file(path)
+            .at(format!("byte {}", error.utf8_error().valid_up_to()))
+            .remedy("give an SVG file, not compressed")
+    })
+}
