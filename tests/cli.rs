@@ -7,7 +7,7 @@ use common::Folder;
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = Folder::new("help");
-    for command in ["draw", "info", "styles", "completions"] {
+    for command in ["draw", "test", "info", "styles", "completions", "man"] {
         let run = folder.run(&[command, "--help"]);
         run.done();
         assert!(run.out.contains(&format!("Usage: ligne {command}")), "{run:?}");
@@ -32,7 +32,7 @@ fn help_names_every_option_of_drawing() {
 #[test]
 fn wrong_calls_say_what_is_meant() {
     let folder = Folder::new("calls");
-    folder.ligne("").refused("Usage: ligne <COMMAND>");
+    folder.ligne("").refused("Usage: ligne [OPTIONS] <COMMAND>");
     folder.ligne("drow").refused("'draw'");
     folder.ligne("draw").refused("<MODEL>");
     folder.ligne("draw m.obj --backgruond white").refused("'--background'");

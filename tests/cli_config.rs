@@ -186,6 +186,28 @@ fn faults_are_shown_with_file_line_and_caret() {
 }
 
 #[test]
+fn comparisons_take_the_tolerance_and_how_models_are_drawn() {
+    let folder = Folder::with_cubes("config-diff");
+    folder.ligne("draw cubes.obj a.svg --azimuth 30 --size 300").done();
+    folder.ligne("draw cubes.obj b.svg --azimuth 30.2 --size 300").done();
+    let status = |words: &str| folder.ligne(&format!("diff {words}")).status;
+    assert_eq!(status("a.svg b.svg"), Some(1));
+    folder.write("ligne.toml", "[diff]\ntolerance = { default = '0.01px', lines = 5 }\n");
+    assert_eq!(status("a.svg b.svg"), Some(0));
+    assert_eq!(status("a.svg b.svg --no-config"), Some(1));
+    assert_eq!(status("a.svg b.svg --tolerance 0.1px"), Some(1));
+    // The drawing is compared with the model, drawn as the project draws; what differs is said aloud.
+    let draw = "[draw]\nquiet = true\nazimuth = 30\nsize = 300\n";
+    folder.write("ligne.toml", draw);
+    assert_eq!(status("a.svg cubes.obj"), Some(0));
+    assert_eq!(status("b.svg cubes.obj"), Some(1));
+    assert!(folder.ligne("diff b.svg cubes.obj").out.contains("knob"));
+    assert_eq!(status("b.svg cubes.obj --azimuth 30.2"), Some(0));
+    folder.write("ligne.toml", &format!("{draw}\n[diff]\ntolerance = 'wide'\n"));
+    folder.ligne("diff a.svg b.svg").refused("ligne.toml: line 7: `wide` is no tolerance");
+}
+
+#[test]
 fn the_manual_has_its_sections() {
     let folder = Folder::new("config-man");
     let page = folder.ligne("man").done().out.replace("\\-", "-");

@@ -1,7 +1,7 @@
 //! `ligne.toml`: what a project draws with unless told otherwise.
 //!
-//! It is looked for in the working folder and then in each folder above. The table `[draw]` holds
-//! options of `ligne draw`, the table `[diff]` the tolerance within which drawings count as the same.
+//! It is looked for in the working folder and then in each folder above. The table `[draw]` holds how
+//! models are drawn, the table `[diff]` the tolerance within which drawings count as the same.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use clap::{Args, Command};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::draw_args::DrawArgs;
+use super::draw_args::HowArgs;
 use super::keys::{File, Given, Keys, word};
 use crate::diff::Tolerances;
 use crate::error::Error;
@@ -17,16 +17,13 @@ use crate::error::Error;
 /// The name of the file.
 const NAME: &str = "ligne.toml";
 
-/// Options of `ligne draw` that are of one call, or of one's own files, rather than of a project.
-pub(super) const OF_ONE_CALL: [&str; 4] = ["output", "report", "stage", "help"];
-
 /// The tables of the file.
 const TABLES: [&str; 2] = ["draw", "diff"];
 
 /// What a `ligne.toml` says.
 #[derive(Debug, Default)]
 pub(super) struct Config {
-    /// Options of `ligne draw`.
+    /// How models are drawn.
     pub(super) draw: Vec<Given>,
     /// Within which drawings count as the same, as one would type it.
     pub(super) tolerance: Option<String>,
@@ -57,8 +54,8 @@ impl Config {
             };
             match (name, values.get(name).and_then(toml::Value::as_table)) {
                 ("draw", Some(values)) => {
-                    let command = DrawArgs::augment_args(Command::new("draw"));
-                    let keys = Keys { command: &command, without: &OF_ONE_CALL, others: &[] };
+                    let command = HowArgs::augment_args(Command::new("draw"));
+                    let keys = Keys { command: &command, without: &[], others: &[] };
                     config.draw = keys.read(&file, table, values)?;
                 }
                 ("diff", _) => {
@@ -75,11 +72,12 @@ impl Config {
         Ok(config)
     }
 
-    /// What it says to `ligne diff`.
-    pub(super) fn diff(&self) -> Vec<Given> {
+    /// What it says to `ligne diff`, which draws models as well; but what differs is said aloud.
+    pub(super) fn diff(self) -> Vec<Given> {
         let words = |text: &String| vec![word("tolerance", Some(text))];
         let given = |text| Given { option: "tolerance".to_owned(), words: words(text), span: 0..0 };
-        self.tolerance.iter().map(given).collect()
+        let drawn = self.draw.into_iter().filter(|given| given.option != "quiet");
+        self.tolerance.iter().map(given).chain(drawn).collect()
     }
 }
 

@@ -121,7 +121,7 @@ fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<Given>, Error> {
     let find = || folder.map_or(Ok(None), Config::find);
     Ok(match command {
         "draw" => find()?.map(|config| config.draw),
-        "diff" => find()?.map(|config| [config.diff(), config.draw].concat()),
+        "diff" => find()?.map(Config::diff),
         _ => None,
     }
     .unwrap_or_default())

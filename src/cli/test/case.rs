@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Command, FromArgMatches};
 use toml::de::DeValue;
 
-use crate::cli::config::{OF_ONE_CALL, tolerance};
-use crate::cli::draw_args::DrawArgs;
+use crate::cli::config::tolerance;
+use crate::cli::draw_args::HowArgs;
 use crate::cli::keys::{File, Keys, refuse_alone};
 use crate::cli::request::DrawRequest;
 use crate::diff::Tolerances;
@@ -54,9 +54,9 @@ impl Case {
 fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
     let file = File::read(path, "the case")?;
     let (table, values) = (file.table()?, file.values()?);
-    let command = DrawArgs::augment_args(Command::new("draw"));
-    let without = [&OF_ONE_CALL[..], &WITHOUT_EFFECT].concat();
-    let given = Keys { command: &command, without: &without, others: &OWN }.read(&file, &table, &values)?;
+    let command = HowArgs::augment_args(Command::new("draw"));
+    let keys = Keys { command: &command, without: &WITHOUT_EFFECT, others: &OWN };
+    let given = keys.read(&file, &table, &values)?;
     refuse_alone(&file, &given)?;
 
     let path_of = |key: &str| match table.get(key) {
@@ -83,17 +83,14 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
         None => Tolerances::default(),
     };
 
-    let options = given.into_iter().flat_map(|given| given.words);
-    let model = model.into_os_string();
-    let words = std::iter::once("draw".to_owned()).chain(options).chain(["--".to_owned()]).map(Into::into);
-    let matches = command.try_get_matches_from(words.chain([model, "-".into()]));
-    let typed = matches.and_then(|matches| DrawArgs::from_arg_matches(&matches));
-    let typed = typed.map_err(|error| {
+    let words = std::iter::once("draw".to_owned()).chain(given.into_iter().flat_map(|given| given.words));
+    let how = command.try_get_matches_from(words).and_then(|matches| HowArgs::from_arg_matches(&matches));
+    let how = how.map_err(|error| {
         let message = error.to_string();
         let first = message.lines().next().unwrap_or_default();
         Error::new(first.trim_start_matches("error: ")).in_file(path)
     })?;
-    let mut request = DrawRequest::new(typed).map_err(|error| error.in_file(path))?;
+    let mut request = DrawRequest::of_model(model, how).map_err(|error| error.in_file(path))?;
     request.quiet = true;
     Ok((drawing.map(|(drawing, _)| drawing), Order { request, tolerances }))
 }
