@@ -57,6 +57,7 @@ pub mod scene;
 pub mod shadow;
 pub mod stroke;
 pub mod style;
+pub mod testing;
 pub mod view;
 pub mod viewmap;
 

@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
-const ROOMS: [&str; 21] = [
+const ROOMS: [&str; 22] = [
     "error", "math", "mesh", "scene", "view", "raster", "field", "lines", "viewmap", "shadow", "drawing",
-    "chain", "export", "region", "diff", "stroke", "hatch", "motion", "style", "render", "cli",
+    "chain", "export", "region", "diff", "testing", "stroke", "hatch", "motion", "style", "render", "cli",
 ];
 
 const LONGEST_FILE: usize = 500;

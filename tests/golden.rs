@@ -8,13 +8,13 @@ mod pipeline;
 #[path = "support/solids.rs"]
 mod solids;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
-use ligne::export::SvgOptions;
 use ligne::render::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
+use ligne::testing::assert_drawing;
 use pipeline::scene;
 use solids::{cuboid, sphere, torus};
 
@@ -22,95 +22,7 @@ fn golden(name: &str, scene: &Scene, style: &str) {
     let mut camera = Camera::three_quarter();
     (camera.width, camera.height) = (300.0, 300.0);
     let drawing = render(scene, &camera.fit(scene), &Style::preset(style).unwrap());
-    let drawn = drawing.to_svg(&SvgOptions::default());
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.svg"));
-    if std::env::var_os("LIGNE_BLESS").is_some() {
-        assert!(std::env::var_os("CI").is_none(), "golden drawings are renewed by people, not by CI");
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, drawn).unwrap();
-        return;
-    }
-    let wanted = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    if drawn != wanted {
-        let beside = beside(&path);
-        std::fs::write(&beside, &drawn).unwrap();
-        panic!("{name} is drawn differently, see {}:\n{}", beside.display(), differences(&wanted, &drawn));
-    }
-}
-
-/// Where a drawing that differs is kept for looking at.
-fn beside(path: &Path) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    folder.join(path.file_name().unwrap_or_default())
-}
-
-/// A path of a drawing: what it is, where it runs.
-struct Stroke {
-    class: String,
-    points: Vec<kurbo::Point>,
-}
-
-/// The paths of an SVG file as usvg reads them, with their curves flattened.
-fn strokes(svg: &str) -> Vec<Stroke> {
-    fn gather(group: &usvg::Group, found: &mut Vec<Stroke>) {
-        for node in group.children() {
-            match node {
-                usvg::Node::Group(inner) => gather(inner, found),
-                usvg::Node::Path(path) => {
-                    let mut points = Vec::new();
-                    for segment in path.data().segments() {
-                        use usvg::tiny_skia_path::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
-                        match segment {
-                            MoveTo(p) | LineTo(p) | QuadTo(_, p) | CubicTo(_, _, p) => {
-                                points.push(kurbo::Point::new(p.x.into(), p.y.into()));
-                            }
-                            Close => points.extend(points.first().copied()),
-                        }
-                    }
-                    let width = path.stroke().map_or(0.0, |s| s.width().get());
-                    found.push(Stroke { class: format!("width {width:.2}"), points });
-                }
-                _ => {}
-            }
-        }
-    }
-    let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).unwrap();
-    let mut found = Vec::new();
-    gather(tree.root(), &mut found);
-    found
-}
-
-/// Which paths of the one have no like in the other.
-fn differences(wanted: &str, drawn: &str) -> String {
-    let (wanted, drawn) = (strokes(wanted), strokes(drawn));
-    let mut lines = Vec::new();
-    for (sign, ours, theirs) in [("gone", &wanted, &drawn), ("new", &drawn, &wanted)] {
-        for stroke in ours {
-            let nearest = theirs
-                .iter()
-                .filter(|other| other.class == stroke.class)
-                .map(|other| apart(&stroke.points, &other.points))
-                .fold(f64::INFINITY, f64::min);
-            if nearest > 0.0 {
-                let [start, end] = [stroke.points.first(), stroke.points.last()].map(|p| *p.unwrap());
-                let count = stroke.points.len();
-                lines.push(format!(
-                    "{sign}: {} from {start} to {end}, {count} points, {nearest:.2} px from its like",
-                    stroke.class
-                ));
-            }
-        }
-    }
-    if lines.is_empty() {
-        lines.push("all paths lie where they lay; order or attributes differ".to_owned());
-    }
-    lines.join("\n")
-}
-
-/// The largest distance of a point of the one from the nearest point of the other.
-fn apart(one: &[kurbo::Point], other: &[kurbo::Point]) -> f64 {
-    let from = |p: &kurbo::Point| other.iter().map(|q| (*q - *p).hypot2()).fold(f64::INFINITY, f64::min);
-    one.iter().map(from).fold(0.0, f64::max).sqrt()
+    assert_drawing!(drawing, name, folder = "tests/golden");
 }
 
 #[test]

@@ -33,3 +33,13 @@ hatched dots --style stipple --set 'hatching.layer=[{ kind = "dots", lpi = 20 }]
 "$ligne" draw $models/knot.ply $pictures/stage-zeros.svg --stage zeros --size 480x400 --precision 1
 "$ligne" draw $models/pump.glb $pictures/stage-strengths.svg --stage strengths --size 560x400 --precision 1
 "$ligne" draw $models/bear.ply $pictures/stage-removed.svg --stage removed --style suggestive --size 400x480 --azimuth 25 --elevation 12 --precision 1
+
+# docs/diff.md and the README: a bolt gone, a coupling recoloured
+changed=$(mktemp -d)
+pump=(--size 560x400 --style toon --precision 1 --quiet)
+"$ligne" draw $models/pump.glb "$changed/old.svg" "${pump[@]}"
+"$ligne" draw $models/pump.glb "$changed/new.svg" "${pump[@]}" --hide frame-bolt-3 \
+    --set 'fills.material=[{ name = "orange rubber", colour = "#3355ee" }]'
+# Exit status 1 says that they differ.
+"$ligne" diff "$changed/old.svg" "$changed/new.svg" --image $pictures/diff-pump.svg || [ $? = 1 ]
+rm -r "$changed"

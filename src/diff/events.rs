@@ -17,8 +17,10 @@ const LEFT: f64 = 0.1;
 const RIGID: f64 = 0.05;
 /// What shift, turn and growth leave, likewise.
 const SIMILAR: f64 = 0.4;
-/// Stretches of other ink shorter than this many tolerances are what ends of lines leave.
-const CRUMB: f64 = 6.0;
+/// Stretches of other ink shorter than this many tolerances, or this part of a line, are what ends and crossings of other
+/// lines leave.
+const CRUMB: f64 = 12.0;
+const CRUMB_OF_LINE: f64 = 0.01;
 
 /// What became of one chain; lengths in px.
 #[derive(Debug, Clone)]
@@ -124,7 +126,7 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
             return Vec::new();
         }
         let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-        let crumb = (CRUMB * tolerance).min(0.5 * cover.length);
+        let crumb = (CRUMB * tolerance).max(CRUMB_OF_LINE * cover.length).min(0.5 * cover.length);
         let partners = cover.partners().into_iter();
         partners
             .filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)

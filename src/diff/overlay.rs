@@ -57,8 +57,8 @@ impl Diff {
                 layers.picture(after, Affine::IDENTITY, grey);
                 for finding in &self.findings {
                     let note: Arc<str> = Arc::from(line(finding, self.unit()));
-                    layers.old(finding, Affine::IDENTITY, width_of_line, &note);
-                    layers.new(finding, Affine::IDENTITY, width_of_line, &note);
+                    layers.taken(finding, Affine::IDENTITY, width_of_line, &note);
+                    layers.brought(finding, Affine::IDENTITY, width_of_line, &note);
                     layers.way(finding, width_of_line * 0.6, &note);
                 }
             }
@@ -70,8 +70,8 @@ impl Diff {
                 layers.picture(after, beside, own);
                 for finding in &self.findings {
                     let note: Arc<str> = Arc::from(line(finding, self.unit()));
-                    layers.old(finding, Affine::IDENTITY, width_of_line, &note);
-                    layers.new(finding, beside, width_of_line, &note);
+                    layers.taken(finding, Affine::IDENTITY, width_of_line, &note);
+                    layers.brought(finding, beside, width_of_line, &note);
                 }
             }
         }
@@ -127,7 +127,7 @@ impl Layers {
     }
 
     /// What a finding takes away.
-    fn old(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
+    fn taken(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         match finding.verdict {
             Verdict::Page | Verdict::Restyled | Verdict::Restacked | Verdict::Relabelled => {}
             _ => self.piece(finding, &finding.gone, GONE, to, width, note),
@@ -135,7 +135,7 @@ impl Layers {
     }
 
     /// What a finding brings.
-    fn new(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
+    fn brought(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         let colour = match finding.verdict {
             Verdict::Page => return,
             Verdict::Restyled | Verdict::Restacked => RESTYLED,

@@ -153,7 +153,7 @@ fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) 
     let alignment = align(a, b);
     let size = |chain: &Chain| {
         let bounds = bounds(&chain.points);
-        bounds.width().hypot(bounds.height())
+        bounds.size().to_vec2().hypot()
     };
     let limit =
         (REACH_OF_MARK * size(a).max(size(b))).max(LEAST_REACH_OF_PAGE * page).min(REACH_OF_PAGE * page);

@@ -49,8 +49,7 @@ fn read(svg: &str) -> Result<Picture, Error> {
     let far = |shape: &Shape| {
         let bounds = shape.path.control_box();
         let most = bounds.x0.abs().max(bounds.y0.abs()).max(bounds.x1.abs()).max(bounds.y1.abs());
-        // Not a number counts as far.
-        !(most <= FARTHEST_PX)
+        most > FARTHEST_PX || most.is_nan()
     };
     if let Some(shape) = reader.shapes.iter().find(|shape| far(shape)) {
         return Err(Error::new(format!("a {} lies more than {FARTHEST_PX} px from the page", shape.label))

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kurbo::Rect;
+use kurbo::{Rect, Vec2};
 
 use super::finding::{Change, Diff, Finding, Place, Stage, Verdict};
 use super::ink::trimmed;
@@ -68,7 +68,7 @@ impl Diff {
     /// What is told, and how many findings each line stands for.
     pub(super) fn told(&self) -> Vec<Told> {
         let unit = self.unit();
-        let mut groups: BTreeMap<(Verdict, Option<&str>, &[Change], bool), Vec<&Finding>> = BTreeMap::new();
+        let mut groups: BTreeMap<Alike, Vec<&Finding>> = BTreeMap::new();
         for finding in &self.findings {
             // Whole parts come and go with all that they have.
             let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
@@ -110,6 +110,9 @@ impl Diff {
     }
 }
 
+/// What findings that are told together have in common: verdict, part, changes, and whether they are lines.
+type Alike<'a> = (Verdict, Option<&'a str>, &'a [Change], bool);
+
 /// A line, and how many findings it stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Told {
@@ -137,8 +140,8 @@ fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String 
         Some(Verdict::Moved) => {
             let first = findings.first().and_then(|f| f.shift);
             let together = first.filter(|first| {
-                let near =
-                    |s: [f64; 2]| (s[0] - first[0]).hypot(s[1] - first[1]) <= 0.02 * first[0].hypot(first[1]);
+                let way = |[x, y]: [f64; 2]| Vec2::new(x, y);
+                let near = |s: [f64; 2]| (way(s) - way(*first)).hypot() <= 0.02 * way(*first).hypot();
                 findings.iter().all(|f| f.shift.is_some_and(near))
             });
             match together {
@@ -213,7 +216,7 @@ fn way([x, y]: [f64; 2], unit: Written) -> String {
         v => Some(format!("{} {}", unit.number(v.abs()), if v > 0.0 { plus } else { minus })),
     };
     let parts: Vec<String> = side(x, "right", "left").into_iter().chain(side(y, "down", "up")).collect();
-    format!("{} ({})", unit.length(x.hypot(y)), parts.join(", "))
+    format!("{} ({})", unit.length(Vec2::new(x, y).hypot()), parts.join(", "))
 }
 
 pub(super) fn changed(changes: &[Change]) -> String {

@@ -86,7 +86,7 @@ impl Tolerances {
     }
 
     /// Names that no mark of the drawings has.
-    pub(super) fn unused<'a>(&'a self, pictures: [&Picture; 2]) -> Vec<String> {
+    pub(super) fn unused(&self, pictures: [&Picture; 2]) -> Vec<String> {
         let known = |name: &str| {
             matches!(name, "lines" | "fills")
                 || pictures.iter().flat_map(|picture| picture.shapes.iter()).any(|shape| {

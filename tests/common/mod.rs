@@ -127,6 +127,18 @@ impl Run {
         assert!(self.out.is_empty() && !self.err.contains("panicked"), "{self:?}");
     }
 
+    /// Checks the exit status.
+    pub fn ends(&self, status: i32) -> &Self {
+        assert!(self.status == Some(status) && !self.err.contains("panicked"), "{self:?}");
+        self
+    }
+
+    /// Checks that standard output or standard error holds `what`.
+    pub fn says(&self, what: &str) -> &Self {
+        assert!(self.out.contains(what) || self.err.contains(what), "no `{what}` in {self:?}");
+        self
+    }
+
     /// Checks that all went well.
     pub fn done(&self) -> &Self {
         assert_eq!(self.status, Some(0), "{self:?}");

@@ -60,21 +60,26 @@ impl Pairing {
 
 /// Both drawings. Models are drawn, the second one as the first one is seen.
 pub(super) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Picture; 2], Error> {
-    let mut request = None;
-    let mut read = |path: &Path| -> Result<Picture, Error> {
-        if !is_model(path) {
-            return picture(path, &text(path)?);
-        }
-        let mut own = DrawRequest::of_model(path.to_path_buf(), how.clone())?;
-        own.quiet = true;
-        if let Some(seen) = request.take() {
-            own.view = seen;
-        }
-        let (svg, seen) = draw::encoded_and_seen(&own)?;
-        request = Some(seen);
-        picture(path, &String::from_utf8_lossy(&svg))
+    let request = |path: &Path| -> Result<DrawRequest, Error> {
+        let mut request = DrawRequest::of_model(path.to_path_buf(), how.clone())?;
+        request.quiet = true;
+        Ok(request)
     };
-    Ok([read(before)?, read(after)?])
+    if is_model(before) {
+        let (svg, seen) = draw::encoded_and_seen(&request(before)?)?;
+        let first = picture(before, &String::from_utf8_lossy(&svg))?;
+        if !is_model(after) {
+            return Ok([first, picture(after, &text(after)?)?]);
+        }
+        let request = DrawRequest { view: seen, ..request(after)? };
+        return Ok([first, picture(after, &String::from_utf8_lossy(&draw::encoded(&request)?))?]);
+    }
+    let second = || match is_model(after) {
+        true => picture(after, &String::from_utf8_lossy(&draw::encoded(&request(after)?)?)),
+        false => picture(after, &text(after)?),
+    };
+    let (first, second) = rayon::join(|| text(before).and_then(|svg| picture(before, &svg)), second);
+    Ok([first?, second?])
 }
 
 fn picture(path: &Path, svg: &str) -> Result<Picture, Error> {
