@@ -69,15 +69,3 @@ fn cubes_as_patent_and_comic() {
     golden("cubes-patent", &scene(cubes()), "patent");
     golden("cubes-comic", &scene(cubes()), "comic");
 }
-
-#[test]
-fn a_difference_is_told_by_its_path() {
-    let svg = |d: &str| {
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><path d=\"M1 1L8 1\" stroke=\"#000\"/><path d=\"{d}\" stroke=\"#000\"/></svg>"
-        )
-    };
-    let told = differences(&svg("M1 2L8 2"), &svg("M1 2L8 5"));
-    assert!(told.contains("gone: width 1.00 from (1, 2) to (8, 2)"), "{told}");
-    assert!(told.contains("new: width 1.00 from (1, 2) to (8, 5)") && told.lines().count() == 2, "{told}");
-}

@@ -5,7 +5,6 @@
 
 use kurbo::Point;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::chain::Chain;
 use super::grid::Grid;
@@ -39,6 +38,9 @@ impl Run {
 pub(super) struct Cover {
     /// From its start to its end, without gaps.
     pub runs: Vec<Run>,
+    /// The chains that cover it, the one with the longest stretch first; each with the best likeness that it has anywhere, and
+    /// the length that it covers.
+    pub partners: Vec<(u32, Likeness, f64)>,
     /// Length of the chain in px.
     pub length: f64,
     /// Whether the chain is a dot.
@@ -66,20 +68,19 @@ impl Cover {
         if self.dot { f64::from(u8::from(self.is_whole())) } else { 1.0 - self.bare() / self.length }
     }
 
-    /// The chains that cover it, the one with the longest stretch first; each with the likeness of that.
-    pub(super) fn partners(&self) -> Vec<(u32, Likeness, f64)> {
-        let mut lengths: FxHashMap<u32, (Likeness, f64)> = FxHashMap::default();
+    /// Sums up the runs by partner.
+    fn sum_up(&mut self) {
         for run in &self.runs {
-            if let Some(likeness) = run.likeness {
-                let entry = lengths.entry(run.partner).or_insert((likeness, 0.0));
-                entry.0 = entry.0.min(likeness);
-                entry.1 += run.length();
+            let Some(likeness) = run.likeness else { continue };
+            match self.partners.iter_mut().find(|(partner, ..)| *partner == run.partner) {
+                Some((_, best, length)) => {
+                    *best = likeness.min(*best);
+                    *length += run.length();
+                }
+                None => self.partners.push((run.partner, likeness, run.length())),
             }
         }
-        let mut list: Vec<(u32, Likeness, f64)> =
-            lengths.into_iter().map(|(partner, (likeness, length))| (partner, likeness, length)).collect();
-        list.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
-        list
+        self.partners.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
     }
 }
 
@@ -94,6 +95,8 @@ pub(super) fn cover(chains: &[Chain], others: &[Chain], grid: &Grid, groups: &Gr
 #[derive(Default)]
 struct Scratch {
     near: Vec<u32>,
+    /// Likenesses to groups that are near.
+    likeness: Vec<(usize, Option<Likeness>)>,
     intervals: Vec<Interval>,
 }
 
@@ -110,7 +113,7 @@ fn one(chain: &Chain, others: &[Chain], grid: &Grid, groups: &Groups, scratch: &
     let mut cover = Cover { length: chain.length(), ..Cover::default() };
     cover.dot = cover.length == 0.0;
     let mut at = 0.0;
-    let mut likeness_of: FxHashMap<usize, Option<Likeness>> = FxHashMap::default();
+    scratch.likeness.clear();
     for (from, to) in chain.segments() {
         let length = from.distance(to);
         grid.near(from, to, tolerance, &mut scratch.near);
@@ -118,8 +121,12 @@ fn one(chain: &Chain, others: &[Chain], grid: &Grid, groups: &Groups, scratch: &
         for item in &scratch.near {
             let Some(segment) = grid.segments.get(*item as usize) else { continue };
             let Some(other) = others.get(segment.chain as usize) else { continue };
+            let known = scratch.likeness.iter().find(|(group, _)| *group == other.group);
             let likeness =
-                *likeness_of.entry(other.group).or_insert_with(|| groups.likeness(chain.group, other.group));
+                known.map_or_else(|| groups.likeness(chain.group, other.group), |(_, known)| *known);
+            if known.is_none() {
+                scratch.likeness.push((other.group, likeness));
+            }
             let Some(likeness) = likeness else { continue };
             if let Some((start, end)) = within(from, to, segment.from, segment.to, tolerance) {
                 scratch.intervals.push(Interval {
@@ -140,6 +147,7 @@ fn one(chain: &Chain, others: &[Chain], grid: &Grid, groups: &Groups, scratch: &
     absorb(&mut cover.runs, most, |run, around| {
         run.likeness.is_some() && around.likeness.is_some() && run.likeness != around.likeness
     });
+    cover.sum_up();
     cover
 }
 

@@ -88,7 +88,7 @@ fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
 /// A chain with uncovered stretches and without a partner: part of a mark, or all of it.
 fn of_one(sides: &[Side; 2], side: usize, index: usize) -> Event {
     let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
-    let rest = cover.partners().first().map(|(partner, ..)| *partner as usize);
+    let rest = cover.partners.first().map(|(partner, ..)| *partner as usize);
     let rest = rest.filter(|_| cover.share() > LEFT);
     let (mut old, mut new) = if side == 0 { (Some(index), rest) } else { (rest, Some(index)) };
     let mut event = Event {
@@ -127,7 +127,7 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
         }
         let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
         let crumb = (CRUMB * tolerance).max(CRUMB_OF_LINE * cover.length).min(0.5 * cover.length);
-        let partners = cover.partners().into_iter();
+        let partners = cover.partners.iter().copied();
         partners
             .filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)
             .map(|(partner, likeness, length)| (partner as usize, likeness, length))

@@ -90,27 +90,28 @@ impl Ink {
     /// What is different, each as what it is, what it was and what it became.
     pub(super) fn changes(&self, other: &Self) -> Vec<(&'static str, String, String)> {
         let mut changes = Vec::new();
-        let mut note = |what, differs: bool, old: String, new: String| {
+        let mut note = |what, differs: bool, word: &dyn Fn(&Self) -> String| {
             if differs {
-                changes.push((what, old, new));
+                changes.push((what, word(self), word(other)));
             }
         };
-        note("colour", !self.paint.is_like(&other.paint), self.paint.to_string(), other.paint.to_string());
-        let width = |ink: &Self| format!("{} px", trimmed(ink.width));
-        note("width", (self.width - other.width).abs() > WIDTH_PX, width(self), width(other));
-        let dash = |ink: &Self| match ink.dash.as_slice() {
+        note("colour", !self.paint.is_like(&other.paint), &|ink| ink.paint.to_string());
+        note("width", (self.width - other.width).abs() > WIDTH_PX, &|ink| {
+            format!("{} px", trimmed(ink.width))
+        });
+        note("dash", !same_dash(&self.dash, &other.dash), &|ink| match ink.dash.as_slice() {
             [] => "solid".to_owned(),
             dash => dash.iter().map(|length| trimmed(*length)).collect::<Vec<_>>().join(" "),
-        };
-        note("dash", !same_dash(&self.dash, &other.dash), dash(self), dash(other));
-        let tone = |ink: &Self| ink.tone.map_or_else(|| "none".to_owned(), |tone| tone.to_string());
-        note("tone", self.tone != other.tone, tone(self), tone(other));
-        note("ends", self.cap != other.cap, cap(self.cap).into(), cap(other.cap).into());
-        note("corners", self.join != other.join, join(self.join).into(), join(other.join).into());
-        let drawn = |ink: &Self| if ink.outlined { "outline" } else { "stroke" }.to_owned();
-        note("drawn as", self.outlined != other.outlined, drawn(self), drawn(other));
-        let hidden = |ink: &Self| ink.invisibility.to_string();
-        note("hidden by", self.invisibility != other.invisibility, hidden(self), hidden(other));
+        });
+        note("tone", self.tone != other.tone, &|ink| {
+            ink.tone.map_or_else(|| "none".to_owned(), |tone| tone.to_string())
+        });
+        note("ends", self.cap != other.cap, &|ink| cap(ink.cap).to_owned());
+        note("corners", self.join != other.join, &|ink| join(ink.join).to_owned());
+        note("drawn as", self.outlined != other.outlined, &|ink| {
+            if ink.outlined { "outline" } else { "stroke" }.to_owned()
+        });
+        note("hidden by", self.invisibility != other.invisibility, &|ink| ink.invisibility.to_string());
         changes
     }
 }

@@ -1,6 +1,7 @@
 //! From two pictures to a [`Diff`].
 
 use kurbo::{BezPath, Rect, Shape as _};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::DiffOptions;
@@ -52,12 +53,10 @@ pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
     }
     diff.findings.extend(stacking::findings(before, after, stayed));
     diff.findings.sort_by(|a, b| {
-        let key = |finding: &Finding| (finding.verdict, finding.label.clone());
-        let place = |finding: &Finding| (finding.place.y, finding.place.x);
-        key(a)
-            .cmp(&key(b))
-            .then(place(a).0.total_cmp(&place(b).0))
-            .then(place(a).1.total_cmp(&place(b).1))
+        (a.verdict, &a.label)
+            .cmp(&(b.verdict, &b.label))
+            .then(a.place.y.total_cmp(&b.place.y))
+            .then(a.place.x.total_cmp(&b.place.x))
             .then(b.size.total_cmp(&a.size))
     });
     if diff.findings.is_empty() {
@@ -91,8 +90,7 @@ fn findings(
     let [cover_a, cover_b] = covers;
     let sides = [Side { chains: a, covers: cover_a }, Side { chains: b, covers: cover_b }];
     for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
-        let partner =
-            cover.partners().first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
+        let partner = cover.partners.first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
         stayed.extend(
             chain.shapes.first().copied().zip(partner.and_then(|other| other.shapes.first().copied())),
         );
@@ -106,7 +104,7 @@ fn findings(
             .and_then(|chain| groups.groups.get(chain.group))
             .is_none_or(|group| group.kind == ShapeKind::Line)
     });
-    let mut findings: Vec<Finding> = lines.into_iter().map(|event| teller.line(event)).collect();
+    let mut findings: Vec<Finding> = lines.into_par_iter().map(|event| teller.line(event)).collect();
     findings.extend(regions::findings(&teller, borders));
     findings.extend(teller.outlines(groups));
     findings
@@ -171,7 +169,7 @@ impl<'a> Teller<'a> {
                 continue;
             };
             let partner =
-                cover.partners().first().map(|(partner, ..)| &self.sides[1].chains[*partner as usize]);
+                cover.partners.first().map(|(partner, ..)| &self.sides[1].chains[*partner as usize]);
             let Some(partner) = partner.filter(|partner| cover.is_same() && partner.shapes.len() == 1) else {
                 continue;
             };
@@ -241,20 +239,19 @@ pub(super) fn label(shapes: [Option<&Shape>; 2]) -> Label {
 pub(super) fn changes(shapes: [Option<&Shape>; 2]) -> Vec<Change> {
     let [Some(old), Some(new)] = shapes else { return Vec::new() };
     let mut changes: Vec<Change> = Vec::new();
-    let mut note = |what: &str, old: String, new: String| {
-        if old != new {
-            changes.push(Change { what: what.to_owned(), old, new });
+    for (what, was, is) in old.ink.changes(&new.ink) {
+        changes.push(Change { what: what.to_owned(), old: was, new: is });
+    }
+    // One of the two may be grouped by part, and have no layers at all.
+    let layered = !old.label.layer.is_empty() && !new.label.layer.is_empty();
+    let mut note = |what: &str, differs: bool, word: &dyn Fn(&Label) -> String| {
+        if differs {
+            changes.push(Change { what: what.to_owned(), old: word(&old.label), new: word(&new.label) });
         }
     };
-    for (what, was, is) in old.ink.changes(&new.ink) {
-        note(what, was, is);
-    }
-    note("part", old.label.part_name().to_owned(), new.label.part_name().to_owned());
-    note("class", old.label.classes.join(" "), new.label.classes.join(" "));
-    // One of the two may be grouped by part, and have no layers at all.
-    if !old.label.layer.is_empty() && !new.label.layer.is_empty() {
-        note("layer", old.label.layer.to_string(), new.label.layer.to_string());
-    }
+    note("part", old.label.part != new.label.part, &|label| label.part_name().to_owned());
+    note("class", old.label.classes != new.label.classes, &|label| label.classes.join(" "));
+    note("layer", layered && old.label.layer != new.label.layer, &|label| label.layer.to_string());
     changes
 }
 

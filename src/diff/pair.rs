@@ -51,26 +51,26 @@ pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
     if bare.iter().any(Vec::is_empty) {
         return Vec::new();
     }
-    let mut found: Vec<Pair> = (0..2)
-        .into_par_iter()
-        .flat_map_iter(|side| {
-            let other = 1 - side;
-            let targets: Vec<Chain> =
-                bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
-            let grid = Grid::new(&targets);
-            let each = bare[side].par_iter().flat_map_iter(|index| {
-                let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
-                let chain = &sides[side].chains[*index];
-                near.sort_by_cached_key(|there| ends_apart(chain, &sides[other].chains[*there]).to_bits());
-                near.truncate(CLOSELY);
-                near.into_iter().filter_map(|there| {
-                    let (old, new) = if side == 0 { (*index, there) } else { (there, *index) };
-                    judge(sides, old, new, groups, page)
-                })
-            });
-            each.collect::<Vec<_>>()
-        })
-        .collect();
+    let mut near: Vec<(usize, usize)> = Vec::new();
+    for side in 0..2 {
+        let other = 1 - side;
+        let targets: Vec<Chain> =
+            bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
+        let grid = Grid::new(&targets);
+        let of = |index: &usize| {
+            let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
+            let chain = &sides[side].chains[*index];
+            near.sort_by_cached_key(|there| ends_apart(chain, &sides[other].chains[*there]).to_bits());
+            near.truncate(CLOSELY);
+            let index = *index;
+            near.into_iter().map(move |there| if side == 0 { (index, there) } else { (there, index) })
+        };
+        near.par_extend(bare[side].par_iter().flat_map_iter(of));
+    }
+    near.par_sort_unstable();
+    near.dedup();
+    let mut found: Vec<Pair> =
+        near.into_par_iter().filter_map(|(old, new)| judge(sides, old, new, groups, page)).collect();
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| tie(sides, a, b)));
     let mut free = [vec![true; sides[0].chains.len()], vec![true; sides[1].chains.len()]];
     found.retain(|pair| {
@@ -99,9 +99,9 @@ fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
 /// Uncovered chains of the other side that lie near.
 fn candidates(side: &Side, index: usize, bare: &[usize], grid: &Grid, reach: f64) -> Vec<usize> {
     let chain = &side.chains[index];
-    let partners = side.covers[index].partners().into_iter().map(|(partner, ..)| partner as usize);
+    let partners = side.covers[index].partners.iter().map(|(partner, ..)| *partner as usize);
     let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();
-    for place in places(chain, PLACES) {
+    for place in places(chain, (chain.points.len() + 1).min(PLACES)) {
         // The nearest few: each with its distance.
         let near: std::cell::RefCell<Vec<(f64, u32)>> = std::cell::RefCell::default();
         let see = |item: u32| {
@@ -146,7 +146,7 @@ fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) 
     let likeness = groups.likeness(a.group, b.group)?;
     let (cover_a, cover_b) = (&sides[0].covers[old], &sides[1].covers[new]);
     let of = |cover: &Cover, partner: usize| {
-        cover.partners().iter().find(|(p, ..)| *p as usize == partner).map_or(0.0, |(.., length)| *length)
+        cover.partners.iter().find(|(p, ..)| *p as usize == partner).map_or(0.0, |(.., length)| *length)
     };
     let both = cover_a.length + cover_b.length;
     let common = if both > 0.0 { (of(cover_a, new) + of(cover_b, old)) / both } else { 0.0 };

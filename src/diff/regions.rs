@@ -44,7 +44,7 @@ impl Partners {
         for side in 0..2 {
             let (own, others) = (&teller.sides[side], &teller.sides[1 - side]);
             for (chain, cover) in own.chains.iter().zip(&own.covers) {
-                for (partner, _, length) in cover.partners() {
+                for &(partner, _, length) in &cover.partners {
                     let other = others.chains.get(partner as usize).and_then(|other| other.shapes.first());
                     add(side, chain.shapes.first(), other, length);
                 }
