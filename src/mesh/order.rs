@@ -25,11 +25,38 @@ const GRAIN: usize = 1 << 12;
 /// No normal or texture coordinate.
 const NONE: u32 = u32::MAX;
 
-/// A face with its first corner in front, and where it stood.
+/// A face with its first corner in front.
 #[derive(Clone, Copy, Default)]
 struct Entry {
     corners: [u32; 3],
-    face: u32,
+    /// Where the face stood, shifted left by two; the lowest bits say which of its corners came first.
+    face_turn: u32,
+}
+
+impl Entry {
+    fn new(face: usize, [a, b, c]: [u32; 3]) -> Self {
+        let turn = if a <= b && a <= c {
+            0
+        } else if b <= c {
+            1
+        } else {
+            2
+        };
+        Self { corners: turned([a, b, c], turn), face_turn: (face as u32) << 2 | turn }
+    }
+
+    fn face(&self) -> usize {
+        (self.face_turn >> 2) as usize
+    }
+
+    /// The corners after the first, as one number.
+    fn others(&self) -> u64 {
+        u64::from(self.corners[1]) << 32 | u64::from(self.corners[2])
+    }
+
+    fn turn(&self) -> u32 {
+        self.face_turn & 3
+    }
 }
 
 /// Orders all of a soup whose box begins at `low` and has `side` as its longest side. Vertices at one place
@@ -49,14 +76,20 @@ pub(super) fn by_place(soup: &mut Soup, low: DVec3, side: f64) -> u64 {
 /// Sorts the places and leaves each once; returns the new id of each old vertex.
 fn order_vertices(positions: &mut Vec<DVec3>, low: DVec3, side: f64) -> Vec<u32> {
     let scale = if side > 0.0 { CELLS / side } else { 0.0 };
-    let mut keyed: Vec<(u64, u32)> = positions
+    let keyed: Vec<(u64, u32)> = positions
         .par_iter()
         .enumerate()
         .with_min_len(GRAIN)
         .map(|(id, p)| (along_curve((*p - low) * scale), id as u32))
         .collect();
+    // Most of the work is done by large cells, of which a surface meets one for every few vertices.
+    let depth = (positions.len() / 32).max(1).ilog2().div_ceil(2).min(7);
+    let large = |key: u64| (key >> (63 - 3 * depth)) as u32;
+    let mut keyed = counting_sort(&keyed, 1 << (3 * depth), |(key, _)| large(*key));
     let place = |id: u32| positions[id as usize];
-    keyed.par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| by_coordinates(place(a.1), place(b.1))));
+    keyed.par_chunk_by_mut(|a, b| large(a.0) == large(b.0)).for_each(|cell| {
+        cell.sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| by_coordinates(place(a.1), place(b.1))));
+    });
 
     let mut new_id = vec![0; positions.len()];
     let mut places: Vec<DVec3> = Vec::with_capacity(positions.len());
@@ -94,26 +127,19 @@ fn by_coordinates(a: DVec3, b: DVec3) -> Ordering {
 /// Gives the faces their new vertices and order.
 fn order_faces(soup: &mut Soup, new_id: &[u32]) {
     let renamed = |t: &[u32; 3]| t.map(|v| new_id[v as usize]);
-    // Which of its corners each face begins with from now on.
-    let turns: Vec<u8> =
-        soup.triangles.par_iter().with_min_len(GRAIN).map(|t| first_corner(renamed(t))).collect();
-    let entry = |(face, (t, turn)): (usize, (&[u32; 3], &u8))| Entry {
-        corners: turned(renamed(t), *turn),
-        face: face as u32,
-    };
-    let of_file: Vec<Entry> =
-        soup.triangles.par_iter().zip(&turns).enumerate().with_min_len(GRAIN).map(entry).collect();
+    let entry = |(face, t): (usize, &[u32; 3])| Entry::new(face, renamed(t));
+    let of_file: Vec<Entry> = soup.triangles.par_iter().enumerate().with_min_len(GRAIN).map(entry).collect();
     let mut entries = counting_sort(&of_file, soup.positions.len(), |e| e.corners[0]);
+    drop(of_file);
     let groups = groups(soup);
-    let group = |e: &Entry| groups.as_ref().map_or(0, |groups| groups.of_face[e.face as usize]);
+    let group = |e: &Entry| groups.as_ref().map_or(0, |groups| groups.of_face[e.face()]);
     if let Some(groups) = &groups {
         entries = counting_sort(&entries, groups.count, group);
     }
     let at_one_corner = |a: &Entry, b: &Entry| a.corners[0] == b.corners[0] && group(a) == group(b);
     entries.par_chunk_by_mut(at_one_corner).for_each(|faces| {
         faces.sort_unstable_by(|a, b| {
-            let attributes = |e: &Entry| attributes(soup, e.face as usize, turns[e.face as usize]);
-            a.corners.cmp(&b.corners).then_with(|| attributes(a).cmp(&attributes(b)))
+            a.others().cmp(&b.others()).then_with(|| attributes(soup, a).cmp(&attributes(soup, b)))
         });
     });
 
@@ -123,24 +149,13 @@ fn order_faces(soup: &mut Soup, new_id: &[u32]) {
         reorder(&mut soup.triangle_material, &entries, |material, _| material);
     }
     reorder(&mut soup.triangle_paint, &entries, |paint, _| paint);
-    reorder(&mut soup.corner_normals, &entries, |corners, face| turned(corners, turns[face]));
-    reorder(&mut soup.corner_uvs, &entries, |corners, face| turned(corners, turns[face]));
-    reorder(&mut soup.edge_marks, &entries, |sides, face| turned(sides, turns[face]));
-}
-
-/// Which corner of a face has the least id.
-fn first_corner([a, b, c]: [u32; 3]) -> u8 {
-    if a <= b && a <= c {
-        0
-    } else if b <= c {
-        1
-    } else {
-        2
-    }
+    reorder(&mut soup.corner_normals, &entries, turned);
+    reorder(&mut soup.corner_uvs, &entries, turned);
+    reorder(&mut soup.edge_marks, &entries, turned);
 }
 
 /// What belongs to the corners of a face, or to the sides that begin there, from another corner on.
-fn turned<T: Copy>([a, b, c]: [T; 3], turn: u8) -> [T; 3] {
+fn turned<T: Copy>([a, b, c]: [T; 3], turn: u32) -> [T; 3] {
     match turn {
         0 => [a, b, c],
         1 => [b, c, a],
@@ -148,19 +163,19 @@ fn turned<T: Copy>([a, b, c]: [T; 3], turn: u8) -> [T; 3] {
     }
 }
 
-/// The entries by a key below `keys`, those with the same key as they were.
-fn counting_sort(entries: &[Entry], keys: usize, key: impl Fn(&Entry) -> u32) -> Vec<Entry> {
+/// The items by a key below `keys`, those with the same key as they were.
+fn counting_sort<T: Copy + Default>(items: &[T], keys: usize, key: impl Fn(&T) -> u32) -> Vec<T> {
     let mut starts = vec![0u32; keys + 1];
-    entries.iter().for_each(|e| starts[key(e) as usize + 1] += 1);
+    items.iter().for_each(|item| starts[key(item) as usize + 1] += 1);
     let mut total = 0;
     for start in &mut starts {
         total += *start;
         *start = total;
     }
-    let mut sorted = vec![Entry::default(); entries.len()];
-    for entry in entries {
-        let next = &mut starts[key(entry) as usize];
-        sorted[*next as usize] = *entry;
+    let mut sorted = vec![T::default(); items.len()];
+    for item in items {
+        let next = &mut starts[key(item) as usize];
+        sorted[*next as usize] = *item;
         *next += 1;
     }
     sorted
@@ -179,20 +194,23 @@ fn groups(soup: &Soup) -> Option<Groups> {
         (part, soup.triangle_material.get(face).copied().unwrap_or_default())
     };
     let faces = soup.triangles.len();
+    let first = key(0);
+    if (1..faces).into_par_iter().with_min_len(GRAIN).all(|face| key(face) == first) {
+        return None;
+    }
     let mut keys: Vec<(PartId, MaterialId)> = (0..faces).map(key).collect();
     keys.dedup();
     keys.sort_unstable();
     keys.dedup();
     let of = |face: usize| keys.binary_search(&key(face)).unwrap_or_default() as u32;
-    (keys.len() > 1).then(|| Groups {
-        of_face: (0..faces).into_par_iter().with_min_len(GRAIN).map(of).collect(),
-        count: keys.len(),
-    })
+    let of_face = (0..faces).into_par_iter().with_min_len(GRAIN).map(of).collect();
+    Some(Groups { of_face, count: keys.len() })
 }
 
 /// All else that tells faces with the same corners apart: their paint, and by their bits what they have at
 /// each side and corner. Where that is alike too, so are the faces.
-fn attributes(soup: &Soup, face: usize, turn: u8) -> impl Ord + use<> {
+fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
+    let (face, turn) = (entry.face(), entry.turn());
     let at_corners = |corners: &[[u32; 3]]| turned(corners.get(face).copied().unwrap_or([NONE; 3]), turn);
     let normal = |id: u32| soup.normals.get(id as usize).map(|n| n.map(f32::to_bits));
     let uv = |id: u32| soup.uvs.get(id as usize).map(|uv| uv.map(f32::to_bits));
@@ -204,14 +222,14 @@ fn attributes(soup: &Soup, face: usize, turn: u8) -> impl Ord + use<> {
     )
 }
 
-/// Puts what each face has in the faces' new order.
+/// Puts what each face has in the faces' new order, changed by how far the face was turned.
 fn reorder<T: Copy + Default + Send + Sync>(
     list: &mut Vec<T>,
     entries: &[Entry],
-    change: impl Fn(T, usize) -> T + Sync,
+    change: impl Fn(T, u32) -> T + Sync,
 ) {
     if !list.is_empty() {
-        let of = |e: &Entry| change(list.get(e.face as usize).copied().unwrap_or_default(), e.face as usize);
+        let of = |e: &Entry| change(list.get(e.face()).copied().unwrap_or_default(), e.turn());
         *list = entries.par_iter().with_min_len(GRAIN).map(of).collect();
     }
 }
