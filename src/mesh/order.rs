@@ -20,7 +20,7 @@ use super::{MaterialId, PartId, Soup};
 const CELLS: f64 = (1u32 << 21) as f64;
 
 /// The smallest piece of work for a thread, in vertices or faces.
-const GRAIN: usize = 1 << 12;
+const GRAIN: usize = 1 << 14;
 
 /// No normal or texture coordinate.
 const NONE: u32 = u32::MAX;
@@ -87,7 +87,8 @@ fn order_vertices(positions: &mut Vec<DVec3>, low: DVec3, side: f64) -> Vec<u32>
     let large = |key: u64| (key >> (63 - 3 * depth)) as u32;
     let mut keyed = counting_sort(&keyed, 1 << (3 * depth), |(key, _)| large(*key));
     let place = |id: u32| positions[id as usize];
-    keyed.par_chunk_by_mut(|a, b| large(a.0) == large(b.0)).for_each(|cell| {
+    let at_one_cell = |a: &(u64, u32), b: &(u64, u32)| large(a.0) == large(b.0);
+    for_each_run(&mut keyed, at_one_cell, |cell| {
         cell.sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| by_coordinates(place(a.1), place(b.1))));
     });
 
@@ -137,7 +138,7 @@ fn order_faces(soup: &mut Soup, new_id: &[u32]) {
         entries = counting_sort(&entries, groups.count, group);
     }
     let at_one_corner = |a: &Entry, b: &Entry| a.corners[0] == b.corners[0] && group(a) == group(b);
-    entries.par_chunk_by_mut(at_one_corner).for_each(|faces| {
+    for_each_run(&mut entries, at_one_corner, |faces| {
         faces.sort_unstable_by(|a, b| {
             a.others().cmp(&b.others()).then_with(|| attributes(soup, a).cmp(&attributes(soup, b)))
         });
@@ -179,6 +180,19 @@ fn counting_sort<T: Copy + Default>(items: &[T], keys: usize, key: impl Fn(&T) -
         *next += 1;
     }
     sorted
+}
+
+/// Changes each run of neighbours that belong together.
+fn for_each_run<T: Send>(
+    items: &mut [T],
+    together: impl Fn(&T, &T) -> bool + Sync,
+    change: impl Fn(&mut [T]) + Sync,
+) {
+    if items.len() < GRAIN {
+        items.chunk_by_mut(together).for_each(change);
+    } else {
+        items.par_chunk_by_mut(together).for_each(change);
+    }
 }
 
 /// Numbers for what has one part and one material, in the order of parts, then of materials.
