@@ -185,8 +185,8 @@ fn counting_sort<T: Copy + Default>(items: &[T], keys: usize, key: impl Fn(&T) -
 /// Changes each run of neighbours that belong together.
 fn for_each_run<T: Send>(
     items: &mut [T],
-    together: impl Fn(&T, &T) -> bool + Sync,
-    change: impl Fn(&mut [T]) + Sync,
+    together: impl Fn(&T, &T) -> bool + Send + Sync,
+    change: impl Fn(&mut [T]) + Send + Sync,
 ) {
     if items.len() < GRAIN {
         items.chunk_by_mut(together).for_each(change);
@@ -330,6 +330,20 @@ mod tests {
         second.wires[1].vertices = [3, 2];
         assert_eq!(by_place(&mut second, DVec3::ZERO, 1.0), 1);
         assert_eq!(values(&first), values(&second));
+    }
+
+    #[test]
+    fn equal_places_become_one() {
+        let near = DVec3::new(0.5, 0.5, 0.5 + 1e-15);
+        let mut soup = Soup {
+            positions: vec![near, DVec3::splat(0.5), DVec3::X, near, DVec3::splat(0.5)],
+            triangles: vec![[0, 1, 2], [3, 4, 2]],
+            ..Soup::default()
+        };
+        // Two places in one cell of the curve are two.
+        assert_eq!(by_place(&mut soup, DVec3::ZERO, 1.0), 2);
+        assert_eq!(soup.positions, [DVec3::X, DVec3::splat(0.5), near]);
+        assert_eq!(soup.triangles, [[0, 2, 1]; 2]);
     }
 
     #[test]
