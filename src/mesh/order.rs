@@ -83,7 +83,7 @@ fn order_vertices(positions: &mut Vec<DVec3>, low: DVec3, side: f64) -> Vec<u32>
         .map(|(id, p)| (along_curve((*p - low) * scale), id as u32))
         .collect();
     // Most of the work is done by large cells, of which a surface meets one for every few vertices.
-    let depth = (positions.len() / 32).max(1).ilog2().div_ceil(2).min(7);
+    let depth = (positions.len() / 8).max(1).ilog2().div_ceil(2).min(7);
     let large = |key: u64| (key >> (63 - 3 * depth)) as u32;
     let mut keyed = counting_sort(&keyed, 1 << (3 * depth), |(key, _)| large(*key));
     let place = |id: u32| positions[id as usize];
