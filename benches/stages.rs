@@ -6,7 +6,7 @@ use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
 use ligne::field;
 use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
-use ligne::mesh::{Edges, HardEdges, Mesh, SmoothNormals, weld};
+use ligne::mesh::{Edges, HardEdges, Mesh, SmoothNormals};
 use ligne::render;
 use ligne::scene::{Camera, Geometry, Part, Scene};
 use ligne::style::Style;
@@ -79,12 +79,6 @@ fn fit(bencher: Bencher, name: &str) {
 fn flatten(bencher: Bencher, name: &str) {
     let made = made(name);
     bencher.bench(|| black_box(&made.scene).to_soup());
-}
-
-#[divan::bench(args = SCENES)]
-fn weld(bencher: Bencher, name: &str) {
-    let soup = scene(name).to_soup();
-    bencher.bench(|| weld::exact(black_box(&soup.positions)));
 }
 
 #[divan::bench(args = SCENES)]

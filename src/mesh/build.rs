@@ -1,10 +1,10 @@
-//! From [`Soup`] to [`Mesh`]: centring, welding, cleaning, topology, face normals.
+//! From [`Soup`] to [`Mesh`]: centring, order, welding, cleaning, topology, face normals.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::clean::{first_of_doubles, retain_faces};
-use super::{Cleaning, EdgeFaces, Edges, Mesh, Soup, weld};
+use super::clean::{one_of_doubles, retain_faces};
+use super::{Cleaning, EdgeFaces, Edges, Mesh, Soup, order, weld};
 use crate::math::tolerance;
 
 impl Mesh {
@@ -12,21 +12,22 @@ impl Mesh {
     ///
     /// Vertices at the same place are joined (see [`weld`]), faces with repeated corners and
     /// faces that stand twice in one part are dropped, everything is counted in
-    /// [`Mesh::cleaning`].
+    /// [`Mesh::cleaning`]. However the soup numbers its vertices, whatever the order of its faces
+    /// and whichever corner they begin with, the mesh is the same; only parts and materials keep
+    /// their order.
     #[must_use]
     pub fn build(mut soup: Soup) -> Self {
         let mut cleaning = Cleaning::default();
         let Some((low, high)) = bounds(&soup) else {
             return Self { cleaning, ..Self::default() };
         };
-        let origin = (low + high) / 2.0;
+        // The sum makes the zeros of flat models positive.
+        let origin = (low + high) / 2.0 + DVec3::ZERO;
         let size = low.distance(high);
         let largest = low.abs().max(high.abs()).max_element();
-        soup.positions.par_iter_mut().for_each(|p| *p -= origin);
+        soup.positions.par_iter_mut().for_each(|p| *p = *p - origin + DVec3::ZERO);
 
-        if let Some(joined) = weld::exact(&soup.positions) {
-            replace_vertices(&mut soup, &joined, &mut cleaning);
-        }
+        cleaning.welded = order::by_place(&mut soup, low - origin, (high - low).max_element());
         drop_collapsed(&mut soup, &mut cleaning);
         let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
 
@@ -39,7 +40,7 @@ impl Mesh {
             drop_collapsed(&mut soup, &mut cleaning);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
         }
-        if let Some(keep) = first_of_doubles(&soup, &edges) {
+        if let Some(keep) = one_of_doubles(&soup, &edges) {
             cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
             retain_faces(&mut soup, &keep);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
@@ -172,7 +173,8 @@ mod tests {
         ));
         let c = mesh.cleaning;
         assert_eq!((c.doubled, c.collapsed, c.degenerate), (1, 1, 1));
-        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 1, 3]]);
+        // The flat face goes on in the one that runs the other way along its side.
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 3, 1]]);
     }
 
     #[test]

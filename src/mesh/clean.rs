@@ -1,7 +1,7 @@
 //! Cleaning: faces that no surface has, and the count of what was mended.
 
-use super::Edges;
 use super::soup::Soup;
+use super::{Edges, sheets};
 
 /// What was mended or noticed while a mesh was built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,32 +35,46 @@ pub(super) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     filter(&mut soup.edge_marks, keep);
 }
 
-/// For each face whether it is the first of its part with its three corners (in any order);
-/// `None` if all are.
-pub(super) fn first_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
+/// For each face whether it is the only one of its part with its three corners (in any order), or
+/// the one of several that stays; `None` if all are alone.
+///
+/// Of faces that run the same way the first stays; where they run both ways, see [`sheets`].
+pub(super) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
     let mut suspects: Vec<u32> = Vec::new();
     for &edge in &edges.suspects {
         match edges.faces(edge as usize) {
             super::EdgeFaces::One(_) => {}
-            super::EdgeFaces::Two { faces, .. } => suspects.extend(faces),
-            super::EdgeFaces::Many(faces) => suspects.extend(faces),
+            faces => suspects.extend(faces.list()),
         }
     }
     suspects.sort_unstable();
     suspects.dedup();
+    let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let key = |face: u32| {
         let mut corners = soup.triangles[face as usize];
         corners.sort_unstable();
-        (soup.triangle_part.get(face as usize).copied().unwrap_or_default(), corners)
+        (part(face), corners)
+    };
+    // Whether the corners run from the least id to the greatest by way of the third.
+    let is_upward = |face: u32| {
+        let [a, b, c] = soup.triangles[face as usize];
+        [a < b, b < c, c < a].into_iter().filter(|up| *up).count() == 2
     };
     suspects.sort_by_key(|&face| (key(face), face));
     let mut keep = vec![true; soup.triangles.len()];
+    let mut pairs: Vec<[u32; 2]> = Vec::new();
     let mut dropped = false;
-    for pair in suspects.windows(2) {
-        if key(pair[0]) == key(pair[1]) {
-            keep[pair[1] as usize] = false;
-            dropped = true;
+    for doubles in suspects.chunk_by(|a, b| key(*a) == key(*b)).filter(|doubles| doubles.len() > 1) {
+        dropped = true;
+        doubles.iter().for_each(|face| keep[*face as usize] = false);
+        let first = doubles[0];
+        match doubles.iter().find(|face| is_upward(**face) != is_upward(first)) {
+            Some(other) => pairs.push([first, *other]),
+            None => keep[first as usize] = true,
         }
+    }
+    for face in sheets::one_side(soup, edges, &pairs) {
+        keep[face as usize] = true;
     }
     dropped.then_some(keep)
 }

@@ -25,6 +25,18 @@ pub enum EdgeFaces<'a> {
     Many(&'a [u32]),
 }
 
+impl EdgeFaces<'_> {
+    /// All of them, in mesh order.
+    #[must_use]
+    pub fn list(&self) -> &[u32] {
+        match self {
+            Self::One(face) => std::slice::from_ref(face),
+            Self::Two { faces, .. } => faces,
+            Self::Many(faces) => faces,
+        }
+    }
+}
+
 /// All edges of a mesh, ordered by their smaller, then by their larger vertex.
 #[derive(Debug, Clone, Default)]
 pub struct Edges {

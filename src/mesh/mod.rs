@@ -19,11 +19,13 @@ pub mod hard_edges;
 pub mod ids;
 pub mod intersect;
 pub mod needle;
+mod order;
 mod parting;
 pub mod ray_tree;
 pub mod refine;
 mod roughness;
 pub mod rounded;
+mod sheets;
 pub mod smooth_normals;
 pub mod solid;
 pub mod soup;
@@ -49,7 +51,8 @@ pub use soup::{EdgeMark, Soup, Wire};
 /// A welded triangle mesh, centred on its bounding box.
 ///
 /// Non-manifold and open meshes are fine; every face has three different vertices and no face
-/// stands twice in one part. Built by [`Mesh::build`].
+/// stands twice in one part. Vertices and faces stand in an order that rests on their places, not on the
+/// file's. Built by [`Mesh::build`].
 #[derive(Debug, Clone, Default)]
 pub struct Mesh {
     /// The world point that is the zero of `positions`: the centre of the bounding box, so that

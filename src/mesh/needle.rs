@@ -67,10 +67,16 @@ mod tests {
             triangles: vec![[0, 3, 1], [0, 1, 2], [0, 2, 4], [2, 1, 4]],
             ..Soup::default()
         });
-        assert!(mesh.is_degenerate(FaceId(1)));
-        assert_eq!(beyond(&mesh, 1, 0, 2), Beyond::Face(0));
-        assert_eq!(beyond(&mesh, 1, 1, 2), Beyond::Face(0));
-        assert_eq!(beyond(&mesh, 1, 0, 1), Beyond::LongEdge);
+        let id = |k: usize| {
+            let place = DVec3::new(points[k][0], points[k][1], 0.0) - mesh.origin;
+            mesh.positions.iter().position(|p| *p == place).unwrap() as u32
+        };
+        let needle = (0..4).find(|f| mesh.is_degenerate(FaceId(*f))).unwrap();
+        let below = (0..4).find(|f| mesh.triangles[*f as usize].contains(&id(3))).unwrap();
+        let look = |a: usize, b: usize| beyond(&mesh, needle, id(a).min(id(b)), id(a).max(id(b)));
+        assert_eq!(look(0, 2), Beyond::Face(below));
+        assert_eq!(look(1, 2), Beyond::Face(below));
+        assert_eq!(look(0, 1), Beyond::LongEdge);
     }
 
     #[test]
@@ -81,6 +87,8 @@ mod tests {
             triangles: vec![[0, 1, 2], [0, 2, 3], [2, 1, 3]],
             ..Soup::default()
         });
-        assert_eq!(beyond(&mesh, 0, 0, 2), Beyond::Nothing);
+        let needle = (0..3).find(|f| mesh.is_degenerate(FaceId(*f))).unwrap();
+        let at = |x: f64| mesh.positions.iter().position(|p| p.x == x && p.y < 0.0).unwrap() as u32;
+        assert_eq!(beyond(&mesh, needle, at(-1.0), at(0.0)), Beyond::Nothing);
     }
 }

@@ -144,9 +144,11 @@ mod tests {
         assert_eq!(dart.normals.len(), 8);
         assert!(dart.across(&mesh, one).is_none() && !dart.seamless);
         // With one face flat its corners have none, and its edges part.
-        let flat = SmoothNormals::new(&mesh, |face| face > 1, |_| false);
-        assert_eq!(flat.corners_of(0), None);
-        assert_eq!(flat.corners_of(2), Some(mesh.triangles[2]));
+        let below = |face: u32| mesh.face_normals[face as usize][2] < -0.5;
+        let [outside, inside] = [true, false].map(|side| (0..12).find(|f| below(*f) == side).unwrap());
+        let flat = SmoothNormals::new(&mesh, |face| !below(face), |_| false);
+        assert_eq!(flat.corners_of(outside), None);
+        assert_eq!(flat.corners_of(inside), Some(mesh.triangles[inside as usize]));
         assert_eq!(flat.parting.iter().count(), 4);
     }
 }

@@ -1,53 +1,13 @@
 //! Welding: vertices at the same place become one.
 //!
 //! Exporters split vertices at normal and texture seams, STL has no connectivity at all, and the
-//! corners of CAD faces differ in their last bits. Two passes mend that: the exact one joins all
-//! equal positions, and the near one joins what lies within a tolerance, but looks only at
-//! vertices on open edges, since a closed fan of faces has nothing to be joined to. Parts keep
-//! their names through both: a weld joins vertices, never faces.
+//! corners of CAD faces differ in their last bits. Two passes mend that: what lies at exactly one place
+//! is joined when vertices are put in order, and [`near`] joins what lies within a tolerance, but
+//! looks only at vertices on open edges, since a closed fan of faces has nothing to be joined to.
+//! Parts keep their names through both: a weld joins vertices, never faces.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-
-const EMPTY: u32 = u32::MAX;
-
-/// For each vertex the smallest id of those at exactly its place; `None` if all places differ.
-#[must_use]
-pub fn exact(positions: &[DVec3]) -> Option<Vec<u32>> {
-    let capacity = (positions.len() * 2).next_power_of_two().max(16);
-    let mask = capacity - 1;
-    let mut slots = vec![EMPTY; capacity];
-    let mut representative: Vec<u32> = Vec::new();
-    for (id, &p) in positions.iter().enumerate() {
-        let mut slot = hash(p) & mask;
-        loop {
-            let other = slots[slot];
-            if other == EMPTY {
-                slots[slot] = id as u32;
-                break;
-            }
-            if positions[other as usize] == p {
-                if representative.is_empty() {
-                    representative = (0..positions.len() as u32).collect();
-                }
-                representative[id] = other;
-                break;
-            }
-            slot = (slot + 1) & mask;
-        }
-    }
-    (!representative.is_empty()).then_some(representative)
-}
-
-/// Mixes the bits of a position; −0 and +0 are one place.
-fn hash(p: DVec3) -> usize {
-    const K: u64 = 0x9e37_79b9_7f4a_7c15;
-    let mut h = 0u64;
-    for c in [p.x, p.y, p.z] {
-        h = (h.rotate_left(21) ^ (c + 0.0).to_bits()).wrapping_mul(K);
-    }
-    (h ^ (h >> 29)) as usize
-}
 
 /// For each vertex the smallest id of those that are joined to it by steps of at most
 /// `tolerance`, looking only at `candidates` (ascending); `None` if nothing is joined.
@@ -102,15 +62,6 @@ fn root(parent: &mut [u32], mut id: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn equal_places_become_one() {
-        let a = DVec3::new(0.0, 1.0, 2.0);
-        let b = DVec3::new(-0.0, 1.0, 2.0);
-        let c = DVec3::new(0.0, 1.0, 2.000_000_000_1);
-        assert_eq!(exact(&[a, c, b, c]), Some(vec![0, 1, 0, 1]));
-        assert_eq!(exact(&[a, c]), None);
-    }
 
     #[test]
     fn near_places_become_one_across_cells() {

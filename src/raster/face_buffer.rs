@@ -68,7 +68,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::mesh::{Mesh, Soup};
+    use crate::mesh::{FaceId, Mesh, Soup};
     use crate::scene::{Camera, UpAxis};
     use crate::view::View;
 
@@ -107,9 +107,12 @@ mod tests {
 
     #[test]
     fn the_nearer_triangle_wins_whatever_the_order() {
-        let corners = [[0., 0., 0.], [9., 0., 0.], [0., 9., 0.], [0., 0., 1.], [9., 0., 1.], [0., 9., 1.]];
-        for (triangles, nearer) in [([[0, 1, 2], [3, 4, 5]], 1), ([[3, 4, 5], [0, 1, 2]], 0)] {
-            let (mesh, view) = from_above(&corners, &triangles);
+        // Faces go by their corners: one that begins far before the other comes first, though it is nearer.
+        for (low, high, nearer) in [(0., 9., 1), (-3., 16., 0)] {
+            let far = [[0., 0., 0.], [9., 0., 0.], [0., 9., 0.]];
+            let near = [[low, low, 1.], [high, low, 1.], [low, high, 1.]];
+            let (mesh, view) = from_above(&[far, near].concat(), &[[0, 1, 2], [3, 4, 5]]);
+            assert!(mesh.corners(FaceId(nearer))[0].z > 0.0);
             let buffer = FaceBuffer::new(&Screen::new(&mesh, &view));
             let shown = faces(&buffer);
             let count = |face: u32| shown.iter().filter(|f| **f == Some(face)).count();

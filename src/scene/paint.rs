@@ -27,7 +27,7 @@ pub struct Paint {
 #[derive(Debug, Clone, Default)]
 pub struct Paints {
     /// One for each material and for what has none, with their own ids and colours; then those of
-    /// textures and vertex colours.
+    /// textures and vertex colours, by material and then by colour.
     pub list: Vec<Paint>,
     /// Textures that could not be read.
     pub warnings: Warnings,
@@ -100,15 +100,22 @@ impl Paints {
     /// Adds the paints of a material's triangles.
     fn add(&mut self, scene: &Scene, material: usize, triangles: &[Coloured]) {
         let colours: Vec<(Colour, bool)> = triangles.iter().map(|(colour, ..)| *colour).collect();
+        let colours = swatches(&colours);
+        // By colour, not by the triangle that shows it first.
+        let mut distinct = colours.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
         let mut known: FxHashMap<Colour, PaintId> = FxHashMap::default();
-        if let Some(own) = self.list.get(material) {
-            known.insert(own.colour, PaintId::from(material));
-        }
-        for (colour, &(_, geometry, triangle)) in swatches(&colours).into_iter().zip(triangles) {
-            let paint = *known.entry(colour).or_insert_with(|| {
+        for colour in distinct {
+            if self.list.get(material).is_some_and(|own| own.colour == colour) {
+                known.insert(colour, PaintId::from(material));
+            } else {
+                known.insert(colour, PaintId::from(self.list.len()));
                 self.list.push(Paint { material: material.into(), colour });
-                PaintId::from(self.list.len() - 1)
-            });
+            }
+        }
+        for (colour, &(_, geometry, triangle)) in colours.into_iter().zip(triangles) {
+            let Some(&paint) = known.get(&colour) else { continue };
             let Some((paints, shape)) = self.triangles.get_mut(geometry).zip(scene.geometries.get(geometry))
             else {
                 continue;
@@ -144,8 +151,9 @@ fn colour_of(
     let shown = texture.zip(uvs).map(|(texture, uvs)| texture.of_triangle(uvs));
     let painted = geometry.triangles.get(triangle).and_then(|corners| {
         let [a, b, c] = corners.map(|corner| geometry.colours.get(corner as usize).copied());
-        let [a, b, c] = [a?, b?, c?].map(|[r, g, b, _]| Vec3::new(r, g, b));
-        Some((a + b + c) / 3.0)
+        // Rounded once, so that it does not matter which corner comes first.
+        let [a, b, c] = [a?, b?, c?].map(|[r, g, b, _]| Vec3::new(r, g, b).as_dvec3());
+        Some(((a + b + c) / 3.0).as_vec3())
     });
     if shown.is_none() && painted.is_none() {
         return None;
@@ -204,9 +212,10 @@ mod tests {
         let paints = Paints::of(&scene);
         assert_eq!(paints.list.len(), 5);
         let mesh = Mesh::build(scene.to_painted_soup(&paints));
-        assert_eq!(mesh.face_paint, [3, 4, 0, 1].map(PaintId));
-        assert_eq!(paints.list[3], Paint { material: MaterialId(0), colour: Colour::rgb(255, 0, 0) });
-        assert_eq!(paints.list[4].colour, Colour::rgb(0, 0, 255));
+        assert_eq!(paints.of_geometry(0), [4, 3, 0, 1].map(PaintId));
+        assert_eq!(mesh.face_paint, [4, 0, 3, 1].map(PaintId));
+        assert_eq!(paints.list[3], Paint { material: MaterialId(0), colour: Colour::rgb(0, 0, 255) });
+        assert_eq!(paints.list[4].colour, Colour::rgb(255, 0, 0));
         // Lines see one material.
         assert_eq!(mesh.face_material, [0, 0, 0, 1].map(MaterialId));
         assert!(scene.to_soup().triangle_paint.is_empty());
@@ -216,7 +225,7 @@ mod tests {
     #[test]
     fn textures_multiply_the_material_in_gltf_only() {
         let half = Colour::from_linear([0.5, 0.5, 0.5, 1.0]);
-        let colour = |format| Paints::of(&scene(format, half)).list[3].colour;
+        let colour = |format| Paints::of(&scene(format, half)).list[4].colour;
         assert_eq!(colour("glTF"), Colour::rgb(half.r, 0, 0));
         assert_eq!(colour("OBJ"), Colour::rgb(255, 0, 0));
     }

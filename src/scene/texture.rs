@@ -30,7 +30,10 @@ impl Texture {
     /// The colour that stands for a triangle: of its centroid and three points between that and
     /// its corners, the one that differs least from the others; and whether all are alike.
     pub fn of_triangle(&self, corners: [[f32; 2]; 3]) -> (Colour, bool) {
-        let [a, b, c] = corners.map(|uv| uv.map(f64::from));
+        let mut corners = corners.map(|uv| uv.map(f64::from));
+        // Whichever corner the triangle begins with, the points are the same to the last bit.
+        corners.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then_with(|| a[1].total_cmp(&b[1])));
+        let [a, b, c] = corners;
         let at = |wa: f64, wb: f64, wc: f64| {
             self.at([wa * a[0] + wb * b[0] + wc * c[0], wa * a[1] + wb * b[1] + wc * c[1]])
         };

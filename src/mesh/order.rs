@@ -1,0 +1,371 @@
+//! The order of vertices and faces: by their places, never by the order of the file, and each place once.
+//!
+//! A model may be numbered in any way and is the same model, so its drawing must not show how: which of two
+//! coincident lines stays, the last bit of a sum over the faces round a vertex, where a closed line begins.
+//! Vertices stand along a space-filling curve, so that neighbours in space are neighbours in memory. Faces
+//! go by part and material, which stay as the file has them, and then by their corners; each begins with its
+//! first corner. Lines without faces follow the same rule.
+//!
+//! Source: Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966, for
+//! the curve.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{MaterialId, PartId, Soup};
+
+/// Cells of the curve along each side of the model's box: as many as three coordinates fit in 64 bits.
+const CELLS: f64 = (1u32 << 21) as f64;
+
+/// The smallest piece of work for a thread, in vertices or faces.
+const GRAIN: usize = 1 << 14;
+
+/// No normal or texture coordinate.
+const NONE: u32 = u32::MAX;
+
+/// A face with its first corner in front.
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    corners: [u32; 3],
+    /// Where the face stood, shifted left by two; the lowest bits say which of its corners came first.
+    face_turn: u32,
+}
+
+impl Entry {
+    fn new(face: usize, [a, b, c]: [u32; 3]) -> Self {
+        let turn = if a <= b && a <= c {
+            0
+        } else if b <= c {
+            1
+        } else {
+            2
+        };
+        Self { corners: turned([a, b, c], turn), face_turn: (face as u32) << 2 | turn }
+    }
+
+    fn face(&self) -> usize {
+        (self.face_turn >> 2) as usize
+    }
+
+    /// The corners after the first, as one number.
+    fn others(&self) -> u64 {
+        u64::from(self.corners[1]) << 32 | u64::from(self.corners[2])
+    }
+
+    fn turn(&self) -> u32 {
+        self.face_turn & 3
+    }
+}
+
+/// Orders all of a soup whose box begins at `low` and has `side` as its longest side. Vertices at one place
+/// become one; returns how many went that way.
+pub(super) fn by_place(soup: &mut Soup, low: DVec3, side: f64) -> u64 {
+    let before = soup.positions.len();
+    let new_id = order_vertices(&mut soup.positions, low, side);
+    order_faces(soup, &new_id);
+    for wire in &mut soup.wires {
+        wire.vertices = wire.vertices.map(|v| new_id[v as usize]);
+        wire.vertices.sort_unstable();
+    }
+    soup.wires.sort_unstable_by_key(|wire| (wire.part, wire.material, wire.vertices));
+    (before - soup.positions.len()) as u64
+}
+
+/// Sorts the places and leaves each once; returns the new id of each old vertex.
+fn order_vertices(positions: &mut Vec<DVec3>, low: DVec3, side: f64) -> Vec<u32> {
+    let scale = if side > 0.0 { CELLS / side } else { 0.0 };
+    let keyed: Vec<(u64, u32)> = positions
+        .par_iter()
+        .enumerate()
+        .with_min_len(GRAIN)
+        .map(|(id, p)| (along_curve((*p - low) * scale), id as u32))
+        .collect();
+    // Most of the work is done by large cells, of which a surface meets one for every few vertices.
+    let depth = (positions.len() / 8).max(1).ilog2().div_ceil(2).min(7);
+    let large = |key: u64| (key >> (63 - 3 * depth)) as u32;
+    let mut keyed = counting_sort(&keyed, 1 << (3 * depth), |(key, _)| large(*key));
+    let place = |id: u32| positions[id as usize];
+    let at_one_cell = |a: &(u64, u32), b: &(u64, u32)| large(a.0) == large(b.0);
+    for_each_run(&mut keyed, at_one_cell, |cell| {
+        cell.sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| by_coordinates(place(a.1), place(b.1))));
+    });
+
+    let mut new_id = vec![0; positions.len()];
+    let mut places: Vec<DVec3> = Vec::with_capacity(positions.len());
+    for (_, old) in keyed {
+        let p = positions[old as usize];
+        if places.last() != Some(&p) {
+            places.push(p);
+        }
+        new_id[old as usize] = places.len() as u32 - 1;
+    }
+    *positions = places;
+    new_id
+}
+
+/// How far along the curve a cell lies. What lies outside the box, unused, counts as on its border.
+fn along_curve(cell: DVec3) -> u64 {
+    let most = CELLS - 1.0;
+    let [x, y, z] = cell.clamp(DVec3::ZERO, DVec3::splat(most)).to_array().map(|c| spread(c as u64));
+    x | y << 1 | z << 2
+}
+
+/// Moves the 21 lowest bits apart, so that there are two free ones after each.
+fn spread(mut bits: u64) -> u64 {
+    bits = (bits | bits << 32) & 0x001f_0000_0000_ffff;
+    bits = (bits | bits << 16) & 0x001f_0000_ff00_00ff;
+    bits = (bits | bits << 8) & 0x100f_00f0_0f00_f00f;
+    bits = (bits | bits << 4) & 0x10c3_0c30_c30c_30c3;
+    (bits | bits << 2) & 0x1249_2492_4924_9249
+}
+
+fn by_coordinates(a: DVec3, b: DVec3) -> Ordering {
+    a.x.total_cmp(&b.x).then_with(|| a.y.total_cmp(&b.y)).then_with(|| a.z.total_cmp(&b.z))
+}
+
+/// Gives the faces their new vertices and order.
+fn order_faces(soup: &mut Soup, new_id: &[u32]) {
+    let renamed = |t: &[u32; 3]| t.map(|v| new_id[v as usize]);
+    let entry = |(face, t): (usize, &[u32; 3])| Entry::new(face, renamed(t));
+    let of_file: Vec<Entry> = soup.triangles.par_iter().enumerate().with_min_len(GRAIN).map(entry).collect();
+    let mut entries = counting_sort(&of_file, soup.positions.len(), |e| e.corners[0]);
+    drop(of_file);
+    let groups = groups(soup);
+    let group = |e: &Entry| groups.as_ref().map_or(0, |groups| groups.of_face[e.face()]);
+    if let Some(groups) = &groups {
+        entries = counting_sort(&entries, groups.count, group);
+    }
+    let at_one_corner = |a: &Entry, b: &Entry| a.corners[0] == b.corners[0] && group(a) == group(b);
+    for_each_run(&mut entries, at_one_corner, |faces| {
+        faces.sort_unstable_by(|a, b| {
+            a.others().cmp(&b.others()).then_with(|| attributes(soup, a).cmp(&attributes(soup, b)))
+        });
+    });
+
+    soup.triangles = entries.par_iter().with_min_len(GRAIN).map(|e| e.corners).collect();
+    if groups.is_some() {
+        reorder(&mut soup.triangle_part, &entries, |part, _| part);
+        reorder(&mut soup.triangle_material, &entries, |material, _| material);
+    }
+    reorder(&mut soup.triangle_paint, &entries, |paint, _| paint);
+    reorder(&mut soup.corner_normals, &entries, turned);
+    reorder(&mut soup.corner_uvs, &entries, turned);
+    reorder(&mut soup.edge_marks, &entries, turned);
+}
+
+/// What belongs to the corners of a face, or to the sides that begin there, from another corner on.
+fn turned<T: Copy>([a, b, c]: [T; 3], turn: u32) -> [T; 3] {
+    match turn {
+        0 => [a, b, c],
+        1 => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
+/// The items by a key below `keys`, those with the same key as they were.
+fn counting_sort<T: Copy + Default>(items: &[T], keys: usize, key: impl Fn(&T) -> u32) -> Vec<T> {
+    let mut starts = vec![0u32; keys + 1];
+    items.iter().for_each(|item| starts[key(item) as usize + 1] += 1);
+    let mut total = 0;
+    for start in &mut starts {
+        total += *start;
+        *start = total;
+    }
+    let mut sorted = vec![T::default(); items.len()];
+    for item in items {
+        let next = &mut starts[key(item) as usize];
+        sorted[*next as usize] = *item;
+        *next += 1;
+    }
+    sorted
+}
+
+/// Changes each run of neighbours that belong together.
+fn for_each_run<T: Send>(
+    items: &mut [T],
+    together: impl Fn(&T, &T) -> bool + Send + Sync,
+    change: impl Fn(&mut [T]) + Send + Sync,
+) {
+    if items.len() < GRAIN {
+        items.chunk_by_mut(together).for_each(change);
+    } else {
+        items.par_chunk_by_mut(together).for_each(change);
+    }
+}
+
+/// Numbers for what has one part and one material, in the order of parts, then of materials.
+struct Groups {
+    of_face: Vec<u32>,
+    count: usize,
+}
+
+/// The groups of the faces; none where all are one.
+fn groups(soup: &Soup) -> Option<Groups> {
+    let key = |face: usize| {
+        let part = soup.triangle_part.get(face).copied().unwrap_or_default();
+        (part, soup.triangle_material.get(face).copied().unwrap_or_default())
+    };
+    let faces = soup.triangles.len();
+    let first = key(0);
+    if (1..faces).into_par_iter().with_min_len(GRAIN).all(|face| key(face) == first) {
+        return None;
+    }
+    let mut keys: Vec<(PartId, MaterialId)> = (0..faces).map(key).collect();
+    keys.dedup();
+    keys.sort_unstable();
+    keys.dedup();
+    let of = |face: usize| keys.binary_search(&key(face)).unwrap_or_default() as u32;
+    let of_face = (0..faces).into_par_iter().with_min_len(GRAIN).map(of).collect();
+    Some(Groups { of_face, count: keys.len() })
+}
+
+/// All else that tells faces with the same corners apart: their paint, and by their bits what they have at
+/// each side and corner. Where that is alike too, so are the faces.
+fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
+    let (face, turn) = (entry.face(), entry.turn());
+    let at_corners = |corners: &[[u32; 3]]| turned(corners.get(face).copied().unwrap_or([NONE; 3]), turn);
+    let normal = |id: u32| soup.normals.get(id as usize).map(|n| n.map(f32::to_bits));
+    let uv = |id: u32| soup.uvs.get(id as usize).map(|uv| uv.map(f32::to_bits));
+    (
+        soup.triangle_paint.get(face).copied(),
+        soup.edge_marks.get(face).map(|marks| turned(*marks, turn).map(|mark| mark as u8)),
+        at_corners(&soup.corner_normals).map(normal),
+        at_corners(&soup.corner_uvs).map(uv),
+    )
+}
+
+/// Puts what each face has in the faces' new order, changed by how far the face was turned.
+fn reorder<T: Copy + Default + Send + Sync>(
+    list: &mut Vec<T>,
+    entries: &[Entry],
+    change: impl Fn(T, u32) -> T + Sync,
+) {
+    if !list.is_empty() {
+        let of = |e: &Entry| change(list.get(e.face()).copied().unwrap_or_default(), e.turn());
+        *list = entries.par_iter().with_min_len(GRAIN).map(of).collect();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{EdgeMark, PaintId, Wire};
+
+    /// Two triangles that share a side, each with all that a face may have.
+    fn soup() -> Soup {
+        Soup {
+            positions: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+                .map(|[x, y]| DVec3::new(x, y, 0.0))
+                .to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            triangle_part: vec![PartId(0); 2],
+            triangle_material: vec![MaterialId(1), MaterialId(0)],
+            triangle_paint: vec![PaintId(4), PaintId(5)],
+            normals: (0..6).map(|k| [k as f32, 0.0, 0.0]).collect(),
+            corner_normals: vec![[0, 1, 2], [3, 4, 5]],
+            uvs: (0..6).map(|k| [k as f32, 0.0]).collect(),
+            corner_uvs: vec![[0, 1, NONE], [3, 4, 5]],
+            edge_marks: vec![
+                [EdgeMark::Hard, EdgeMark::Hidden, EdgeMark::Contour],
+                [EdgeMark::Unmarked, EdgeMark::Hard, EdgeMark::Unmarked],
+            ],
+            wires: vec![
+                Wire { vertices: [0, 1], part: PartId(0), material: MaterialId(0) },
+                Wire { vertices: [3, 2], part: PartId(0), material: MaterialId(0) },
+            ],
+            ..Soup::default()
+        }
+    }
+
+    /// Everything of a soup with values in the place of ids.
+    fn values(soup: &Soup) -> impl PartialEq + std::fmt::Debug {
+        let normals = soup.corner_normals.iter().map(|t| t.map(|id| soup.normals.get(id as usize).copied()));
+        let uvs = soup.corner_uvs.iter().map(|t| t.map(|id| soup.uvs.get(id as usize).copied()));
+        (
+            soup.positions.clone(),
+            soup.triangles.clone(),
+            (soup.triangle_part.clone(), soup.triangle_material.clone(), soup.triangle_paint.clone()),
+            normals.collect::<Vec<_>>(),
+            uvs.collect::<Vec<_>>(),
+            (soup.edge_marks.clone(), soup.wires.clone()),
+        )
+    }
+
+    #[test]
+    fn faces_go_by_material_and_begin_with_their_first_corner() {
+        let mut soup = soup();
+        assert_eq!(by_place(&mut soup, DVec3::ZERO, 1.0), 0);
+        // Along the curve: 0 0, then 1 0, then 0 1, then 1 1.
+        let places: Vec<[f64; 2]> = soup.positions.iter().map(|p| [p.x, p.y]).collect();
+        assert_eq!(places, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
+        assert_eq!(soup.triangles, [[0, 3, 2], [0, 1, 3]]);
+        assert_eq!(soup.triangle_material, [MaterialId(0), MaterialId(1)]);
+        assert_eq!(soup.wires.iter().map(|w| w.vertices).collect::<Vec<_>>(), [[0, 1], [2, 3]]);
+    }
+
+    #[test]
+    fn numbering_leaves_no_trace() {
+        let mut first = soup();
+        by_place(&mut first, DVec3::ZERO, 1.0);
+        // Other ids, other corners in front, zeros of another sign, a vertex twice, an unused one at an old place.
+        let mut second = soup();
+        second.positions = [3, 2, 0, 1, 2].map(|k: usize| soup().positions[k]).to_vec();
+        second.triangles = vec![[4, 0, 2], [1, 2, 3]];
+        for list in [&mut second.corner_normals, &mut second.corner_uvs] {
+            list.reverse();
+            *list = list.iter().enumerate().map(|(k, c)| turned(*c, if k == 0 { 1 } else { 2 })).collect();
+        }
+        second.edge_marks.reverse();
+        second.edge_marks = second
+            .edge_marks
+            .iter()
+            .enumerate()
+            .map(|(k, c)| turned(*c, if k == 0 { 1 } else { 2 }))
+            .collect();
+        second.triangle_material.reverse();
+        second.triangle_paint.reverse();
+        second.wires[0].vertices = [0, 1];
+        second.wires[1].vertices = [3, 2];
+        assert_eq!(by_place(&mut second, DVec3::ZERO, 1.0), 1);
+        assert_eq!(values(&first), values(&second));
+    }
+
+    #[test]
+    fn equal_places_become_one() {
+        let near = DVec3::new(0.5, 0.5, 0.5 + 1e-15);
+        let mut soup = Soup {
+            positions: vec![near, DVec3::splat(0.5), DVec3::X, near, DVec3::splat(0.5)],
+            triangles: vec![[0, 1, 2], [3, 4, 2]],
+            ..Soup::default()
+        };
+        // Two places in one cell of the curve are two.
+        assert_eq!(by_place(&mut soup, DVec3::ZERO, 1.0), 2);
+        assert_eq!(soup.positions, [DVec3::X, DVec3::splat(0.5), near]);
+        assert_eq!(soup.triangles, [[0, 2, 1]; 2]);
+    }
+
+    #[test]
+    fn faces_with_the_same_corners_go_by_what_else_they_have() {
+        let twins = |paints: [u32; 2]| {
+            let mut soup = Soup {
+                positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+                triangles: vec![[0, 1, 2], [1, 2, 0]],
+                triangle_paint: paints.map(PaintId).to_vec(),
+                ..Soup::default()
+            };
+            by_place(&mut soup, DVec3::ZERO, 1.0);
+            soup.triangle_paint
+        };
+        assert_eq!(twins([7, 8]), twins([8, 7]));
+    }
+
+    #[test]
+    fn bits_are_spread_and_the_curve_ends_at_the_border() {
+        assert_eq!(spread(0b1011), 0b1_000_001_001);
+        assert_eq!(spread((1 << 21) - 1), 0x1249_2492_4924_9249);
+        assert_eq!(along_curve(DVec3::splat(1e300)), (1 << 63) - 1);
+        assert_eq!(along_curve(DVec3::new(-5.0, 1.0, 2.0)), 0b100_010);
+    }
+}
