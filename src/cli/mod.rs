@@ -5,6 +5,7 @@ mod config;
 mod defaults;
 mod draw;
 mod draw_args;
+mod fmt;
 mod info;
 mod keys;
 mod man;
@@ -55,6 +56,8 @@ enum Command {
     Draw(Box<draw_args::DrawArgs>),
     /// Draw every case of a folder and compare it with the approved drawing
     Test(test::TestArgs),
+    /// Rewrite drawings in the form that makes small textual differences
+    Fmt(fmt::FmtArgs),
     /// Say what is in a model file, and what is wrong with it
     Info(info::InfoArgs),
     /// List the built-in styles, or show one
@@ -91,6 +94,7 @@ pub fn main() -> ExitCode {
             request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
         }
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
+        Command::Fmt(args) => fmt::run(&args),
         Command::Info(args) => info::run(&args).map(all_well),
         Command::Styles(args) => styles::run(&args).map(all_well),
         Command::Completions(args) => completions::run(&args).map(all_well),
