@@ -39,7 +39,7 @@ fn drawing(marks: Vec<Mark>) -> Drawing {
     Drawing {
         title: String::new(),
         page: Page { width: 100.0, height: 80.0, unit: Unit::Px, background: None },
-        layers: vec![Layer { kind: LayerKind::Lines, pen: None, marks }],
+        layers: vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }],
     }
 }
 
@@ -195,12 +195,14 @@ fn a_document_to_the_byte() {
             Layer {
                 kind: LayerKind::Fills,
                 pen: None,
+                ordered: false,
                 marks: vec![mark("M0 0L5 0L5 5Z", Paint::Fill(Colour::rgb(1, 2, 3)), &["tone-0"], None)],
             },
-            Layer { kind: LayerKind::HiddenLines, pen: None, marks: vec![hidden] },
+            Layer { kind: LayerKind::HiddenLines, pen: None, ordered: false, marks: vec![hidden] },
             Layer {
                 kind: LayerKind::Lines,
                 pen: None,
+                ordered: false,
                 marks: vec![
                     mark("M0 0L1 0", stroke(1.0, ink), &["crease"], Some("a<b")),
                     mark("M0 0L2 0", stroke(1.0, ink), &["crease"], Some("c")),
@@ -262,6 +264,7 @@ fn layers_of_pens_are_numbered() {
     let layer = |pen: &str| Layer {
         kind: LayerKind::Lines,
         pen: Some(pen.into()),
+        ordered: false,
         marks: vec![mark("M0 0L1 1", stroke(1.0, Colour::BLACK), &["crease"], None)],
     };
     let mut drawing = drawing(vec![]);

@@ -151,7 +151,11 @@ fn files(roff: &mut Roff) {
 fn exit_status(roff: &mut Roff) {
     roff.control("SH", ["EXIT STATUS"]);
     entry(roff, "0", "Done; drawings that were compared are the same.");
-    entry(roff, "1", "ligne diff or ligne test found differences, or a drawing that nobody has approved.");
+    entry(
+        roff,
+        "1",
+        "ligne diff or ligne test found differences, or a drawing that nobody has approved; ligne fmt --check one not in canonical form.",
+    );
     entry(
         roff,
         "2",

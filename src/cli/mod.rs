@@ -6,6 +6,7 @@ mod defaults;
 mod diff;
 mod draw;
 mod draw_args;
+mod fmt;
 mod info;
 mod keys;
 mod man;
@@ -58,6 +59,8 @@ enum Command {
     Diff(Box<diff::DiffArgs>),
     /// Draw every case of a folder and compare it with the approved drawing
     Test(test::TestArgs),
+    /// Rewrite drawings in the form that makes small textual differences
+    Fmt(fmt::FmtArgs),
     /// Say what is in a model file, and what is wrong with it
     Info(info::InfoArgs),
     /// List the built-in styles, or show one
@@ -95,6 +98,7 @@ pub fn main() -> ExitCode {
         }
         Command::Diff(args) => diff::run(&args),
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
+        Command::Fmt(args) => fmt::run(&args),
         Command::Info(args) => info::run(&args).map(all_well),
         Command::Styles(args) => styles::run(&args).map(all_well),
         Command::Completions(args) => completions::run(&args).map(all_well),

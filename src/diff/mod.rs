@@ -12,6 +12,7 @@
 
 mod align;
 mod area;
+mod canonical;
 mod chain;
 mod cover;
 mod distance;
@@ -21,6 +22,7 @@ mod finding;
 mod grid;
 mod groups;
 mod guard;
+mod inherited;
 mod ink;
 mod json;
 mod judge;
@@ -31,6 +33,7 @@ mod numbers;
 mod overlay;
 mod paint_words;
 mod pair;
+mod path_data;
 mod picture;
 mod pixels;
 mod read;
@@ -40,6 +43,7 @@ mod text;
 mod tolerance;
 mod totals;
 
+pub use canonical::canonical_svg;
 pub use finding::{Change, Diff, Finding, Place, Stage, Verdict};
 pub use ink::{Ink, Paint};
 pub use label::Label;

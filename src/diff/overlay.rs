@@ -104,7 +104,7 @@ struct Layers {
 
 impl Layers {
     fn into_list(self) -> Vec<Layer> {
-        let layer = |kind, marks: Vec<Mark>| Layer { kind, pen: None, marks };
+        let layer = |kind, marks: Vec<Mark>| Layer { kind, pen: None, ordered: false, marks };
         let all = [layer(LayerKind::Fills, self.drawings), layer(LayerKind::Callouts, self.findings)];
         all.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
     }

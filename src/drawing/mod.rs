@@ -53,6 +53,9 @@ pub struct Layer {
     pub kind: LayerKind,
     /// Which pen draws it, where the drawing has one layer a pen: `1 0.35 mm #1a1a1a`.
     pub pen: Option<String>,
+    /// Whether its marks have an order and directions that matter, such as a short way for a pen; others may be
+    /// exchanged and turned round where that changes nothing of what is seen.
+    pub ordered: bool,
     /// Its marks, painted first to last.
     pub marks: Vec<Mark>,
 }

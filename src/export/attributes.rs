@@ -149,11 +149,21 @@ impl Attributes {
 pub(super) fn alike(a: &Mark, b: &Mark) -> bool {
     match (&a.paint, &b.paint) {
         (Paint::Stroke(a), Paint::Stroke(b)) => {
-            a.width == b.width && a.colour == b.colour && a.cap == b.cap && a.join == b.join
+            let rounded = |width| Decimals::new(WIDTH_DECIMALS).round(width);
+            let same_width = a.width == b.width || rounded(a.width) == rounded(b.width);
+            same_width && a.colour == b.colour && a.cap == b.cap && a.join == b.join
         }
-        (Paint::Fill(a), Paint::Fill(b)) => a == b,
-        (Paint::Outline(a), Paint::Outline(b)) => a.colour == b.colour,
-        _ => false,
+        (Paint::Stroke(_), _) | (_, Paint::Stroke(_)) => false,
+        // The outline of a line is filled as a region is.
+        (a, b) => filled(a) == filled(b),
+    }
+}
+
+/// The colour that a path is filled with.
+fn filled(paint: &Paint) -> Option<Colour> {
+    match paint {
+        Paint::Stroke(_) => None,
+        Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => Some(*colour),
     }
 }
 

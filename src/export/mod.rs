@@ -1,7 +1,9 @@
 //! Bytes: a [`crate::drawing::Drawing`] as SVG, PDF or PNG.
 
 mod attributes;
-mod number;
+pub(crate) mod canonical;
+pub(crate) mod number;
+pub(crate) mod order;
 mod path_data;
 pub mod pdf;
 mod pdf_content;

@@ -4,11 +4,11 @@
 //! millions of numbers.
 
 /// Most decimals that are written.
-pub(super) const MOST_DECIMALS: u8 = 8;
+pub(crate) const MOST_DECIMALS: u8 = 8;
 
 /// A grid of decimal numbers that coordinates are rounded to.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Decimals {
+pub(crate) struct Decimals {
     count: usize,
     scale: f64,
     /// 1 as a multiple of the step.
@@ -21,6 +21,11 @@ impl Decimals {
         let count = count.min(MOST_DECIMALS);
         let one = 10i64.pow(u32::from(count));
         Self { count: usize::from(count), scale: one as f64, one }
+    }
+
+    /// Steps of the grid in 1.
+    pub fn scale(self) -> f64 {
+        self.scale
     }
 
     /// The nearest number of the grid, as a multiple of its step; 0 for what is not a number.

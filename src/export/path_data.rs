@@ -3,41 +3,15 @@
 //! Every coordinate is rounded where it stands on the page, and differences are taken of the
 //! rounded ones: rounding does not add up along a path.
 
-use kurbo::{BezPath, PathEl, Point};
-
+use super::canonical::{Kind, Piece, Step};
 use super::number::Decimals;
 
-/// A point in steps of the written precision.
-type Step = (i64, i64);
-
-/// Writes the `d` of a path.
-pub(super) fn write(out: &mut Vec<u8>, path: &BezPath, decimals: Decimals) {
-    let mut writer = Writer {
-        out,
-        decimals,
-        pen: (0, 0),
-        start: (0, 0),
-        mirrored: None,
-        command: 0,
-        point_before: false,
-        bare: false,
-        moved: false,
-    };
-    let elements = path.elements();
-    for (index, element) in elements.iter().enumerate() {
-        let closes_next = matches!(elements.get(index + 1), Some(PathEl::ClosePath));
-        writer.element(element, closes_next);
-    }
-    writer.dot();
-}
-
-struct Writer<'a> {
+/// Writes the `d` of one path, subpath by subpath.
+pub(super) struct Writer<'a> {
     out: &'a mut Vec<u8>,
     decimals: Decimals,
     /// Where the pen is.
     pen: Step,
-    /// Where the subpath began.
-    start: Step,
     /// The first control point that the shorthand for curves would stand for: the mirror of the
     /// last one, or the pen after a line. After a quadratic curve readers disagree.
     mirrored: Option<Step>,
@@ -45,63 +19,61 @@ struct Writer<'a> {
     command: u8,
     /// Whether the last number had a point, so that one starting with a point needs no blank.
     point_before: bool,
-    /// Whether nothing of the subpath has been written but its start.
-    bare: bool,
     /// Whether there was a move already: the first one is absolute.
     moved: bool,
 }
 
-impl Writer<'_> {
-    fn step(&self, point: Point) -> Step {
-        (self.decimals.round(point.x), self.decimals.round(point.y))
+impl<'a> Writer<'a> {
+    pub fn new(out: &'a mut Vec<u8>, decimals: Decimals) -> Self {
+        let start = Step::default();
+        Self { out, decimals, pen: start, mirrored: None, command: 0, point_before: false, moved: false }
     }
 
-    fn element(&mut self, element: &PathEl, closes_next: bool) {
-        match *element {
-            PathEl::MoveTo(to) => self.move_to(self.step(to)),
-            PathEl::LineTo(to) => {
-                let to = self.step(to);
-                // Closing draws this line.
-                if !(closes_next && to == self.start && !self.bare) {
-                    self.line_to(to);
-                }
+    /// Writes a subpath whose pieces all have a length; those of a closed one lead back to its start.
+    pub fn subpath(&mut self, start: Step, pieces: &[Piece], closed: bool) {
+        self.move_to(start);
+        let drawn = match pieces {
+            // Closing draws this line.
+            [before @ .., last] if closed && last.kind == Kind::Line => before,
+            all => all,
+        };
+        for piece in drawn {
+            match piece.kind {
+                Kind::Line => self.line_to(piece.to),
+                Kind::Quad => self.quad_to(piece.c1, piece.to),
+                Kind::Cubic => self.curve_to(piece.c1, piece.c2, piece.to),
             }
-            PathEl::QuadTo(c, to) => self.quad_to(self.step(c), self.step(to)),
-            PathEl::CurveTo(c1, c2, to) => self.curve_to(self.step(c1), self.step(c2), self.step(to)),
-            PathEl::ClosePath => {
-                self.out.push(b'z');
-                self.command = b'z';
-                self.pen = self.start;
-                self.mirrored = Some(self.pen);
-                self.bare = false;
-            }
+        }
+        if closed {
+            self.out.push(b'z');
+            self.command = b'z';
+            self.pen = start;
+        } else if pieces.is_empty() {
+            // A subpath of no length is a dot, and needs a piece for its caps to be drawn.
+            self.out.extend_from_slice(b"h0");
+            self.command = b'h';
+            self.point_before = false;
         }
     }
 
     fn move_to(&mut self, to: Step) {
-        self.dot();
         if self.moved {
             self.out.push(b'm');
-            self.pair_after_letter(to.0 - self.pen.0, to.1 - self.pen.1);
+            self.pair_after_letter(to.x - self.pen.x, to.y - self.pen.y);
             // Pairs that follow a relative move are relative lines.
             self.command = b'l';
         } else {
             self.out.push(b'M');
-            self.pair_after_letter(to.0, to.1);
+            self.pair_after_letter(to.x, to.y);
             self.command = b'M';
         }
         self.moved = true;
         self.pen = to;
-        self.start = to;
         self.mirrored = Some(to);
-        self.bare = true;
     }
 
     fn line_to(&mut self, to: Step) {
-        let (dx, dy) = (to.0 - self.pen.0, to.1 - self.pen.1);
-        if dx == 0 && dy == 0 {
-            return;
-        }
+        let (dx, dy) = (to.x - self.pen.x, to.y - self.pen.y);
         if dy == 0 {
             self.letter(b'h');
             self.number(dx);
@@ -115,25 +87,17 @@ impl Writer<'_> {
         }
         self.mirrored = Some(to);
         self.pen = to;
-        self.bare = false;
     }
 
     fn quad_to(&mut self, c: Step, to: Step) {
-        if c == self.pen && to == self.pen {
-            return;
-        }
         self.letter(b'q');
         self.relative(c);
         self.relative(to);
         self.pen = to;
         self.mirrored = None;
-        self.bare = false;
     }
 
     fn curve_to(&mut self, c1: Step, c2: Step, to: Step) {
-        if c1 == self.pen && c2 == self.pen && to == self.pen {
-            return;
-        }
         if self.mirrored == Some(c1) {
             self.letter(b's');
         } else {
@@ -142,24 +106,13 @@ impl Writer<'_> {
         }
         self.relative(c2);
         self.relative(to);
-        self.mirrored = Some((2 * to.0 - c2.0, 2 * to.1 - c2.1));
+        self.mirrored = Some(Step { y: 2 * to.y - c2.y, x: 2 * to.x - c2.x });
         self.pen = to;
-        self.bare = false;
-    }
-
-    /// A subpath of no length is a dot, and needs a piece for its caps to be drawn.
-    fn dot(&mut self) {
-        if self.bare {
-            self.out.extend_from_slice(b"h0");
-            self.command = b'h';
-            self.point_before = false;
-            self.bare = false;
-        }
     }
 
     fn relative(&mut self, to: Step) {
-        self.number(to.0 - self.pen.0);
-        self.number(to.1 - self.pen.1);
+        self.number(to.x - self.pen.x);
+        self.number(to.y - self.pen.y);
     }
 
     fn letter(&mut self, letter: u8) {
@@ -199,12 +152,19 @@ const FRESH: u8 = 0x80;
 
 #[cfg(test)]
 mod tests {
+    use kurbo::BezPath;
+
+    use super::super::canonical::{Canonical, Form};
     use super::*;
 
-    fn data(text: &str, decimals: u8) -> String {
+    fn write(path: &BezPath, decimals: u8) -> String {
         let mut out = Vec::new();
-        write(&mut out, &BezPath::from_svg(text).unwrap(), Decimals::new(decimals));
+        Canonical::new(Decimals::new(decimals)).write(&mut out, path, Form::Kept);
         String::from_utf8(out).unwrap()
+    }
+
+    fn data(text: &str, decimals: u8) -> String {
+        write(&BezPath::from_svg(text).unwrap(), decimals)
     }
 
     #[test]
@@ -237,9 +197,7 @@ mod tests {
         for i in 1..=1000 {
             path.line_to((f64::from(i) * 0.0149, f64::from(i % 2)));
         }
-        let mut out = Vec::new();
-        write(&mut out, &path, Decimals::new(2));
-        let read = BezPath::from_svg(std::str::from_utf8(&out).unwrap()).unwrap();
+        let read = BezPath::from_svg(&write(&path, 2)).unwrap();
         let end = read.current_position().unwrap();
         assert!((end.x - 14.9).abs() < 0.005 + 1e-9, "{}", end.x);
     }

@@ -5,14 +5,12 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::attributes::{Attributes, WIDTH_DECIMALS, alike, hex};
+use super::attributes::{Attributes, WIDTH_DECIMALS, hex};
 use super::number::Decimals;
-use super::path_data;
+use super::order::{self, CHUNK, Paths, Run};
 use super::xml::{Ids, escape};
 use crate::drawing::{Drawing, Layer, LayerKind, Mark, Paint, Unit};
 
-/// Marks that one task writes. Fixed, so that the bytes do not depend on the number of threads.
-const CHUNK: usize = 2048;
 /// Decimals of dash lengths: finer than coordinates, since they add up along a path.
 const DASH_DECIMALS: u8 = 3;
 
@@ -49,7 +47,9 @@ impl SvgOptions {
 }
 
 impl Drawing {
-    /// The drawing as SVG text. The same drawing gives the same bytes.
+    /// The drawing as SVG text, in canonical form: the same drawing gives the same bytes, and one that differs a little
+    /// a text that differs a little. Marks that may be exchanged stand in an order of their own, and paths begin where
+    /// every way of writing them would; see [`Layer::ordered`].
     ///
     /// Coordinates are off by at most half a unit of the last written decimal.
     #[must_use]
@@ -65,11 +65,12 @@ impl Drawing {
                     let marks: Vec<&Mark> = layer.marks.iter().collect();
                     let (id, label) = self.names(layer);
                     open_layer(&mut out, &mut ids, &id, &label);
-                    group(&mut out, &marks, decimals, b"");
+                    Group { marks: &marks, ordered: layer.ordered, decimals }.write(&mut out, b"");
                 }
             }
             Grouping::Part => {
-                for (name, marks) in self.by_part() {
+                for PartGroup { name, marks, ordered } in self.by_part() {
+                    let group = Group { marks: &marks, ordered, decimals };
                     match name {
                         Some(name) => {
                             out.extend_from_slice(b"<g id=\"");
@@ -78,11 +79,11 @@ impl Drawing {
                             let mut title = b"<title>".to_vec();
                             escape(&mut title, &name);
                             title.extend_from_slice(b"</title>\n");
-                            group(&mut out, &marks, decimals, &title);
+                            group.write(&mut out, &title);
                         }
                         None => {
                             out.extend_from_slice(b"<g");
-                            group(&mut out, &marks, decimals, b"");
+                            group.write(&mut out, b"");
                         }
                     }
                 }
@@ -148,24 +149,36 @@ impl Drawing {
     }
 
     /// The marks of all layers by part, in order of first appearance; those of no part first.
-    fn by_part(&self) -> Vec<(Option<Arc<str>>, Vec<&Mark>)> {
-        let mut groups: Vec<(Option<Arc<str>>, Vec<&Mark>)> = vec![(None, Vec::new())];
+    fn by_part(&self) -> Vec<PartGroup<'_>> {
+        let mut groups = vec![PartGroup::default()];
         let mut index: FxHashMap<&str, usize> = FxHashMap::default();
-        for mark in self.layers.iter().flat_map(|layer| &layer.marks) {
-            let at = match &mark.provenance.part {
-                None => 0,
-                Some(name) => *index.entry(name).or_insert_with(|| {
-                    groups.push((Some(Arc::clone(name)), Vec::new()));
-                    groups.len() - 1
-                }),
-            };
-            if let Some((_, marks)) = groups.get_mut(at) {
-                marks.push(mark);
+        for layer in &self.layers {
+            for mark in &layer.marks {
+                let at = match &mark.provenance.part {
+                    None => 0,
+                    Some(name) => *index.entry(name).or_insert_with(|| {
+                        groups.push(PartGroup { name: Some(Arc::clone(name)), ..PartGroup::default() });
+                        groups.len() - 1
+                    }),
+                };
+                if let Some(group) = groups.get_mut(at) {
+                    group.marks.push(mark);
+                    group.ordered |= layer.ordered;
+                }
             }
         }
-        groups.retain(|(_, marks)| !marks.is_empty());
+        groups.retain(|group| !group.marks.is_empty());
         groups
     }
+}
+
+/// The marks of a part, of all layers.
+#[derive(Default)]
+struct PartGroup<'a> {
+    name: Option<Arc<str>>,
+    marks: Vec<&'a Mark>,
+    /// Whether some are of an ordered layer.
+    ordered: bool,
 }
 
 /// The start tag of a layer, but for its attributes of painting and its closing bracket.
@@ -177,42 +190,77 @@ fn open_layer(out: &mut Vec<u8>, ids: &mut Ids, id: &str, label: &str) {
     out.push(b'"');
 }
 
-/// The rest of a group whose start tag is open: shared attributes, `head`, marks, end tag.
-fn group(out: &mut Vec<u8>, marks: &[&Mark], decimals: Decimals, head: &[u8]) {
-    let common = Attributes::common(marks);
-    common.write(out);
-    out.extend_from_slice(b">\n");
-    out.extend_from_slice(head);
-    let pieces: Vec<Vec<u8>> =
-        marks.par_chunks(CHUNK).map(|chunk| write_chunk(chunk, &common, decimals)).collect();
-    out.reserve(pieces.iter().map(Vec::len).sum::<usize>() + 16);
-    for piece in pieces {
-        out.extend_from_slice(&piece);
-    }
-    out.extend_from_slice(b"</g>\n");
+/// Marks that are written as one group.
+struct Group<'a> {
+    marks: &'a [&'a Mark],
+    /// Whether they stay in their order, and paths run as they do.
+    ordered: bool,
+    decimals: Decimals,
 }
 
-/// Some marks of a group; neighbours that are painted alike, but unlike the group, share a group
-/// of their own.
-fn write_chunk(marks: &[&Mark], outer: &Attributes, decimals: Decimals) -> Vec<u8> {
-    let mut out = Vec::with_capacity(marks.len() * 96);
-    for run in marks.chunk_by(|a, b| alike(a, b)) {
-        let Some(first) = run.first() else { continue };
-        let attributes = Attributes::of(first);
-        let shared = run.len() > 1 && !attributes.fits(outer);
-        if shared {
-            out.extend_from_slice(b"<g");
-            attributes.write_over(outer, &mut out);
-            out.extend_from_slice(b">\n");
+impl Group<'_> {
+    /// The rest of a group whose start tag is open: shared attributes, `head`, marks, end tag.
+    fn write(&self, out: &mut Vec<u8>, head: &[u8]) {
+        let common = Attributes::common(self.marks);
+        if self.ordered {
+            out.extend_from_slice(b" data-order=\"travel\"");
         }
-        for mark in run {
-            write_mark(&mut out, mark, if shared { &attributes } else { outer }, decimals, &attributes);
+        common.write(out);
+        out.extend_from_slice(b">\n");
+        out.extend_from_slice(head);
+        let paths = Paths::of(self.marks, self.ordered, self.decimals);
+        let runs = order::runs(self.marks);
+        let order = match self.ordered {
+            true => (0..self.marks.len()).collect(),
+            false => order::sorted(self.marks, &runs, &paths),
+        };
+        let write = |(index, chunk): (usize, &[usize])| {
+            let mut out = Vec::with_capacity(chunk.len() * 96);
+            self.write_chunk(&mut out, chunk, index * CHUNK, &Shared { common, paths: &paths, runs: &runs });
+            out
+        };
+        let pieces: Vec<Vec<u8>> = order.par_chunks(CHUNK).enumerate().map(write).collect();
+        out.reserve(pieces.iter().map(Vec::len).sum::<usize>() + 16);
+        for piece in pieces {
+            out.extend_from_slice(&piece);
         }
-        if shared {
-            out.extend_from_slice(b"</g>\n");
+        out.extend_from_slice(b"</g>\n");
+    }
+
+    /// Some marks of the group, the first of which is the `from`th; neighbours that are painted alike, but unlike the
+    /// group, share a group of their own.
+    fn write_chunk(&self, out: &mut Vec<u8>, chunk: &[usize], from: usize, shared: &Shared) {
+        let Shared { common, paths, runs } = shared;
+        let first = runs.partition_point(|run| run.range.end <= from);
+        let to = from + chunk.len();
+        for Run { range, attributes } in runs.iter().skip(first).take_while(|run| run.range.start < to) {
+            let grouped = range.len() > 1 && !attributes.fits(common);
+            if grouped && range.start >= from {
+                out.extend_from_slice(b"<g");
+                attributes.write_over(common, out);
+                out.extend_from_slice(b">\n");
+            }
+            let outer = if grouped { attributes } else { common };
+            for place in range.start.max(from)..range.end.min(to) {
+                let Some((index, mark)) =
+                    chunk.get(place - from).and_then(|i| Some((*i, self.marks.get(*i)?)))
+                else {
+                    continue;
+                };
+                write_mark(out, mark, outer, attributes, [paths.axis(index), paths.data(index)]);
+            }
+            if grouped && range.end <= to {
+                out.extend_from_slice(b"</g>\n");
+            }
         }
     }
-    out
+}
+
+/// What the chunks of a group share.
+struct Shared<'a> {
+    common: Attributes,
+    paths: &'a Paths,
+    runs: &'a [Run],
 }
 
 /// One path.
@@ -220,16 +268,15 @@ fn write_mark(
     out: &mut Vec<u8>,
     mark: &Mark,
     outer: &Attributes,
-    decimals: Decimals,
     attributes: &Attributes,
+    [axis, data]: [&[u8]; 2],
 ) {
     let provenance = &mark.provenance;
     out.extend_from_slice(b"<path");
-    let tone = provenance.tone.map(|tone| format!("tone-{tone}"));
-    let classes: Vec<&str> = provenance.classes.iter().copied().chain(tone.as_deref()).collect();
+    let classes = order::classes(&provenance.classes, provenance.tone);
     if !classes.is_empty() {
         out.extend_from_slice(b" class=\"");
-        out.extend_from_slice(classes.join(" ").as_bytes());
+        out.extend_from_slice(classes.as_bytes());
         out.push(b'"');
     }
     let mut named = |name: &[u8], text: &str| {
@@ -251,7 +298,7 @@ fn write_mark(
     }
     if let Paint::Outline(outline) = &mark.paint {
         out.extend_from_slice(b" data-axis=\"");
-        path_data::write(out, &outline.axis, decimals);
+        out.extend_from_slice(axis);
         out.extend_from_slice(b"\" data-width=\"");
         let fine = Decimals::new(WIDTH_DECIMALS);
         fine.write(out, fine.round(outline.width));
@@ -277,7 +324,7 @@ fn write_mark(
         }
     }
     out.extend_from_slice(b" d=\"");
-    path_data::write(out, &mark.path, decimals);
+    out.extend_from_slice(data);
     match &provenance.note {
         None => out.extend_from_slice(b"\"/>\n"),
         Some(note) => {

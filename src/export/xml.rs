@@ -1,5 +1,7 @@
 //! Text made safe for XML, and ids that are unique in a document.
 
+use std::borrow::Cow;
+
 use rustc_hash::FxHashSet;
 
 /// Writes text for an attribute or an element: markup is escaped, characters that XML cannot
@@ -33,6 +35,12 @@ pub(crate) fn escaped(text: &str) -> String {
     let mut out = Vec::with_capacity(text.len());
     escape(&mut out, text);
     String::from_utf8_lossy(&out).into_owned()
+}
+
+/// A text as it reads back from what [`escape`] wrote.
+pub(super) fn read_back(text: &str) -> Cow<'_, str> {
+    let lost = |c: char| matches!(c, '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}') && !"\t\n\r".contains(c);
+    if text.contains(lost) { Cow::Owned(text.replace(lost, "\u{fffd}")) } else { Cow::Borrowed(text) }
 }
 
 /// Ids given away so far.
@@ -86,6 +94,7 @@ mod tests {
     fn markup_and_control_characters() {
         assert_eq!(escaped("plain büro"), "plain büro");
         assert_eq!(escaped("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+        assert_eq!(read_back("a\nb\u{0}\u{ffff}"), "a\nb\u{fffd}\u{fffd}");
         assert_eq!(escaped("a\nb\u{0}\u{7}\u{ffff}日本"), "a&#10;b\u{fffd}\u{fffd}\u{fffd}日本");
     }
 

@@ -63,7 +63,7 @@ pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
         provenance: Provenance { classes: vec!["grain"], ..Provenance::default() },
     };
     let marks = paths.into_iter().zip([light, dark, darker]).filter(|(path, _)| !path.elements().is_empty());
-    Some(Layer { kind: LayerKind::Paper, pen: None, marks: marks.map(mark).collect() })
+    Some(Layer { kind: LayerKind::Paper, pen: None, ordered: false, marks: marks.map(mark).collect() })
 }
 
 /// Pages with more specks than this are drawn with this many.

@@ -126,7 +126,7 @@ pub fn fill(
             Kind::Dots | Kind::Stipple => marks.extend(spots(ground, context, options, number, layer)),
         }
     }
-    (!marks.is_empty()).then_some(Layer { kind: LayerKind::Hatching, pen: None, marks })
+    (!marks.is_empty()).then_some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks })
 }
 
 /// The part of the paper that a layer covers at a point of a cell: as the light is there, or the bin.

@@ -59,7 +59,7 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
         .collect();
     let layer = |kind: LayerKind, cast: bool| {
         let own = marks.iter().filter(|(is_cast, _)| *is_cast == cast).map(|(_, mark)| mark.clone());
-        Layer { kind, pen: None, marks: own.collect() }
+        Layer { kind, pen: None, ordered: false, marks: own.collect() }
     };
     let layers = [layer(LayerKind::Fills, false), layer(LayerKind::Shadows, true)];
     layers.into_iter().filter(|layer| !layer.marks.is_empty()).collect()

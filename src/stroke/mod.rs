@@ -100,7 +100,7 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     for (kind, marks) in [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)] {
         let marks: Vec<Mark> = marks.into_iter().flatten().collect();
         let parted = match options.layers.by {
-            LayersBy::Visibility => vec![Layer { kind, pen: None, marks }],
+            LayersBy::Visibility => vec![Layer { kind, pen: None, ordered: false, marks }],
             LayersBy::Pen => by_pen(kind, marks, context.unit),
         };
         layers.extend(parted.into_iter().filter(|layer| !layer.marks.is_empty()));
@@ -108,6 +108,7 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     if options.layers.order == Order::Travel {
         for layer in &mut layers {
             layer.marks = travel::shorten(std::mem::take(&mut layer.marks));
+            layer.ordered = true;
         }
     }
     layers
@@ -245,7 +246,7 @@ fn by_pen(kind: LayerKind, marks: Vec<Mark>, unit: Unit) -> Vec<Layer> {
             let colour = String::from(pen.1);
             let width = (pen.0 * 1000.0).round() / 1000.0;
             let label = format!("{} {width} {} {colour}", pens.len(), unit.name());
-            layers.push(Layer { kind, pen: Some(label), marks: Vec::new() });
+            layers.push(Layer { kind, pen: Some(label), ordered: false, marks: Vec::new() });
             pens.len() - 1
         });
         if let Some(layer) = layers.get_mut(index) {

@@ -134,6 +134,6 @@ fn push(
 fn layers<const N: usize>(of: [(LayerKind, Vec<Mark>); N]) -> Vec<Layer> {
     of.into_iter()
         .filter(|(_, marks)| !marks.is_empty())
-        .map(|(kind, marks)| Layer { kind, pen: None, marks })
+        .map(|(kind, marks)| Layer { kind, pen: None, ordered: false, marks })
         .collect()
 }

@@ -1,0 +1,82 @@
+//! `ligne fmt`: drawings rewritten in canonical form.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::output::{Staging, check_place};
+use super::{DIFFERENCES, print};
+use crate::diff::canonical_svg;
+use crate::error::Error;
+
+/// What was typed.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  ligne fmt drawing.svg               rewrite a drawing in canonical form
+  ligne fmt --check docs/*.svg        name the drawings that are not in it
+  ligne fmt drawing.svg -o -          write it to standard output
+
+The picture stays the same: marks that may be exchanged are ordered, paths begin at their upper end, and numbers are
+rounded, so that version control shows small differences. Drawings of ligne draw are in this form already.")]
+pub(super) struct FmtArgs {
+    /// SVG files
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+
+    /// Write nothing; name the files that are not in the form, and end with status 1 if there are any
+    #[arg(long, conflicts_with = "output")]
+    check: bool,
+
+    /// Decimals of coordinates [default: as many as the file has]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=8))]
+    precision: Option<u8>,
+
+    /// Write to this file instead, - for standard output; for one FILE only
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+}
+
+/// Rewrites the files, all or none.
+pub(super) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
+    if args.files.len() > 1 && args.output.is_some() {
+        return Err(Error::new("one output cannot take several files")
+            .at("--output")
+            .remedy("leave it out to rewrite the files in their places"));
+    }
+    if let Some(output) = args.output.as_deref().filter(|output| !is_stdout(output)) {
+        check_place(output)?;
+    }
+    let mut staging = Staging::default();
+    let mut strays = String::new();
+    for file in &args.files {
+        let text = read(file)?;
+        let form = canonical_svg(&text, args.precision).map_err(|error| error.in_file(file))?;
+        match &args.output {
+            _ if args.check => {
+                if form != text {
+                    strays += &format!("{}\n", file.display());
+                }
+            }
+            Some(output) if is_stdout(output) => return print(form.as_bytes()).map(|()| ExitCode::SUCCESS),
+            Some(output) => staging.add(output, form.as_bytes())?,
+            None if form != text => staging.add(file, form.as_bytes())?,
+            None => {}
+        }
+    }
+    staging.commit()?;
+    print(strays.as_bytes())?;
+    Ok(if strays.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENCES) })
+}
+
+fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+fn read(file: &Path) -> Result<String, Error> {
+    let bytes = std::fs::read(file).map_err(|error| {
+        Error::new(format!("cannot be read: {error}")).in_file(file).remedy("check the path")
+    })?;
+    String::from_utf8(bytes)
+        .map_err(|_| Error::new("is not text in UTF-8").in_file(file).remedy("save it as SVG in UTF-8"))
+}
