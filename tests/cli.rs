@@ -7,7 +7,7 @@ use common::Folder;
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = Folder::new("help");
-    for command in ["draw", "test", "info", "styles", "completions", "man"] {
+    for command in ["draw", "diff", "test", "fmt", "info", "styles", "completions", "man"] {
         let run = folder.run(&[command, "--help"]);
         run.done();
         assert!(run.out.contains(&format!("Usage: ligne {command}")), "{run:?}");

@@ -27,7 +27,7 @@ fn drawing(y: f64) -> Drawing {
     Drawing {
         title: "lid".to_owned(),
         page: Page { width: 100.0, height: 100.0, unit: Unit::Px, background: Some(Colour::WHITE) },
-        layers: vec![Layer { kind: LayerKind::Lines, pen: None, marks }],
+        layers: vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }],
     }
 }
 

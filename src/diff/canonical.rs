@@ -26,7 +26,7 @@ const MOST_STEPS: f64 = (1u64 << 50) as f64;
 ///
 /// Paths are rounded to `precision` decimals, at most 8; `None`: to as many as the file has. Only path data and the
 /// order of neighbouring paths painted alike are changed. Where style sheets, scripts, references or animations might
-/// tell the difference, paths are only rounded; those with arcs, and wrong ones, stay as they are.
+/// tell the difference, paths are only rounded; those with arcs or with moves that nothing is drawn from, and wrong ones, stay as they are.
 ///
 /// ```
 /// let svg = |paths: &str| {
@@ -207,8 +207,11 @@ fn rewritten(data: &str, leave: Leave, decimals: Decimals) -> (Option<String>, O
     let Some(read) = path_data::read(data) else { return (None, None) };
     let mut canonical = Canonical::new(decimals);
     let own_start = read.start.map(|start| canonical.step(start));
-    let lone = leave.all_points && read.has_lone_moves;
-    if read.has_arcs || lone || read.path.elements().is_empty() || !is_exact(&read.path, decimals) {
+    if read.has_arcs
+        || read.has_lone_moves
+        || read.path.elements().is_empty()
+        || !is_exact(&read.path, decimals)
+    {
         return (None, own_start);
     }
     let mut out = Vec::with_capacity(data.len());

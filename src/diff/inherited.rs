@@ -110,7 +110,7 @@ impl<'a> Look<'a> {
         for attribute in node.attributes() {
             match (attribute.namespace(), attribute.name()) {
                 (None, "id") => look.used |= afar.referred.contains(attribute.value()),
-                (None, "style") => {}
+                (None, "d" | "style") => {}
                 (None, name) => look.set(name, attribute.value()),
                 // A path that is made of another one, or whose corners are listed.
                 (Some(_), name) => look.used |= EDITED.contains(&name),
