@@ -26,7 +26,7 @@ fn strokes((count, pieces): (usize, usize), shift: f64) -> String {
     );
     for index in 0..count {
         let mut at = Point::new(next() * 1000.0 + shift, next() * 1000.0);
-        let mut angle = next() * 6.28;
+        let mut angle = next() * std::f64::consts::TAU;
         svg += &format!("<path class=\"crease\" data-part=\"p{}\" d=\"M{:.2} {:.2}L", index % 50, at.x, at.y);
         for _ in 0..pieces {
             angle += (next() - 0.5) * 0.6;

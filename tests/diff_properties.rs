@@ -26,7 +26,7 @@ fn random_lines(dice: &mut Dice, count: usize) -> Vec<Line> {
         let mut at = Point::new(dice.between(20.0, PAGE - 20.0), dice.between(20.0, PAGE - 20.0));
         let mut path = BezPath::new();
         path.move_to(at);
-        let mut towards = dice.between(0.0, 6.28);
+        let mut towards = dice.between(0.0, std::f64::consts::TAU);
         let pieces = 1 + dice.below(6);
         for _ in 0..pieces {
             let way = |angle: f64, length: f64| Vec2::from_angle(angle) * length;
@@ -136,7 +136,7 @@ fn a_shift_is_told_as_such() {
         let mut dice = Dice::new(seed);
         let lines = random_lines(&mut dice, 25);
         let d = [0.1, 0.7, 3.0][dice.below(3)];
-        let way = Vec2::from_angle(dice.between(0.0, 6.28)) * d;
+        let way = Vec2::from_angle(dice.between(0.0, std::f64::consts::TAU)) * d;
         let moved: Vec<Line> = lines
             .iter()
             .map(|line| Line { path: Affine::translate(way) * line.path.clone(), ..line.clone() })
