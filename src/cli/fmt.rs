@@ -53,10 +53,10 @@ pub(super) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
         let text = read(file)?;
         let form = canonical_svg(&text, args.precision).map_err(|error| error.in_file(file))?;
         match &args.output {
+            _ if args.check && form == text => {}
             _ if args.check => {
-                if form != text {
-                    strays += &format!("{}\n", file.display());
-                }
+                strays.push_str(&file.display().to_string());
+                strays.push('\n');
             }
             Some(output) if is_stdout(output) => return print(form.as_bytes()).map(|()| ExitCode::SUCCESS),
             Some(output) => staging.add(output, form.as_bytes())?,

@@ -46,9 +46,7 @@ pub(super) fn read(data: &str) -> Option<Read> {
         let origin = if letter.is_ascii_lowercase() { pen.to_vec2() } else { Vec2::ZERO };
         let is_move = matches!(letter, b'M' | b'm');
         if !is_move {
-            if found.start.is_none() {
-                return None;
-            }
+            found.start?;
             if let Some(at) = move_to.take() {
                 found.path.move_to(at);
             }
