@@ -99,6 +99,16 @@ pub(super) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
     done
 }
 
+/// The rings of an outline, in an order that does not depend on how it was written.
+pub(super) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Chain> {
+    let flat =
+        outline.map(|outline| flatten(outline, tolerance * FLAT_OF_TOLERANCE, true)).unwrap_or_default();
+    let ring = |(points, closed)| Chain { group: 0, points, closed, shapes: Vec::new() }.in_order();
+    let mut rings: Vec<Chain> = flat.into_iter().map(ring).collect();
+    rings.sort_by(|a, b| order(a.points[0], b.points[0]));
+    rings
+}
+
 /// The subpaths of a path as polylines, and whether each is closed.
 pub(super) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Vec<(Vec<Point>, bool)> {
     let mut found: Vec<(Vec<Point>, bool)> = Vec::new();

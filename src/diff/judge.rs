@@ -175,25 +175,14 @@ impl<'a> Teller<'a> {
             };
             let Some(other) = self.shape(1, partner) else { continue };
             let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-            let rings = |shape: &Shape| -> Vec<Chain> {
-                let outline = shape.outline.clone().unwrap_or_default();
-                chain::flatten(&outline, tolerance * 0.1, true)
-                    .into_iter()
-                    .map(|(points, closed)| Chain { group: 0, points, closed, shapes: Vec::new() })
-                    .collect()
-            };
+            let rings = |shape: &Shape| chain::rings(shape.outline.as_ref(), tolerance);
             let (old, new) = (rings(shape), rings(other));
-            let all = |rings: &[Chain]| Chain {
-                group: 0,
-                points: rings.iter().flat_map(|ring| ring.points.iter().copied()).collect(),
-                closed: false,
-                shapes: Vec::new(),
-            };
             if old.is_empty() || new.is_empty() {
                 continue;
             }
-            let apart = apart(&all(&old), &all(&new));
-            if apart.largest > tolerance {
+            // Rings stand in an order of their own, so that each has its like in the same place.
+            let widest = old.iter().zip(&new).map(|(old, new)| apart(old, new).largest).fold(0.0, f64::max);
+            if old.len() != new.len() || widest > tolerance {
                 found.push(Finding {
                     verdict: Verdict::Restyled,
                     kind: ShapeKind::Line,
@@ -201,7 +190,7 @@ impl<'a> Teller<'a> {
                     changes: vec![Change {
                         what: "width along the line".to_owned(),
                         old: format!("{} px on average", trimmed(shape.ink.width)),
-                        new: format!("up to {} px wider or thinner", trimmed(2.0 * apart.largest)),
+                        new: format!("up to {} px wider or thinner", trimmed(2.0 * widest)),
                     }],
                     place: Place::of(super::pair::bounds(&chain.points)),
                     size: cover.length,
