@@ -94,7 +94,7 @@ fn tests_that_documents_name_are_there() {
 
 #[test]
 fn options_that_the_readme_names_are_there() {
-    let help: String = ["draw", "fmt", "test"]
+    let help: String = ["draw", "diff", "fmt", "test"]
         .map(|command| {
             let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
             String::from_utf8(help.stdout).unwrap()
@@ -108,6 +108,7 @@ fn options_that_the_readme_names_are_there() {
         "docs/styles.md",
         "docs/smooth.md",
         "docs/stages.md",
+        "docs/diff.md",
         "docs/testing.md",
         "examples/README.md",
     ] {
