@@ -25,7 +25,7 @@ use crate::drawing::Drawing;
 use crate::error::Error;
 use crate::export::SvgOptions;
 
-pub use crate::assert_drawing;
+pub use super::assert_drawing;
 
 /// The variable that approves drawings as they are.
 pub const BLESS: &str = "LIGNE_BLESS";
@@ -41,13 +41,13 @@ const MOST_LINES: usize = 30;
 #[macro_export]
 macro_rules! assert_drawing {
     ($drawing:expr, $name:expr $(,)?) => {
-        $crate::assert_drawing!($drawing, $name, folder = "tests/drawings")
+        $crate::testing::assert_drawing!($drawing, $name, folder = "tests/drawings")
     };
     ($drawing:expr, $name:expr, tolerance = $tolerance:expr $(,)?) => {
-        $crate::assert_drawing!($drawing, $name, folder = "tests/drawings", tolerance = $tolerance)
+        $crate::testing::assert_drawing!($drawing, $name, folder = "tests/drawings", tolerance = $tolerance)
     };
     ($drawing:expr, $name:expr, folder = $folder:expr $(,)?) => {
-        $crate::assert_drawing!($drawing, $name, folder = $folder, tolerance = "")
+        $crate::testing::assert_drawing!($drawing, $name, folder = $folder, tolerance = "")
     };
     ($drawing:expr, $name:expr, folder = $folder:expr, tolerance = $tolerance:expr $(,)?) => {{
         let folder = ::std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join($folder);
