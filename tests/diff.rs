@@ -324,3 +324,15 @@ fn pixels_are_compared_on_demand() {
     assert!(!diff.is_same() && diff.pixels.unwrap().differing > 500, "{:?}", diff.pixels);
     assert!(compare_with(&over, &format!("{over} "), &options).is_same());
 }
+
+#[test]
+fn a_part_that_is_gone_did_not_become_its_neighbour() {
+    let bolt = "<path class=\"crease\" data-part=\"bolt\" d=\"M125 35c5 5 10 5 20 0\"/>";
+    let washer = "<path class=\"crease\" data-part=\"washer\" d=\"M125 37c5 5 10 5 20 0\"/>";
+    assert_eq!(told(&compare(BASE, &edited(bolt, washer))), "added crease of washer, removed crease of bolt");
+    let gone = edited(bolt, "")
+        .replace("<path class=\"contour\" data-part=\"bolt\" stroke-width=\"1.6\" stroke-dasharray=\"4 2\" d=\"M170 10v80\"/>", "")
+        .replace(r##"<path class="tone-0" data-part="bolt" data-material="zinc" data-tone="0" fill="#9ea3a8" d="M120 30h30v30h-30z"/>"##, "");
+    let lines = compare(BASE, &gone).lines();
+    assert!(lines.len() == 1 && lines[0].contains("part `bolt`: all its 3 marks"), "{lines:#?}");
+}

@@ -47,7 +47,7 @@ pub(super) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event
     for side in 0..2 {
         for (index, cover) in sides[side].covers.iter().enumerate() {
             if !cover.is_whole() && !paired[side].contains(&index) {
-                events.push(of_one(sides, side, index));
+                events.push(of_one(sides, side, index, groups));
             }
         }
     }
@@ -86,10 +86,14 @@ fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
 }
 
 /// A chain with uncovered stretches and without a partner: part of a mark, or all of it.
-fn of_one(sides: &[Side; 2], side: usize, index: usize) -> Event {
+fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Event {
     let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
-    let rest = cover.partners.first().map(|(partner, ..)| *partner as usize);
-    let rest = rest.filter(|_| cover.share() > LEFT);
+    let own = |partner: &&(u32, Likeness, f64)| {
+        let other = sides[1 - side].chains.get(partner.0 as usize);
+        other.is_some_and(|other| groups.same_part(chain.group, other.group))
+    };
+    let rest = cover.partners.iter().find(own).filter(|partner| partner.2 > LEFT * cover.length);
+    let rest = rest.map(|(partner, ..)| *partner as usize);
     let (mut old, mut new) = if side == 0 { (Some(index), rest) } else { (rest, Some(index)) };
     let mut event = Event {
         verdict: Verdict::Reshaped,
@@ -120,29 +124,42 @@ fn of_one(sides: &[Side; 2], side: usize, index: usize) -> Event {
 
 /// Chains whose place is taken by another ink or another part.
 fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
-    let other = |side: usize, index: usize| -> Vec<(usize, Likeness, f64)> {
+    // Nothing where all is as it was; else what took the chain's place, if one mark can be said to have done so.
+    let other = |side: usize, index: usize| -> Option<Vec<(usize, Likeness, f64)>> {
         let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
         if !cover.is_whole() || cover.is_same() {
-            return Vec::new();
+            return None;
         }
         let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
         let crumb = (CRUMB * tolerance).max(CRUMB_OF_LINE * cover.length).min(0.5 * cover.length);
-        let partners = cover.partners.iter().copied();
-        partners
-            .filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)
-            .map(|(partner, likeness, length)| (partner as usize, likeness, length))
-            .collect()
+        let strange = || {
+            let partners = cover.partners.iter().copied();
+            partners.filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)
+        };
+        strange().next()?;
+        let kept: f64 = cover.partners.iter().filter(|p| p.1 == Likeness::Same).map(|p| p.2).sum();
+        // Bits of the lines of several other parts do not add up to a mark.
+        let took = |partner: u32, length: f64| {
+            let same_part = groups.same_part(chain.group, sides[1 - side].chains[partner as usize].group);
+            same_part || length.max(kept) >= 0.5 * cover.length
+        };
+        Some(
+            strange()
+                .filter(|(partner, _, length)| took(*partner, *length))
+                .map(|(partner, likeness, length)| (partner as usize, likeness, length))
+                .collect(),
+        )
     };
-    let of_new: Vec<Vec<(usize, Likeness, f64)>> =
+    let of_new: Vec<Option<Vec<(usize, Likeness, f64)>>> =
         (0..sides[1].chains.len()).map(|index| other(1, index)).collect();
     let mut events = Vec::new();
     let mut told: FxHashSet<usize> = FxHashSet::default();
     for index in 0..sides[0].chains.len() {
-        let list = other(0, index);
-        let mut drawn_over = !list.is_empty();
+        let Some(list) = other(0, index) else { continue };
+        let mut drawn_over = true;
         for (partner, likeness, length) in list {
             // What covers it is not covered by it: it was drawn twice, and is drawn once.
-            let mutual = of_new[partner].iter().any(|(back, ..)| *back == index)
+            let mutual = of_new[partner].iter().flatten().any(|(back, ..)| *back == index)
                 || !sides[1].covers[partner].is_whole();
             if mutual {
                 drawn_over = false;
@@ -170,7 +187,7 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
         }
     }
     for (index, list) in of_new.iter().enumerate() {
-        if !list.is_empty() && !told.contains(&index) {
+        if list.is_some() && !told.contains(&index) {
             events.push(alone(sides, 1, index));
         }
     }

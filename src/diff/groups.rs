@@ -1,5 +1,7 @@
 //! Labels and inks by number, so that they are compared once and not for every pair of segments.
 
+use std::sync::Arc;
+
 use rustc_hash::FxHashMap;
 
 use super::ink::Ink;
@@ -24,6 +26,8 @@ pub(super) enum Likeness {
 #[derive(Debug, Clone)]
 pub(super) struct Group {
     pub kind: ShapeKind,
+    /// The part of the model.
+    part: Option<Arc<str>>,
     label: usize,
     ink: Ink,
     /// How far ink may lie from where it lay, in px.
@@ -57,12 +61,18 @@ impl Groups {
             let label = *labels.entry(label).or_insert(count);
             *known.entry((label, shape.kind, key(&shape.ink))).or_insert_with(|| {
                 let tolerance = tolerances.px(&shape.label, shape.ink.tone, shape.kind, fallback);
-                groups.push(Group { kind: shape.kind, label, ink: shape.ink.clone(), tolerance });
+                let (part, ink) = (shape.label.part.clone(), shape.ink.clone());
+                groups.push(Group { kind: shape.kind, part, label, ink, tolerance });
                 groups.len() - 1
             })
         };
         let of_shape = pictures.map(|picture| picture.shapes.iter().map(&mut group_of).collect());
         Self { groups, of_shape }
+    }
+
+    /// Whether two groups are of one part.
+    pub(super) fn same_part(&self, a: usize, b: usize) -> bool {
+        self.groups.get(a).map(|group| &group.part) == self.groups.get(b).map(|group| &group.part)
     }
 
     /// In what two groups differ; `None` where the one is a line and the other a region.

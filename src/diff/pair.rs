@@ -157,7 +157,8 @@ fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) 
     };
     let limit =
         (REACH_OF_MARK * size(a).max(size(b))).max(LEAST_REACH_OF_PAGE * page).min(REACH_OF_PAGE * page);
-    if common < COMMON && alignment.largest > limit {
+    // What lies elsewhere is another mark if it is of another part: a bolt that is gone did not become the washer under it.
+    if common < COMMON && (alignment.largest > limit || !groups.same_part(a.group, b.group)) {
         return None;
     }
     let strangeness = match likeness {

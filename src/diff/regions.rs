@@ -46,7 +46,14 @@ impl Partners {
             for (chain, cover) in own.chains.iter().zip(&own.covers) {
                 for &(partner, _, length) in &cover.partners {
                     let other = others.chains.get(partner as usize).and_then(|other| other.shapes.first());
-                    add(side, chain.shapes.first(), other, length);
+                    let part = |side: usize, shape: Option<&usize>| {
+                        teller.pictures[side].shapes.get(*shape?).and_then(|shape| shape.label.part.as_ref())
+                    };
+                    // Neighbours share borders: a region that is gone did not become one of those around it.
+                    let own_part = part(side, chain.shapes.first()) == part(1 - side, other);
+                    if own_part || length >= 0.9 * cover.length {
+                        add(side, chain.shapes.first(), other, length);
+                    }
                 }
             }
         }
