@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::groups::Groups;
 use super::picture::{Picture, ShapeKind};
-use crate::math::tolerance::{FLAT_OF_TOLERANCE, JOIN_OF_TOLERANCE};
+use crate::math::tolerance::{FLAT_OF_CURVE, FLAT_OF_TOLERANCE, JOIN_OF_TOLERANCE};
 
 /// A polyline in px, in a form that does not depend on how it was written: an open one begins at its lesser end, a
 /// closed one at its least point.
@@ -112,6 +112,8 @@ pub(super) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Cha
 /// The subpaths of a path as polylines, and whether each is closed.
 pub(super) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Vec<(Vec<Point>, bool)> {
     let mut found: Vec<(Vec<Point>, bool)> = Vec::new();
+    let size = path.control_box().size();
+    let tolerance = tolerance.max(size.width.max(size.height) * FLAT_OF_CURVE);
     kurbo::flatten(path.elements().iter().copied(), tolerance, |element| match element {
         PathEl::MoveTo(p) => found.push((vec![p], false)),
         PathEl::ClosePath => {

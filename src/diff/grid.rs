@@ -7,6 +7,9 @@ use super::chain::Chain;
 /// Cells along the longer side, at most.
 const MOST_CELLS: f64 = 2048.0;
 
+/// Cells that a segment goes through, on average and about at most.
+const CELLS_OF_SEGMENT: f64 = 16.0;
+
 /// A segment of a chain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {
@@ -48,8 +51,10 @@ impl Grid {
             (low, high) = (Point::ZERO, Point::ZERO);
         }
         let side = (high.x - low.x).max(high.y - low.y).max(1.0);
-        // About a segment a cell, were they spread evenly.
-        let cell = side / (segments.len() as f64).sqrt().ceil().clamp(1.0, MOST_CELLS);
+        // About a segment a cell, were they spread evenly; and long ones are not in too many.
+        let count = segments.len().max(1) as f64;
+        let mean = segments.iter().map(|s| s.from.distance(s.to)).sum::<f64>() / count;
+        let cell = (side / count.sqrt().ceil().clamp(1.0, MOST_CELLS)).max(mean / CELLS_OF_SEGMENT);
         let count = |length: f64| (length / cell) as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
         let mut grid = Self {

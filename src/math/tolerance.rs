@@ -159,6 +159,9 @@ pub const COARSEST_STEP_PX: f64 = 0.1;
 /// Curves are flattened within this part of the tolerance that they are compared with.
 pub const FLAT_OF_TOLERANCE: f64 = 0.1;
 
+/// Curves that are compared are not flattened more finely than this part of their size: readers keep no more digits.
+pub const FLAT_OF_CURVE: f64 = 1e-7;
+
 /// Ends this near to each other, as a part of the tolerance, were one point before a line was split.
 pub const JOIN_OF_TOLERANCE: f64 = 1.0;
 
