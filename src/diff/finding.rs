@@ -141,6 +141,32 @@ pub struct Finding {
     pub(super) new: BezPath,
 }
 
+impl Finding {
+    /// A finding about something that lies where it lay.
+    pub(super) fn in_place(
+        verdict: Verdict,
+        kind: ShapeKind,
+        label: Label,
+        changes: Vec<Change>,
+        place: Place,
+    ) -> Self {
+        Self {
+            verdict,
+            kind,
+            label,
+            changes,
+            place,
+            size: 0.0,
+            growth: 0.0,
+            largest: 0.0,
+            p95: 0.0,
+            shift: None,
+            gone: BezPath::new(),
+            new: BezPath::new(),
+        }
+    }
+}
+
 /// What differs between two drawings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diff {

@@ -183,23 +183,17 @@ impl<'a> Teller<'a> {
             // Rings stand in an order of their own, so that each has its like in the same place.
             let widest = old.iter().zip(&new).map(|(old, new)| apart(old, new).largest).fold(0.0, f64::max);
             if old.len() != new.len() || widest > tolerance {
+                let change = Change {
+                    what: "width along the line".to_owned(),
+                    old: format!("{} px on average", trimmed(shape.ink.width)),
+                    new: format!("up to {} px wider or thinner", trimmed(2.0 * widest)),
+                };
+                let place = Place::of(super::pair::bounds(&chain.points));
+                let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
                 found.push(Finding {
-                    verdict: Verdict::Restyled,
-                    kind: ShapeKind::Line,
-                    label: (*shape.label).clone(),
-                    changes: vec![Change {
-                        what: "width along the line".to_owned(),
-                        old: format!("{} px on average", trimmed(shape.ink.width)),
-                        new: format!("up to {} px wider or thinner", trimmed(2.0 * widest)),
-                    }],
-                    place: Place::of(super::pair::bounds(&chain.points)),
                     size: cover.length,
-                    growth: 0.0,
-                    largest: 0.0,
-                    p95: 0.0,
-                    shift: None,
-                    gone: BezPath::new(),
                     new: shape.path.clone(),
+                    ..Finding::in_place(Verdict::Restyled, kind, label, vec![change], place)
                 });
             }
         }
@@ -249,19 +243,15 @@ fn page(before: &Picture, after: &Picture) -> Option<Finding> {
     let size = |picture: &Picture| format!("{} x {} px", trimmed(picture.width), trimmed(picture.height));
     let tolerance = default_px(before, after);
     let differs = (before.width - after.width).abs().max((before.height - after.height).abs()) > tolerance;
-    differs.then(|| Finding {
-        verdict: Verdict::Page,
-        kind: ShapeKind::Region,
-        label: Label::default(),
-        changes: vec![Change { what: "size".to_owned(), old: size(before), new: size(after) }],
-        place: Place::of(Rect::new(0.0, 0.0, before.width.max(after.width), before.height.max(after.height))),
-        size: before.width * before.height,
-        growth: after.width * after.height - before.width * before.height,
-        largest: 0.0,
-        p95: 0.0,
-        shift: None,
-        gone: BezPath::new(),
-        new: BezPath::new(),
+    differs.then(|| {
+        let change = Change { what: "size".to_owned(), old: size(before), new: size(after) };
+        let (width, height) = (before.width.max(after.width), before.height.max(after.height));
+        let place = Place::of(Rect::new(0.0, 0.0, width, height));
+        Finding {
+            size: before.width * before.height,
+            growth: after.width * after.height - before.width * before.height,
+            ..Finding::in_place(Verdict::Page, ShapeKind::Region, Label::default(), vec![change], place)
+        }
     })
 }
 

@@ -1,6 +1,6 @@
 //! What lies over what: marks that stayed, and are painted in another order where they overlap.
 
-use kurbo::{BezPath, Point, Rect, Shape as _};
+use kurbo::{Point, Rect, Shape as _};
 
 use super::chain::flatten;
 use super::finding::{Change, Finding, Place, Verdict};
@@ -35,23 +35,13 @@ pub(super) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize
         });
         if let Some((other_new, other)) = other {
             let side = |over: bool| format!("{} {}", if over { "over" } else { "under" }, other.label);
+            let change =
+                Change { what: "order".to_owned(), old: side(new < other_new), new: side(new > other_new) };
+            let place = Place::of(boxes[item]);
+            let label = (*was.label).clone();
             found.push(Finding {
-                verdict: Verdict::Restacked,
-                kind: shape.kind,
-                label: (*was.label).clone(),
-                changes: vec![Change {
-                    what: "order".to_owned(),
-                    old: side(new < other_new),
-                    new: side(new > other_new),
-                }],
-                place: Place::of(boxes[item]),
-                size: 0.0,
-                growth: 0.0,
-                largest: 0.0,
-                p95: 0.0,
-                shift: None,
-                gone: BezPath::new(),
                 new: shape.path.clone(),
+                ..Finding::in_place(Verdict::Restacked, shape.kind, label, vec![change], place)
             });
         }
     }
