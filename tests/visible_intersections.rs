@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 use ligne::lines::intersections::{all_curves, visible_curves};
-use ligne::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions};
+use ligne::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, Role};
 use ligne::mesh::intersect::IntersectionCurves;
 use ligne::mesh::{Mesh, Soup};
 use ligne::scene::{Camera, Scene, UpAxis};
@@ -27,7 +27,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
         kind: LineKind::Intersection,
         both_seen: true,
         smooth: false,
-        lift: 0.0,
+        role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[s.faces[0] as usize],
         material: mesh.face_material[s.faces[0] as usize],

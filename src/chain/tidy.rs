@@ -79,12 +79,12 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64,
     parts
 }
 
-/// For each part, whether most of its contour runs over smooth surface: a scan or another rounded
-/// shape, whose creases may be noise.
+/// For each part, whether most of what is seen of its contour runs over smooth surface: a scan or
+/// another rounded shape, whose creases may be noise.
 fn organic_parts(map: &ViewMap) -> Vec<bool> {
     let parts = map.edges.iter().map(|e| e.part.index() + 1).max().unwrap_or(0);
     let mut balance = vec![0.0; parts];
-    for edge in &map.edges {
+    for edge in map.edges.iter().filter(|edge| edge.invisibility == 0) {
         let way = map.vertices[edge.end.index()].position - map.vertices[edge.start.index()].position;
         let length = length(way);
         balance[edge.part.index()] += match edge.kind {

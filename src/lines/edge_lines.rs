@@ -6,17 +6,17 @@
 
 use rayon::prelude::*;
 
-use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Surface};
+use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::mesh::dihedral::{mark, runs_up};
 use crate::mesh::needle::{Beyond, beyond};
 use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, HardEdges, Mesh, SmoothNormals};
 use crate::view::View;
 
-/// All edges of the mesh that are feature lines of the kinds asked for, in edge order, but for the
-/// contours of rounded surfaces. `facing` is the field n·v on their smooth vertices.
+/// All edges of the mesh that are feature lines of the kinds asked for, in edge order. Of rounded
+/// surfaces these are the hard edges and the witnesses of their contours ([`Role::Witness`]).
 #[must_use]
-pub fn find(surface: &Surface, view: &View, facing: &[f64], options: &LineOptions) -> EdgeLines {
-    let finder = Finder::new(surface, view, facing, options);
+pub fn find(surface: &Surface, view: &View, options: &LineOptions) -> Vec<FeatureSegment> {
+    let finder = Finder::new(surface, view, options);
     finder.find(surface.mesh.edges.len(), |k| k)
 }
 
@@ -26,47 +26,10 @@ pub fn find_among(
     edges: &[u32],
     surface: &Surface,
     view: &View,
-    facing: &[f64],
     options: &LineOptions,
-) -> EdgeLines {
-    let finder = Finder::new(surface, view, facing, options);
+) -> Vec<FeatureSegment> {
+    let finder = Finder::new(surface, view, options);
     finder.find(edges.len(), |k| edges[k] as usize)
-}
-
-/// The feature lines that are edges.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct EdgeLines {
-    /// Whole edges, in edge order.
-    pub segments: Vec<FeatureSegment>,
-    /// Hard edges of rounded surfaces that are contours over a part of their length or all of it.
-    pub parted: Vec<PartedEdge>,
-}
-
-/// A hard edge of a rounded surface. Where its two faces turn different sides to the eye it is a
-/// contour, and that may change along it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PartedEdge {
-    /// Its vertices.
-    pub ends: [u32; 2],
-    /// Its two faces.
-    pub hosts: [u32; 2],
-    /// Degrees by which the surface turns.
-    pub turn: f32,
-    /// What it is where it is no contour, if anything.
-    pub else_line: Option<FeatureSegment>,
-    /// What each of its hosts turns to the eye.
-    pub sides: [EdgeSide; 2],
-    /// Whether both faces run along the edge the same way, so that outside meets inside.
-    pub same_way: bool,
-}
-
-/// What the surface on one side of an edge turns to the eye.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EdgeSide {
-    /// A flat face, and whether that is its outside.
-    Flat(bool),
-    /// A rounded surface with these smooth vertices at the ends of the edge.
-    Rounded([u32; 2]),
 }
 
 struct Finder<'a> {
@@ -74,106 +37,70 @@ struct Finder<'a> {
     hard: &'a HardEdges,
     view: &'a View,
     smooth: &'a SmoothNormals,
-    facing: &'a [f64],
     wanted: u32,
     crease_deg: f32,
 }
 
 impl<'a> Finder<'a> {
-    fn new(surface: &'a Surface, view: &'a View, facing: &'a [f64], options: &LineOptions) -> Self {
+    fn new(surface: &'a Surface, view: &'a View, options: &LineOptions) -> Self {
         let Surface { mesh, hard, smooth, .. } = surface;
         Self {
             mesh,
             hard,
             view,
             smooth,
-            facing,
             wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
             crease_deg: options.crease_deg as f32,
         }
     }
 
     /// What the first `count` edges are that `edge` tells.
-    fn find(&self, count: usize, edge: impl Fn(usize) -> usize + Sync) -> EdgeLines {
+    fn find(&self, count: usize, edge: impl Fn(usize) -> usize + Sync) -> Vec<FeatureSegment> {
         const CHUNK: usize = 1 << 14;
-        let found: Vec<EdgeLines> = (0..count.div_ceil(CHUNK))
+        let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
-                let mut lines = EdgeLines::default();
-                for k in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
-                    self.add(edge(k), &mut lines);
-                }
-                lines
+                let edges = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
+                edges.filter_map(|k| self.classify(edge(k))).collect()
             })
             .collect();
-        let mut all = EdgeLines::default();
-        for lines in found {
-            all.parted.extend(lines.parted);
-            all.segments.extend(lines.segments);
-        }
-        all
+        found.concat()
     }
 
     fn wants(&self, kind: LineKind) -> bool {
         self.wanted & (1 << kind as u32) != 0
     }
 
-    /// Adds what an edge is.
-    #[inline]
-    fn add(&self, edge: usize, lines: &mut EdgeLines) {
-        if !self.smooth.is_empty()
-            && let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge)
-            && (self.smooth.corners_of(faces[0]).is_some() || self.smooth.corners_of(faces[1]).is_some())
-            && !faces.iter().any(|f| self.degenerate(*f))
-        {
-            if self.smooth.across(self.mesh, edge).is_some() {
-                // The surface runs on: its contour is elsewhere, and a turn between its faces is none.
-                lines.segments.extend(self.on_rounded(edge, faces));
-            } else {
-                self.add_parted(edge, faces, same_way, lines);
-            }
-            return;
-        }
-        lines.segments.extend(self.classify(edge));
-    }
-
-    /// An edge across which a rounded surface runs on: a line only where the material changes.
+    /// An edge across which a rounded surface runs on: a turn between its faces is no crease, and where
+    /// one of them is averted, the contour of the surface is near.
     #[inline]
     fn on_rounded(&self, edge: usize, [first, second]: [u32; 2]) -> Option<FeatureSegment> {
+        let facing = &self.view.facing;
+        let nearer = if facing[first as usize] { first } else { second };
+        if facing[first as usize] != facing[second as usize] && self.wants(LineKind::Contour) {
+            return Some(FeatureSegment {
+                both_seen: false,
+                smooth: true,
+                role: Role::Witness { convex: self.is_convex(edge, [first, second]), fold: false },
+                strength: Dihedral::of(self.mesh, [first, second], false).turn(),
+                ..self.segment(edge, LineKind::Contour, nearer, [first, second])
+            });
+        }
         let material = |face: u32| self.mesh.face_material[face as usize];
-        (material(first) != material(second) && self.wants(LineKind::Material)).then(|| {
-            let nearer = if self.view.facing[first as usize] { first } else { second };
-            FeatureSegment {
-                strength: 0.0,
-                ..self.segment(edge, LineKind::Material, nearer, [first, second])
-            }
+        (material(first) != material(second) && self.wants(LineKind::Material)).then(|| FeatureSegment {
+            strength: 0.0,
+            ..self.segment(edge, LineKind::Material, nearer, [first, second])
         })
     }
 
-    /// A hard edge of a rounded surface.
-    fn add_parted(&self, edge: usize, hosts: [u32; 2], same_way: bool, lines: &mut EdgeLines) {
-        let ends = self.mesh.edges.vertices[edge];
-        let sides = hosts.map(|face| match self.smooth.corners_of(face) {
-            None => EdgeSide::Flat(self.view.facing[face as usize]),
-            Some(corners) => {
-                let triangle = self.mesh.triangles[face as usize];
-                let corner = |v: u32| triangle.iter().position(|t| *t == v).map_or(0, |k| corners[k]);
-                EdgeSide::Rounded(ends.map(corner))
-            }
-        });
-        let facing = |side: EdgeSide, end: usize| match side {
-            EdgeSide::Flat(facing) => facing,
-            EdgeSide::Rounded(corners) => self.facing[corners[end] as usize] >= 0.0,
-        };
-        let is_contour = |end: usize| (facing(sides[0], end) != facing(sides[1], end)) != same_way;
-        let steady = sides.iter().all(|side| facing(*side, 0) == facing(*side, 1));
-        let else_line = self.classify_turn(edge, hosts[0], hosts[1], same_way, false);
-        if !self.wants(LineKind::Contour) || (steady && !is_contour(0)) {
-            lines.segments.extend(else_line);
-            return;
-        }
-        let turn = Dihedral::of(self.mesh, hosts, same_way).turn();
-        lines.parted.push(PartedEdge { ends, hosts, turn, else_line, sides, same_way });
+    /// Whether the second face falls away behind the first one's outside.
+    fn is_convex(&self, edge: usize, [first, second]: [u32; 2]) -> bool {
+        let mesh = self.mesh;
+        let ends = mesh.edges.vertices[edge];
+        let third = mesh.triangles[second as usize].iter().find(|v| !ends.contains(v));
+        let [a, b, c] = mesh.corners(FaceId(first));
+        let way = third.map_or(a, |v| mesh.positions[*v as usize]) - mesh.positions[ends[0] as usize];
+        (b - a).cross(c - a).dot(way) < 0.0
     }
 
     #[inline]
@@ -196,21 +123,11 @@ impl<'a> Finder<'a> {
 
     #[inline]
     fn classify_pair(&self, edge: usize, first: u32, second: u32, same_way: bool) -> Option<FeatureSegment> {
+        if !self.smooth.is_empty() && !same_way && self.smooth.across(self.mesh, edge).is_some() {
+            return self.on_rounded(edge, [first, second]);
+        }
         let facing = &self.view.facing;
         let contour = (facing[first as usize] != facing[second as usize]) != same_way;
-        self.classify_turn(edge, first, second, same_way, contour)
-    }
-
-    #[inline]
-    fn classify_turn(
-        &self,
-        edge: usize,
-        first: u32,
-        second: u32,
-        same_way: bool,
-        contour: bool,
-    ) -> Option<FeatureSegment> {
-        let facing = &self.view.facing;
         let hard = self.hard.is_hard(edge);
         let other_material = self.other_material(edge, [first, second]);
         if !contour && !hard && !other_material {
@@ -352,7 +269,7 @@ impl<'a> Finder<'a> {
             kind,
             both_seen: true,
             smooth: false,
-            lift: 0.0,
+            role: Role::Line,
             strength: 180.0,
             part: self.mesh.face_part[nearer as usize],
             material: self.mesh.face_material[nearer as usize],

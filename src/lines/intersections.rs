@@ -6,7 +6,7 @@
 //! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
 //! lines, get the full search.
 
-use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind};
+use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections};
 use crate::mesh::trace::Tracer;
 use crate::mesh::{FaceId, Mesh};
@@ -35,7 +35,7 @@ pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLi
             kind: LineKind::Intersection,
             both_seen: true,
             smooth: false,
-            lift: 0.0,
+            role: Role::Line,
             strength: 180.0,
             part: mesh.face_part[nearer],
             material: mesh.face_material[nearer],

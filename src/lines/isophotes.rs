@@ -10,7 +10,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE};
+use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE, Role};
 use crate::field::SurfacePoint;
 use crate::math::tolerance;
 use crate::mesh::{FaceId, Mesh, PaintId};
@@ -54,7 +54,7 @@ pub(super) fn segment(mesh: &Mesh, face: u32, hosts: [u32; 2], ends: [u32; 2]) -
         kind: LineKind::Isophote,
         both_seen: true,
         smooth: hosts[1] == NO_FACE,
-        lift: 0.0,
+        role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[face as usize],
         material: mesh.face_material[face as usize],

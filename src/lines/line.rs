@@ -10,6 +10,27 @@ use crate::mesh::{MaterialId, Mesh, PartId, Wire};
 /// In [`FeatureSegment::hosts`]: no face.
 pub const NO_FACE: u32 = u32::MAX;
 
+/// What a feature segment does in the drawing.
+///
+/// The contour of a rounded surface is two lines: the edges along which its polyhedron turns from the
+/// eye, of which is known exactly what is seen, and the smooth curve beside them that is inked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Role {
+    /// It is drawn where it is seen itself.
+    #[default]
+    Line,
+    /// An edge along which the polyhedron of a rounded surface turns from the eye: it says what is
+    /// seen of the curve near it, and is drawn itself only where there is none.
+    Witness {
+        /// Whether the surface bends away from its outside here.
+        convex: bool,
+        /// Whether the smooth surface does not turn from the eye here, but only a few of its faces do.
+        fold: bool,
+    },
+    /// A piece of a smooth contour: it is drawn where witnesses are seen.
+    Curve,
+}
+
 /// A straight piece of a feature line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeatureSegment {
@@ -25,9 +46,8 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that the mesh's corners along the line are
     /// artefacts.
     pub smooth: bool,
-    /// By how much nearer to the eye its visibility is asked, world units: 0 but for contours of
-    /// rounded surfaces, which lie among faces that stand for the same surface.
-    pub lift: f32,
+    /// What it does in the drawing.
+    pub role: Role,
     /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
     /// where it does not turn.
     pub strength: f32,
@@ -47,7 +67,7 @@ impl FeatureSegment {
             kind: LineKind::Wire,
             both_seen: true,
             smooth: false,
-            lift: 0.0,
+            role: Role::Line,
             strength: 180.0,
             part: wire.part,
             material: wire.material,

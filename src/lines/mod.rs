@@ -2,7 +2,7 @@
 
 pub mod edge_lines;
 pub mod edge_search;
-mod hard_contours;
+mod folds;
 pub mod inside;
 pub mod intersections;
 pub mod isophotes;
@@ -18,7 +18,7 @@ pub mod zero_set;
 pub use edge_search::EdgeSearch;
 pub use inside::InsideOptions;
 pub use kind::LineKind;
-pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE};
+pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
 pub use lit::Lit;
 pub use options::{Contours, HiddenLines, LineOptions};
 pub use surface::Surface;
@@ -55,17 +55,15 @@ pub fn extract_with(
         return lines;
     }
     let Surface { mesh, hard, smooth, .. } = surface;
-    let facing = facing(surface, view);
-    let edges = match search.filter(|search| search.fits(mesh)) {
-        None => edge_lines::find(surface, view, &facing, options),
+    lines.segments = match search.filter(|search| search.fits(mesh)) {
+        None => edge_lines::find(surface, view, options),
         Some(search) => {
             let among = search.candidates(&view.frame).items;
-            edge_lines::find_among(&among, surface, view, &facing, options)
+            edge_lines::find_among(&among, surface, view, options)
         }
     };
-    lines.segments = edges.segments;
     if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {
-        smooth_contours::find(mesh, view, smooth, &facing, &edges.parted, &mut lines);
+        smooth_contours::find(mesh, view, smooth, &facing(surface, view), &mut lines);
     }
     if options.kinds.contains(&LineKind::Intersection) {
         intersections::find(mesh, view, options.hidden, &mut lines);

@@ -213,8 +213,9 @@ impl<'a> Prepared<'a> {
 
         report.counts.feature_edges = lines.segments.len() as u64;
         report.counts.ray_tests = map.tests;
-        report.counts.contour_arcs = map.arcs.arcs;
-        report.counts.contour_breaks = map.arcs.broken;
+        report.counts.contour_curves = map.contours.curves;
+        report.counts.contour_bare = map.contours.bare;
+        report.counts.contour_folds = map.contours.folds;
         report.counts.chains = chains.len() as u64;
         report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
         report.warnings = defects::of_mesh(&surface.mesh, scene).lines();

@@ -42,10 +42,12 @@ pub struct Counts {
     pub feature_edges: u64,
     /// Rays that decided what is hidden.
     pub ray_tests: u64,
-    /// Pieces of contours of rounded surfaces between places where visibility may change.
-    pub contour_arcs: u64,
-    /// Places within such a piece where it is broken all the same.
-    pub contour_breaks: u64,
+    /// Contours of rounded surfaces that are curves.
+    pub contour_curves: u64,
+    /// Pieces of the polyhedron's contour that are drawn themselves, as no curve is near.
+    pub contour_bare: u64,
+    /// Pieces of the polyhedron's contour that are left out as folds of a few faces.
+    pub contour_folds: u64,
     /// Chains.
     pub chains: u64,
     /// Paths of the drawing.
@@ -122,7 +124,7 @@ mod tests {
         let json = report.to_json();
         let names = [
             "stages_ms load topology pose features visibility chains strokes regions hatching write",
-            "counts triangles vertices edges feature_edges ray_tests contour_arcs contour_breaks chains paths points regions leaks bytes_out",
+            "counts triangles vertices edges feature_edges ray_tests contour_curves contour_bare contour_folds chains paths points regions leaks bytes_out",
             "warnings",
         ];
         let mut rest = json.as_str();

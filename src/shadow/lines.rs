@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::join::Joined;
-use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE};
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
 use crate::mesh::Mesh;
 
 /// A straight piece of the border of a shadow.
@@ -50,7 +50,7 @@ impl ShadowLines {
             kind: LineKind::Isophote,
             both_seen: true,
             smooth: false,
-            lift: 0.0,
+            role: Role::Line,
             strength: 0.0,
             part: mesh.face_part[segment.face as usize],
             material: mesh.face_material[segment.face as usize],

@@ -8,9 +8,8 @@ use super::layers::Layer;
 use super::occlude::{Interval, Limits};
 use super::project::{ImageSegment, project};
 use super::rounded::{self, Rounded};
-use super::visibility::{Visibility, decide, grid_over};
-use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions};
-use crate::math::tolerance;
+use super::visibility::decide;
+use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -33,11 +32,16 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     let segments = project(mesh, view, lines);
     let hidden = if options.hidden == HiddenLines::None { HiddenPieces::Contours } else { HiddenPieces::All };
     let counting = hidden == HiddenPieces::All;
-    let (seen, rounded) = if lines.curves.is_empty() {
-        (decide(mesh, view, &segments, &limits, counting), None)
+    // Smooth contours are not asked themselves.
+    let asked: Vec<u32> =
+        (0..segments.len() as u32).filter(|i| segments[*i as usize].role != Role::Curve).collect();
+    let questions: Vec<ImageSegment> = asked.iter().map(|i| segments[*i as usize]).collect();
+    let seen = decide(mesh, view, &questions, &limits, counting);
+    let is_rounded = segments.iter().any(|s| s.role != Role::Line);
+    let rounded = if is_rounded {
+        rounded::decide(mesh, view, lines, &segments, (&seen, &asked), &limits, counting)
     } else {
-        let (seen, rounded) = decide_rounded(mesh, view, lines, &segments, &limits, counting);
-        (seen, Some(rounded))
+        Rounded::default()
     };
     let mut builder = Builder {
         mesh,
@@ -47,51 +51,29 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
         vertex_of_end: vec![UNSET; mesh.positions.len() + lines.points.len()],
         hidden,
     };
-    let mut of_arcs: Vec<Layer> = Vec::new();
-    let mut probe = segments.len();
+    let (mut layers, mut beside): (Vec<Layer>, Vec<Interval>) = (Vec::new(), Vec::new());
+    let mut question = 0;
     for (i, segment) in segments.iter().enumerate() {
-        let mut seen_here = Seen { hidden: seen.hidden(i), backed: seen.backed(i) };
-        let beside: Vec<Interval>;
-        if let Some(rounded) = rounded.as_ref().filter(|_| segment.is_rounded()) {
-            of_arcs.clear();
-            of_arcs.extend(rounded.of(i as u32));
-            beside = seen.hidden(probe).iter().map(|layer| layer.interval).collect();
-            probe += 1;
-            seen_here = Seen { hidden: &of_arcs, backed: &beside };
+        let seen_here = if segment.role == Role::Line {
+            Seen { hidden: seen.hidden(question), backed: seen.backed(question) }
+        } else {
+            layers.clear();
+            layers.extend(rounded.hidden(i as u32));
+            beside.clear();
+            beside.extend(rounded.backed(i as u32));
+            Seen { hidden: &layers, backed: &beside }
+        };
+        if segment.role == Role::Line || rounded.is_drawn(i as u32, segment.role) {
+            builder.add(segment, seen_here, limits.piece);
         }
-        builder.add(segment, seen_here, limits.piece);
+        question += usize::from(segment.role != Role::Curve);
     }
     let mut map = builder.map;
     map.tests = seen.tests;
-    map.arcs = rounded.map(|rounded| rounded.counts).unwrap_or_default();
+    map.contours = rounded.counts;
     doubles::remove(&mut map, limits.double, view.frame.perspective);
     map
 }
-
-/// Visibility where there are contours of rounded surfaces: these are asked beside the faces around
-/// them, and each gets a probe behind everything that tells whether there is background.
-pub(super) fn decide_rounded(
-    mesh: &Mesh,
-    view: &View,
-    lines: &FeatureLines,
-    segments: &[ImageSegment],
-    limits: &Limits,
-    counting: bool,
-) -> (Visibility, Rounded) {
-    let aside = tolerance::BESIDE_ROUNDED_PX * limits.px;
-    let farthest = view.points.iter().map(|p| p.z).filter(|q| q.is_finite()).fold(f64::INFINITY, f64::min);
-    let behind = if view.frame.perspective { farthest / 2.0 } else { farthest - mesh.size };
-    let own = segments.iter().map(|s| s.asked(aside));
-    let rounded = segments.iter().filter(|s| s.is_rounded());
-    let asked: Vec<ImageSegment> = own.chain(rounded.map(|s| s.probe(aside, behind))).collect();
-    let seen = decide(mesh, view, &asked, limits, counting);
-    let grid = grid_over(segments, GRID);
-    let rounded = rounded::decide(mesh, view, lines, segments, &seen, &grid, limits.px);
-    (seen, rounded)
-}
-
-/// Tiles across the page in which lines are sought that meet.
-pub(super) const GRID: u32 = 256;
 
 struct Builder<'a> {
     mesh: &'a Mesh,
@@ -121,7 +103,9 @@ struct Piece {
 impl Builder<'_> {
     fn add(&mut self, segment: &ImageSegment, seen: Seen, shortest: f64) {
         let source = &self.lines.segments[segment.source as usize];
-        let keeps_hidden = self.hidden == HiddenPieces::All || source.kind == LineKind::Contour;
+        let is_witness = matches!(segment.role, Role::Witness { .. });
+        let keeps_hidden =
+            !is_witness && (self.hidden == HiddenPieces::All || source.kind == LineKind::Contour);
         let pieces = pieces(segment, seen, source.kind == LineKind::Contour, shortest);
         if !keeps_hidden && pieces.iter().all(|p| p.invisibility > 0) {
             return;

@@ -87,23 +87,19 @@ pub struct ViewMap {
     pub edges: Vec<ViewEdge>,
     /// How many times a feature segment was compared with a triangle to decide all this.
     pub tests: u64,
-    /// How the contours of rounded surfaces were decided.
-    pub arcs: ArcCounts,
+    /// What smooth contours and the polyhedron's have of each other.
+    pub contours: ContourCounts,
 }
 
-/// How the contours of rounded surfaces were decided (see [`super::arcs`]).
+/// What smooth contours and those of the polyhedron have of each other: places where the two do not
+/// agree are drawn as the polyhedron has them, and counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct ArcCounts {
-    /// Pieces between places where visibility may change.
-    pub arcs: u64,
-    /// Breaks inside of arcs, where faces hide a long stretch and leave another.
-    pub broken: u64,
-}
-
-impl ArcCounts {
-    /// The sum of two counts.
-    #[must_use]
-    pub const fn plus(self, other: Self) -> Self {
-        Self { arcs: self.arcs + other.arcs, broken: self.broken + other.broken }
-    }
+pub struct ContourCounts {
+    /// Smooth contours on the page.
+    pub curves: u64,
+    /// Visible edges of the polyhedron's contour, or parts of them, that were drawn themselves since
+    /// no smooth contour is near.
+    pub bare: u64,
+    /// Those that were left out as folds of a few faces that the smooth surface does not have.
+    pub folds: u64,
 }

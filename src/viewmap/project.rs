@@ -1,9 +1,9 @@
 //! Feature segments in image space, cut to the near plane and the page.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE};
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -24,9 +24,8 @@ pub struct ImageSegment {
     pub source: u32,
     /// Whether it bounds a surface in the image, so that there may be background beside it.
     pub bounds: bool,
-    /// By how much nearer visibility is asked at its two ends, in nearness; 0 but for contours of
-    /// rounded surfaces.
-    pub lift: [f64; 2],
+    /// What it does in the drawing.
+    pub role: Role,
 }
 
 /// The image-space point at parameter `t`, 0 to 1, of the way from `a` to `b`; the ends are exact.
@@ -48,41 +47,6 @@ impl ImageSegment {
     #[must_use]
     pub fn at(&self, t: f64) -> DVec3 {
         between(self.a, self.b, t)
-    }
-
-    /// The segment as visibility is asked of it. A contour of a rounded surface is asked `aside` user
-    /// units to its outer side and nearer by its lift, where none of the faces around it, which stand
-    /// for the same surface, is in the way, while what truly hides it still is.
-    #[must_use]
-    pub fn asked(&self, aside: f64) -> Self {
-        if !self.is_rounded() {
-            return *self;
-        }
-        let shift = self.outward(aside);
-        let [a, b] = self.lift.map(|lift| shift.extend(lift));
-        Self { a: self.a + a, b: self.b + b, ends: [u32::MAX; 2], ..*self }
-    }
-
-    /// The same far behind everything: where it is hidden, something lies beside the contour.
-    #[must_use]
-    pub fn probe(&self, aside: f64, farthest: f64) -> Self {
-        let shift = self.outward(aside);
-        let move_out = |p: DVec3| (p.truncate() + shift).extend(farthest);
-        Self { a: move_out(self.a), b: move_out(self.b), ends: [u32::MAX; 2], hosts: [NO_FACE; 2], ..*self }
-    }
-
-    /// A vector `aside` long to the outer side of a contour of a rounded surface, whose surface lies
-    /// on the left in the image.
-    fn outward(&self, aside: f64) -> DVec2 {
-        // y points down, so that the right is where `perp` points.
-        (self.b - self.a).truncate().perp().normalize_or_zero() * aside
-    }
-
-    /// Whether it is a contour of a rounded surface.
-    #[inline]
-    #[must_use]
-    pub fn is_rounded(&self) -> bool {
-        self.lift[0] > 0.0
     }
 
     /// Length in the image, user units.
@@ -136,9 +100,16 @@ fn project_one(
         a += d * start;
         cut[0] = true;
     }
-    // Beside contours of rounded surfaces background is sought in another way.
-    let bounds =
-        segment.lift == 0.0 && (segment.kind == LineKind::Contour || segment.kind == LineKind::Border);
-    let lift = [a.z, b.z].map(|q| view.frame.nearness_step(q, f64::from(segment.lift)));
-    Some(ImageSegment { a, b, ends: segment.ends, cut, hosts: segment.hosts, source, bounds, lift })
+    // Whether there is background beside a smooth contour its witnesses say.
+    let bounds = segment.role != Role::Curve && matches!(segment.kind, LineKind::Contour | LineKind::Border);
+    Some(ImageSegment {
+        a,
+        b,
+        ends: segment.ends,
+        cut,
+        hosts: segment.hosts,
+        source,
+        bounds,
+        role: segment.role,
+    })
 }

@@ -1,108 +1,219 @@
-//! Visibility of the contours of rounded surfaces, put in the place of what single faces say.
+//! What is drawn of rounded surfaces: of each smooth contour what its witnesses show, and of the
+//! witnesses what no smooth contour stands for.
 
-use rayon::prelude::*;
-
-use super::arcs::{self, Judge, Run};
-use super::events::{self, Scene};
-use super::graph::ArcCounts;
-use super::grid::Grid;
+use super::graph::{ContourCounts, ViewVertexKind};
 use super::layers::Layer;
+use super::occlude::{Interval, Limits};
 use super::project::ImageSegment;
+use super::runs::{Run, runs};
 use super::visibility::Visibility;
-use crate::lines::FeatureLines;
+use super::witnesses::{Bare, Court, Told};
+use crate::lines::{FeatureLines, Role};
+use crate::math::tolerance;
 use crate::mesh::Mesh;
-use crate::mesh::solid::solid_parts;
 use crate::view::View;
 
-const NONE: u32 = u32::MAX;
+/// Gaps in what is seen of a curve no longer than this (px) come from the steps in which witnesses
+/// are asked: a contour of the polyhedron is seen without gaps.
+const GAP_PX: f64 = 1.0;
 
-/// The hidden pieces of all contours of rounded surfaces: one list per image segment, ascending, for
-/// those that `is_rounded`.
+/// What is seen of witnesses and curves: of each the ranges of its parameter that are drawn, by image
+/// segment.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Rounded {
-    /// Hidden pieces by image segment.
-    pub hidden: Vec<(u32, Layer)>,
-    /// How they were decided.
-    pub counts: ArcCounts,
+    /// Hidden pieces, by segment, ascending.
+    hidden: Vec<(u32, Layer)>,
+    /// Pieces with a surface beside them on the outer side.
+    backed: Vec<(u32, Interval)>,
+    /// Witnesses of which something is drawn, ascending.
+    bare: Vec<u32>,
+    pub counts: ContourCounts,
 }
 
-/// Decides them, from what faces hide of the lifted segments.
+impl Rounded {
+    /// What is not drawn of an image segment.
+    pub fn hidden(&self, segment: u32) -> impl Iterator<Item = Layer> + '_ {
+        of(&self.hidden, segment)
+    }
+
+    /// Whether anything of an image segment of a rounded surface may be drawn.
+    pub fn is_drawn(&self, segment: u32, role: Role) -> bool {
+        role == Role::Curve || self.bare.binary_search(&segment).is_ok()
+    }
+
+    /// Where a surface lies beside it.
+    pub fn backed(&self, segment: u32) -> impl Iterator<Item = Interval> + '_ {
+        of(&self.backed, segment)
+    }
+}
+
+fn of<T: Copy>(list: &[(u32, T)], segment: u32) -> impl Iterator<Item = T> + '_ {
+    let first = list.partition_point(|(s, _)| *s < segment);
+    list[first..].iter().take_while(move |(s, _)| *s == segment).map(|(_, found)| *found)
+}
+
+/// What is seen of the image segments in `asked` is known in that order.
 pub(super) fn decide(
     mesh: &Mesh,
     view: &View,
     lines: &FeatureLines,
     segments: &[ImageSegment],
-    seen: &Visibility,
-    grid: &Grid,
-    px: f64,
+    (seen, asked): (&Visibility, &[u32]),
+    limits: &Limits,
+    counting: bool,
 ) -> Rounded {
-    let image_of = image_of(lines, segments);
-    let advance = advance(lines, segments, &image_of);
-    let scene = Scene { mesh, view, segments, sources: &lines.segments, advance: &advance };
-    let events = events::find(&scene, grid);
-    let runs = runs(mesh, lines, segments, &image_of);
-    let alone = mesh.face_part.windows(2).all(|pair| pair[0] == pair[1]);
-    let judge = Judge { scene: &scene, events: &events, seen, alone, px };
-    let decided: Vec<(arcs::Decided, ArcCounts)> = runs
-        .par_iter()
-        .with_min_len(8)
-        .map(|run| {
-            let mut counts = ArcCounts::default();
-            (judge.decide(run, &mut counts), counts)
-        })
-        .collect();
-    let mut counts = ArcCounts::default();
-    let mut hidden = Vec::new();
-    for (own, of_run) in decided {
-        counts = counts.plus(of_run);
-        hidden.extend(own);
+    let runs = runs(lines, segments, tolerance::CUSP_PX * limits.px);
+    let court = Court::new(mesh, view, segments, &runs, limits);
+    let mut testimony = court.hear(seen, asked, counting);
+    testimony.told.sort_by(|a, b| {
+        a.run
+            .cmp(&b.run)
+            .then(a.from.total_cmp(&b.from))
+            .then(b.to.total_cmp(&a.to))
+            .then(a.kinds.cmp(&b.kinds))
+    });
+    let mut rounded = Rounded::default();
+    rounded.counts.curves = runs.len() as u64;
+    let mut seen_of_run: Vec<Vec<Told>> = Vec::with_capacity(runs.len());
+    let mut told = testimony.told.as_slice();
+    for (r, run) in runs.iter().enumerate() {
+        let count = told.partition_point(|t| t.run as usize == r);
+        let (own, rest) = told.split_at(count);
+        told = rest;
+        let visible = joined(own.iter().filter(|t| t.count == 0), GAP_PX * limits.px);
+        let silhouette = joined(own.iter().filter(|t| t.silhouette), GAP_PX * limits.px);
+        rounded.add_run(run, &visible, &silhouette, own);
+        seen_of_run.push(visible);
     }
-    hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
-    Rounded { hidden, counts }
-}
-
-/// The image segment of each feature segment, where it has one.
-pub(super) fn image_of(lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<u32> {
-    let mut image_of = vec![NONE; lines.segments.len()];
-    for (i, segment) in segments.iter().enumerate() {
-        image_of[segment.source as usize] = i as u32;
-    }
-    image_of
-}
-
-/// [`crate::lines::ContourCurve::advance`] by image segment; 0 for all that is no such contour.
-pub(super) fn advance(lines: &FeatureLines, segments: &[ImageSegment], image_of: &[u32]) -> Vec<f32> {
-    let mut advance = vec![0.0; segments.len()];
-    for curve in &lines.curves {
-        for (source, value) in curve.segments.clone().zip(&curve.advance) {
-            if let Some(of_image) = advance.get_mut(image_of[source as usize] as usize) {
-                *of_image = *value;
+    let is_seen = |r: u32, at: f64| {
+        let seen = &seen_of_run[r as usize];
+        let next = seen.partition_point(|t| t.to < at);
+        seen.get(next).is_some_and(|t| t.from <= at)
+    };
+    let mut drawn: Vec<Bare> = Vec::new();
+    for bare in &testimony.bare {
+        let segment = &segments[bare.segment as usize];
+        if court.is_inked(segment.at((bare.from + bare.to) / 2.0), is_seen) {
+            continue;
+        }
+        if !bare.silhouette && matches!(segment.role, Role::Witness { fold: true, .. }) {
+            rounded.counts.folds += 1;
+            continue;
+        }
+        match drawn.last_mut() {
+            Some(last)
+                if last.segment == bare.segment
+                    && last.to == bare.from
+                    && last.silhouette == bare.silhouette =>
+            {
+                last.to = bare.to;
             }
+            _ => drawn.push(*bare),
         }
     }
-    advance
+    rounded.counts.bare = drawn.len() as u64;
+    for own in drawn.chunk_by(|a, b| a.segment == b.segment) {
+        rounded.add_witness(own);
+    }
+    rounded.bare = drawn.iter().map(|bare| bare.segment).collect();
+    rounded.bare.dedup();
+    rounded.hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
+    rounded.backed.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.start.total_cmp(&b.1.start)));
+    rounded
 }
 
-/// What the image shows of each contour curve.
-pub(super) fn runs(
-    mesh: &Mesh,
-    lines: &FeatureLines,
-    segments: &[ImageSegment],
-    image_of: &[u32],
-) -> Vec<Run> {
-    let solid = solid_parts(mesh);
-    let of_curve = |curve| {
-        let curve: &crate::lines::ContourCurve = curve;
-        let part = lines.segments[curve.segments.start as usize].part;
-        let image = |source: u32| Some(image_of[source as usize]).filter(|id| *id != NONE);
-        arcs::runs(curve, solid.get(part.index()) == Some(&true), segments, image)
-    };
-    lines.curves.iter().flat_map(of_curve).collect()
+/// Pieces in ascending order of where they begin, those joined that overlap or nearly meet.
+fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
+    let mut joined: Vec<Told> = Vec::new();
+    for piece in pieces {
+        match joined.last_mut() {
+            Some(last) if piece.from <= last.to + gap => {
+                if piece.to > last.to || (piece.to == last.to && piece.kinds[1] > last.kinds[1]) {
+                    last.to = piece.to;
+                    last.kinds[1] = piece.kinds[1];
+                }
+            }
+            _ => joined.push(*piece),
+        }
+    }
+    joined
 }
 
 impl Rounded {
-    /// The hidden pieces of an image segment.
-    pub(super) fn of(&self, segment: u32) -> impl Iterator<Item = Layer> + '_ {
-        let first = self.hidden.partition_point(|(s, _)| *s < segment);
-        self.hidden[first..].iter().take_while(move |(s, _)| *s == segment).map(|(_, layer)| *layer)
+    /// Adds what is hidden of a run: all that is not seen.
+    fn add_run(&mut self, run: &Run, visible: &[Told], silhouette: &[Told], told: &[Told]) {
+        let mut at = 0.0;
+        let mut kind = ViewVertexKind::Vertex;
+        for piece in visible {
+            self.hide(run, [at, piece.from], [kind, piece.kinds[0]], told);
+            (at, kind) = (piece.to, piece.kinds[1]);
+        }
+        self.hide(run, [at, run.length()], [kind, ViewVertexKind::Vertex], told);
+        let mut at = 0.0;
+        let ends = silhouette.iter().map(|piece| (piece.from, piece.to));
+        for (from, to) in ends.chain([(run.length(), run.length())]) {
+            let backdrop = ViewVertexKind::Backdrop;
+            each_part(run, at, from, |segment, start, end| {
+                let interval = Interval { start, end, start_kind: backdrop, end_kind: backdrop };
+                self.backed.push((segment, interval));
+            });
+            at = to;
+        }
+    }
+
+    fn hide(&mut self, run: &Run, [from, to]: [f64; 2], kinds: [ViewVertexKind; 2], told: &[Told]) {
+        // What nobody was asked about lies behind one surface at least.
+        let count = |from: f64, to: f64| {
+            let hidden = told.iter().filter(|t| t.count > 0 && t.from < to && t.to > from);
+            hidden.map(|t| t.count).max().unwrap_or(1)
+        };
+        let counted = told.iter().any(|t| t.count > 0);
+        each_part(run, from, to, |segment, start, end| {
+            let interval = Interval { start, end, start_kind: kinds[0], end_kind: kinds[1] };
+            let count = if counted { count(from, to) } else { 1 };
+            self.hidden.push((segment, Layer { interval, count }));
+        });
+    }
+
+    /// Adds what is not drawn of a witness: all that is not bare.
+    fn add_witness(&mut self, bare: &[Bare]) {
+        let inner = ViewVertexKind::Vertex;
+        let mut at = 0.0;
+        let segment = bare[0].segment;
+        let end = Bare { segment, from: 1.0, to: 1.0, silhouette: true };
+        for piece in bare.iter().chain([&end]) {
+            if piece.from > at {
+                let interval = Interval { start: at, end: piece.from, start_kind: inner, end_kind: inner };
+                self.hidden.push((segment, Layer { interval, count: 1 }));
+            }
+            if !piece.silhouette {
+                let kind = ViewVertexKind::Backdrop;
+                let interval =
+                    Interval { start: piece.from, end: piece.to, start_kind: kind, end_kind: kind };
+                self.backed.push((segment, interval));
+            }
+            at = piece.to;
+        }
+    }
+}
+
+/// Calls `visit(image segment, from, to)` for the parts of segments between two places of a run.
+fn each_part(run: &Run, from: f64, to: f64, mut visit: impl FnMut(u32, f64, f64)) {
+    if to <= from {
+        return;
+    }
+    let first = run.starts.partition_point(|start| *start <= from).saturating_sub(1);
+    for (k, id) in run.segments.iter().enumerate().skip(first) {
+        let (start, end) = (run.starts[k], run.starts[k + 1]);
+        if start >= to {
+            break;
+        }
+        let length = end - start;
+        if length > 0.0 {
+            let at = |place: f64| ((place - start) / length).clamp(0.0, 1.0);
+            if at(to) > at(from) {
+                visit(*id, at(from), at(to));
+            }
+        }
     }
 }

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 pub use options::InsideOptions;
 
 use super::zero_set::{EdgePoint, ZeroSet};
-use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE};
+use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::math::tolerance;
 use crate::mesh::feature_size::MOST_OF_MODEL;
 use crate::mesh::{Curvature, Mesh, SmoothNormals};
@@ -152,7 +152,7 @@ impl<'a> Seen<'a> {
                 kind,
                 both_seen: true,
                 smooth: true,
-                lift: 0.0,
+                role: Role::Line,
                 strength: 0.0,
                 part: self.mesh.face_part[segment.face as usize],
                 material: self.mesh.face_material[segment.face as usize],

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use kurbo::{BezPath, Point, Shape};
+use kurbo::{BezPath, Point};
 
 use crate::drawing::{Cap, Join, Mark, Paint, Provenance, StrokePaint};
 use crate::math::colour::Colour;
@@ -57,23 +57,6 @@ pub(super) fn add(path: &mut BezPath, points: &[Point]) {
         path.move_to(*first);
         others.iter().for_each(|point| path.line_to(*point));
     }
-}
-
-/// A round dot.
-pub(super) fn dot(at: Point, radius: f64) -> BezPath {
-    kurbo::Circle::new(at, radius).to_path(radius * 0.05)
-}
-
-/// A square, upright or on its corner.
-pub(super) fn square(at: Point, radius: f64, upright: bool) -> BezPath {
-    let corners = if upright {
-        [(-0.8, -0.8), (0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)]
-    } else {
-        [(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)]
-    };
-    let mut path = polyline(&corners.map(|(x, y)| Point::new(at.x + x * radius, at.y + y * radius)));
-    path.close_path();
-    path
 }
 
 /// Segments that follow each other in a list, as the polylines they make.

@@ -1,14 +1,10 @@
 //! The finished lines in grey, and over them what was left out on the way, one colour a reason.
 
-use super::ink::{HUES, PALE, Runs, line, polyline};
+use super::ink::{HUES, PALE, line, polyline};
 use super::{Made, layers};
 use crate::chain::{Reason, link_and_keep};
 use crate::drawing::{Layer, LayerKind};
 use crate::math::colour::Colour;
-use crate::viewmap::overruled;
-
-/// Hidden by the decision for the arc, though single faces show it.
-const OVERRULED: Colour = Colour::rgb(0x00, 0x00, 0xe0);
 
 fn colour(reason: Reason) -> Colour {
     HUES[reason as usize % HUES.len()]
@@ -27,20 +23,13 @@ fn note(reason: Reason) -> &'static str {
     }
 }
 
-/// What remains, what was hidden arc by arc, and what tidying left out.
+/// What remains, and what tidying left out.
 pub(super) fn draw(made: &Made) -> Vec<Layer> {
     let style = made.style;
     let (chains, removed) = link_and_keep(made.map, &style.chain, made.page.unit, style.lines.hidden);
     let seen = chains.iter().filter(|chain| chain.invisibility == 0);
     let mut marks: Vec<_> =
         seen.map(|chain| line(chain.path.clone(), PALE, made.px(1.2), &[chain.kind.name()], None)).collect();
-    let mut runs = Runs::default();
-    for piece in overruled(&made.surface.mesh, made.view, made.lines) {
-        runs.push([piece.start, piece.end].map(|point| point + made.margin()));
-    }
-    let hidden = "arc: hidden with its whole arc, though no face is found before it";
-    let classes = ["contour", "removed", "arc"];
-    marks.extend(runs.finish().map(|path| line(path, OVERRULED, made.px(2.4), &classes, Some(hidden))));
     for removed in &removed {
         let mut path = polyline(&removed.points);
         if removed.closed {

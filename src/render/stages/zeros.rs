@@ -1,22 +1,18 @@
-//! The zero sets as they are traced, before anything is hidden, and where visibility may change.
+//! The zero sets as they are traced, before anything is hidden, and the edges that say what is seen of them.
 
-use kurbo::Point;
-
-use super::ink::{PALE, Runs, dot, fill, line, square};
+use super::ink::{PALE, Runs, line};
 use super::{Made, layers};
 use crate::drawing::{Layer, LayerKind};
-use crate::lines::LineKind;
+use crate::lines::{LineKind, Role};
 use crate::math::colour::Colour;
-use crate::viewmap::{ViewVertexKind, places};
 
+/// Edges that say what of a contour is seen.
+const WITNESS: Colour = Colour::rgb(0xd6, 0x27, 0x28);
 /// Contours that run forward, and those that run backward between one cusp and the next.
 const FORWARD: Colour = Colour::rgb(0x1a, 0x1a, 0x1a);
 const BACKWARD: Colour = Colour::rgb(0x9b, 0x3f, 0xc4);
 
-/// Radius of the marks of events, px.
-const EVENT_PX: f64 = 2.6;
-
-/// Contours from curve to curve, lines inside, all else pale, and the events.
+/// Contours from curve to curve, lines inside, witnesses, all else pale.
 pub(super) fn draw(made: &Made) -> Vec<Layer> {
     let mut lines = Vec::new();
     let mut on_curve = vec![false; made.lines.segments.len()];
@@ -46,6 +42,7 @@ pub(super) fn draw(made: &Made) -> Vec<Layer> {
         for (i, segment) in made.lines.segments.iter().enumerate() {
             if segment.kind == kind
                 && !on_curve[i]
+                && !matches!(segment.role, Role::Witness { .. })
                 && let Some(ends) = made.segment(i as u32)
             {
                 runs.push(ends);
@@ -58,24 +55,17 @@ pub(super) fn draw(made: &Made) -> Vec<Layer> {
             others.push(line(path, PALE, made.px(0.6), &[kind.name()], None));
         }
     }
+    let mut runs = Runs::default();
+    let segments = made.lines.segments.iter().enumerate();
+    for (i, _) in segments.filter(|(_, s)| matches!(s.role, Role::Witness { .. })) {
+        made.segment(i as u32).into_iter().for_each(|ends| runs.push(ends));
+    }
+    let note = "edge along which the polyhedron turns from the eye";
+    others.extend(
+        runs.finish().map(|path| line(path, WITNESS, made.px(0.6), &["contour", "witness"], Some(note))),
+    );
     others.extend(lines);
-    let places = places(&made.surface.mesh, made.view, made.lines);
-    let events = places.iter().filter_map(|place| {
-        let at: Point = place.position + made.margin();
-        let radius = made.px(EVENT_PX);
-        let (path, colour, class, note) = match place.kind {
-            ViewVertexKind::Cusp => (dot(at, radius), Colour::rgb(0xd6, 0x27, 0x28), "cusp", "cusp"),
-            ViewVertexKind::TJunction => {
-                (square(at, radius, true), Colour::rgb(0x1f, 0x77, 0xb4), "t-junction", "T-junction")
-            }
-            ViewVertexKind::Piercing => {
-                (square(at, radius, false), Colour::rgb(0x2c, 0xa0, 0x2c), "piercing", "piercing")
-            }
-            _ => return None,
-        };
-        Some(fill(path, colour, &["event", class], Some(note)))
-    });
-    layers([(LayerKind::Lines, others), (LayerKind::Callouts, events.collect())])
+    layers([(LayerKind::Lines, others)])
 }
 
 fn inside_colour(kind: LineKind) -> Colour {
