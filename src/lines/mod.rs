@@ -24,6 +24,7 @@ pub use options::{Contours, HiddenLines, LineOptions};
 pub use surface::Surface;
 
 use crate::field;
+use crate::mesh::Patches;
 use crate::view::View;
 
 /// n·v as contours are traced from it, one per smooth vertex: averaged where it is near zero.
@@ -54,7 +55,7 @@ pub fn extract_with(
     if !options.enabled {
         return lines;
     }
-    let Surface { mesh, hard, smooth, .. } = surface;
+    let Surface { mesh, smooth, .. } = surface;
     lines.segments = match search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, options),
         Some(search) => {
@@ -70,7 +71,9 @@ pub fn extract_with(
     }
     if inside::wanted(options) {
         // Contours along edges of the mesh need no normals, lines inside always do.
-        let own = smooth.is_empty().then(|| surface::normals(mesh, hard, options.contours));
+        let own = smooth
+            .is_empty()
+            .then(|| surface::normals(mesh, &Patches::new(mesh, options.crease_deg), options.contours));
         let smooth = own.as_ref().unwrap_or(smooth);
         let curvature = inside::curvature(mesh, smooth, &options.inside);
         inside::find(mesh, view, smooth, &curvature, options, &mut lines);

@@ -5,17 +5,13 @@ use glam::Vec3;
 use super::LineOptions;
 use super::options::Contours;
 use crate::field;
-use crate::mesh::rounded::rounded_faces;
-use crate::mesh::{EdgeFaces, HardEdges, Mesh, SmoothNormals};
+use crate::mesh::{EdgeFaces, HardEdges, Mesh, Patches, SmoothNormals};
 use crate::scene::Camera;
 use crate::view::Frame;
 
 /// Normals of one surface on both sides of an edge differ by no more than this cosine (20 degrees)
 /// where the file has it smooth.
 const SAME_NORMAL_COSINE: f32 = 0.94;
-
-/// On rounded parts a crease turns by so many times as much.
-const ROUNDED: f64 = 1.5;
 
 /// A mesh and the surface it stands for. The same for all views, but for [`Surface::finer_for`].
 #[derive(Debug, Clone, Default)]
@@ -42,10 +38,9 @@ impl Surface {
             let hard = HardEdges::above(&mesh, options.crease_deg);
             return Self { mesh, hard, ..Self::default() };
         }
-        let rounded = rounded(&mesh, options.contours);
-        let hard = hard_edges(&mesh, &rounded, options.crease_deg);
-        let smooth = SmoothNormals::new(&mesh, |f| rounded[f as usize], |e| is_hard(&mesh, e, &hard));
-        Self { mesh, hard, smooth, refined: false }
+        let patches = Patches::new(&mesh, options.crease_deg);
+        let smooth = normals(&mesh, &patches, options.contours);
+        Self { mesh, hard: patches.hard, smooth, refined: false }
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the
@@ -64,45 +59,35 @@ impl Surface {
     }
 }
 
-/// The faces of the parts that are meant to be round, or all with [`Contours::Smooth`].
-fn rounded(mesh: &Mesh, contours: Contours) -> Vec<bool> {
-    match contours {
-        Contours::Smooth => vec![true; mesh.triangles.len()],
-        _ => rounded_faces(mesh),
+/// The normals of the patches that are meant to be round, or of all with [`Contours::Smooth`].
+pub(super) fn normals(mesh: &Mesh, patches: &Patches, contours: Contours) -> SmoothNormals {
+    let rounded = |face: u32| contours == Contours::Smooth || patches.rounded[face as usize];
+    SmoothNormals::new(mesh, rounded, |edge| parts(mesh, edge, patches))
+}
+
+/// Whether an edge parts two rounded surfaces: by its angle and what is around it, or by the file's
+/// normals where those have it creased.
+fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
+    if patches.rims.contains(edge) {
+        return true;
+    }
+    match file_normals_differ(mesh, edge) {
+        // Figures are shaded round over edges that by themselves would be creases.
+        Some(differ) => differ || (patches.hard.is_hard(edge) && !is_round(mesh, edge, patches)),
+        None => patches.hard.is_hard(edge),
     }
 }
 
-/// The normals of the rounded parts, whatever the options say of contours.
-pub(super) fn normals(mesh: &Mesh, hard: &HardEdges, contours: Contours) -> SmoothNormals {
-    let rounded = rounded(mesh, contours);
-    SmoothNormals::new(mesh, |f| rounded[f as usize], |e| is_hard(mesh, e, hard))
+fn is_round(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
+    mesh.edges.faces(edge).list().iter().all(|face| patches.rounded[*face as usize])
 }
 
-/// Creases: every sharp edge of exact parts; on rounded parts, whose faces turn at every edge, only
-/// chains that turn by more and stand out from what is around them.
-fn hard_edges(mesh: &Mesh, rounded: &[bool], crease_deg: f64) -> HardEdges {
-    let blunt = || HardEdges::above(mesh, crease_deg);
-    let sharp = || HardEdges::find(mesh, (ROUNDED * crease_deg).min(180.0));
-    match (rounded.contains(&true), rounded.contains(&false)) {
-        (false, _) => blunt(),
-        (true, false) => sharp(),
-        (true, true) => {
-            let is_rounded = |edge: usize| match mesh.edges.faces(edge) {
-                EdgeFaces::Two { faces, .. } => faces.iter().all(|f| rounded[*f as usize]),
-                _ => false,
-            };
-            sharp().chosen_from(&blunt(), mesh, is_rounded)
-        }
-    }
-}
-
-/// Whether an edge parts two rounded surfaces: by the file's normals, or where it has none, by its
-/// angle and what is around it.
-fn is_hard(mesh: &Mesh, edge: usize, hard: &HardEdges) -> bool {
+/// Whether the file creases the surface at an edge; `None` where it has no normals.
+fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
     if mesh.corner_normals.is_empty() {
-        return hard.is_hard(edge);
+        return None;
     }
-    let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) else { return false };
+    let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) else { return None };
     let normals = |face: u32| {
         let triangle = mesh.triangles[face as usize];
         let ids = mesh.corner_normals.get(face as usize)?;
@@ -113,8 +98,6 @@ fn is_hard(mesh: &Mesh, edge: usize, hard: &HardEdges) -> bool {
         let [a, b] = mesh.edges.vertices[edge];
         Some([of(a)?, of(b)?])
     };
-    match (normals(first), normals(second)) {
-        (Some(n), Some(m)) => (0..2).any(|k| n[k].dot(m[k]) < SAME_NORMAL_COSINE),
-        _ => hard.is_hard(edge),
-    }
+    let (n, m) = (normals(first)?, normals(second)?);
+    Some((0..2).any(|k| n[k].dot(m[k]) < SAME_NORMAL_COSINE))
 }

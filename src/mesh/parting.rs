@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::smooth_normals::{NO_NORMAL, chosen, file_normals, weighted_normals};
+use super::smooth_normals::{NO_NORMAL, NormalSum, chosen, file_normals};
 use super::{FaceId, Mesh, SmoothNormals};
 
 /// A corner of a rounded face at a vertex where surfaces are parted.
@@ -93,13 +93,13 @@ fn first(before: &[usize], mut corner: usize) -> usize {
 
 /// Gives a fan its normal, and all fans but the first a new smooth vertex.
 fn add(mesh: &Mesh, smooth: &mut SmoothNormals, vertex: u32, keeps: bool, fan: &[Corner]) {
-    let (mut of_faces, mut of_file) = (DVec3::ZERO, DVec3::ZERO);
+    let (mut of_faces, mut of_file) = (NormalSum::default(), DVec3::ZERO);
     for corner in fan {
         let which = usize::from(corner.which);
-        of_faces += weighted_normals(mesh.corners(FaceId(corner.face)))[which];
+        of_faces.add(&mesh.corners(FaceId(corner.face)), which);
         of_file += file_normals(mesh, corner.face as usize)[which];
     }
-    let normal = chosen(of_faces, of_file);
+    let normal = chosen(of_faces.normal(), of_file);
     let id = if keeps { vertex } else { smooth.vertices.len() as u32 };
     if keeps {
         smooth.normals[id as usize] = normal;

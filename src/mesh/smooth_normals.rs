@@ -136,17 +136,17 @@ fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVe
     let parts: Vec<Vec<DVec3>> = bounds
         .par_windows(2)
         .map(|range| {
-            let mut sums = vec![DVec3::ZERO; range[1] - range[0]];
+            let mut sums = vec![NormalSum::default(); range[1] - range[0]];
             let mut own = vec![DVec3::ZERO; if mesh.corner_normals.is_empty() { 0 } else { sums.len() }];
             for (face, triangle) in mesh.triangles.iter().enumerate() {
                 let slots = triangle.map(|v| (v as usize).wrapping_sub(range[0]));
                 if slots.iter().all(|slot| *slot >= sums.len()) || !counts(face) {
                     continue;
                 }
-                let weighted = weighted_normals(triangle.map(|v| mesh.positions[v as usize]));
-                for (slot, normal) in slots.iter().zip(weighted) {
+                let corners = triangle.map(|v| mesh.positions[v as usize]);
+                for (k, slot) in slots.iter().enumerate() {
                     if let Some(sum) = sums.get_mut(*slot) {
-                        *sum += normal;
+                        sum.add(&corners, k);
                     }
                 }
                 if !own.is_empty() {
@@ -157,13 +157,53 @@ fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVe
                     }
                 }
             }
-            for (k, sum) in sums.iter_mut().enumerate() {
-                *sum = chosen(*sum, own.get(k).copied().unwrap_or_default());
-            }
-            sums
+            let of_file = |k: usize| own.get(k).copied().unwrap_or_default();
+            sums.iter().enumerate().map(|(k, sum)| chosen(sum.normal(), of_file(k))).collect()
         })
         .collect();
     parts.concat()
+}
+
+/// The normal at a vertex, from the faces around it.
+///
+/// Max's weights are right for a ball, where small faces are as good as large ones. Where a strip of
+/// small faces meets large ones, these are the surface and the strip is its edge: there each face
+/// counts by its area and its angle.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct NormalSum {
+    of_max: DVec3,
+    of_area: DVec3,
+    /// The largest and the smallest face, twice their areas squared; the smallest as its inverse.
+    most: f64,
+    least: f64,
+}
+
+/// Faces around a vertex whose areas differ by more than this are an edge strip and what it borders.
+const UNEVEN: f64 = 6.0;
+
+impl NormalSum {
+    /// Adds the face with these corners, one of which is the vertex.
+    #[inline]
+    pub fn add(&mut self, corners: &[DVec3; 3], which: usize) {
+        let (u, v) = (corners[(which + 1) % 3] - corners[which], corners[(which + 2) % 3] - corners[which]);
+        let cross = u.cross(v);
+        let (squared, weight) = (cross.length_squared(), u.length_squared() * v.length_squared());
+        if squared <= 0.0 || weight <= 0.0 {
+            return;
+        }
+        // Max, eq. 2.
+        self.of_max += cross / weight;
+        // The sine stands for the angle, to which it is near where faces are many.
+        self.of_area += cross * (squared / weight).sqrt();
+        self.most = self.most.max(squared);
+        self.least = self.least.max(1.0 / squared);
+    }
+
+    /// The sum that is meant, not of unit length.
+    #[inline]
+    pub fn normal(&self) -> DVec3 {
+        if self.most * self.least > UNEVEN * UNEVEN { self.of_area } else { self.of_max }
+    }
 }
 
 /// The direction of the file's normals, or where they leave the surface altogether, of those of the
@@ -182,14 +222,6 @@ pub(super) fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
         let normal = mesh.normals.get(id as usize).map_or(DVec3::ZERO, |n| Vec3::from_array(*n).as_dvec3());
         if normal.dot(own) < 0.0 { -normal } else { normal }
     })
-}
-
-/// What a triangle adds to the normal at each of its corners (Max, eq. 2).
-pub(super) fn weighted_normals([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
-    let (u, v, w) = (b - a, c - b, a - c);
-    let cross = u.cross(v);
-    let [uu, vv, ww] = [u, v, w].map(DVec3::length_squared);
-    [uu * ww, uu * vv, vv * ww].map(|weight| if weight > 0.0 { cross / weight } else { DVec3::ZERO })
 }
 
 #[cfg(test)]

@@ -1,0 +1,184 @@
+//! [`Patches`]: where the surfaces of a mesh are parted, and which of them are meant to be round.
+//!
+//! Flats, cylinders and cones are drawn as their faces have them: what bends one way only has contours
+//! along its edges already. Round is what bends both ways: scans and figures but for their creases,
+//! and of machined parts the patches between hard edges that have curvature of their own.
+//!
+//! Source for curvature by angles: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry
+//! operators for triangulated 2-manifolds", 2002, section 4.
+
+use super::edge_set::EdgeSet;
+use super::groups::Groups;
+use super::planes::{Planes, area};
+use super::rounded::{LEAST_EDGES, Make, makes};
+use super::{Dihedral, EdgeFaces, FaceId, HardEdges, Mesh};
+use crate::math::function::acos;
+
+/// On round pieces a crease turns by so many times as much.
+const ROUND: f64 = 1.5;
+
+/// The cosine (10 degrees) beyond which the outline of a flat parts it from what is around.
+const RIM_COSINE: f32 = 0.985;
+/// The cosine (20 degrees) beyond which a strip is parted from a face so many times wider.
+const STRIP_COSINE: f32 = 0.94;
+const STRIP: f64 = 6.0;
+
+/// The least total curvature of a patch that bends both ways, radians: a twelfth of a ball's.
+const FREE_FORM: f64 = 1.0;
+/// Angles around a vertex of a cylinder miss a whole turn by less than this, radians, by rounding.
+const ROUNDING: f64 = 2e-4;
+/// With more than this share of flat edges a patch is machined all over: flat quads have a third.
+const MANY_FLAT: f64 = 0.45;
+/// Patches of which flats hold more than this part are machined all over.
+const FEW_FLATS: f64 = 0.1;
+
+/// How the surfaces of a mesh are meant.
+#[derive(Debug, Clone, Default)]
+pub struct Patches {
+    /// Edges that are drawn as creases.
+    pub hard: HardEdges,
+    /// Edges that part surfaces though they turn too little for a crease: rims of flats, strips beside
+    /// wide faces.
+    pub rims: EdgeSet,
+    /// Whether each face is meant to be round.
+    pub rounded: Vec<bool>,
+}
+
+impl Patches {
+    /// The patches of a mesh whose creases turn by more than `crease_deg` degrees.
+    #[must_use]
+    pub fn new(mesh: &Mesh, crease_deg: f64) -> Self {
+        let planes = Planes::new(mesh);
+        let makes = makes(mesh, &planes);
+        let hard = hard_edges(mesh, &makes, crease_deg);
+        let rims = rims(mesh, &planes, &makes);
+        let mut rounded: Vec<bool> = makes.iter().map(|make| *make == Make::Round).collect();
+        if makes.contains(&Make::Machined) {
+            let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
+            add_free_forms(mesh, &planes, &makes, parts, &mut rounded);
+        }
+        Self { hard, rims, rounded }
+    }
+}
+
+/// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, only
+/// chains that turn by more and stand out from what is around them.
+fn hard_edges(mesh: &Mesh, makes: &[Make], crease_deg: f64) -> HardEdges {
+    let blunt = || HardEdges::above(mesh, crease_deg);
+    let sharp = || HardEdges::find(mesh, (ROUND * crease_deg).min(180.0));
+    let round = makes.iter().filter(|make| **make == Make::Round).count();
+    if round == 0 {
+        blunt()
+    } else if round == makes.len() {
+        sharp()
+    } else {
+        let is_round = |edge: usize| match mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, .. } => faces.iter().all(|f| makes[*f as usize] == Make::Round),
+            _ => false,
+        };
+        sharp().chosen_from(&blunt(), mesh, is_round)
+    }
+}
+
+/// Where flats and wide faces end.
+fn rims(mesh: &Mesh, planes: &Planes, makes: &[Make]) -> EdgeSet {
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return false };
+        let cosine = Dihedral::of(mesh, faces, same_way).cosine;
+        if cosine > RIM_COSINE {
+            return false;
+        }
+        let [first, second] = faces.map(|face| planes.compact(face));
+        if first != second {
+            return true;
+        }
+        let machined = faces.iter().all(|face| makes[*face as usize] == Make::Machined);
+        cosine < STRIP_COSINE && machined && {
+            let [a, b] = faces.map(|face| width(mesh, edge, face));
+            a.max(b) > STRIP * a.min(b)
+        }
+    })
+}
+
+/// How far a face reaches from one of its edges.
+fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
+    let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+    2.0 * area(mesh, face) / a.distance(b).max(f64::MIN_POSITIVE)
+}
+
+/// What is counted of one patch.
+#[derive(Debug, Clone, Copy, Default)]
+struct Count {
+    edges: u32,
+    flat: u32,
+    area: f64,
+    in_flats: f64,
+    curvature: f64,
+}
+
+impl Count {
+    fn is_free_form(&self) -> bool {
+        self.edges >= LEAST_EDGES
+            && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
+            && self.in_flats <= FEW_FLATS * self.area
+            && self.curvature >= FREE_FORM
+    }
+}
+
+/// Marks the faces of machined pieces that lie in patches that bend both ways.
+fn add_free_forms(
+    mesh: &Mesh,
+    planes: &Planes,
+    makes: &[Make],
+    parts: impl Fn(usize) -> bool,
+    rounded: &mut [bool],
+) {
+    let machined = |face: u32| makes[face as usize] == Make::Machined;
+    let inner = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, same_way: false } if machined(faces[0]) && !parts(edge) => Some(faces),
+        _ => None,
+    };
+    let patches = Groups::new(mesh.triangles.len(), |join| {
+        for [a, b] in (0..mesh.edges.len()).filter_map(inner) {
+            join(a, b);
+        }
+    });
+    let mut counts = vec![Count::default(); mesh.triangles.len()];
+    // The angles around each vertex, and whether a patch ends there.
+    let mut angles = vec![0.0; mesh.positions.len()];
+    let mut ends = vec![false; mesh.positions.len()];
+    for edge in 0..mesh.edges.len() {
+        match inner(edge) {
+            Some([face, _]) => {
+                let count = &mut counts[patches.of(face) as usize];
+                count.edges += 1;
+                count.flat += u32::from(planes.flat.contains(edge));
+            }
+            None => mesh.edges.vertices[edge].iter().for_each(|v| ends[*v as usize] = true),
+        }
+    }
+    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
+        let count = &mut counts[patches.of(face) as usize];
+        let area = area(mesh, face);
+        count.area += area;
+        count.in_flats += if planes.of(face).is_some() { area } else { 0.0 };
+        let corners = mesh.corners(FaceId(face));
+        for (k, vertex) in mesh.triangles[face as usize].iter().enumerate() {
+            let [a, b] = [1, 2].map(|step| (corners[(k + step) % 3] - corners[k]).normalize_or_zero());
+            angles[*vertex as usize] += acos(a.dot(b).clamp(-1.0, 1.0));
+        }
+    }
+    let mut done = vec![false; mesh.positions.len()];
+    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
+        for vertex in mesh.triangles[face as usize] {
+            let vertex = vertex as usize;
+            if !ends[vertex] && !std::mem::replace(&mut done[vertex], true) {
+                let missing = (std::f64::consts::TAU - angles[vertex]).abs();
+                counts[patches.of(face) as usize].curvature += (missing - ROUNDING).max(0.0);
+            }
+        }
+    }
+    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
+        rounded[face as usize] = counts[patches.of(face) as usize].is_free_form();
+    }
+}
