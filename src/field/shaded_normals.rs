@@ -1,7 +1,8 @@
 //! [`ShadedNormals`]: the normals by which light falls on a mesh, three for each face.
 //!
-//! They are the file's own where it has any. Elsewhere the faces around a vertex that no hard edge
-//! parts share one, so that tessellation does not show and corners stay corners.
+//! Rounded surfaces are lit as what their outline is made from. Elsewhere the normals are the file's own
+//! where it has any, or the faces around a vertex that no hard edge parts share one, so that
+//! tessellation does not show and corners stay corners.
 
 use glam::{DVec3, Vec3};
 
@@ -18,25 +19,35 @@ pub struct ShadedNormals {
 }
 
 impl ShadedNormals {
-    /// The normals of a mesh with these hard edges, and with these normals on its rounded parts, which
-    /// count for light only where faces were cut (`refined`): there they say what the new faces
-    /// stand for.
+    /// The normals of a mesh with these hard edges, and with these normals on its rounded parts, from
+    /// which their outline is made as well.
     #[must_use]
-    pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals, refined: bool) -> Self {
-        let mut shaded = if smooth.corners_of_all() {
-            Self { normals: smooth.normals.clone(), corners: smooth.corners.clone() }
-        } else {
-            let all = SmoothNormals::new(mesh, |_| true, |edge| hard.is_hard(edge));
-            Self { normals: all.normals, corners: all.corners }
-        };
-        if !refined {
-            shaded.weigh_by_area(mesh);
+    pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals) -> Self {
+        if smooth.corners_of_all() {
+            let mut shaded = Self { normals: smooth.normals.clone(), corners: smooth.corners.clone() };
+            shaded.mend(mesh);
+            return shaded;
         }
+        let all = SmoothNormals::new(mesh, |_| true, |edge| hard.is_hard(edge));
+        let mut shaded = Self { normals: all.normals, corners: all.corners };
+        shaded.weigh_by_area(mesh);
         if !mesh.corner_normals.is_empty() {
             shaded.take_from_file(mesh);
         }
+        shaded.take_rounded(smooth);
         shaded.mend(mesh);
         shaded
+    }
+
+    /// Puts the normals of rounded faces in their place.
+    fn take_rounded(&mut self, smooth: &SmoothNormals) {
+        let first = self.normals.len() as u32;
+        self.normals.extend(&smooth.normals);
+        for (face, corners) in self.corners.iter_mut().enumerate() {
+            if let Some(own) = smooth.corners_of(face as u32) {
+                *corners = own.map(|id| first + id);
+            }
+        }
     }
 
     /// The normals at the corners of a face.
@@ -122,7 +133,7 @@ mod tests {
             let triangles = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
             let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
             let hard = HardEdges::above(&mesh, 40.0);
-            let shaded = ShadedNormals::new(&mesh, &hard, &SmoothNormals::default(), false);
+            let shaded = ShadedNormals::new(&mesh, &hard, &SmoothNormals::default());
             (mesh, shaded)
         };
         let (mesh, steep) = sheet(2.0);
@@ -147,7 +158,7 @@ mod tests {
             ..Soup::default()
         };
         let mesh = Mesh::build(soup);
-        let shaded = ShadedNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default(), false);
+        let shaded = ShadedNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default());
         assert!(shaded.of(0).iter().all(|n| n.distance(DVec3::new(0.0, -0.6, 0.8)) < 1e-6));
     }
 }

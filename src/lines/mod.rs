@@ -20,7 +20,7 @@ pub use inside::InsideOptions;
 pub use kind::LineKind;
 pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
 pub use lit::Lit;
-pub use options::{Contours, HiddenLines, LineOptions};
+pub use options::{Contours, HiddenLines, LineOptions, Normals};
 pub use surface::Surface;
 
 use crate::field;

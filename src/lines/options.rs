@@ -32,6 +32,18 @@ pub enum Contours {
     Mesh,
 }
 
+/// Whose normals a surface has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Normals {
+    /// The file's, but for pieces where these leave the surface, and figures that they shade as if
+    /// every face were a plane: these get the normals of their shape.
+    #[default]
+    Auto,
+    /// The file's wherever it has any.
+    File,
+}
+
 /// Which feature lines are sought and drawn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -42,6 +54,8 @@ pub struct LineOptions {
     pub kinds: Vec<LineKind>,
     /// Where contours lie. Default: auto.
     pub contours: Contours,
+    /// Whose normals light falls by, and round surfaces are made from. Default: auto.
+    pub normals: Normals,
     /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
     #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
@@ -64,6 +78,7 @@ impl Default for LineOptions {
                 LineKind::Wire,
             ],
             contours: Contours::Auto,
+            normals: Normals::Auto,
             crease_deg: 40.0,
             hidden: HiddenLines::None,
             inside: InsideOptions::default(),

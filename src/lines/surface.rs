@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::LineOptions;
-use super::options::Contours;
+use super::options::{Contours, Normals};
 use crate::field;
 use crate::mesh::{EdgeFaces, HardEdges, Mesh, Patches, SmoothNormals};
 use crate::scene::Camera;
@@ -30,7 +30,7 @@ pub struct Surface {
 impl Surface {
     /// The surface of a mesh, as the options have it.
     #[must_use]
-    pub fn new(mesh: Mesh, options: &LineOptions) -> Self {
+    pub fn new(mut mesh: Mesh, options: &LineOptions) -> Self {
         if !options.enabled {
             return Self { mesh, ..Self::default() };
         }
@@ -39,6 +39,9 @@ impl Surface {
             return Self { mesh, hard, ..Self::default() };
         }
         let patches = Patches::new(&mesh, options.crease_deg);
+        if options.normals == Normals::Auto {
+            mesh.forget_normals(|face| !patches.believed[face as usize]);
+        }
         let smooth = normals(&mesh, &patches, options.contours);
         Self { mesh, hard: patches.hard, smooth, refined: false }
     }

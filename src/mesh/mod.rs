@@ -109,6 +109,15 @@ impl Mesh {
         self.face_paint.get(face.index()).copied().unwrap_or(self.face_material[face.index()].into())
     }
 
+    /// Leaves out the file's normals of some faces.
+    pub fn forget_normals(&mut self, wrong: impl Fn(u32) -> bool) {
+        for (face, corners) in self.corner_normals.iter_mut().enumerate() {
+            if wrong(face as u32) {
+                *corners = [u32::MAX; 3];
+            }
+        }
+    }
+
     /// The barycentric weights of a point in the plane of a face; those of the first corner for a face
     /// without area.
     #[must_use]

@@ -10,7 +10,7 @@
 use super::edge_set::EdgeSet;
 use super::groups::Groups;
 use super::planes::{Planes, area};
-use super::rounded::{LEAST_EDGES, Make, makes};
+use super::rounded::{LEAST_EDGES, Make, verdicts};
 use super::{Dihedral, EdgeFaces, FaceId, HardEdges, Mesh};
 use crate::math::function::acos;
 
@@ -42,6 +42,8 @@ pub struct Patches {
     pub rims: EdgeSet,
     /// Whether each face is meant to be round.
     pub rounded: Vec<bool>,
+    /// Whether the file's normals tell the shape of each face, if it has any.
+    pub believed: Vec<bool>,
 }
 
 impl Patches {
@@ -49,7 +51,9 @@ impl Patches {
     #[must_use]
     pub fn new(mesh: &Mesh, crease_deg: f64) -> Self {
         let planes = Planes::new(mesh);
-        let makes = makes(mesh, &planes);
+        let verdicts = verdicts(mesh, &planes);
+        let believed = verdicts.iter().map(|verdict| verdict.believed).collect();
+        let makes: Vec<Make> = verdicts.iter().map(|verdict| verdict.make).collect();
         let hard = hard_edges(mesh, &makes, crease_deg);
         let rims = rims(mesh, &planes, &makes);
         let mut rounded: Vec<bool> = makes.iter().map(|make| *make == Make::Round).collect();
@@ -57,7 +61,7 @@ impl Patches {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
             add_free_forms(mesh, &planes, &makes, parts, &mut rounded);
         }
-        Self { hard, rims, rounded }
+        Self { hard, rims, rounded, believed }
     }
 }
 

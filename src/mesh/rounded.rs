@@ -29,6 +29,11 @@ const OWN_NORMAL_COSINE: f32 = 0.9999;
 /// A file whose normals say of fewer faces than this share that they are curved means them flat.
 const FEW_CURVED: f64 = 0.05;
 
+/// The cosine (80 degrees) below which a corner's normal has nothing to do with its face, and the share of
+/// such faces with which a file's normals are wrong for the whole piece.
+const ASTRAY_COSINE: f32 = 0.17;
+const FEW_ASTRAY: f64 = 0.01;
+
 /// What a piece of a model is meant to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Make {
@@ -41,6 +46,13 @@ pub(super) enum Make {
     Round,
 }
 
+/// What a piece is, and whether its file's normals tell its shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Verdict {
+    pub make: Make,
+    pub believed: bool,
+}
+
 /// What is counted of the faces of one piece.
 #[derive(Debug, Clone, Copy, Default)]
 struct Count {
@@ -49,6 +61,7 @@ struct Count {
     faces: u32,
     curved: u32,
     with_normals: u32,
+    astray: u32,
     area: f64,
     in_flats: f64,
 }
@@ -60,26 +73,31 @@ impl Count {
         self.faces += other.faces;
         self.curved += other.curved;
         self.with_normals += other.with_normals;
+        self.astray += other.astray;
         self.area += other.area;
         self.in_flats += other.in_flats;
     }
 
-    fn make(&self) -> Make {
+    fn verdict(&self) -> Verdict {
         let share = |of: u32, all: u32| f64::from(of) / f64::from(all.max(1));
         let faceted = self.with_normals == self.faces && share(self.curved, self.faces) < FEW_CURVED;
-        if self.edges < LEAST_EDGES || faceted {
-            return Make::Block;
-        }
-        let shaded = share(self.with_normals, self.faces) > 0.5;
+        let shaded = share(self.with_normals, self.faces) > 0.5 && !faceted;
         let few = if shaded { FEW_FLAT_SHADED } else { FEW_FLAT };
         let machined = self.in_flats >= MACHINED * self.area || share(self.flat, self.edges) > few;
-        if machined { Make::Machined } else { Make::Round }
+        let make = match machined {
+            _ if self.edges < LEAST_EDGES => Make::Block,
+            true => Make::Machined,
+            false => Make::Round,
+        };
+        // Faces that a file means flat are drawn so, but light falls on what they stand for.
+        let believed = share(self.astray, self.faces) < FEW_ASTRAY && !(faceted && make == Make::Round);
+        Verdict { make: if faceted { Make::Block } else { make }, believed }
     }
 }
 
 /// What each face belongs to. Pieces too small for statistics are judged together with those of their
 /// part and material.
-pub(super) fn makes(mesh: &Mesh, planes: &Planes) -> Vec<Make> {
+pub(super) fn verdicts(mesh: &Mesh, planes: &Planes) -> Vec<Verdict> {
     let faces = mesh.triangles.len();
     let pieces = Groups::new(faces, |join| {
         for edge in 0..mesh.edges.len() {
@@ -118,14 +136,14 @@ pub(super) fn makes(mesh: &Mesh, planes: &Planes) -> Vec<Make> {
             together.entry(key(face)).or_default().add(&counts[number[face] as usize]);
         }
     }
-    let makes: Vec<Make> = counts.iter().map(Count::make).collect();
+    let verdicts: Vec<Verdict> = counts.iter().map(Count::verdict).collect();
     (0..faces)
         .map(|face| {
             if is_small(number[face]) {
                 let first = pieces.of(face as u32) as usize;
-                together.get(&key(first)).map_or(Make::Block, Count::make)
+                together.get(&key(first)).map(Count::verdict).unwrap_or_default()
             } else {
-                makes[number[face] as usize]
+                verdicts[number[face] as usize]
             }
         })
         .collect()
@@ -141,6 +159,8 @@ fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {
         let leaves = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < OWN_NORMAL_COSINE;
         count.with_normals = u32::from(normals.iter().all(Option::is_some));
         count.curved = u32::from(normals.iter().flatten().any(|n| leaves(n)));
+        let strays = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < ASTRAY_COSINE;
+        count.astray = u32::from(normals.iter().flatten().any(|n| strays(n)));
     }
     count
 }

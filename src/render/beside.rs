@@ -179,8 +179,7 @@ impl Beside<'_> {
         if !light {
             return fronts.into_iter().map(|front| front.map(|front| dark(front.nearness))).collect();
         }
-        let normals =
-            ShadedNormals::new(mesh, &self.surface.hard, &self.surface.smooth, self.surface.refined);
+        let normals = ShadedNormals::new(mesh, &self.surface.hard, &self.surface.smooth);
         // What had to be mended is said where surfaces are painted.
         let style = self.style;
         let shading = Shading::new(self.scene, &[], mesh, frame, &style.light, &style.tones, &mut Vec::new());

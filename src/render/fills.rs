@@ -75,7 +75,7 @@ pub(super) struct Paintable {
 
 impl Paintable {
     pub fn new(surface: &Surface) -> Self {
-        let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth, surface.refined);
+        let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
         let edges = tone_edges::candidates(&surface.mesh, &normals);
         Self { normals, edges, solid: solid_parts(&surface.mesh) }
     }
