@@ -7,7 +7,7 @@ use super::occlude::{Interval, Limits};
 use super::project::ImageSegment;
 use super::runs::{Run, runs};
 use super::visibility::Visibility;
-use super::witnesses::{Bare, Court, Told};
+use super::witnesses::{Bare, Court, REACH_PX, Told};
 use crate::lines::{FeatureLines, Role};
 use crate::math::tolerance;
 use crate::mesh::Mesh;
@@ -82,7 +82,7 @@ pub(super) fn decide(
         told = rest;
         let visible = joined(own.iter().filter(|t| t.count == 0), GAP_PX * limits.px);
         let silhouette = joined(own.iter().filter(|t| t.silhouette), GAP_PX * limits.px);
-        rounded.add_run(run, &visible, &silhouette, own);
+        rounded.add_run(run, [&visible, &silhouette, own], REACH_PX * limits.px);
         seen_of_run.push(visible);
     }
     let is_seen = |r: u32, at: f64| {
@@ -141,12 +141,17 @@ fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
 
 impl Rounded {
     /// Adds what is hidden of a run: all that is not seen.
-    fn add_run(&mut self, run: &Run, visible: &[Told], silhouette: &[Told], told: &[Told]) {
+    fn add_run(&mut self, run: &Run, [visible, silhouette, told]: [&[Told]; 3], cusp: f64) {
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
+        // Where no line covers it, a contour ends because it turns back in the image.
+        let ended = |place: f64, kind: ViewVertexKind| match kind {
+            ViewVertexKind::Vertex if run.turns_near(place, cusp) => ViewVertexKind::Cusp,
+            kind => kind,
+        };
         for piece in visible {
-            self.hide(run, [at, piece.from], [kind, piece.kinds[0]], told);
-            (at, kind) = (piece.to, piece.kinds[1]);
+            self.hide(run, [at, piece.from], [kind, ended(piece.from, piece.kinds[0])], told);
+            (at, kind) = (piece.to, ended(piece.to, piece.kinds[1]));
         }
         self.hide(run, [at, run.length()], [kind, ViewVertexKind::Vertex], told);
         let mut at = 0.0;

@@ -23,6 +23,13 @@ impl Run {
         self.starts[self.segments.len()]
     }
 
+    /// Whether the image of the run turns back no farther than `within` from a place.
+    pub fn turns_near(&self, place: f64, within: f64) -> bool {
+        let first = self.starts.partition_point(|start| *start < place - within).max(1);
+        let cusps = (first..self.segments.len()).take_while(|k| self.starts[*k] <= place + within);
+        cusps.into_iter().any(|k| self.backward[k - 1] != self.backward[k])
+    }
+
     /// How far apart two places are, the shorter way round a closed run.
     pub fn between(&self, from: f64, to: f64) -> f64 {
         let direct = (to - from).abs();

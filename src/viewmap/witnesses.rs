@@ -23,7 +23,7 @@ use crate::view::View;
 
 /// A curve this near (px) may stand for an edge: more than smooth and polyhedral contours lie apart
 /// wherever a drawing is not coarser than its model.
-const REACH_PX: f64 = 2.5;
+pub(super) const REACH_PX: f64 = 2.5;
 /// Edges are asked every so many px.
 const STEP_PX: f64 = 1.0;
 /// A curve nearer than this (px) is the ink of an edge, whatever it stands for.

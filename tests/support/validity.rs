@@ -27,9 +27,10 @@ const CRUMB_PX: f64 = 4.0;
 #[derive(Debug, Clone, Default)]
 pub struct Tally {
     pub views: usize,
-    /// Pieces between places where visibility may change, and breaks within, by the view map's count.
-    pub arcs: u64,
-    pub broken: u64,
+    /// Smooth contours, and pieces of the polyhedron's that are drawn in their place, by the view map's
+    /// count.
+    pub curves: u64,
+    pub bare: u64,
     /// Places where a visible contour stops.
     pub stops: usize,
     /// Of these: under a nearer line, where the contour turns back, at another line, at the frame.
@@ -69,8 +70,8 @@ impl std::fmt::Display for Stop {
 impl Tally {
     pub fn add(&mut self, other: Self) {
         self.views += other.views;
-        self.arcs += other.arcs;
-        self.broken += other.broken;
+        self.curves += other.curves;
+        self.bare += other.bare;
         self.stops += other.stops;
         self.junctions += other.junctions;
         self.cusps += other.cusps;
@@ -81,9 +82,9 @@ impl Tally {
         self.unexplained.extend(other.unexplained);
     }
 
-    /// Arcs that are whole, percent.
-    pub fn whole(&self) -> f64 {
-        100.0 * (1.0 - self.broken as f64 / (self.arcs as f64).max(1.0))
+    /// Pieces of the polyhedron's contour drawn in a view, on average.
+    pub fn bare_a_view(&self) -> f64 {
+        self.bare as f64 / (self.views as f64).max(1.0)
     }
 
     /// Stops that are explained, percent.
@@ -96,9 +97,9 @@ impl Tally {
             "{:24} {:>5} {:>7} {:>6} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>8}",
             "model",
             "views",
-            "arcs",
-            "broken",
-            "whole %",
+            "curves",
+            "bare",
+            "a view",
             "stops",
             "under",
             "cusps",
@@ -115,9 +116,9 @@ impl Tally {
         format!(
             "{name:24} {:5} {:7} {:6} {:8.3} {:7} {:6} {:6} {:6} {:6} {:6} {:6} {:7} {:8.3}",
             self.views,
-            self.arcs,
-            self.broken,
-            self.whole(),
+            self.curves,
+            self.bare,
+            self.bare_a_view(),
             self.stops,
             self.junctions,
             self.cusps,
@@ -160,7 +161,7 @@ pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> Vi
 
 /// Looks at all places of a view map where a visible smooth contour stops.
 pub fn check(map: &ViewMap) -> Tally {
-    let mut tally = Tally { views: 1, arcs: map.arcs.arcs, broken: map.arcs.broken, ..Tally::default() };
+    let mut tally = Tally { views: 1, curves: map.contours.curves, bare: map.contours.bare, ..Tally::default() };
     let place = |v: u32| map.vertices[v as usize].position;
     let seen: Vec<usize> = (0..map.edges.len()).filter(|e| map.edges[*e].invisibility == 0).collect();
     let ends = |e: usize| [map.edges[e].start.0, map.edges[e].end.0];
