@@ -62,7 +62,9 @@ fn hold(levels: &[Level]) {
         println!("{}", tally.row(name));
         assert!(tally.stops > 100 && tally.curves > 100, "{name} has hardly any smooth contours");
         if tally.bare_a_view() > *bare || tally.explained() < *explained {
-            faults.push(format!("{name}: more than {bare} bare pieces a view or less than {explained} % explained"));
+            faults.push(format!(
+                "{name}: more than {bare} bare pieces a view or less than {explained} % explained"
+            ));
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));

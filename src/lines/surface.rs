@@ -68,29 +68,19 @@ pub(super) fn normals(mesh: &Mesh, patches: &Patches, contours: Contours) -> Smo
     SmoothNormals::new(mesh, rounded, |edge| parts(mesh, edge, patches))
 }
 
-/// Whether an edge parts two rounded surfaces: by its angle and what is around it, or by the file's
-/// normals where those have it creased.
+/// Whether an edge parts two rounded surfaces: by its angle and what is around it, or where the file's
+/// normals have it creased. Where these run over a crease that stands out, they are those of a surface
+/// that was made to be seen with a picture of its bumps.
 fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
-    if patches.rims.contains(edge) {
-        return true;
-    }
-    match file_normals_differ(mesh, edge) {
-        // Figures are shaded round over edges that by themselves would be creases.
-        Some(differ) => differ || (patches.hard.is_hard(edge) && !is_round(mesh, edge, patches)),
-        None => patches.hard.is_hard(edge),
-    }
+    patches.rims.contains(edge) || patches.hard.is_hard(edge) || file_normals_differ(mesh, edge)
 }
 
-fn is_round(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
-    mesh.edges.faces(edge).list().iter().all(|face| patches.rounded[*face as usize])
-}
-
-/// Whether the file creases the surface at an edge; `None` where it has no normals.
-fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
+/// Whether the file creases the surface at an edge.
+fn file_normals_differ(mesh: &Mesh, edge: usize) -> bool {
     if mesh.corner_normals.is_empty() {
-        return None;
+        return false;
     }
-    let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) else { return None };
+    let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) else { return false };
     let normals = |face: u32| {
         let triangle = mesh.triangles[face as usize];
         let ids = mesh.corner_normals.get(face as usize)?;
@@ -101,6 +91,8 @@ fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
         let [a, b] = mesh.edges.vertices[edge];
         Some([of(a)?, of(b)?])
     };
-    let (n, m) = (normals(first)?, normals(second)?);
-    Some((0..2).any(|k| n[k].dot(m[k]) < SAME_NORMAL_COSINE))
+    match (normals(first), normals(second)) {
+        (Some(n), Some(m)) => (0..2).any(|k| n[k].dot(m[k]) < SAME_NORMAL_COSINE),
+        _ => false,
+    }
 }

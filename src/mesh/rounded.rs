@@ -11,7 +11,7 @@ use glam::Vec3;
 
 use super::groups::Groups;
 use super::planes::{Planes, area};
-use super::{EdgeFaces, Mesh};
+use super::{Dihedral, EdgeFaces, Mesh};
 
 /// A piece is machined if flats hold this part of its surface. Of 60 models looked at scans and figures
 /// have 0 to 4 %, machined parts 14 % and more.
@@ -22,6 +22,11 @@ const FEW_FLAT: f64 = 0.15;
 /// The same where the file has normals: then armour and tools are shaded round over sharp edges, and
 /// their flats tell them from figures.
 const FEW_FLAT_SHADED: f64 = 0.08;
+/// The cosine below which an edge counts as sharp: 60 degrees.
+const SHARP_COSINE: f32 = 0.5;
+/// A file that shades a piece smooth over more than this share of sharp edges means it to be seen with a
+/// picture of its bumps: its normals are not those of its shape.
+const SHARP_SHADED: f64 = 0.1;
 /// Fewer edges than this are no statistics: such a group is a block or a plate.
 pub(super) const LEAST_EDGES: u32 = 60;
 /// The cosine above which a corner's normal is that of its face.
@@ -58,6 +63,7 @@ pub(super) struct Verdict {
 struct Count {
     edges: u32,
     flat: u32,
+    sharp: u32,
     faces: u32,
     curved: u32,
     with_normals: u32,
@@ -70,6 +76,7 @@ impl Count {
     fn add(&mut self, other: &Self) {
         self.edges += other.edges;
         self.flat += other.flat;
+        self.sharp += other.sharp;
         self.faces += other.faces;
         self.curved += other.curved;
         self.with_normals += other.with_normals;
@@ -83,14 +90,17 @@ impl Count {
         let faceted = self.with_normals == self.faces && share(self.curved, self.faces) < FEW_CURVED;
         let shaded = share(self.with_normals, self.faces) > 0.5 && !faceted;
         let few = if shaded { FEW_FLAT_SHADED } else { FEW_FLAT };
-        let machined = self.in_flats >= MACHINED * self.area || share(self.flat, self.edges) > few;
+        let armoured = shaded && share(self.sharp, self.edges) > SHARP_SHADED;
+        let machined =
+            armoured || self.in_flats >= MACHINED * self.area || share(self.flat, self.edges) > few;
         let make = match machined {
             _ if self.edges < LEAST_EDGES => Make::Block,
             true => Make::Machined,
             false => Make::Round,
         };
         // Faces that a file means flat are drawn so, but light falls on what they stand for.
-        let believed = share(self.astray, self.faces) < FEW_ASTRAY && !(faceted && make == Make::Round);
+        let believed =
+            share(self.astray, self.faces) < FEW_ASTRAY && !armoured && !(faceted && make == Make::Round);
         Verdict { make: if faceted { Make::Block } else { make }, believed }
     }
 }
@@ -120,12 +130,13 @@ pub(super) fn verdicts(mesh: &Mesh, planes: &Planes) -> Vec<Verdict> {
         counts[piece].add(&of_face(mesh, planes, face));
     }
     for edge in 0..mesh.edges.len() {
-        if let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge)
+        if let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge)
             && faces.iter().all(|f| mesh.face_normals[*f as usize] != [0.0; 3])
         {
             let count = &mut counts[number[faces[0] as usize] as usize];
             count.edges += 1;
             count.flat += u32::from(planes.flat.contains(edge));
+            count.sharp += u32::from(Dihedral::of(mesh, faces, same_way).cosine < SHARP_COSINE);
         }
     }
     let is_small = |piece: u32| counts[piece as usize].edges < LEAST_EDGES;

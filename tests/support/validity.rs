@@ -161,7 +161,8 @@ pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> Vi
 
 /// Looks at all places of a view map where a visible smooth contour stops.
 pub fn check(map: &ViewMap) -> Tally {
-    let mut tally = Tally { views: 1, curves: map.contours.curves, bare: map.contours.bare, ..Tally::default() };
+    let mut tally =
+        Tally { views: 1, curves: map.contours.curves, bare: map.contours.bare, ..Tally::default() };
     let place = |v: u32| map.vertices[v as usize].position;
     let seen: Vec<usize> = (0..map.edges.len()).filter(|e| map.edges[*e].invisibility == 0).collect();
     let ends = |e: usize| [map.edges[e].start.0, map.edges[e].end.0];
