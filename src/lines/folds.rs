@@ -4,6 +4,8 @@
 //! same way. Where the contour of the smooth surface is among them, the edge stands for it; where
 //! they come to an end without it, they are a ripple of the mesh.
 
+use rayon::prelude::*;
+
 use super::{FeatureSegment, Role};
 use crate::mesh::{EdgeFaces, Mesh, SmoothNormals};
 use crate::view::View;
@@ -20,7 +22,7 @@ pub(super) fn tell(
     segments: &mut [FeatureSegment],
 ) {
     let surface = Surface { mesh, view, smooth, facing };
-    for segment in segments {
+    segments.par_iter_mut().with_min_len(1 << 10).for_each(|segment| {
         let hosts = segment.hosts;
         if let Role::Witness { convex, fold } = &mut segment.role {
             // On a convex edge the eye sees the outside of the facing face, on a hollow one the inside
@@ -28,7 +30,7 @@ pub(super) fn tell(
             let beyond = hosts.into_iter().find(|face| view.facing[*face as usize] != *convex);
             *fold = beyond.is_some_and(|face| surface.is_ripple(face));
         }
-    }
+    });
 }
 
 struct Surface<'a> {

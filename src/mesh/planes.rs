@@ -4,7 +4,6 @@
 //! edge.
 
 use glam::Vec3;
-use rustc_hash::FxHashMap;
 
 use super::edge_set::EdgeSet;
 use super::groups::Groups;
@@ -18,66 +17,74 @@ const LEAST_FACES: u32 = 4;
 /// 0.0625, a strip that is ten times as long as wide 0.02.
 const COMPACT: f64 = 0.025;
 
+/// In [`Planes::of_face`]: the face is in no flat.
+const NONE: u32 = u32::MAX;
+
 /// The flats of a mesh.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Planes {
     /// Edges at which the surface does not turn.
     pub flat: EdgeSet,
-    groups: Groups,
-    /// Of each flat, by the least of its faces, whether it is compact.
-    compact: FxHashMap<u32, bool>,
+    /// The number of the flat each face is in.
+    of_face: Vec<u32>,
+    /// Whether each flat is no strip.
+    compact: Vec<bool>,
 }
 
 impl Planes {
     pub fn new(mesh: &Mesh) -> Self {
+        let faces = mesh.triangles.len();
         let flat = EdgeSet::collect(mesh.edges.len(), |edge| is_flat(mesh, edge));
-        let groups = Groups::new(mesh.triangles.len(), |join| {
+        let groups = Groups::new(faces, |join| {
             for edge in flat.iter() {
                 if let EdgeFaces::Two { faces: [a, b], .. } = mesh.edges.faces(edge) {
                     join(a, b);
                 }
             }
         });
-        let mut counts: FxHashMap<u32, (u32, f64)> = FxHashMap::default();
-        for face in (0..mesh.triangles.len() as u32).filter(|face| groups.of(*face) != *face) {
-            let count = counts.entry(groups.of(face)).or_default();
-            count.0 += 1;
-            count.1 += area(mesh, face);
+        let mut sizes = vec![0u32; faces];
+        (0..faces as u32).for_each(|face| sizes[groups.of(face) as usize] += 1);
+        // The least face of a group comes first, and its flat is numbered there.
+        let mut of_face = vec![NONE; faces];
+        let mut areas: Vec<f64> = Vec::new();
+        for face in 0..faces as u32 {
+            let first = groups.of(face) as usize;
+            if sizes[first] < LEAST_FACES {
+                continue;
+            }
+            if first == face as usize {
+                of_face[first] = areas.len() as u32;
+                areas.push(0.0);
+            }
+            of_face[face as usize] = of_face[first];
+            areas[of_face[first] as usize] += area(mesh, face);
         }
-        counts.retain(|_, count| count.0 + 1 >= LEAST_FACES);
-        let mut outlines: FxHashMap<u32, f64> = counts.keys().map(|first| (*first, 0.0)).collect();
-        if !outlines.is_empty() {
+        let mut outlines = vec![0.0; areas.len()];
+        if !areas.is_empty() {
             for edge in (0..mesh.edges.len()).filter(|edge| !flat.contains(*edge)) {
                 for face in mesh.edges.faces(edge).list() {
-                    if let Some(outline) = outlines.get_mut(&groups.of(*face)) {
+                    if let Some(outline) = outlines.get_mut(of_face[*face as usize] as usize) {
                         let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
                         *outline += a.distance(b);
                     }
                 }
             }
         }
-        let compact = counts
-            .into_iter()
-            .map(|(first, (_, others))| {
-                let outline = outlines.get(&first).copied().unwrap_or_default();
-                (first, others + area(mesh, first) >= COMPACT * outline * outline)
-            })
-            .collect();
-        Self { flat, groups, compact }
+        let is_compact = |(area, outline): (f64, f64)| area >= COMPACT * outline * outline;
+        let compact = areas.into_iter().zip(outlines).map(is_compact).collect();
+        Self { flat, of_face, compact }
     }
 
-    /// The flat that a face is in, by the least of its faces.
+    /// The number of the flat that a face is in.
     #[inline]
     pub fn of(&self, face: u32) -> Option<u32> {
-        let first = self.groups.of(face);
-        self.compact.contains_key(&first).then_some(first)
+        Some(self.of_face[face as usize]).filter(|flat| *flat != NONE)
     }
 
     /// The same where it is no strip.
     #[inline]
     pub fn compact(&self, face: u32) -> Option<u32> {
-        let first = self.groups.of(face);
-        self.compact.get(&first).is_some_and(|compact| *compact).then_some(first)
+        self.of(face).filter(|flat| self.compact[*flat as usize])
     }
 }
 

@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use glam::Vec3;
+use rayon::prelude::*;
 
 use super::groups::Groups;
 use super::planes::{Planes, area};
@@ -118,26 +119,24 @@ pub(super) fn verdicts(mesh: &Mesh, planes: &Planes) -> Vec<Verdict> {
         }
     });
     // Numbered densely, so that counting needs no search.
-    let mut number = vec![u32::MAX; faces];
-    let mut counts: Vec<Count> = Vec::new();
-    for face in 0..faces as u32 {
-        if pieces.of(face) == face {
-            number[face as usize] = counts.len() as u32;
-            counts.push(Count::default());
+    let mut number = vec![0u32; faces];
+    let mut pieces_found = 0;
+    for face in 0..faces {
+        let first = pieces.of(face as u32) as usize;
+        if first == face {
+            number[face] = pieces_found;
+            pieces_found += 1;
         }
-        let piece = number[pieces.of(face) as usize] as usize;
-        number[face as usize] = piece as u32;
-        counts[piece].add(&of_face(mesh, planes, face));
+        number[face] = number[first];
     }
-    for edge in 0..mesh.edges.len() {
-        if let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge)
-            && faces.iter().all(|f| mesh.face_normals[*f as usize] != [0.0; 3])
-        {
-            let count = &mut counts[number[faces[0] as usize] as usize];
-            count.edges += 1;
-            count.flat += u32::from(planes.flat.contains(edge));
-            count.sharp += u32::from(Dihedral::of(mesh, faces, same_way).cosine < SHARP_COSINE);
-        }
+    let mut counts = vec![Count::default(); pieces_found as usize];
+    let of_faces = runs(faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
+    let of_edges = runs(mesh.edges.len(), |edge| {
+        let (face, count) = of_edge(mesh, planes, edge)?;
+        Some((number[face as usize], count))
+    });
+    for (piece, count) in of_faces.into_iter().chain(of_edges) {
+        counts[piece as usize].add(&count);
     }
     let is_small = |piece: u32| counts[piece as usize].edges < LEAST_EDGES;
     let key = |face: usize| (mesh.face_part[face], mesh.face_material[face]);
@@ -158,6 +157,36 @@ pub(super) fn verdicts(mesh: &Mesh, planes: &Planes) -> Vec<Verdict> {
             }
         })
         .collect()
+}
+
+/// What is counted of items in order, summed over runs of one piece: neighbours mostly are of one.
+fn runs(items: usize, count: impl Fn(usize) -> Option<(u32, Count)> + Sync) -> Vec<(u32, Count)> {
+    const CHUNK: usize = 1 << 15;
+    let chunks: Vec<Vec<(u32, Count)>> = (0..items.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|k| {
+            let mut runs: Vec<(u32, Count)> = Vec::new();
+            for (piece, own) in (k * CHUNK..((k + 1) * CHUNK).min(items)).filter_map(&count) {
+                match runs.last_mut() {
+                    Some((last, sum)) if *last == piece => sum.add(&own),
+                    _ => runs.push((piece, own)),
+                }
+            }
+            runs
+        })
+        .collect();
+    chunks.concat()
+}
+
+/// What is counted of an edge between two faces with area, and one of them.
+fn of_edge(mesh: &Mesh, planes: &Planes, edge: usize) -> Option<(u32, Count)> {
+    let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return None };
+    if faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
+        return None;
+    }
+    let sharp = Dihedral::of(mesh, faces, same_way).cosine < SHARP_COSINE;
+    let flat = u32::from(planes.flat.contains(edge));
+    Some((faces[0], Count { edges: 1, flat, sharp: u32::from(sharp), ..Count::default() }))
 }
 
 fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {
