@@ -101,12 +101,10 @@ fn surfaces_are_cut_where_contours_are_traced() {
 }
 
 #[test]
-fn zeros_have_cusps_where_contours_turn_back() {
+fn zeros_turn_back_and_have_witnesses() {
     let knot = drawn("knot.ply", &Style::default(), Stage::Zeros);
     assert!(count(&knot, "forward") > 0 && count(&knot, "backward") > 0);
-    assert!(count(&knot, "t-junction") > 4);
-    let cusps = count(&knot, "cusp");
-    assert!(cusps > 0 && cusps.is_multiple_of(2), "{cusps} cusps");
+    assert!(count(&knot, "witness") > 0);
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::view::Frame;
 pub struct EdgeSearch {
     /// Edges that may be lines whatever they turn to the eye, ascending.
     fixed: Vec<u32>,
-    /// Edges between flat faces that can be nothing but contours.
+    /// Edges that can be nothing but contours, or witnesses of them.
     tree: DualTree,
     faces: usize,
     edges: usize,
@@ -24,7 +24,6 @@ pub struct EdgeSearch {
 /// What an edge may be.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Chance {
-    Nothing,
     OnlyContour,
     Other,
 }
@@ -87,11 +86,7 @@ fn chance(surface: &Surface, edge: usize) -> Chance {
     if first != second {
         return Chance::Other;
     }
-    if faces.iter().all(|f| smooth.corners_of(*f).is_none()) {
-        Chance::OnlyContour
-    } else if smooth.across(mesh, edge).is_some() {
-        Chance::Nothing
-    } else {
-        Chance::Other
-    }
+    let is_inner =
+        faces.iter().all(|f| smooth.corners_of(*f).is_none()) || smooth.across(mesh, edge).is_some();
+    if is_inner { Chance::OnlyContour } else { Chance::Other }
 }

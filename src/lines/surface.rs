@@ -38,11 +38,11 @@ impl Surface {
             let hard = HardEdges::above(&mesh, options.crease_deg);
             return Self { mesh, hard, ..Self::default() };
         }
-        let patches = Patches::new(&mesh, options.crease_deg);
+        let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
             mesh.forget_normals(|face| !patches.believed[face as usize]);
         }
-        let smooth = normals(&mesh, &patches, options.contours);
+        let smooth = normals(&mesh, &patches);
         Self { mesh, hard: patches.hard, smooth, refined: false }
     }
 
@@ -62,25 +62,30 @@ impl Surface {
     }
 }
 
-/// The normals of the patches that are meant to be round, or of all with [`Contours::Smooth`].
-pub(super) fn normals(mesh: &Mesh, patches: &Patches, contours: Contours) -> SmoothNormals {
-    let rounded = |face: u32| contours == Contours::Smooth || patches.rounded[face as usize];
-    SmoothNormals::new(mesh, rounded, |edge| parts(mesh, edge, patches))
+/// The normals of the patches that are meant to be round.
+pub(super) fn normals(mesh: &Mesh, patches: &Patches) -> SmoothNormals {
+    SmoothNormals::new(mesh, |face| patches.rounded[face as usize], |edge| parts(mesh, edge, patches))
 }
 
 /// Whether an edge parts two rounded surfaces: by its angle and what is around it, or where the file's
-/// normals have it creased. Where these run over a crease that stands out, they are those of a surface
-/// that was made to be seen with a picture of its bumps.
+/// normals have it creased. Figures are shaded round over edges that by themselves would be creases.
 fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
-    patches.rims.contains(edge) || patches.hard.is_hard(edge) || file_normals_differ(mesh, edge)
+    if patches.rims.contains(edge) {
+        return true;
+    }
+    let hard = patches.hard.is_hard(edge);
+    match file_normals_differ(mesh, edge) {
+        None => hard,
+        Some(differ) => differ || (hard && !patches.figure[mesh.edges.faces(edge).list()[0] as usize]),
+    }
 }
 
-/// Whether the file creases the surface at an edge.
-fn file_normals_differ(mesh: &Mesh, edge: usize) -> bool {
+/// Whether the file creases the surface at an edge; `None` where it has no normals.
+fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
     if mesh.corner_normals.is_empty() {
-        return false;
+        return None;
     }
-    let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) else { return false };
+    let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) else { return None };
     let normals = |face: u32| {
         let triangle = mesh.triangles[face as usize];
         let ids = mesh.corner_normals.get(face as usize)?;
@@ -91,8 +96,6 @@ fn file_normals_differ(mesh: &Mesh, edge: usize) -> bool {
         let [a, b] = mesh.edges.vertices[edge];
         Some([of(a)?, of(b)?])
     };
-    match (normals(first), normals(second)) {
-        (Some(n), Some(m)) => (0..2).any(|k| n[k].dot(m[k]) < SAME_NORMAL_COSINE),
-        _ => false,
-    }
+    let (n, m) = (normals(first)?, normals(second)?);
+    Some((0..2).any(|k| n[k].dot(m[k]) < SAME_NORMAL_COSINE))
 }

@@ -42,26 +42,30 @@ pub struct Patches {
     pub rims: EdgeSet,
     /// Whether each face is meant to be round.
     pub rounded: Vec<bool>,
+    /// Whether each face is part of a figure or a scan, all of which is round but for its creases.
+    pub figure: Vec<bool>,
     /// Whether the file's normals tell the shape of each face, if it has any.
     pub believed: Vec<bool>,
 }
 
 impl Patches {
-    /// The patches of a mesh whose creases turn by more than `crease_deg` degrees.
+    /// The patches of a mesh whose creases turn by more than `crease_deg` degrees; with `all`, every
+    /// face is meant to be round, and only the edges between are sought.
     #[must_use]
-    pub fn new(mesh: &Mesh, crease_deg: f64) -> Self {
+    pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
         let planes = Planes::new(mesh);
-        let verdicts = verdicts(mesh, &planes);
+        let verdicts = verdicts(mesh, &planes, all);
         let believed = verdicts.iter().map(|verdict| verdict.believed).collect();
         let makes: Vec<Make> = verdicts.iter().map(|verdict| verdict.make).collect();
         let hard = hard_edges(mesh, &makes, crease_deg);
         let rims = rims(mesh, &planes, &makes);
-        let mut rounded: Vec<bool> = makes.iter().map(|make| *make == Make::Round).collect();
-        if makes.contains(&Make::Machined) {
+        let mut rounded: Vec<bool> = makes.iter().map(|make| all || *make == Make::Round).collect();
+        if !all && makes.contains(&Make::Machined) {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
             add_free_forms(mesh, &planes, &makes, parts, &mut rounded);
         }
-        Self { hard, rims, rounded, believed }
+        let figure = makes.iter().map(|make| *make == Make::Round).collect();
+        Self { hard, rims, rounded, figure, believed }
     }
 }
 

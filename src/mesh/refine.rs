@@ -365,16 +365,32 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    fn octahedron() -> Mesh {
-        let positions = vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
-        let triangles =
-            vec![[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+    fn icosahedron() -> Mesh {
+        let golden = (1.0 + 5f64.sqrt()) / 2.0;
+        let mut positions = Vec::new();
+        for (x, y) in [(1.0, golden), (1.0, -golden), (-1.0, golden), (-1.0, -golden)] {
+            let p = DVec3::new(x, y, 0.0).normalize();
+            positions.extend([p, DVec3::new(p.y, 0.0, p.x), DVec3::new(0.0, p.x, p.y)]);
+        }
+        // Three corners an edge's length from each other are a face.
+        let near = |a: usize, b: usize| positions[a].distance(positions[b]) < 1.1;
+        let mut triangles = Vec::new();
+        for a in 0..12 {
+            for b in a + 1..12 {
+                for c in (b + 1..12).filter(|c| near(a, b) && near(b, *c) && near(*c, a)) {
+                    let outward = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
+                    let face = [a as u32, b as u32, c as u32];
+                    let [a, b, c] = face;
+                    triangles.push(if outward.dot(positions[a as usize]) > 0.0 { face } else { [a, c, b] });
+                }
+            }
+        }
         Mesh::build(Soup { positions, triangles, ..Soup::default() })
     }
 
     #[test]
-    fn a_refined_octahedron_is_a_sphere_without_cracks() {
-        let mesh = octahedron();
+    fn a_refined_icosahedron_is_a_sphere_without_cracks() {
+        let mesh = icosahedron();
         let smooth = SmoothNormals::rounded(&mesh);
         // Only one half is refined, so that all patterns occur.
         let wanted = |ends: [DVec3; 2], _: [DVec3; 2]| {
@@ -383,6 +399,7 @@ mod tests {
         };
         let (finer, normals) =
             refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
+        assert_eq!(mesh.triangles.len(), 20);
         assert!(finer.triangles.len() > 500);
         assert_eq!((finer.edges.border_count(), finer.edges.non_manifold_count()), (0, 0));
         let euler = finer.positions.len() as i64 - finer.edges.len() as i64 + finer.triangles.len() as i64;
@@ -399,7 +416,7 @@ mod tests {
 
     #[test]
     fn what_nobody_wants_is_left() {
-        let mesh = octahedron();
+        let mesh = icosahedron();
         assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| true, |_, _| 0.0).is_none());
         assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true, |_, _| 2.0).is_none());
     }

@@ -28,6 +28,8 @@ const SHARP_COSINE: f32 = 0.5;
 /// A file that shades a piece smooth over more than this share of sharp edges means it to be seen with a
 /// picture of its bumps: its normals are not those of its shape.
 const SHARP_SHADED: f64 = 0.1;
+/// Coarse figures turn sharply at many edges; with as many edges as this a shape needs no shading to be told.
+const DENSE: u32 = 3000;
 /// Fewer edges than this are no statistics: such a group is a block or a plate.
 pub(super) const LEAST_EDGES: u32 = 60;
 /// The cosine above which a corner's normal is that of its face.
@@ -38,7 +40,7 @@ const FEW_CURVED: f64 = 0.05;
 /// The cosine (80 degrees) below which a corner's normal has nothing to do with its face, and the share of
 /// such faces with which a file's normals are wrong for the whole piece.
 const ASTRAY_COSINE: f32 = 0.17;
-const FEW_ASTRAY: f64 = 0.01;
+const FEW_ASTRAY: f64 = 0.05;
 
 /// What a piece of a model is meant to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -86,29 +88,27 @@ impl Count {
         self.in_flats += other.in_flats;
     }
 
-    fn verdict(&self) -> Verdict {
+    /// With `all`, nothing is a block.
+    fn verdict(&self, all: bool) -> Verdict {
         let share = |of: u32, all: u32| f64::from(of) / f64::from(all.max(1));
         let faceted = self.with_normals == self.faces && share(self.curved, self.faces) < FEW_CURVED;
         let shaded = share(self.with_normals, self.faces) > 0.5 && !faceted;
         let few = if shaded { FEW_FLAT_SHADED } else { FEW_FLAT };
-        let armoured = shaded && share(self.sharp, self.edges) > SHARP_SHADED;
+        let armoured = shaded && self.edges >= DENSE && share(self.sharp, self.edges) > SHARP_SHADED;
         let machined =
             armoured || self.in_flats >= MACHINED * self.area || share(self.flat, self.edges) > few;
-        let make = match machined {
-            _ if self.edges < LEAST_EDGES => Make::Block,
-            true => Make::Machined,
-            false => Make::Round,
-        };
+        let shape = if machined { Make::Machined } else { Make::Round };
+        let plain = faceted || self.edges < LEAST_EDGES;
         // Faces that a file means flat are drawn so, but light falls on what they stand for.
         let believed =
-            share(self.astray, self.faces) < FEW_ASTRAY && !armoured && !(faceted && make == Make::Round);
-        Verdict { make: if faceted { Make::Block } else { make }, believed }
+            share(self.astray, self.faces) < FEW_ASTRAY && !armoured && !(faceted && shape == Make::Round);
+        Verdict { make: if plain && !all { Make::Block } else { shape }, believed }
     }
 }
 
-/// What each face belongs to. Pieces too small for statistics are judged together with those of their
+/// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for statistics are judged together with those of their
 /// part and material.
-pub(super) fn verdicts(mesh: &Mesh, planes: &Planes) -> Vec<Verdict> {
+pub(super) fn verdicts(mesh: &Mesh, planes: &Planes, all: bool) -> Vec<Verdict> {
     let faces = mesh.triangles.len();
     let pieces = Groups::new(faces, |join| {
         for edge in 0..mesh.edges.len() {
@@ -146,12 +146,12 @@ pub(super) fn verdicts(mesh: &Mesh, planes: &Planes) -> Vec<Verdict> {
             together.entry(key(face)).or_default().add(&counts[number[face] as usize]);
         }
     }
-    let verdicts: Vec<Verdict> = counts.iter().map(Count::verdict).collect();
+    let verdicts: Vec<Verdict> = counts.iter().map(|count| count.verdict(all)).collect();
     (0..faces)
         .map(|face| {
             if is_small(number[face]) {
                 let first = pieces.of(face as u32) as usize;
-                together.get(&key(first)).map(Count::verdict).unwrap_or_default()
+                together.get(&key(first)).map(|count| count.verdict(all)).unwrap_or_default()
             } else {
                 verdicts[number[face] as usize]
             }

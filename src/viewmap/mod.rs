@@ -13,6 +13,7 @@ pub mod occluders;
 pub mod project;
 mod rounded;
 mod runs;
+mod teeth;
 mod tile;
 pub mod visibility;
 mod witnesses;

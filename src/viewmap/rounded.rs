@@ -6,6 +6,7 @@ use super::layers::Layer;
 use super::occlude::{Interval, Limits};
 use super::project::ImageSegment;
 use super::runs::{Run, runs};
+use super::teeth::Teeth;
 use super::visibility::Visibility;
 use super::witnesses::{Bare, Court, REACH_PX, Told};
 use crate::lines::{FeatureLines, Role};
@@ -90,25 +91,38 @@ pub(super) fn decide(
         let next = seen.partition_point(|t| t.to < at);
         seen.get(next).is_some_and(|t| t.from <= at)
     };
+    let is_seen_between = |r: u32, from: f64, to: f64| {
+        let seen = &seen_of_run[r as usize];
+        let whole = runs[r as usize].length();
+        // The way over the seam of a closed run is the shorter one only where it is asked of both ends.
+        let holds = |from: f64, to: f64| seen.iter().any(|t| t.from <= from && t.to >= to);
+        holds(from, to) || (runs[r as usize].closed && holds(0.0, from) && holds(to, whole))
+    };
+    let teeth = Teeth::new(&court, segments);
     let mut drawn: Vec<Bare> = Vec::new();
-    for bare in &testimony.bare {
-        let segment = &segments[bare.segment as usize];
-        if court.is_inked(segment.at((bare.from + bare.to) / 2.0), is_seen) {
-            continue;
-        }
-        if !bare.silhouette && matches!(segment.role, Role::Witness { fold: true, .. }) {
+    for own in testimony.bare.chunk_by(|a, b| a.segment == b.segment) {
+        let segment = &segments[own[0].segment as usize];
+        let is_bare = |bare: &&Bare| !court.is_inked(segment.at((bare.from + bare.to) / 2.0), is_seen);
+        let own: Vec<Bare> = own.iter().filter(is_bare).copied().collect();
+        let Some(first) = own.first() else { continue };
+        if own.iter().all(|bare| !bare.silhouette)
+            && (matches!(segment.role, Role::Witness { fold: true, .. })
+                || teeth.holds(first.segment, is_seen_between))
+        {
             rounded.counts.folds += 1;
             continue;
         }
-        match drawn.last_mut() {
-            Some(last)
-                if last.segment == bare.segment
-                    && last.to == bare.from
-                    && last.silhouette == bare.silhouette =>
-            {
-                last.to = bare.to;
+        for bare in own {
+            match drawn.last_mut() {
+                Some(last)
+                    if last.segment == bare.segment
+                        && last.to == bare.from
+                        && last.silhouette == bare.silhouette =>
+                {
+                    last.to = bare.to;
+                }
+                _ => drawn.push(bare),
             }
-            _ => drawn.push(*bare),
         }
     }
     rounded.counts.bare = drawn.len() as u64;

@@ -35,7 +35,8 @@ const SAME_SIDE_COSINE: f32 = 0.2;
 /// half a px is one of many px in depth.
 const DEPTH_OF_FACES: f64 = 2.0;
 const DEPTH_PX: f64 = 24.0;
-/// From one asked place to the next a curve runs on for no more than so many times their distance.
+/// From one asked place to the next a curve runs on for no more than so many times their distance, and as
+/// much as it may be away: at a corner of the edges the nearest place jumps.
 const STRETCH: f64 = 4.0;
 /// Tiles across the page in which curves are sought.
 const GRID: u32 = 256;
@@ -88,9 +89,10 @@ pub(super) struct Court<'a> {
 
 /// A place on a run.
 #[derive(Debug, Clone, Copy)]
-struct Place {
-    run: u32,
-    at: f64,
+pub(super) struct Place {
+    pub run: u32,
+    /// How far along it.
+    pub at: f64,
 }
 
 impl<'a> Court<'a> {
@@ -190,7 +192,7 @@ impl<'a> Court<'a> {
                         if k == 0 { piece.kinds[0] } else { ViewVertexKind::Vertex },
                         if f64::from(k + 1) >= steps { piece.kinds[1] } else { ViewVertexKind::Vertex },
                     ];
-                    let way = STRETCH * (to - from) * segment.length() + self.px;
+                    let way = STRETCH * (to - from) * segment.length() + REACH_PX * self.px;
                     self.tell(p, q, way, kinds, piece, out);
                 }
                 _ if piece.count == 0 => {
@@ -230,6 +232,13 @@ impl<'a> Court<'a> {
     }
 
     /// The nearest place of a curve that may stand for a witness at a point of it.
+    pub fn place(&self, witness: &ImageSegment, p: DVec3) -> Option<Place> {
+        match witness.role {
+            Role::Witness { convex, .. } => self.nearest(witness, convex, p),
+            _ => None,
+        }
+    }
+
     fn nearest(&self, witness: &ImageSegment, convex: bool, p: DVec3) -> Option<Place> {
         let normal = |face: u32| Vec3::from_array(self.mesh.face_normals[face as usize]);
         let outward = (normal(witness.hosts[0]) + normal(witness.hosts[1])).normalize_or_zero();

@@ -30,7 +30,7 @@ impl Both {
     /// model is not taken as rounded, so that both contours are one.
     pub fn distances(&self, camera: &Camera) -> Option<Vec<f64>> {
         let smooth = view_map(&self.auto, camera, &options(Contours::Auto));
-        if smooth.arcs.arcs == 0 {
+        if smooth.contours.curves == 0 {
             return None;
         }
         let polygon = view_map(&self.polygon, camera, &options(Contours::Mesh));

@@ -1,0 +1,67 @@
+//! Teeth: places where the contour of the polyhedron leaves the smooth one for a few edges and comes back
+//! to where it left.
+//!
+//! Thin faces seen edge-on stick out of the contour like teeth of a saw, and often only one side of a
+//! tooth is seen. The smooth contour passes below, and stands for them.
+
+use rustc_hash::FxHashMap;
+
+use super::project::ImageSegment;
+use super::witnesses::{Court, Place};
+use crate::lines::Role;
+
+/// A detour of more edges than this is no tooth.
+const MOST_EDGES: usize = 12;
+
+/// The contour of the polyhedron as a graph, seen or hidden.
+pub(super) struct Teeth<'a> {
+    court: &'a Court<'a>,
+    segments: &'a [ImageSegment],
+    /// The witnesses that end in each vertex.
+    around: FxHashMap<u32, Vec<u32>>,
+}
+
+impl<'a> Teeth<'a> {
+    pub fn new(court: &'a Court<'a>, segments: &'a [ImageSegment]) -> Self {
+        let mut around: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for (id, segment) in segments.iter().enumerate() {
+            if matches!(segment.role, Role::Witness { .. }) {
+                for end in segment.ends {
+                    around.entry(end).or_default().push(id as u32);
+                }
+            }
+        }
+        Self { court, segments, around }
+    }
+
+    /// Whether a witness is part of a tooth on a curve that `is_seen` (run, from, to) all along its foot.
+    pub fn holds(&self, id: u32, is_seen: impl Fn(u32, f64, f64) -> bool) -> bool {
+        let Some((p, there)) = self.walk(id, 0) else { return false };
+        let Some((q, back)) = self.walk(id, 1) else { return false };
+        let way = there + back + self.segments[id as usize].length();
+        p.run == q.run && self.court.runs[p.run as usize].between(p.at, q.at) <= way && {
+            is_seen(p.run, p.at.min(q.at), p.at.max(q.at))
+        }
+    }
+
+    /// The first place of a curve on the way from one end of a witness, and how long the way is.
+    fn walk(&self, id: u32, end: usize) -> Option<(Place, f64)> {
+        let mut way = 0.0;
+        let (mut at, mut vertex) = (id, self.segments[id as usize].ends[end]);
+        let mut passed = vec![id];
+        while passed.len() <= MOST_EDGES {
+            let segment = &self.segments[at as usize];
+            let point = if segment.ends[0] == vertex { segment.a } else { segment.b };
+            if let Some(place) = self.court.place(segment, point) {
+                return Some((place, way));
+            }
+            let next = self.around.get(&vertex)?.iter().copied().find(|other| !passed.contains(other))?;
+            let ends = self.segments[next as usize].ends;
+            vertex = if ends[0] == vertex { ends[1] } else { ends[0] };
+            way += self.segments[next as usize].length();
+            at = next;
+            passed.push(next);
+        }
+        None
+    }
+}
