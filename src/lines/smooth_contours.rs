@@ -11,7 +11,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::folds;
-use super::zero_set::{self, EdgePoint, ZeroSet};
+use super::zero_set::{self, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::{EdgeArc, Mesh, SmoothNormals};
 use crate::view::View;
@@ -31,7 +31,7 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64], li
     // Faces without area have no side, but the curve passes through them.
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = (mesh.positions.len() + lines.points.len()) as u32;
-    lines.points.extend(set.points.iter().map(|p| place(mesh, smooth, p)));
+    lines.points.extend(set.points.iter().map(|p| EdgeArc::over(mesh, smooth, p.between).at(p.t)));
     let position = |end: u32| lines.position(mesh, end);
     let pieces: Vec<Piece> = set
         .segments
@@ -49,16 +49,6 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64], li
         lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, advance });
     }
     folds::tell(mesh, view, smooth, facing, &mut lines.segments);
-}
-
-/// Where the curve crosses an edge: on its arc, or on the edge itself where that parts surfaces, since
-/// both of them end there.
-fn place(mesh: &Mesh, smooth: &SmoothNormals, point: &EdgePoint) -> DVec3 {
-    let mut ends = point.between.map(|v| smooth.vertices[v as usize]);
-    ends.sort_unstable();
-    let parts = !smooth.seamless
-        && mesh.edges.vertices.binary_search(&ends).is_ok_and(|edge| smooth.parting.contains(edge));
-    if parts { point.position(mesh, smooth) } else { EdgeArc::over(mesh, smooth, point.between).at(point.t) }
 }
 
 /// The sign of the radial curvature (DeCarlo et al. 2003, section 2), taken from the piece itself, so

@@ -45,13 +45,23 @@ impl EdgeArc {
         Self { ends, normals, handles }
     }
 
-    /// The curve from one smooth vertex to another. What lies on an edge asks for it with the smaller
-    /// id first, so that both faces beside the edge get the same points to the bit.
+    /// The curve from one smooth vertex to another: the edge itself where surfaces end in it or are straight
+    /// over it. What lies on an edge asks for it with the smaller id first, so that both faces beside the
+    /// edge get the same points to the bit.
     #[must_use]
     pub fn over(mesh: &Mesh, smooth: &SmoothNormals, between: [u32; 2]) -> Self {
-        let position = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
-        let normal = |v: u32| smooth.normals[v as usize];
-        Self::new(between.map(position), between.map(normal))
+        let vertices = between.map(|v| smooth.vertices[v as usize]);
+        let ends = vertices.map(|v| mesh.positions[v as usize]);
+        let normals = between.map(|v| smooth.normals[v as usize]);
+        if !smooth.parting.is_empty() || !smooth.straight.is_empty() {
+            let [a, b] = vertices;
+            let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]);
+            if edge.is_ok_and(|edge| smooth.parting.contains(edge) || smooth.straight.contains(edge)) {
+                let third = (ends[1] - ends[0]) / 3.0;
+                return Self { ends, normals, handles: [third, -third] };
+            }
+        }
+        Self::new(ends, normals)
     }
 
     /// The point at `t`, 0 to 1.

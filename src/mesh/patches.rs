@@ -31,6 +31,10 @@ const ROUNDING: f64 = 2e-4;
 const MANY_FLAT: f64 = 0.45;
 /// Patches of which flats hold more than this part are machined all over.
 const FEW_FLATS: f64 = 0.1;
+/// A face is long if it is so many times as long as wide: nobody knows what lies between its ends. Patches
+/// of which long faces hold more than this part stay what they are.
+const LONG: f64 = 6.0;
+const FEW_LONG: f64 = 0.1;
 
 /// How the surfaces of a mesh are meant.
 #[derive(Debug, Clone, Default)]
@@ -100,8 +104,10 @@ fn rims(mesh: &Mesh, planes: &Planes, makes: &[Make]) -> EdgeSet {
         if first != second {
             return true;
         }
-        let machined = faces.iter().all(|face| makes[*face as usize] == Make::Machined);
-        cosine < STRIP_COSINE && machined && {
+        // Scans have slivers beside wide faces by chance; what was modelled has them for a reason.
+        let shaded = |face: u32| mesh.corner_normals.get(face as usize).is_some_and(|n| n[0] != u32::MAX);
+        let modelled = faces.iter().all(|f| makes[*f as usize] == Make::Machined || shaded(*f));
+        cosine < STRIP_COSINE && modelled && {
             let [a, b] = faces.map(|face| width(mesh, edge, face));
             a.max(b) > STRIP * a.min(b)
         }
@@ -121,6 +127,7 @@ struct Count {
     flat: u32,
     area: f64,
     in_flats: f64,
+    in_long: f64,
     curvature: f64,
 }
 
@@ -129,6 +136,7 @@ impl Count {
         self.edges >= LEAST_EDGES
             && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
             && self.in_flats <= FEW_FLATS * self.area
+            && self.in_long <= FEW_LONG * self.area
             && self.curvature >= FREE_FORM
     }
 }
@@ -171,6 +179,8 @@ fn add_free_forms(
         count.area += area;
         count.in_flats += if planes.of(face).is_some() { area } else { 0.0 };
         let corners = mesh.corners(FaceId(face));
+        let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
+        count.in_long += if longest > LONG * 2.0 * area { area } else { 0.0 };
         for (k, vertex) in mesh.triangles[face as usize].iter().enumerate() {
             let [a, b] = [1, 2].map(|step| (corners[(k + step) % 3] - corners[k]).normalize_or_zero());
             angles[*vertex as usize] += acos(a.dot(b).clamp(-1.0, 1.0));

@@ -50,7 +50,8 @@ pub fn refined(
         .into_par_iter()
         .map(|k| {
             let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
-            let long = edges.filter(|edge| {
+            let bent = edges.filter(|edge| !smooth.straight.contains(*edge));
+            let long = bent.filter(|edge| {
                 let [a, b] = mesh.edges.vertices[*edge];
                 is_long(mesh.positions[a as usize], mesh.positions[b as usize])
             });
@@ -333,6 +334,7 @@ impl Work {
             vertices: self.vertices,
             corners,
             parting: smooth.parting.carried(mesh, &finer),
+            straight: smooth.straight.carried(mesh, &finer),
             seamless: smooth.seamless,
         };
         (finer, finer_smooth)

@@ -29,7 +29,7 @@ const SHARP_COSINE: f32 = 0.5;
 /// picture of its bumps: its normals are not those of its shape.
 const SHARP_SHADED: f64 = 0.1;
 /// Coarse figures turn sharply at many edges; with as many edges as this a shape needs no shading to be told.
-const DENSE: u32 = 3000;
+const DENSE: u32 = 2000;
 /// Fewer edges than this are no statistics: such a group is a block or a plate.
 pub(super) const LEAST_EDGES: u32 = 60;
 /// The cosine above which a corner's normal is that of its face.
@@ -40,7 +40,7 @@ const FEW_CURVED: f64 = 0.05;
 /// The cosine (80 degrees) below which a corner's normal has nothing to do with its face, and the share of
 /// such faces with which a file's normals are wrong for the whole piece.
 const ASTRAY_COSINE: f32 = 0.17;
-const FEW_ASTRAY: f64 = 0.05;
+const FEW_ASTRAY: f64 = 0.1;
 
 /// What a piece of a model is meant to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

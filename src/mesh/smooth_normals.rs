@@ -28,6 +28,9 @@ pub struct SmoothNormals {
     pub corners: Vec<[u32; 3]>,
     /// Edges that part rounded surfaces from each other or from flat faces.
     pub parting: EdgeSet,
+    /// Edges over which the surface is taken to be straight, though its normals turn: what is between their ends does not
+    /// bend with what meets there.
+    pub straight: EdgeSet,
     /// Whether all faces are rounded and no edge parts them, so that smooth vertices are vertices.
     pub seamless: bool,
 }
@@ -41,6 +44,7 @@ impl SmoothNormals {
             vertices: (0..mesh.positions.len() as u32).collect(),
             corners: mesh.triangles.clone(),
             parting: EdgeSet::default(),
+            straight: EdgeSet::default(),
             seamless: true,
         }
     }
@@ -78,8 +82,10 @@ impl SmoothNormals {
             corners,
             seamless: all && parting.is_empty(),
             parting,
+            straight: EdgeSet::default(),
         };
         parting::part(mesh, &mut smooth);
+        smooth.straight = uneven(mesh, &smooth);
         smooth
     }
 
@@ -124,6 +130,29 @@ impl SmoothNormals {
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }
+}
+
+/// Edges more than so many times as long as one beside them, between normals that turn by more than this
+/// (cosine, 15 degrees), are straight.
+const UNEVEN_LENGTHS: f64 = 4.0;
+const UNEVEN_COSINE: f64 = 0.966;
+
+/// Long edges beside short ones: the normals at their ends are those of a bevel or a fillet there, and what
+/// is between the ends does not bend with them.
+fn uneven(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
+    let squared = |a: u32, b: u32| mesh.positions[a as usize].distance_squared(mesh.positions[b as usize]);
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        let Some([a, b]) = smooth.across(mesh, edge) else { return false };
+        if smooth.normals[a as usize].dot(smooth.normals[b as usize]) > UNEVEN_COSINE {
+            return false;
+        }
+        let ends = mesh.edges.vertices[edge];
+        let least = squared(ends[0], ends[1]) / (UNEVEN_LENGTHS * UNEVEN_LENGTHS);
+        mesh.edges.faces(edge).list().iter().any(|face| {
+            let [a, b, c] = mesh.triangles[*face as usize];
+            [[a, b], [b, c], [c, a]].iter().any(|[a, b]| squared(*a, *b) < least)
+        })
+    })
 }
 
 /// The normal of each vertex from the faces with `counts` around it, or those that the file has

@@ -99,20 +99,21 @@ pub(super) fn decide(
         holds(from, to) || (runs[r as usize].closed && holds(0.0, from) && holds(to, whole))
     };
     let teeth = Teeth::new(&court, segments);
+    let is_ripple = |id: u32| {
+        matches!(segments[id as usize].role, Role::Witness { fold: true, .. })
+            || teeth.holds(id, is_seen_between)
+    };
     let mut drawn: Vec<Bare> = Vec::new();
     for own in testimony.bare.chunk_by(|a, b| a.segment == b.segment) {
         let segment = &segments[own[0].segment as usize];
         let is_bare = |bare: &&Bare| !court.is_inked(segment.at((bare.from + bare.to) / 2.0), is_seen);
         let own: Vec<Bare> = own.iter().filter(is_bare).copied().collect();
-        let Some(first) = own.first() else { continue };
-        if own.iter().all(|bare| !bare.silhouette)
-            && (matches!(segment.role, Role::Witness { fold: true, .. })
-                || teeth.holds(first.segment, is_seen_between))
-        {
-            rounded.counts.folds += 1;
-            continue;
-        }
+        let mut ripple = None;
         for bare in own {
+            if !bare.silhouette && *ripple.get_or_insert_with(|| is_ripple(bare.segment)) {
+                rounded.counts.folds += 1;
+                continue;
+            }
             match drawn.last_mut() {
                 Some(last)
                     if last.segment == bare.segment
