@@ -30,6 +30,8 @@ impl Node {
 pub struct Assembly {
     pub meshes: Vec<Part>,
     pub root: Node,
+    /// Whether the file says normals, split at sharp edges.
+    pub with_normals: bool,
     pub eye: DVec3,
     pub target: DVec3,
     /// Vertical field of view in radians.
@@ -83,15 +85,20 @@ impl Buffers {
         self.add(&bytes, VERTICES, accessor)
     }
 
-    fn mesh(&mut self, part: &Part, material: usize) -> Value {
-        let vertices = creased::vertices(&part.solid);
-        let position = self.vectors(&vertices.positions);
-        let normal = self.vectors(&vertices.normals);
-        let corners: Vec<u32> = vertices.triangles.into_iter().flatten().collect();
+    fn mesh(&mut self, part: &Part, material: usize, with_normals: bool) -> Value {
+        let (attributes, corners): (Value, Vec<u32>) = if with_normals {
+            let vertices = creased::vertices(&part.solid);
+            let position = self.vectors(&vertices.positions);
+            let normal = self.vectors(&vertices.normals);
+            let corners = vertices.triangles.into_iter().flatten().collect();
+            (json!({ "POSITION": position, "NORMAL": normal }), corners)
+        } else {
+            let position = self.vectors(&part.solid.points);
+            (json!({ "POSITION": position }), part.solid.triangles().flatten().collect())
+        };
         let bytes: Vec<u8> = corners.iter().flat_map(|corner| (*corner as u16).to_le_bytes()).collect();
         let accessor = json!({ "componentType": SHORT, "count": corners.len(), "type": "SCALAR" });
         let indices = self.add(&bytes, INDICES, accessor);
-        let attributes = json!({ "POSITION": position, "NORMAL": normal });
         json!({
             "name": part.name,
             "primitives": [{ "attributes": attributes, "indices": indices, "material": material }],
@@ -133,7 +140,7 @@ pub fn bytes(title: &str, assembly: &Assembly) -> Vec<u8> {
             materials.push(part.material);
             materials.len() - 1
         });
-        meshes.push(buffers.mesh(part, material));
+        meshes.push(buffers.mesh(part, material, assembly.with_normals));
     }
     let mut nodes = Vec::new();
     let root = flatten(&assembly.root, &mut nodes);

@@ -3,12 +3,20 @@
 //! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
 
 mod bear;
+mod bevels;
+mod biplane;
 mod bracket;
 mod castle;
 mod castle_parts;
+mod cogs;
 mod creased;
+mod drum;
+mod elbow;
 mod gear;
 mod glb;
+mod goose;
+mod helmet;
+mod horn;
 mod knot;
 mod obj;
 mod outline;
@@ -19,12 +27,18 @@ mod polygon;
 mod pump;
 mod pump_motor;
 mod pump_parts;
+mod rack;
+mod shaft;
+mod shelf;
 mod solid;
 mod stl;
+mod street;
 mod sweep;
 mod teapot;
 
 use std::path::PathBuf;
+
+use glam::DVec3;
 
 use part::{Material, Part};
 
@@ -57,5 +71,24 @@ fn main() -> std::io::Result<()> {
     let (knot, normals) = knot::knot();
     write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))?;
     let (bear, normals) = bear::bear();
-    write("bear.ply", &ply::bytes("a bear of soft blobs", &bear, &normals))
+    write("bear.ply", &ply::bytes("a bear of soft blobs", &bear, &normals))?;
+
+    // Small models that are hard to see right.
+    let text = |title: &str, parts: &[Part], normals: &[Vec<DVec3>]| obj::text(title, None, parts, normals);
+    write("shaft.obj", text("A shaft in its bearing, in mm", &shaft::parts(), &[]).as_bytes())?;
+    write("drum.obj", text("Planetary gears in a drum, in mm", &drum::parts(), &[]).as_bytes())?;
+    let elbow = Part::new("elbow", STEEL, elbow::elbow());
+    write("elbow.obj", text("A pipe elbow with flanges, in mm", &[elbow], &[]).as_bytes())?;
+    let (blocks, normals) = bevels::parts();
+    write("bevels.obj", text("Bevelled blocks with smooth normals, in mm", &blocks, &normals).as_bytes())?;
+    write("horn.obj", text("A post horn", &horn::parts(), &[]).as_bytes())?;
+    write("goose.obj", text("A goose of few faces", &goose::parts(), &[]).as_bytes())?;
+    write("biplane.obj", text("A biplane with doubled skins", &biplane::parts(), &[]).as_bytes())?;
+    let (helmet, normals) = helmet::parts();
+    let title = "A helmet, one part of four materials";
+    write("helmet.obj", obj::text(title, Some("helmet.mtl"), &helmet, &normals).as_bytes())?;
+    write("helmet.mtl", obj::library(title, &helmet).as_bytes())?;
+    write("street.glb", &glb::bytes("ligne make_models", &street::street()))?;
+    write("shelf.ply", &ply::bytes("a scanned vase and a machined gear", &shelf::shelf(), &[]))?;
+    write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))
 }

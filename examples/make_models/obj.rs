@@ -13,7 +13,7 @@ fn number(value: f64, places: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// One object a part, turned to y up; with `normals` (one list a part, one a point) the corners refer to them.
+/// One object a part, or one for all that follow one another under one name, turned to y up; with `normals` (one list a part, one a point) the corners refer to them.
 pub fn text(title: &str, library: Option<&str>, parts: &[Part], normals: &[Vec<DVec3>]) -> String {
     let mut out = format!("# {title}\n");
     if let Some(library) = library {
@@ -22,7 +22,9 @@ pub fn text(title: &str, library: Option<&str>, parts: &[Part], normals: &[Vec<D
     let up = y_up_from_z_up();
     let mut base = 1;
     for (place, part) in parts.iter().enumerate() {
-        let _ = writeln!(out, "o {}", part.name);
+        if place == 0 || parts[place - 1].name != part.name {
+            let _ = writeln!(out, "o {}", part.name);
+        }
         for point in &part.solid.points {
             let [x, y, z] = up.transform_point3(*point).to_array().map(|value| number(value, 4));
             let _ = writeln!(out, "v {x} {y} {z}");

@@ -93,6 +93,7 @@ pub fn pump() -> Assembly {
     Assembly {
         meshes: shop.meshes,
         root,
+        with_normals: true,
         eye: DVec3::new(-0.95, 0.78, 1.42),
         target: DVec3::new(0.19, -0.07, 0.0),
         fov_y: 20.5 * PI / 180.0,
