@@ -25,7 +25,7 @@ pub use ground::Ground;
 pub use options::{RegionOptions, Seams};
 pub use paint::paint;
 pub use samples::Samples;
-pub use seen::{Look, Seen, see};
+pub use seen::{Darkened, Look, Seen, see};
 
 use crate::chain::{self, ChainOptions};
 use crate::drawing::{Length, Unit};

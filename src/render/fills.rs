@@ -12,7 +12,7 @@ use crate::field::{ShadedNormals, Shading, ToneOptions};
 use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
 use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
-use crate::region::{self, Regions, Seen, paint::PaintContext};
+use crate::region::{self, Darkened, Regions, Seen, paint::PaintContext};
 use crate::scene::{Camera, Paint, Scene, paint::Paints};
 use crate::shadow::Shadows;
 use crate::style::Style;
@@ -24,9 +24,18 @@ pub(super) fn is_lit(style: &Style) -> bool {
     style.region.enabled || style.hatch.enabled
 }
 
+/// What shadows that things cast are to darken.
+fn darkened(style: &Style) -> Darkened {
+    Darkened {
+        tones: style.region.enabled && style.tones.cast_shadows,
+        bins: style.hatch.enabled && style.hatch.cast_shadows,
+    }
+}
+
 /// The tones of a style; one for all where no regions are painted.
 fn tones(style: &Style) -> ToneOptions {
-    let cast_shadows = style.tones.cast_shadows || style.hatch.enabled && style.hatch.cast_shadows;
+    let Darkened { tones, bins } = darkened(style);
+    let cast_shadows = tones || bins;
     if style.region.enabled {
         return ToneOptions { cast_shadows, ..style.tones.clone() };
     }
@@ -94,6 +103,7 @@ pub(super) struct Fills<'a> {
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
     paints: &'a [Paint],
+    darkened: Darkened,
 }
 
 impl<'a> Fills<'a> {
@@ -124,6 +134,7 @@ impl<'a> Fills<'a> {
             shadows,
             openness,
             paints: &paints.list,
+            darkened: darkened(style),
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
         }
@@ -158,12 +169,17 @@ impl<'a> Fills<'a> {
 
     /// What the eye sees, with a view map that is not moved on the page yet.
     pub fn see(&self, map: &ViewMap, page: &Page) -> Seen {
-        region::see(&self.lit(), map, |points| self.shadowed(points), page.unit)
+        region::see(&self.lit(), map, |points| self.shadowed(points), self.darkened, page.unit)
     }
 
     /// Which lights do not reach points of faces.
-    pub fn shadowed(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
+    fn shadowed(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
         self.shadows.shadowed(&self.surface.mesh, points)
+    }
+
+    /// The same, as hatching has it: none where it knows no cast shadows.
+    pub fn shadowed_bins(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
+        if self.darkened.bins { self.shadowed(points) } else { vec![0; points.len()] }
     }
 
     /// The painted regions.

@@ -68,7 +68,7 @@ impl Hatching<'_> {
         let sampled = style.hatch.layers.iter().any(HatchLayer::samples);
         let lit = fills.lit();
         let px = Length::px(1.0).in_unit(page.unit);
-        let shadowed = |points: &[(u32, DVec3)]| fills.shadowed(points);
+        let shadowed = |points: &[(u32, DVec3)]| fills.shadowed_bins(points);
         let samples = sampled.then(|| Samples::new(&lit, ground, shadowed, offset, SAMPLES_PX * px));
         let flow = |layer: &HatchLayer| {
             let (samples, probe) = samples.as_ref()?;
