@@ -86,6 +86,11 @@ pub fn see(
 }
 
 impl Seen {
+    /// Whether anything is seen that looks so.
+    pub(crate) fn shows(&self, is_so: impl Fn(&Look) -> bool) -> bool {
+        self.table.iter().any(is_so)
+    }
+
     /// The looks of the triangles under a coarser eye, by which different looks may count as one: their
     /// numbers as in [`Seen::looks`], and the table that these point to.
     pub(super) fn seen_as(&self, coarser: impl Fn(&Look) -> Look) -> (Vec<u32>, Vec<Look>) {

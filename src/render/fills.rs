@@ -10,6 +10,7 @@ use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
 use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
+use crate::math::colour::Colour;
 use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
 use crate::region::{self, Darkened, Regions, Seen, paint::PaintContext};
@@ -65,6 +66,15 @@ pub(super) fn sought(style: &Style) -> LineOptions {
         .filter(|kind| !style.lines.kinds.contains(kind) || !style.lines.enabled);
     options.kinds.extend(missing);
     options
+}
+
+/// The colours of paints without light: those of their materials, or what stands in for these in fills.
+pub(super) fn paint_colours(paints: &[Paint], scene: &Scene, style: &Style) -> Vec<Colour> {
+    let instead = |paint: &Paint| {
+        let material = scene.materials.get(paint.material.index()).filter(|_| style.region.enabled)?;
+        style.tones.for_material(&material.name).1
+    };
+    paints.iter().map(|paint| instead(paint).unwrap_or(paint.colour)).collect()
 }
 
 /// Leaves only lines that are drawn.
@@ -143,6 +153,16 @@ impl<'a> Fills<'a> {
     /// The paints of the scene.
     pub fn paints(&self) -> &[Paint] {
         self.paints
+    }
+
+    /// Their colours without light.
+    pub fn paint_colours(&self, scene: &Scene, style: &Style) -> Vec<Colour> {
+        paint_colours(self.paints, scene, style)
+    }
+
+    /// Whether a face stands for a rounded surface.
+    pub fn is_round(&self, face: u32) -> bool {
+        self.surface.smooth.corners_of(face).is_some()
     }
 
     /// The surface under its light.
