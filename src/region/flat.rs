@@ -24,6 +24,18 @@ pub(super) fn flat(samples: &Samples, normals: &[DVec3]) -> Vec<bool> {
     for (patch, depth) in patches.iter().zip(&depths) {
         is_flat[*patch as usize] |= *patch != 0 && *depth >= WIDE;
     }
+    // Patches that go on in each other without an edge bend, if ever so gently.
+    for k in 0..patches.len() {
+        let beside =
+            [(k % samples.columns + 1 < samples.columns).then_some(k + 1), Some(k + samples.columns)];
+        for next in beside.into_iter().flatten().filter(|next| *next < patches.len()) {
+            let goes_on = samples.facets[next] == samples.facets[k] && near(normals, k, next, SAME);
+            if goes_on && patches[next] != patches[k] {
+                is_flat[patches[k] as usize] = false;
+                is_flat[patches[next] as usize] = false;
+            }
+        }
+    }
     patches.iter().map(|patch| is_flat[*patch as usize]).collect()
 }
 
@@ -118,6 +130,8 @@ mod tests {
     fn what_bends_or_is_narrow_is_not_flat() {
         let along = |angle: f64| DVec3::new(angle, 0.0, 1.0).normalize();
         assert!(!page(20, 20, |column, _| along(0.02 * column as f64)).contains(&true));
+        // Too gently to be seen from point to point.
+        assert!(!page(60, 20, |column, _| along(0.0008 * column as f64)).contains(&true));
         // Strips of a round tower.
         assert!(!page(40, 40, |column, _| along(0.1 * (column / 4) as f64)).contains(&true));
     }

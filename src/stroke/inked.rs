@@ -183,7 +183,9 @@ impl Inked<'_> {
         let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
         let varies = high - low > SAME_WIDTH * setting.width
             || (high - setting.width).abs() > SAME_WIDTH * setting.width;
-        if !(self.solid && varies) {
+        // A path has the same caps at both ends.
+        let is_cut = *caps != [self.pen.cap; 2];
+        if !(self.solid && (varies || is_cut)) {
             return Some(Shape::Path(path, axis.closed));
         }
         let halves: Vec<f64> = thick.iter().map(|width| width / 2.0).collect();
