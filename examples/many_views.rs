@@ -34,6 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         seed: style.seed,
         painted: false,
         names: &[],
+        parting: None,
     };
     let page = Page { width: 600.0, height: 600.0, unit: Unit::Px, background: style.background };
 

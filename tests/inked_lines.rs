@@ -14,6 +14,7 @@ use ligne::chain::{Chain, Sample};
 use ligne::drawing::{Drawing, LayerKind, Mark, OutlinePaint, Paint, Unit};
 use ligne::export::SvgOptions;
 use ligne::lines::LineKind;
+use ligne::math::colour::Colour;
 use ligne::math::function::{cos, sin};
 use ligne::mesh::{MaterialId, PartId};
 use ligne::render::render;
@@ -84,6 +85,7 @@ fn context(style: &Style) -> InkContext<'static> {
         seed: style.seed,
         painted: style.region.enabled,
         names: &[],
+        parting: None,
     }
 }
 
@@ -639,4 +641,60 @@ fn lines_cover_the_borders_of_painted_models() {
         assert!(asked > 500, "{name}: {asked}");
         assert!(bare.is_empty(), "{name}: {} of {asked}: {:?}", bare.len(), &bare[..bare.len().min(9)]);
     }
+}
+
+#[test]
+fn no_paper_shows_between_paint_and_a_brush_that_strays() {
+    // A bow beside the axis, and a leaf that is thin at its ends.
+    let bow = "path=\"M0 0C30 2 60 2 100 0C60 6 30 6 0 0M50 9L51 10L50 10Z\"";
+    let leaf = "path=\"M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z\"";
+    let line = chain(&[(0.0, 50.0), (200.0, 50.0)], [1.0; 2]);
+    let gaps = |brush: &str, more: &[&str]| {
+        let brush = format!("pen.brush={{{brush}}}");
+        let drawn =
+            marks(std::slice::from_ref(&line), &style(&[&[brush.as_str(), "pen.width=10"], more].concat()));
+        let path = &drawn[0].path;
+        let inked = |x: f64, y: f64| path.winding(Point::new(x, y)) != 0;
+        // Paint ends at 50: whatever ink there is on one side has none of it between.
+        let is_open = |x: f64| {
+            let ys: Vec<f64> = (-120..=120).map(|k| 50.0 + f64::from(k) * 0.05).collect();
+            let own = |y: &f64| inked(x, *y);
+            let (up, down) = ys.split_at(120);
+            let nearest = [up.iter().rev().position(own), down.iter().position(own)];
+            nearest.into_iter().flatten().min() != Some(0) || !inked(x, 50.15) || !inked(x, 49.85)
+        };
+        (5..195).filter(|x| is_open(f64::from(*x))).count()
+    };
+    let painted = "fills.enabled=true";
+    assert!(gaps(bow, &[]) > 100, "the measure sees gaps");
+    for more in [&[painted][..], &[painted, "pen.hand={tremor=1.5, tremor_length=30}"]] {
+        assert_eq!((gaps(bow, more), gaps(leaf, more)), (0, 0), "{more:?}");
+    }
+}
+
+#[test]
+fn shades_follow_what_is_beside_the_line() {
+    let mut line = chain(&(0..=20).map(|k| (f64::from(k) * 10.0, 50.0)).collect::<Vec<_>>(), [1.0; 2]);
+    for (k, sample) in line.samples.iter_mut().enumerate() {
+        let colour = if k < 10 { Colour::rgb(200, 0, 0) } else { Colour::rgb(0, 0, 100) };
+        sample.under.colour = Some(colour);
+    }
+    let drawn = marks(&[line], &style(&["pen.colour={shade=0.5}"]));
+    let found: Vec<(Colour, f64, f64)> = drawn
+        .iter()
+        .map(|mark| {
+            let reach = mark.path.bounding_box();
+            let colour = match &mark.paint {
+                Paint::Outline(outline) => outline.colour,
+                Paint::Stroke(stroke) => stroke.colour,
+                Paint::Fill(colour) => *colour,
+            };
+            (colour, reach.x0, reach.x1)
+        })
+        .collect();
+    let [(red, from, border), (blue, again, to)] = found[..] else { panic!("{found:?}") };
+    assert_eq!((red, blue), (Colour::rgb(100, 0, 0), Colour::rgb(0, 0, 50)));
+    // Round at its ends, straight where its ink changes.
+    assert!((from + 2.0).abs() < 0.2 && (to - 202.0).abs() < 0.2, "{found:?}");
+    assert!((border - 95.0).abs() < 1.0 && (again - border).abs() < 0.01, "{found:?}");
 }

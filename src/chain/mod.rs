@@ -30,6 +30,7 @@ use rayon::prelude::*;
 
 use crate::drawing::{Length, Unit};
 use crate::lines::{HiddenLines, LineKind};
+use crate::math::colour::Colour;
 use crate::mesh::{MaterialId, PartId};
 use crate::viewmap::ViewMap;
 use finish::{Tolerances, finish};
@@ -55,13 +56,24 @@ pub struct Sample {
     /// On which side of the line, as it runs, the nearer surface lies: 1 on the left, -1 on the right, 0
     /// where both are as near, and where nobody asked.
     pub side: f64,
+    /// What is seen beside the line.
+    pub under: Under,
+}
+
+/// What is seen beside a line at one of its points, where anybody asked.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Under {
+    /// The colour of the surface that the line belongs to, as it is without light.
+    pub colour: Option<Colour>,
+    /// How far to both sides of the line there is nothing but spot blacks, user units.
+    pub black: f64,
 }
 
 impl Sample {
     /// A sample of which only depth and strength are known.
     #[must_use]
     pub const fn new(depth: f64, strength: f64) -> Self {
-        Self { depth, strength, light: 1.0, gap: 1.0, side: 0.0 }
+        Self { depth, strength, light: 1.0, gap: 1.0, side: 0.0, under: Under { colour: None, black: 0.0 } }
     }
 
     /// What lies between two points of a line, at part `t` of the way.
@@ -74,6 +86,8 @@ impl Sample {
             light: mix(self.light, to.light),
             gap: mix(self.gap, to.gap),
             side: mix(self.side, to.side),
+            // Colours of surfaces do not mix.
+            under: if t < 0.5 { self.under } else { to.under },
         }
     }
 }

@@ -1,14 +1,14 @@
 //! [`Flow`]: the directions of strokes over a page, made smooth where the surface says little of them.
 //!
 //! Directions are lines without sense, kept as twice their angle, so that opposite ones agree. Where a
-//! surface bends, its directions are kept; over flat and evenly round places they are spread from around,
-//! never across the border of a facet. Source: Hertzmann and Zorin, "Illustrating smooth surfaces",
+//! surface bends, its directions are kept; over evenly round places and narrow flat ones they are spread from
+//! around, never across the border of a facet. Wide flat faces keep theirs, which are level. Source: Hertzmann and Zorin, "Illustrating smooth surfaces",
 //! SIGGRAPH 2000, section 5, there with four directions on the mesh.
 
 use kurbo::{Point, Vec2};
 
 use crate::region::Samples;
-use crate::region::samples::Axis;
+use crate::region::samples::{Axes, Axis};
 
 /// The directions of strokes over a page.
 #[derive(Debug, Clone)]
@@ -26,9 +26,10 @@ const NEIGHBOUR: f32 = 3.0;
 impl<'a> Flow<'a> {
     /// The flow along axes that are given at the points of a lattice.
     #[must_use]
-    pub fn new(samples: &'a Samples, given: &[Axis]) -> Self {
-        let axes = samples.spread(given.to_vec(), ROUNDS, |k, own, around| {
-            if samples.facets[k] == 0 {
+    pub fn new(samples: &'a Samples, axes: &Axes) -> Self {
+        let given = &axes.of;
+        let axes = samples.spread(given.clone(), ROUNDS, |k, own, around| {
+            if samples.facets[k] == 0 || axes.hold[k] {
                 return own;
             }
             let sure = (given[k][0] * given[k][0] + given[k][1] * given[k][1]).sqrt();

@@ -1,4 +1,4 @@
-//! Strokes of one layer as marks: one for each facet and degree of pressure.
+//! Strokes of one layer as marks: one for each facet, degree of pressure and colour.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,11 @@ use super::options::{HatchLayer, HatchOptions};
 use super::share::fullest;
 use super::{HatchContext, Hatched, Tooth, colour, covered_at, provenance, speckle, tone};
 use crate::drawing::{Join, Length, Mark, OutlinePaint, Paint, StrokePaint};
+use crate::math::colour::Colour;
 use crate::math::noise::hash;
 use crate::region::{Ground, Look};
 
-/// The marks of a layer of lines: one for each facet and degree of pressure.
+/// The marks of a layer of lines: one for each facet, degree of pressure and colour.
 pub(super) fn lines(
     ground: &Ground,
     context: &HatchContext,
@@ -23,17 +24,18 @@ pub(super) fn lines(
     layer: &HatchLayer,
     hatched: &Hatched,
 ) -> Vec<Mark> {
-    let mut sets: BTreeMap<(u32, usize), Vec<&HatchStroke>> = BTreeMap::new();
+    let mut sets: BTreeMap<(u32, usize, Colour), Vec<&HatchStroke>> = BTreeMap::new();
     for stroke in &hatched.strokes {
-        let facet = ground.cells[stroke.cell as usize].facet;
-        sets.entry((facet, mark::degree(stroke.pressure))).or_default().push(stroke);
+        let own = &ground.cells[stroke.cell as usize];
+        let ink = colour(layer.colour, own.look, context);
+        sets.entry((own.facet, mark::degree(stroke.pressure), ink)).or_default().push(stroke);
     }
     let fullest: Vec<f64> = options.layers.iter().map(|layer| fullest(layer, context.unit)).collect();
     let px = Length::px(1.0).in_unit(context.unit);
     let [pitch, width] = [layer.pitch(), layer.width].map(|length| length.in_unit(context.unit));
-    let sets: Vec<((u32, usize), Vec<&HatchStroke>)> = sets.into_iter().collect();
+    let sets: Vec<((u32, usize, Colour), Vec<&HatchStroke>)> = sets.into_iter().collect();
     sets.par_iter()
-        .map(|((_, degree), strokes)| {
+        .map(|((_, degree, ink), strokes)| {
             let cell = strokes[0].cell;
             let look = ground.cells[cell as usize].look;
             let swollen = |cell: u32, p: Point| {
@@ -44,7 +46,7 @@ pub(super) fn lines(
             let nib = Nib { width: width * pressure, taper: layer.taper, px };
             let mut axis = BezPath::new();
             strokes.iter().for_each(|stroke| mark::add_line(stroke, px, &mut axis));
-            let mut colour = colour(layer.colour, look, context);
+            let mut colour = *ink;
             colour.a = (f64::from(colour.a) * layer.opacity * f64::midpoint(1.0, pressure)).round() as u8;
             let (path, paint) = if layer.swell || layer.taper > 0.0 {
                 let mut path = BezPath::new();

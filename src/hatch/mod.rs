@@ -61,6 +61,8 @@ pub struct HatchContext<'a> {
     pub parts: &'a [Arc<str>],
     /// Names and base colours of the materials, by [`crate::mesh::MaterialId`].
     pub materials: &'a [(Arc<str>, Colour)],
+    /// Colours of the paints, by [`crate::mesh::PaintId`]; where there is none, the material's counts.
+    pub paints: &'a [Colour],
     /// The tone of each paint, by [`crate::mesh::PaintId`].
     pub tones: &'a [Tone],
     /// The page asked at the points of a lattice, for layers that need it: see [`HatchLayer::samples`].
@@ -248,8 +250,9 @@ fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
     match ink {
         Ink::Fixed(colour) => colour,
         Ink::Shade(shade) => {
-            let base = context.materials.get(look.material.index());
-            base.map_or(Colour::BLACK, |(_, base)| base.darker(shade))
+            let material = context.materials.get(look.material.index()).map(|(_, base)| *base);
+            let base = context.paints.get(look.paint.index()).copied().or(material);
+            base.map_or(Colour::BLACK, |base| base.darker(shade))
         }
     }
 }

@@ -22,6 +22,9 @@ pub struct HatchOptions {
     pub cast_shadows: bool,
     /// How many of the darkest bins are painted solid: spot blacks. Default: 0.
     pub blacks: usize,
+    /// Width of the lines in the colour of the paper that part blacks of different surfaces, in parts of the
+    /// width of the ink that they replace; 0 = none. Default: 0.7.
+    pub parting: f64,
     /// Patches of light and shade of less area than a square with this side go to a neighbour. Default:
     /// 4 px.
     pub crumb: Length,
@@ -38,6 +41,7 @@ impl Default for HatchOptions {
             materials: Vec::new(),
             cast_shadows: false,
             blacks: 0,
+            parting: 0.7,
             crumb: Length::px(4.0),
             layers: Vec::new(),
         }

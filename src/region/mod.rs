@@ -7,6 +7,7 @@
 
 mod arcs;
 mod cells;
+mod flat;
 pub mod ground;
 pub mod level_curves;
 mod looks;
@@ -14,6 +15,7 @@ mod merge;
 mod noding;
 pub mod options;
 pub mod paint;
+mod piece_grid;
 pub mod samples;
 pub mod seen;
 mod thin;
@@ -25,7 +27,7 @@ pub use ground::Ground;
 pub use options::{RegionOptions, Seams};
 pub use paint::paint;
 pub use samples::Samples;
-pub use seen::{Look, Seen, see};
+pub use seen::{Darkened, Look, Seen, see};
 
 use crate::chain::{self, ChainOptions};
 use crate::drawing::{Length, Unit};

@@ -9,6 +9,7 @@ use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
 use super::Ground;
+use super::flat::flat;
 use crate::field::SurfacePoint;
 use crate::lines::Lit;
 use crate::mesh::FaceId;
@@ -48,20 +49,34 @@ pub struct Samples {
 /// times how sure it is, 0 to 1.
 pub type Axis = [f32; 2];
 
+/// The directions at the points of a lattice.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Axes {
+    /// One a point.
+    pub of: Vec<Axis>,
+    /// Which of them hold whatever lies around: those of wide flat faces.
+    pub hold: Vec<bool>,
+}
+
 /// What faces and light say of each point.
 pub struct Probe<'a> {
     lit: &'a Lit<'a>,
     /// The point of the surface at each point of the lattice where one is seen: its face and place.
     hits: Vec<Option<(u32, DVec3)>>,
+    /// The normal there; zero where no surface is seen.
+    normals: Vec<DVec3>,
+    /// The same, of the face itself where it stands for no rounded surface.
+    as_built: Vec<DVec3>,
 }
 
 impl Samples {
-    /// Asks at points `pitch` apart. `shadowed` tells which lights do not reach points of faces; `offset`
-    /// moves the image on the page.
+    /// Asks at points `pitch` apart. `shadowed` tells which lights do not reach points of faces, and `is_round`
+    /// which faces stand for a rounded surface; `offset` moves the image on the page.
     pub fn new<'a>(
         lit: &'a Lit,
         ground: &Ground,
         shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
+        is_round: impl Fn(u32) -> bool + Sync,
         offset: Vec2,
         pitch: f64,
     ) -> (Self, Probe<'a>) {
@@ -101,8 +116,22 @@ impl Samples {
                 lit.shading.value(channel, paint, &point, *mask) as f32
             })
             .collect();
+        let normals: Vec<DVec3> = hits
+            .par_iter()
+            .with_min_len(1 << 10)
+            .map(|hit| hit.map_or(DVec3::ZERO, |(face, at)| lit.at(face, at).normal))
+            .collect();
+        // However light is blended over the faces of a polyhedron, they are flat.
+        let own = |face: u32| DVec3::from_array(lit.mesh.face_normals[face as usize].map(f64::from));
+        let as_built = hits
+            .iter()
+            .zip(&normals)
+            .map(|(hit, shaded)| {
+                hit.filter(|(face, _)| !is_round(*face)).map_or(*shaded, |(face, _)| own(face))
+            })
+            .collect();
         let samples = Self { pitch, origin, columns, rows, cells, facets, lights };
-        (samples, Probe { lit, hits })
+        (samples, Probe { lit, hits, normals, as_built })
     }
 
     /// The point of a number.
@@ -173,12 +202,34 @@ impl Samples {
 
     /// The directions that are asked for, one a point.
     #[must_use]
-    pub fn axes(&self, probe: &Probe, asked: Asked) -> Vec<Axis> {
-        match asked {
-            Asked::Light => vec![[0.0; 2]; self.facets.len()],
-            Asked::Bend(angle) => probe.bends(self, angle),
-            Asked::Shade(angle) => self.shades(angle),
-        }
+    pub fn axes(&self, probe: &Probe, asked: Asked) -> Axes {
+        let (mut of, angle) = match asked {
+            Asked::Light => (vec![[0.0; 2]; self.facets.len()], 0.0),
+            Asked::Bend(angle) => (probe.bends(self, angle), angle),
+            Asked::Shade(angle) => (self.shades(angle), angle),
+        };
+        // Over flat faces light from afar does not change, but that of lamps does.
+        let follows_light = matches!(asked, Asked::Shade(_))
+            && probe.lit.shading.bins().is_some_and(|bins| probe.lit.shading.is_local(bins));
+        let mut hold = if asked == Asked::Light || follows_light {
+            vec![false; of.len()]
+        } else {
+            flat(self, &probe.as_built)
+        };
+        let level = |k: usize| {
+            let (_, at) = probe.hits[k]?;
+            (self.facets[k] != 0).then(|| turned(probe.level(at, probe.as_built[k]), angle))
+        };
+        of.par_iter_mut().zip(&mut hold).enumerate().with_min_len(1 << 10).for_each(|(k, (axis, hold))| {
+            let sure = f64::from(axis[0] * axis[0] + axis[1] * axis[1]).sqrt();
+            if asked != Asked::Light && (*hold || sure < HABIT) {
+                match level(k) {
+                    Some(way) => *axis = along(way, if *hold { 1.0 } else { HABIT }),
+                    None => *hold = false,
+                }
+            }
+        });
+        Axes { of, hold }
     }
 
     /// Where the light changes most on the page.
@@ -208,7 +259,7 @@ impl Samples {
                     return [0.0; 2];
                 }
                 let slope = DVec2::new(x, y);
-                axis(turned(slope, angle), (slope.length() / STEEP).min(1.0))
+                along(turned(slope, angle), (slope.length() / STEEP).min(1.0))
             })
             .collect()
     }
@@ -238,16 +289,15 @@ impl Probe<'_> {
             .into_par_iter()
             .with_min_len(1 << 10)
             .map(|k| {
-                let Some((_, at)) = self.hits[k] else { return [0.0; 2] };
-                if samples.facets[k] == 0 {
+                if samples.facets[k] == 0 || self.hits[k].is_none() {
                     return [0.0; 2];
                 }
                 let (column, row) = (k % columns, k / columns);
                 let x = around(k, 1, column > 0, column + 1 < columns);
                 let y = around(k, columns, row > 0, row + 1 < samples.rows);
                 match bend([x.0, y.0], [x.1, y.1], angle, size) {
-                    Some((way, sure)) if sure > HABIT => axis(way, sure),
-                    _ => axis(turned(self.level(at, normals[k]), angle), HABIT),
+                    Some((way, sure)) => along(way, sure),
+                    None => [0.0; 2],
                 }
             })
             .collect()
@@ -255,17 +305,10 @@ impl Probe<'_> {
 
     /// The unit normals at all points, each evened out over its neighbours on the facet.
     fn smooth_normals(&self, samples: &Samples) -> Vec<DVec3> {
-        let mut normals: Vec<DVec3> = self
-            .hits
-            .par_iter()
-            .with_min_len(1 << 10)
-            .map(|hit| hit.map_or(DVec3::ZERO, |(face, at)| self.lit.at(face, at).normal))
-            .collect();
-        normals = samples.spread(normals, EVENED, |_, own, around| {
+        samples.spread(self.normals.clone(), EVENED, |_, own, around| {
             let sum: DVec3 = around.into_iter().flatten().sum();
             (own + sum).normalize_or_zero()
-        });
-        normals
+        })
     }
 
     /// The level direction of a surface on the page: hands draw walls with level strokes. On level surfaces
@@ -337,7 +380,7 @@ fn turned(v: DVec2, angle: f64) -> DVec2 {
 }
 
 /// The line along a vector, whose length counts as well.
-fn axis(v: DVec2, sure: f64) -> Axis {
+fn along(v: DVec2, sure: f64) -> Axis {
     let length2 = v.length_squared();
     if length2 <= 0.0 || !length2.is_finite() {
         return [0.0; 2];

@@ -45,10 +45,25 @@ pub struct Seen {
     pub leaks: u64,
 }
 
+/// Which looks cast shadows darken: colours and hatching each have a switch of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Darkened {
+    /// The tones of fills.
+    pub tones: bool,
+    /// The bins of hatching.
+    pub bins: bool,
+}
+
 /// Cuts the page along the visible lines of a view map, before the map is moved on the page, and asks
 /// what is seen. `shadowed` tells which lights do not reach points of faces.
 #[must_use]
-pub fn see(lit: &Lit, map: &ViewMap, shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>, unit: Unit) -> Seen {
+pub fn see(
+    lit: &Lit,
+    map: &ViewMap,
+    shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
+    darkened: Darkened,
+    unit: Unit,
+) -> Seen {
     let frame = &lit.view.frame;
     let step = frame.width.max(frame.height) / tolerance::REGION_STEPS;
     let px = Length::px(1.0).in_unit(unit);
@@ -65,12 +80,17 @@ pub fn see(lit: &Lit, map: &ViewMap, shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u
             (a + b + c) / 3.0 * step
         })
         .collect();
-    let (looks, table) = looks_at(lit, &centres, shadowed);
+    let (looks, table) = looks_at(lit, &centres, shadowed, darkened);
     let (looks, leaks) = looks::decide(&cut, &looks, tolerance::LEAK_PX * px / step);
     Seen { cut, looks, table, step, leaks }
 }
 
 impl Seen {
+    /// Whether anything is seen that looks so.
+    pub(crate) fn shows(&self, is_so: impl Fn(&Look) -> bool) -> bool {
+        self.table.iter().any(is_so)
+    }
+
     /// The looks of the triangles under a coarser eye, by which different looks may count as one: their
     /// numbers as in [`Seen::looks`], and the table that these point to.
     pub(super) fn seen_as(&self, coarser: impl Fn(&Look) -> Look) -> (Vec<u32>, Vec<Look>) {
@@ -125,6 +145,7 @@ fn looks_at(
     lit: &Lit,
     points: &[DVec2],
     shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
+    darkened: Darkened,
 ) -> (Vec<u32>, Vec<Look>) {
     let fronts = front_faces(lit.mesh, lit.view, points);
     let hits: Vec<(usize, u32, DVec3)> = fronts
@@ -142,7 +163,9 @@ fn looks_at(
         .par_iter()
         .with_min_len(256)
         .enumerate()
-        .map(|(i, (k, face, at))| (*k, look(lit, *face, *at, masks.get(i).copied().unwrap_or_default())))
+        .map(|(i, (k, face, at))| {
+            (*k, look(lit, *face, *at, masks.get(i).copied().unwrap_or_default(), darkened))
+        })
         .collect();
     let mut table: Vec<Look> = looks.iter().map(|(_, look)| *look).collect();
     table.sort_unstable();
@@ -155,11 +178,15 @@ fn looks_at(
 }
 
 /// What a face looks like at a point of it.
-fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32) -> Look {
+fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> Look {
     let mesh = lit.mesh;
     let (material, paint) = (mesh.face_material[face as usize], mesh.paint(FaceId(face)));
     let point = lit.at(face, at);
-    let (tone, bin) = lit.tone_and_bin(paint, &point, shadowed);
-    let cast = shadowed != 0 && lit.tone(paint, &point, 0) != tone;
+    let (tone_lit, bin_lit) = lit.tone_and_bin(paint, &point, 0);
+    let (tone_dark, bin_dark) =
+        if shadowed == 0 { (tone_lit, bin_lit) } else { lit.tone_and_bin(paint, &point, shadowed) };
+    let tone = if darkened.tones { tone_dark } else { tone_lit };
+    let bin = if darkened.bins { bin_dark } else { bin_lit };
+    let cast = tone != tone_lit;
     Look { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }
 }

@@ -20,16 +20,16 @@ use crate::view::View;
 use crate::viewmap::front_faces;
 
 /// How far beside a line the eye is asked, px.
-const BESIDE_PX: f64 = 1.5;
+pub(super) const BESIDE_PX: f64 = 1.5;
 
 /// Places of a line at which it is asked lie no farther apart than this, px.
-const STEP_PX: f64 = 3.0;
+pub(super) const STEP_PX: f64 = 3.0;
 
 /// What lies this much farther (part of the model) is as far as background.
 const FAR_OF_MODEL: f64 = 0.2;
 
 /// Of two surfaces beside a line the nearer one is the line's own if it is so much nearer, part of the model.
-const NEARER_OF_MODEL: f64 = 0.01;
+pub(super) const NEARER_OF_MODEL: f64 = 0.01;
 
 /// A view, and where it lies on the page.
 pub(super) struct Beside<'a> {
@@ -108,7 +108,7 @@ pub(super) fn ask(chains: &mut [Chain], beside: &Beside) {
 }
 
 /// Puts points on a chain until none is farther than a step from the next.
-fn fill(chain: &mut Chain, step: f64, perspective: bool) {
+pub(super) fn fill(chain: &mut Chain, step: f64, perspective: bool) {
     let n = chain.points.len();
     let sides = if chain.closed { n } else { n.saturating_sub(1) };
     let (mut points, mut samples) = (Vec::with_capacity(n), Vec::with_capacity(n));
@@ -196,7 +196,7 @@ impl Beside<'_> {
 }
 
 /// Unit vector to the left of a chain at a point, as it runs.
-fn across(chain: &Chain, i: usize) -> Vec2 {
+pub(super) fn across(chain: &Chain, i: usize) -> Vec2 {
     let n = chain.points.len();
     let at = |k: usize| -> Point { chain.points[k] };
     let (before, after) = if chain.closed {

@@ -10,9 +10,10 @@ use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
 use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
+use crate::math::colour::Colour;
 use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
-use crate::region::{self, Regions, Seen, paint::PaintContext};
+use crate::region::{self, Darkened, Regions, Seen, paint::PaintContext};
 use crate::scene::{Camera, Paint, Scene, paint::Paints};
 use crate::shadow::Shadows;
 use crate::style::Style;
@@ -24,9 +25,18 @@ pub(super) fn is_lit(style: &Style) -> bool {
     style.region.enabled || style.hatch.enabled
 }
 
+/// What shadows that things cast are to darken.
+fn darkened(style: &Style) -> Darkened {
+    Darkened {
+        tones: style.region.enabled && style.tones.cast_shadows,
+        bins: style.hatch.enabled && style.hatch.cast_shadows,
+    }
+}
+
 /// The tones of a style; one for all where no regions are painted.
 fn tones(style: &Style) -> ToneOptions {
-    let cast_shadows = style.tones.cast_shadows || style.hatch.enabled && style.hatch.cast_shadows;
+    let Darkened { tones, bins } = darkened(style);
+    let cast_shadows = tones || bins;
     if style.region.enabled {
         return ToneOptions { cast_shadows, ..style.tones.clone() };
     }
@@ -56,6 +66,15 @@ pub(super) fn sought(style: &Style) -> LineOptions {
         .filter(|kind| !style.lines.kinds.contains(kind) || !style.lines.enabled);
     options.kinds.extend(missing);
     options
+}
+
+/// The colours of paints without light: those of their materials, or what stands in for these in fills.
+pub(super) fn paint_colours(paints: &[Paint], scene: &Scene, style: &Style) -> Vec<Colour> {
+    let instead = |paint: &Paint| {
+        let material = scene.materials.get(paint.material.index()).filter(|_| style.region.enabled)?;
+        style.tones.for_material(&material.name).1
+    };
+    paints.iter().map(|paint| instead(paint).unwrap_or(paint.colour)).collect()
 }
 
 /// Leaves only lines that are drawn.
@@ -94,6 +113,7 @@ pub(super) struct Fills<'a> {
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
     paints: &'a [Paint],
+    darkened: Darkened,
 }
 
 impl<'a> Fills<'a> {
@@ -124,6 +144,7 @@ impl<'a> Fills<'a> {
             shadows,
             openness,
             paints: &paints.list,
+            darkened: darkened(style),
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
         }
@@ -132,6 +153,16 @@ impl<'a> Fills<'a> {
     /// The paints of the scene.
     pub fn paints(&self) -> &[Paint] {
         self.paints
+    }
+
+    /// Their colours without light.
+    pub fn paint_colours(&self, scene: &Scene, style: &Style) -> Vec<Colour> {
+        paint_colours(self.paints, scene, style)
+    }
+
+    /// Whether a face stands for a rounded surface.
+    pub fn is_round(&self, face: u32) -> bool {
+        self.surface.smooth.corners_of(face).is_some()
     }
 
     /// The surface under its light.
@@ -158,12 +189,17 @@ impl<'a> Fills<'a> {
 
     /// What the eye sees, with a view map that is not moved on the page yet.
     pub fn see(&self, map: &ViewMap, page: &Page) -> Seen {
-        region::see(&self.lit(), map, |points| self.shadowed(points), page.unit)
+        region::see(&self.lit(), map, |points| self.shadowed(points), self.darkened, page.unit)
     }
 
     /// Which lights do not reach points of faces.
-    pub fn shadowed(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
+    fn shadowed(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
         self.shadows.shadowed(&self.surface.mesh, points)
+    }
+
+    /// The same, as hatching has it: none where it knows no cast shadows.
+    pub fn shadowed_bins(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
+        if self.darkened.bins { self.shadowed(points) } else { vec![0; points.len()] }
     }
 
     /// The painted regions.

@@ -68,8 +68,10 @@ impl Hatching<'_> {
         let sampled = style.hatch.layers.iter().any(HatchLayer::samples);
         let lit = fills.lit();
         let px = Length::px(1.0).in_unit(page.unit);
-        let shadowed = |points: &[(u32, DVec3)]| fills.shadowed(points);
-        let samples = sampled.then(|| Samples::new(&lit, ground, shadowed, offset, SAMPLES_PX * px));
+        let shadowed = |points: &[(u32, DVec3)]| fills.shadowed_bins(points);
+        let samples = sampled.then(|| {
+            Samples::new(&lit, ground, shadowed, |face| fills.is_round(face), offset, SAMPLES_PX * px)
+        });
         let flow = |layer: &HatchLayer| {
             let (samples, probe) = samples.as_ref()?;
             let angle = layer.angle.to_radians();
@@ -95,6 +97,7 @@ impl Hatching<'_> {
             seed: style.seed,
             parts: &parts,
             materials: &materials,
+            paints: &fills.paint_colours(scene, style),
             tones: &tones,
             samples: samples.as_ref().map(|(samples, _)| samples),
             paper: style.background.unwrap_or(Colour::WHITE),
@@ -104,18 +107,46 @@ impl Hatching<'_> {
         call(&context)
     }
 
+    /// Whether a look is a spot black.
+    fn is_spot_black(&self, look: &Look) -> bool {
+        self.style.hatch.enabled && usize::from(look.bin) < self.style.hatch.blacks
+    }
+
+    /// Whether ink on a look would not be seen.
+    fn is_black(&self, look: &Look) -> bool {
+        let painted = || {
+            let colour = self.fills.lit().shading.colour(look.paint, look.tone);
+            self.style.region.enabled && [colour.r, colour.g, colour.b].into_iter().all(|c| c <= BLACKEST)
+        };
+        self.is_spot_black(look) || painted()
+    }
+
+    /// What is black where, if there is any and blacks are to be parted.
+    pub fn black_ground(&self, seen: &Seen) -> Option<Ground> {
+        let hatch = &self.style.hatch;
+        let coarser = |look: &Look| black_or_not(look, self.is_black(look));
+        (hatch.parting > 0.0 && seen.shows(|look| self.is_black(look)))
+            .then(|| Ground::coarse(seen, coarser, hatch.crumb, self.page.unit, self.offset()))
+    }
+
     /// The outlines of what is painted solid, and what is seen there.
     fn blacks(&self, seen: &Seen) -> Vec<(BezPath, Look)> {
         let style = self.style;
-        let is_black = |look: &Look| usize::from(look.bin) < style.hatch.blacks;
-        // All that is not black is one bin.
-        let coarser = |look: &Look| Look { tone: 0, cast: false, bin: u16::from(!is_black(look)), ..*look };
+        let coarser = |look: &Look| black_or_not(look, self.is_spot_black(look));
         let options = RegionOptions { crumb: style.hatch.crumb, ..style.region.clone() };
         let regions = region::gather_as(seen, coarser, &options, &style.chain, self.page.unit);
         let reach = style.region.underlap.in_unit(self.page.unit);
         let black = region::paint::outlines(&regions, self.offset(), reach, |region| region.look.bin == 0);
         black.into_iter().map(|(path, region)| (path, region.look)).collect()
     }
+}
+
+/// Paint none of whose channels is lighter than this is black.
+const BLACKEST: u8 = 0x20;
+
+/// A look to an eye to which all that is not black is one bin.
+fn black_or_not(look: &Look, is_black: bool) -> Look {
+    Look { tone: 0, cast: false, bin: u16::from(!is_black), ..*look }
 }
 
 /// The grain of the paper, if it shows.

@@ -7,6 +7,7 @@ mod hatching;
 pub mod report;
 pub mod stage;
 mod stages;
+mod under;
 
 use std::sync::Arc;
 
@@ -24,7 +25,7 @@ use crate::math::colour::Colour;
 use crate::mesh::Mesh;
 use crate::region::Ground;
 use crate::scene::{Camera, Scene, paint::Paints};
-use crate::stroke::{self, InkContext};
+use crate::stroke::{self, InkContext, Parting};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, ViewMap};
@@ -93,7 +94,7 @@ pub struct Prepared<'a> {
     scene: &'a Scene,
     style: &'a Style,
     sought: LineOptions,
-    /// Where surfaces are painted or hatched: the paints of the scene.
+    /// Where surfaces are painted or hatched, or lines take their colour: the paints of the scene.
     paints: Option<Paints>,
     surface: Surface,
     /// For views that need finer triangles it is made anew.
@@ -104,7 +105,8 @@ impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        let paints = fills::is_lit(style).then(|| Paints::of(scene));
+        let needs_paints = fills::is_lit(style) || under::asks_colours(style);
+        let paints = needs_paints.then(|| Paints::of(scene));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);
@@ -167,6 +169,7 @@ impl<'a> Prepared<'a> {
         let Self { scene, style, paints, .. } = self;
         let OnView { surface, view, lines, fills, mut map, mut report, mut watch, warnings } = on_view;
         let mut layers: Vec<Layer> = hatching::paper(&page, style).into_iter().collect();
+        let mut blacks = None;
         if let Some(fills) = fills {
             let seen = fills.see(&map, &page);
             if style.region.enabled {
@@ -176,10 +179,12 @@ impl<'a> Prepared<'a> {
             }
             report.counts.leaks = seen.leaks;
             report.stages_ms.regions = watch.lap_ms();
+            let hatching = Hatching { fills, scene, page: &page, camera, style };
             if style.hatch.enabled {
-                layers.extend(Hatching { fills, scene, page: &page, camera, style }.layer(&seen));
+                layers.extend(hatching.layer(&seen));
                 report.stages_ms.hatching = watch.lap_ms();
             }
+            blacks = hatching.black_ground(&seen);
             fills::keep_inked(&mut map, style);
         }
         centre_on_page(&mut map, camera, &page);
@@ -188,7 +193,10 @@ impl<'a> Prepared<'a> {
         report.stages_ms.chains = watch.lap_ms();
 
         let margin = margin(camera, &page);
-        beside::ask(&mut chains, &Beside { scene, surface, view, style, margin, unit: page.unit });
+        let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
+        beside::ask(&mut chains, &beside);
+        let paints = paints.as_ref();
+        under::ask(&mut chains, &beside, lines, paints.map_or(&[], |paints| &paints.list), blacks.as_ref());
         let names = beside::names(lines, surface, &style.stroke);
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =
@@ -201,6 +209,10 @@ impl<'a> Prepared<'a> {
             seed: style.seed,
             painted: style.region.enabled,
             names: &names,
+            parting: blacks.map(|_| Parting {
+                colour: style.background.unwrap_or(Colour::WHITE),
+                width: style.hatch.parting,
+            }),
         };
         match stage {
             None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),

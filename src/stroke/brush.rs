@@ -7,6 +7,7 @@
 use kurbo::{BezPath, PathEl, Point, Vec2};
 
 use super::axis::{Axis, add_stretch, length};
+use super::brush_core;
 use super::outline::{Nib, outline};
 use super::widths::mean;
 use crate::chain::fit::unit;
@@ -50,11 +51,13 @@ const TURN: f64 = 1.0;
 const CORNER_COSINE: f64 = 0.94;
 
 /// The outline of a line drawn with a brush, and its mean width. `thick` are the widths at the points of the
-/// axis.
+/// axis, and `reach` is how far to either side of it the ink must come at least, and without a gap, wherever there is
+/// any.
 pub(super) fn drawn(
     brush: &Brush,
     axis: &Axis,
     thick: &[f64],
+    reach: &[f64],
     nib: &Nib,
     unit: Unit,
 ) -> Option<(BezPath, f64)> {
@@ -75,14 +78,21 @@ pub(super) fn drawn(
     let thick = &thick[..];
     match &brush.shape {
         BrushShape::Profile(profile, _) => {
+            let around = brush.repeats || axis.closed;
             let at = |side: usize| -> Vec<f64> {
                 let of = |(arc, width): (&f64, &f64)| {
                     let place = (arc - axis.arcs[0]) / total * copies;
-                    width * sample(profile, place, side, brush.repeats || axis.closed)
+                    width * sample(profile, place, side, around)
                 };
                 axis.arcs.iter().zip(thick).map(of).collect()
             };
             let (left, right) = (at(0), at(1));
+            let is_inked = |i: usize| !brush.repeats || left[i] + right[i] > 0.0;
+            let at_least = |side: &[f64]| -> Vec<f64> {
+                let own = |(i, half): (usize, &f64)| if is_inked(i) { half.max(reach[i]) } else { *half };
+                side.iter().enumerate().map(own).collect()
+            };
+            let (left, right) = (at_least(&left), at_least(&right));
             let both: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l + r).collect();
             let path = outline(axis, [&left, &right], nib)?;
             Some((path, mean(axis, &both)))
@@ -94,8 +104,17 @@ pub(super) fn drawn(
                 map.add(shape, copy, nib.px, &mut path);
             }
             use kurbo::Shape;
-            let area = path.area().abs();
-            (path.elements().len() > 2).then_some((path, area / total))
+            let area = path.area();
+            if reach.iter().any(|reach| *reach > 0.0) {
+                let least = if brush.repeats { 0.0 } else { 1.0 };
+                let half = |i: usize, way: Option<[f64; 2]>| match way {
+                    Some(way) => way.map(|way| reach[i].max(way * thick[i])),
+                    None => [reach[i] * least; 2],
+                };
+                let place = |i: usize| (axis.arcs[i] - axis.arcs[0]) / total * copies;
+                brush_core::add(&mut path, &brush_core::columns(shape), axis, half, place, nib);
+            }
+            (path.elements().len() > 2).then_some((path, area.abs() / total))
         }
     }
 }

@@ -6,15 +6,18 @@
 use kurbo::BezPath;
 
 use super::InkContext;
-use super::axis::Axis;
-use super::brush::{self, Brush};
+use super::axis::{Axis, length};
+use super::brush;
+use super::inks::{Stretch, Tint};
 use super::outline::{Nib, outline};
 use super::pen::Pen;
 use super::pieces::{End, Piece, broken, parted};
+use super::tinted::{Drawn, parts};
 use super::tremor::Tremor;
 use super::widths::{Setting, mean, meet, taper};
 use crate::chain::Chain;
 use crate::lines::LineKind;
+use crate::math::colour::Colour;
 use crate::math::noise::{hash, unit};
 
 /// Where surfaces are painted, lines that bound them stay over their borders by this, px; and by this on
@@ -59,11 +62,13 @@ pub(super) struct Inked<'a> {
     pub depths: [f64; 2],
     /// Whether its width may vary: not that of dashed lines.
     pub solid: bool,
+    /// What it is drawn with, from its start to its end.
+    pub inks: &'a [Stretch],
 }
 
 impl Inked<'_> {
-    /// The shapes of the line, pass by pass.
-    pub fn shapes(&self, context: &InkContext) -> Vec<Shape> {
+    /// The shapes of the line and their colours, pass by pass.
+    pub fn shapes(&self, context: &InkContext) -> Vec<(Shape, Colour)> {
         let (hand, px) = (&self.pen.hand, context.px());
         let seed = hash(context.seed, &[self.identity(context)]);
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
@@ -112,21 +117,21 @@ impl Inked<'_> {
                         piece.axis.extend(side, most * part, px);
                     }
                 }
-                shapes.extend(self.shape(piece, &tremor, pass, &setting, context));
+                shapes.extend(self.shapes_of(piece, &tremor, pass, &setting, context));
             }
         }
         shapes
     }
 
-    fn shape(
+    fn shapes_of(
         &self,
         piece: Piece,
         tremor: &Tremor,
         pass: u64,
         setting: &Setting,
         context: &InkContext,
-    ) -> Option<Shape> {
-        let (swell, px) = (&self.pen.swell, context.px());
+    ) -> Vec<(Shape, Colour)> {
+        let swell = &self.pen.swell;
         let Piece { axis, ends } = piece;
         let mut axis = axis.subdivided();
         let mut thick: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
@@ -146,43 +151,50 @@ impl Inked<'_> {
             }
             _ => vec![f64::INFINITY; thick.len()],
         };
+        let before = axis.points.clone();
         tremor.shake(&mut axis, &limits);
+        // A brush has to reach back to the border of the paint from wherever its axis has moved.
+        let covers = setting.covers.filter(|_| pass == 0 && self.pen.brush.is_some());
+        let moved = before.iter().zip(&axis.points).map(|(from, to)| length(*to - *from));
+        let reach: Vec<f64> = moved.map(|way| covers.map_or(0.0, |to_side| to_side + way)).collect();
+        let drawn = Drawn { axis, thick, reach, caps: [self.pen.cap; 2] };
+        if let [Stretch { tint, .. }] = self.inks {
+            let shape = self.shape(&drawn.times(tint.width), setting, context);
+            return shape.map(|shape| (shape, tint.colour)).into_iter().collect();
+        }
+        let round = self.chain.closed.then(|| self.axis.length());
+        let parts = parts(&drawn, self.inks, round);
+        let shape = |(part, tint): &(Drawn, Tint)| Some((self.shape(part, setting, context)?, tint.colour));
+        parts.iter().filter_map(shape).collect()
+    }
+
+    /// The shape of a piece of one ink.
+    fn shape(&self, drawn: &Drawn, setting: &Setting, context: &InkContext) -> Option<Shape> {
+        let (Drawn { axis, thick, reach, caps }, px) = (drawn, context.px());
         let path = axis.path(px);
         if path.elements().len() < 2 {
             return None;
         }
+        let nib = Nib { caps: *caps, join: self.pen.join, px };
         if let (true, Some(brush)) = (self.solid, &self.pen.brush) {
-            return self.brushed(brush, &axis, &thick, path, context);
+            let (outline, width) = brush::drawn(brush, axis, thick, reach, &nib, context.unit)?;
+            return Some(Shape::Outline { path: outline, axis: path, width });
         }
         let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
         let varies = high - low > SAME_WIDTH * setting.width
             || (high - setting.width).abs() > SAME_WIDTH * setting.width;
-        if !(self.solid && varies) {
+        // A path has the same caps at both ends.
+        let is_cut = *caps != [self.pen.cap; 2];
+        if !(self.solid && (varies || is_cut)) {
             return Some(Shape::Path(path, axis.closed));
         }
         let halves: Vec<f64> = thick.iter().map(|width| width / 2.0).collect();
-        let nib = Nib { cap: self.pen.cap, join: self.pen.join, px };
-        let width = mean(&axis, &thick);
-        outline(&axis, [&halves, &halves], &nib).map(|outline| Shape::Outline {
+        let width = mean(axis, thick);
+        outline(axis, [&halves, &halves], &nib).map(|outline| Shape::Outline {
             path: outline,
             axis: path,
             width,
         })
-    }
-
-    /// A piece drawn with a brush.
-    fn brushed(
-        &self,
-        brush: &Brush,
-        axis: &Axis,
-        thick: &[f64],
-        path: BezPath,
-        context: &InkContext,
-    ) -> Option<Shape> {
-        let px = context.px();
-        let nib = Nib { cap: self.pen.cap, join: self.pen.join, px };
-        let (outline, width) = brush::drawn(brush, axis, thick, &nib, context.unit)?;
-        Some(Shape::Outline { path: outline, axis: path, width })
     }
 
     /// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where

@@ -2,6 +2,7 @@
 
 mod axis;
 pub mod brush;
+mod brush_core;
 pub mod brush_source;
 pub mod dash;
 mod dense;
@@ -9,12 +10,14 @@ mod ends;
 mod halo;
 pub mod hand;
 mod inked;
+mod inks;
 pub mod options;
 mod outline;
 pub mod pen;
 mod pieces;
 mod sides;
 pub mod swell;
+mod tinted;
 pub mod travel;
 mod tremor;
 mod widths;
@@ -32,12 +35,13 @@ pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions}
 pub use pen::{Ink, Pen, PenChange};
 pub use swell::{Swell, SwellChange};
 
-use crate::chain::Chain;
+use crate::chain::{Chain, Under};
 use crate::drawing::{Layer, LayerKind, Length, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
 use crate::lines::HiddenLines;
 use crate::math::colour::Colour;
 use axis::Axis;
 use inked::{Inked, Shape};
+use inks::Tint;
 use outline::Nib;
 
 /// What strokes need of the scene and the page: names, colours and the unit.
@@ -57,6 +61,17 @@ pub struct InkContext<'a> {
     pub painted: bool,
     /// For feature segments, by their number, what lasts while the eye moves; 0 = nothing. May be empty.
     pub names: &'a [u64],
+    /// What parts spot blacks, where there are any.
+    pub parting: Option<Parting>,
+}
+
+/// The line between two spot blacks, on which ink would not be seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parting {
+    /// Its colour: that of the paper.
+    pub colour: Colour,
+    /// Its width, in parts of the pen's.
+    pub width: f64,
 }
 
 impl InkContext<'_> {
@@ -87,7 +102,8 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     visible.sort_by_key(rank);
     let (behind, all) = (hidden.len(), [hidden, visible].concat());
     let pens: Vec<Pen> = all.par_iter().map(|chain| selection.pen(chain)).collect();
-    let mut hidden: Vec<Vec<Mark>> = if pens.iter().any(Pen::has_hand) {
+    let tinted = chains.iter().flat_map(|chain| &chain.samples).any(|s| s.under != Under::default());
+    let mut hidden: Vec<Vec<Mark>> = if tinted || pens.iter().any(Pen::has_hand) {
         handmade(&all, &pens, context)
     } else {
         all.par_iter()
@@ -138,7 +154,10 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
         if chain.path.elements().len() < 2 || width <= 0.0 {
             return Vec::new();
         }
-        if !pen.has_hand() && gaps[i].is_empty() {
+        let inks = inks::stretches(&axes[i], chain, pen, context);
+        let is_plain =
+            inks.len() == 1 && inks[0].tint == Tint { colour: colour(chain, context, pen), width: 1.0 };
+        if is_plain && !pen.has_hand() && gaps[i].is_empty() {
             return mark(chain, context, pen).into_iter().collect();
         }
         let solid = is_solid(chain, context, pen);
@@ -148,11 +167,11 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
             if side == 0 { widths.first() } else { widths.last() }.copied()
         };
         let joined = joined[i].map(|end| end.and_then(there));
-        let shapes = Inked { chain, axis, pen, thick, joined, gaps, depths, solid }.shapes(context);
-        let painted = shapes.into_iter().map(|shape| match shape {
-            Shape::Path(path, closed) => stroked(path, closed, chain, context, pen),
+        let shapes =
+            Inked { chain, axis, pen, thick, joined, gaps, depths, solid, inks: &inks }.shapes(context);
+        let painted = shapes.into_iter().map(|(shape, colour)| match shape {
+            Shape::Path(path, closed) => stroked(path, closed, colour, chain, context, pen),
             Shape::Outline { path, axis, width: mean } => {
-                let colour = colour(chain, context, pen);
                 let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
                 Mark { path, paint, provenance: provenance(chain, context) }
             }
@@ -167,15 +186,14 @@ fn is_solid(chain: &Chain, context: &InkContext, pen: &Pen) -> bool {
     pen.dash.is_empty() || (chain.invisibility > 0 && context.hidden == HiddenLines::Solid)
 }
 
-/// The colour of a chain's ink.
+/// The colour of a chain's ink, where nobody asked what is beside it.
 fn colour(chain: &Chain, context: &InkContext, pen: &Pen) -> Colour {
-    let material = context.materials.get(chain.material.index());
-    let mut colour = match pen.colour {
-        Ink::Fixed(colour) => colour,
-        Ink::Shade(shade) => material.map_or(Colour::BLACK, |(_, base)| base.darker(shade)),
-    };
-    colour.a = (f64::from(colour.a) * pen.opacity).round() as u8;
-    colour
+    inks::plain(chain, pen, None, context)
+}
+
+/// The colour of a chain's material.
+fn material_colour(chain: &Chain, context: &InkContext) -> Option<Colour> {
+    context.materials.get(chain.material.index()).map(|(_, base)| *base)
 }
 
 /// One chain with its pen; `None` if it has no path or its pen no width.
@@ -188,7 +206,7 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
     if is_solid(chain, context, pen) && fades {
         let axis = Axis::of(chain, context.px());
         let widths = widths::faded(&axis, width, pen.fade);
-        let nib = Nib { cap: pen.cap, join: pen.join, px: context.px() };
+        let nib = Nib { caps: [pen.cap; 2], join: pen.join, px: context.px() };
         if let Some(path) = outline::soft_outline(&axis, &widths, &nib) {
             let (colour, mean) = (colour(chain, context, pen), widths::mean(&axis, &widths));
             let axis = chain.path.clone();
@@ -196,11 +214,18 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
             return Some(Mark { path, paint, provenance: provenance(chain, context) });
         }
     }
-    Some(stroked(chain.path.clone(), chain.closed, chain, context, pen))
+    Some(stroked(chain.path.clone(), chain.closed, colour(chain, context, pen), chain, context, pen))
 }
 
 /// A path stroked with a chain's pen.
-fn stroked(path: BezPath, closed: bool, chain: &Chain, context: &InkContext, pen: &Pen) -> Mark {
+fn stroked(
+    path: BezPath,
+    closed: bool,
+    colour: Colour,
+    chain: &Chain,
+    context: &InkContext,
+    pen: &Pen,
+) -> Mark {
     let (dash, dash_offset) = if is_solid(chain, context, pen) {
         (Vec::new(), 0.0)
     } else {
@@ -208,7 +233,6 @@ fn stroked(path: BezPath, closed: bool, chain: &Chain, context: &InkContext, pen
         dash::fit(&path, closed, &period)
     };
     let width = pen.width.in_unit(context.unit);
-    let colour = colour(chain, context, pen);
     let paint = Paint::Stroke(StrokePaint { width, colour, cap: pen.cap, join: pen.join, dash, dash_offset });
     Mark { path, paint, provenance: provenance(chain, context) }
 }

@@ -24,7 +24,8 @@ const QUARTER: f64 = 0.552_284_749_830_793_4;
 /// The shape of ends and corners.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nib {
-    pub cap: Cap,
+    /// At the start and at the end.
+    pub caps: [Cap; 2],
     pub join: Join,
     /// User units in a px.
     pub px: f64,
@@ -51,9 +52,9 @@ pub(super) fn outline(axis: &Axis, halves: [&[f64]; 2], nib: &Nib) -> Option<Bez
     let (&back, &home) = (right.points.first()?, right.points.last()?);
     path.move_to(start);
     left.add_to(tolerance, &mut path);
-    cap(&mut path, *ends[1], end, back, nib);
+    cap(&mut path, *ends[1], end, back, nib.caps[1], nib.px);
     right.add_to(tolerance, &mut path);
-    cap(&mut path, *ends[0], home, start, nib);
+    cap(&mut path, *ends[0], home, start, nib.caps[0], nib.px);
     path.close_path();
     Some(path)
 }
@@ -78,9 +79,9 @@ pub(super) fn soft_outline(axis: &Axis, widths: &[f64], nib: &Nib) -> Option<Bez
         let back: Vec<Point> = right.into_iter().rev().collect();
         path.move_to(left[0]);
         add_side(&left, tolerance, &mut path);
-        cap(&mut path, points[n - 1], left[n - 1], back[0], nib);
+        cap(&mut path, points[n - 1], left[n - 1], back[0], nib.caps[1], nib.px);
         add_side(&back, tolerance, &mut path);
-        cap(&mut path, points[0], back[n - 1], left[0], nib);
+        cap(&mut path, points[0], back[n - 1], left[0], nib.caps[0], nib.px);
         path.close_path();
     }
     Some(path)
@@ -128,16 +129,16 @@ fn add_side(points: &[Point], tolerance: f64, path: &mut BezPath) {
 }
 
 /// From the one side round the end of the axis to the other.
-fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, nib: &Nib) {
+fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, cap: Cap, px: f64) {
     let radius = from - middle;
-    if length(radius) < TOLERANCE_PX * nib.px {
+    if length(radius) < TOLERANCE_PX * px {
         path.line_to(to);
         return;
     }
     // Out of the end of the line.
     let out = Vec2::new(-radius.y, radius.x);
     let opposite = to - middle;
-    match nib.cap {
+    match cap {
         Cap::Butt => {}
         Cap::Square => {
             path.line_to(from + out);
@@ -163,7 +164,7 @@ mod tests {
     use crate::math::noise::{hash, smooth, unit as chance};
     use crate::stroke::dense::arcs;
 
-    const NIB: Nib = Nib { cap: Cap::Round, join: Join::Round, px: 1.0 };
+    const NIB: Nib = Nib { caps: [Cap::Round; 2], join: Join::Round, px: 1.0 };
 
     fn axis(points: Vec<Point>, corners: Vec<usize>, closed: bool) -> Axis {
         let samples = vec![Sample::new(1.0, 1.0); points.len()];
@@ -249,7 +250,7 @@ mod tests {
     fn corners_are_sharp_inside_and_joined_outside() {
         let corner = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0, 60.0)]);
         let widths = vec![6.0; corner.len()];
-        let nib = |join| Nib { cap: Cap::Butt, join, ..NIB };
+        let nib = |join| Nib { caps: [Cap::Butt; 2], join, ..NIB };
         let quarter = std::f64::consts::PI * 9.0 / 4.0;
         for (join, outside) in [(Join::Miter, 9.0), (Join::Bevel, 4.5), (Join::Round, quarter)] {
             let path = both(&corner, &widths, &nib(join));

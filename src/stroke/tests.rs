@@ -40,6 +40,7 @@ fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
         seed: style.seed,
         painted: false,
         names: &[],
+        parting: None,
     };
     ink(chains, &context, &style.stroke)
 }

@@ -22,6 +22,8 @@ pub(super) struct HatchingTable {
     materials_count: f64,
     cast_shadows: bool,
     blacks: usize,
+    #[serde(deserialize_with = "some_share")]
+    parting: Option<f64>,
     crumb: Option<Length>,
     layer: Vec<HatchLayer>,
     material: Vec<MaterialTable>,
@@ -56,6 +58,7 @@ impl HatchingTable {
             materials: materials().filter_map(|m| own(&m.coverage, &m.name)).collect(),
             cast_shadows: self.cast_shadows,
             blacks: self.blacks,
+            parting: self.parting.unwrap_or(hatch.parting),
             crumb: self.crumb.unwrap_or(hatch.crumb),
             layers: self.layer,
         };
@@ -78,6 +81,10 @@ fn coverage<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<f64
     Err(D::Error::custom(
         "coverage is the share of ink in each bin, darkest first: falling numbers from 1 to 0, such as [0.6, 0.3, 0]",
     ))
+}
+
+fn some_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    share(deserializer).map(Some)
 }
 
 fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
