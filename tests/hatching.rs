@@ -479,7 +479,6 @@ fn white_lines_part_blacks_and_nothing_else() {
     // From behind: all three sides are black. Of the edges between them two are joined end to end.
     let dark = from("[0, 0, -1]", &[]);
     assert_eq!(lines_in(&dark, paper), BTreeMap::from([("crease", 2)]));
-    assert!(!lines_in(&dark, Colour::rgb(0x10, 0x10, 0x14)).contains_key("crease"));
     assert!(lines_in(&dark, Colour::rgb(0x10, 0x10, 0x14)).contains_key("contour"));
     // They are as much thinner than ink as the style says, and may be left out.
     let width = |drawing: &Drawing| {

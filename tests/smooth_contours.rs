@@ -270,18 +270,20 @@ fn torus_views(around: usize, along: usize, radius: f64, tube: f64, within: f64)
 
 #[test]
 fn the_contour_of_a_torus_has_its_pieces_and_cusps() {
-    // Of 30 views those with other pieces, px off the whole contour, px of length extra and missing.
-    for (tube, around, within, wrong, off, [extra, missing]) in [
-        (0.25, 24, 0.5, 8, 2.5, [25.0, 8.0]),
-        (0.25, 48, 0.5, 0, 0.5, [0.5, 0.5]),
-        (0.25, 96, 0.5, 0, 0.5, [0.5, 0.5]),
-        (0.45, 24, 0.5, 7, 4.5, [50.0, 6.0]),
-        (0.45, 48, 0.5, 1, 0.9, [5.0, 3.0]),
-        (0.45, 96, 0.5, 0, 0.6, [3.5, 3.5]),
+    // Of 30 views those with other pieces, px of length extra and missing in a thousand. What the polyhedron
+    // shows and the torus does not is drawn as it is.
+    for (tube, around, within, wrong, [extra, missing]) in [
+        (0.25, 24, 0.5, 8, [3.0, 0.1]),
+        (0.25, 48, 0.5, 2, [1.0, 0.1]),
+        (0.25, 96, 0.5, 2, [1.0, 0.1]),
+        (0.45, 24, 0.5, 10, [4.0, 0.2]),
+        (0.45, 48, 0.5, 4, [2.0, 0.2]),
+        (0.45, 96, 0.5, 4, [1.0, 0.2]),
     ] {
         let tally = torus_views(around, around / 2, 1.0, tube, within);
-        assert!(tally.wrong <= wrong && tally.off <= off, "{tally:?}");
-        assert!(tally.extra <= extra && tally.missing <= missing, "{tally:?}");
+        assert!(tally.wrong <= wrong, "{tally:?}");
+        let share = |length: f64| 1000.0 * length / tally.length;
+        assert!(share(tally.extra) <= extra && share(tally.missing) <= missing, "{tally:?}");
     }
 }
 

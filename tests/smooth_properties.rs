@@ -55,9 +55,9 @@ fn visible(solid: &Solid, camera: &Camera) -> Vec<[Point; 2]> {
 /// differently where a symmetrical solid has many edges at that height.
 const ARC_PX: f64 = 0.1;
 
-/// How much may differ: on an open surface a stretch of an arc of about 6 px is hidden or given to the
-/// rest of its arc, which rounding may decide either way.
-const STRETCH_PX: f64 = 8.0;
+/// How much may differ, of some 3,000 px: on an open surface seen edge-on, whether a ripple of the mesh
+/// lies beside its contour or is drawn itself rounding may decide either way.
+const STRETCH_PX: f64 = 30.0;
 
 /// Compares each solid with what `change` makes of it and of the camera.
 fn unchanged(change: impl Fn(&Solid, &Camera, &mut Dice) -> (Solid, Camera)) {

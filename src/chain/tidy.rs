@@ -88,7 +88,7 @@ fn organic_parts(map: &ViewMap) -> Vec<bool> {
         let way = map.vertices[edge.end.index()].position - map.vertices[edge.start.index()].position;
         let length = length(way);
         balance[edge.part.index()] += match edge.kind {
-            LineKind::Contour if edge.smooth => length,
+            LineKind::Contour if edge.rounded => length,
             LineKind::Contour | LineKind::Crease => -length,
             _ => 0.0,
         };

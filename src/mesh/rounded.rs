@@ -100,14 +100,17 @@ impl Count {
         let shape = if machined { Make::Machined } else { Make::Round };
         let plain = faceted || self.edges < LEAST_EDGES;
         // Faces that a file means flat are drawn so, but light falls on what they stand for.
-        let believed =
-            share(self.astray, self.faces) < FEW_ASTRAY && !armoured && !(faceted && shape == Make::Round);
+        // Where all is asked to be round, the angles of a machined piece say where it is not.
+        let believed = !(all && machined)
+            && share(self.astray, self.faces) < FEW_ASTRAY
+            && !armoured
+            && !(faceted && shape == Make::Round);
         Verdict { make: if plain && !all { Make::Block } else { shape }, believed }
     }
 }
 
-/// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for statistics are judged together with those of their
-/// part and material.
+/// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for
+/// statistics are judged together with those of their part and material.
 pub(super) fn verdicts(mesh: &Mesh, planes: &Planes, all: bool) -> Vec<Verdict> {
     let faces = mesh.triangles.len();
     let pieces = Groups::new(faces, |join| {

@@ -86,52 +86,7 @@ pub(super) fn decide(
         rounded.add_run(run, [&visible, &silhouette, own], REACH_PX * limits.px);
         seen_of_run.push(visible);
     }
-    let is_seen = |r: u32, at: f64| {
-        let seen = &seen_of_run[r as usize];
-        let next = seen.partition_point(|t| t.to < at);
-        seen.get(next).is_some_and(|t| t.from <= at)
-    };
-    let is_seen_between = |r: u32, from: f64, to: f64| {
-        let seen = &seen_of_run[r as usize];
-        let whole = runs[r as usize].length();
-        // The way over the seam of a closed run is the shorter one only where it is asked of both ends.
-        let holds = |from: f64, to: f64| seen.iter().any(|t| t.from <= from && t.to >= to);
-        holds(from, to) || (runs[r as usize].closed && holds(0.0, from) && holds(to, whole))
-    };
-    let teeth = Teeth::new(&court, segments);
-    let is_ripple = |id: u32| {
-        matches!(segments[id as usize].role, Role::Witness { fold: true, .. })
-            || teeth.holds(id, is_seen_between)
-    };
-    let mut drawn: Vec<Bare> = Vec::new();
-    for own in testimony.bare.chunk_by(|a, b| a.segment == b.segment) {
-        let segment = &segments[own[0].segment as usize];
-        let is_bare = |bare: &&Bare| !court.is_inked(segment.at((bare.from + bare.to) / 2.0), is_seen);
-        let own: Vec<Bare> = own.iter().filter(is_bare).copied().collect();
-        let mut ripple = None;
-        for bare in own {
-            if !bare.silhouette && *ripple.get_or_insert_with(|| is_ripple(bare.segment)) {
-                rounded.counts.folds += 1;
-                continue;
-            }
-            match drawn.last_mut() {
-                Some(last)
-                    if last.segment == bare.segment
-                        && last.to == bare.from
-                        && last.silhouette == bare.silhouette =>
-                {
-                    last.to = bare.to;
-                }
-                _ => drawn.push(bare),
-            }
-        }
-    }
-    rounded.counts.bare = drawn.len() as u64;
-    for own in drawn.chunk_by(|a, b| a.segment == b.segment) {
-        rounded.add_witness(own);
-    }
-    rounded.bare = drawn.iter().map(|bare| bare.segment).collect();
-    rounded.bare.dedup();
+    rounded.add_bare(&court, segments, &testimony.bare, &seen_of_run);
     rounded.hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
     rounded.backed.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.start.total_cmp(&b.1.start)));
     rounded
@@ -154,7 +109,70 @@ fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
     joined
 }
 
+/// What is seen of the runs: ascending pieces of each.
+struct SeenRuns<'a> {
+    runs: &'a [Run],
+    pieces: &'a [Vec<Told>],
+}
+
+impl SeenRuns<'_> {
+    fn at(&self, run: u32, place: f64) -> bool {
+        let pieces = &self.pieces[run as usize];
+        let next = pieces.partition_point(|t| t.to < place);
+        pieces.get(next).is_some_and(|t| t.from <= place)
+    }
+
+    /// Whether all is seen between two places of a run, one way round or the other.
+    fn between(&self, run: u32, from: f64, to: f64) -> bool {
+        let holds =
+            |from: f64, to: f64| self.pieces[run as usize].iter().any(|t| t.from <= from && t.to >= to);
+        let run = &self.runs[run as usize];
+        holds(from, to) || (run.closed && holds(0.0, from) && holds(to, run.length()))
+    }
+}
+
 impl Rounded {
+    /// Adds what has no curve: all but what has ink near it by chance, and ripples of the mesh that have
+    /// other surface behind them.
+    fn add_bare(&mut self, court: &Court, segments: &[ImageSegment], bare: &[Bare], seen: &[Vec<Told>]) {
+        let seen = SeenRuns { runs: court.runs, pieces: seen };
+        let teeth = Teeth::new(court, segments);
+        let is_ripple = |id: u32| {
+            matches!(segments[id as usize].role, Role::Witness { fold: true, .. })
+                || teeth.holds(id, |run, from, to| seen.between(run, from, to))
+        };
+        let mut drawn: Vec<Bare> = Vec::new();
+        for own in bare.chunk_by(|a, b| a.segment == b.segment) {
+            let segment = &segments[own[0].segment as usize];
+            let mut ripple = None;
+            for piece in own {
+                let middle = segment.at((piece.from + piece.to) / 2.0);
+                if court.is_inked(middle, |run, place| seen.at(run, place)) {
+                    continue;
+                }
+                if !piece.silhouette && *ripple.get_or_insert_with(|| is_ripple(piece.segment)) {
+                    self.counts.folds += 1;
+                    continue;
+                }
+                match drawn.last_mut() {
+                    Some(last)
+                        if last.segment == piece.segment
+                            && last.to == piece.from
+                            && last.silhouette == piece.silhouette =>
+                    {
+                        last.to = piece.to;
+                    }
+                    _ => drawn.push(*piece),
+                }
+            }
+        }
+        self.counts.bare = drawn.len() as u64;
+        for own in drawn.chunk_by(|a, b| a.segment == b.segment) {
+            self.add_witness(own);
+            self.bare.push(own[0].segment);
+        }
+    }
+
     /// Adds what is hidden of a run: all that is not seen.
     fn add_run(&mut self, run: &Run, [visible, silhouette, told]: [&[Told]; 3], cusp: f64) {
         let mut at = 0.0;

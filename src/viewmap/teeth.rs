@@ -4,8 +4,6 @@
 //! Thin faces seen edge-on stick out of the contour like teeth of a saw, and often only one side of a
 //! tooth is seen. The smooth contour passes below, and stands for them.
 
-use rustc_hash::FxHashMap;
-
 use super::project::ImageSegment;
 use super::witnesses::{Court, Place};
 use crate::lines::Role;
@@ -17,21 +15,17 @@ const MOST_EDGES: usize = 12;
 pub(super) struct Teeth<'a> {
     court: &'a Court<'a>,
     segments: &'a [ImageSegment],
-    /// The witnesses that end in each vertex.
-    around: FxHashMap<u32, Vec<u32>>,
+    /// Vertices with the witnesses that end there, by vertex.
+    ends: Vec<(u32, u32)>,
 }
 
 impl<'a> Teeth<'a> {
     pub fn new(court: &'a Court<'a>, segments: &'a [ImageSegment]) -> Self {
-        let mut around: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
-        for (id, segment) in segments.iter().enumerate() {
-            if matches!(segment.role, Role::Witness { .. }) {
-                for end in segment.ends {
-                    around.entry(end).or_default().push(id as u32);
-                }
-            }
-        }
-        Self { court, segments, around }
+        let witnesses = segments.iter().enumerate().filter(|(_, s)| matches!(s.role, Role::Witness { .. }));
+        let mut ends: Vec<(u32, u32)> =
+            witnesses.flat_map(|(id, s)| s.ends.map(|end| (end, id as u32))).collect();
+        ends.sort_unstable();
+        Self { court, segments, ends }
     }
 
     /// Whether a witness is part of a tooth on a curve that `is_seen` (run, from, to) all along its foot.
@@ -55,7 +49,9 @@ impl<'a> Teeth<'a> {
             if let Some(place) = self.court.place(segment, point) {
                 return Some((place, way));
             }
-            let next = self.around.get(&vertex)?.iter().copied().find(|other| !passed.contains(other))?;
+            let first = self.ends.partition_point(|(of, _)| *of < vertex);
+            let here = self.ends[first..].iter().take_while(|(of, _)| *of == vertex);
+            let next = here.map(|(_, id)| *id).find(|id| !passed.contains(id))?;
             let ends = self.segments[next as usize].ends;
             vertex = if ends[0] == vertex { ends[1] } else { ends[0] };
             way += self.segments[next as usize].length();
