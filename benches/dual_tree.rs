@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
-use ligne::field;
+
 use ligne::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface, edge_lines};
 use ligne::mesh::{Mesh, ToneTree};
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
@@ -112,19 +112,18 @@ fn row(name: &str, scene: &Scene) {
             let parallel = Projection::Orthographic { height: 1.0 };
             let camera = if perspective { camera } else { camera.with_projection(parallel) }.fit(scene);
             let view = View::new(&surface.mesh, &camera);
-            let facing = field::facing(&surface.mesh, &surface.smooth, &view.frame);
-            let (plain, time) = timed(|| edge_lines::find(&surface, &view, &facing, &options));
+            let (plain, time) = timed(|| edge_lines::find(&surface, &view, &options));
             plain_time += time;
             let (by_tree, time) = timed(|| {
                 let among = search.candidates(&view.frame).items;
-                edge_lines::find_among(&among, &surface, &view, &facing, &options)
+                edge_lines::find_among(&among, &surface, &view, &options)
             });
             tree_time += time;
             assert!(plain == by_tree, "the tree finds other lines than the plain scan");
             let found = search.tree().candidates(view.frame.homogeneous_eye());
             asked += found.items.len();
             boxes += found.boxes;
-            contours += plain.segments.iter().filter(|s| s.kind == LineKind::Contour).count();
+            contours += plain.iter().filter(|s| s.kind == LineKind::Contour).count();
         }
         let count = directions().len();
         let share = 100.0 * (asked / count) as f64 / search.tree().len().max(1) as f64;

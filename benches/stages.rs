@@ -4,7 +4,6 @@ use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
-use ligne::field;
 use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
 use ligne::mesh::{Edges, HardEdges, Mesh, SmoothNormals};
 use ligne::render;
@@ -108,10 +107,7 @@ fn hard_edges(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn edge_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    let facing = field::facing(&made.surface.mesh, &made.surface.smooth, &made.view.frame);
-    bencher.bench(|| {
-        lines::edge_lines::find(black_box(&made.surface), &made.view, &facing, &made.style.lines).segments
-    });
+    bencher.bench(|| lines::edge_lines::find(black_box(&made.surface), &made.view, &made.style.lines));
 }
 
 #[divan::bench(args = SCENES)]

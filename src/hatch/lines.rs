@@ -33,7 +33,7 @@ pub(super) fn lines(
     let fullest: Vec<f64> = options.layers.iter().map(|layer| fullest(layer, context.unit)).collect();
     let px = Length::px(1.0).in_unit(context.unit);
     let [pitch, width] = [layer.pitch(), layer.width].map(|length| length.in_unit(context.unit));
-    let sets: Vec<((u32, usize, Colour), Vec<&HatchStroke>)> = sets.into_iter().collect();
+    let sets: Vec<_> = sets.into_iter().collect();
     sets.par_iter()
         .map(|((_, degree, ink), strokes)| {
             let cell = strokes[0].cell;

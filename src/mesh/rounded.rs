@@ -101,10 +101,9 @@ impl Count {
         let plain = faceted || self.edges < LEAST_EDGES;
         // Faces that a file means flat are drawn so, but light falls on what they stand for.
         // Where all is asked to be round, the angles of a machined piece say where it is not.
-        let believed = !(all && machined)
-            && share(self.astray, self.faces) < FEW_ASTRAY
-            && !armoured
-            && !(faceted && shape == Make::Round);
+        let astray = share(self.astray, self.faces) >= FEW_ASTRAY;
+        let as_planes = faceted && shape == Make::Round;
+        let believed = !(astray || armoured || as_planes || (all && machined));
         Verdict { make: if plain && !all { Make::Block } else { shape }, believed }
     }
 }

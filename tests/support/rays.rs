@@ -76,7 +76,8 @@ impl<'a> Rays<'a> {
         let low = |f: fn(&Point) -> f64| corners.iter().map(|p| f(&p.0)).fold(f64::INFINITY, f64::min) - 1e-6;
         let high =
             |f: fn(&Point) -> f64| corners.iter().map(|p| f(&p.0)).fold(f64::NEG_INFINITY, f64::max) + 1e-6;
-        let (x_of, y_of): (fn(&Point) -> f64, fn(&Point) -> f64) = (|p| p.x, |p| p.y);
+        let x_of = |p: &Point| p.x;
+        let y_of = |p: &Point| p.y;
         for row in cell(low(y_of), self.rows)..=cell(high(y_of), self.rows) {
             for column in cell(low(x_of), self.columns)..=cell(high(x_of), self.columns) {
                 let (x, y) = ((column as f64 + 0.5) * CELL, (row as f64 + 0.5) * CELL);
