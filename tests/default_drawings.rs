@@ -45,7 +45,7 @@ const MODELS: [(&str, Limits, bool); 18] = [
     ("gear.obj", EXACT, true),
     ("goose.obj", COARSE, false),
     // Its shell is of few faces, and is drawn rounder than they are.
-    ("helmet.obj", COARSE, false),
+    ("helmet.obj", Limits { tolerance: 12.0, ..EXACT }, false),
     ("horn.obj", EXACT, false),
     ("knot.ply", ROUND, false),
     ("pump.glb", EXACT, true),

@@ -308,6 +308,9 @@ fn machines_are_made_of_solids() {
         assert_eq!(parts.len(), count, "parts of {name}");
         parts.iter().for_each(|part| assert_solid(&welded(part)));
     }
+    let elbow = read_obj("elbow.obj").remove(0);
+    // A bore and twelve holes.
+    assert_eq!(elbow.points.len() as i64 - edges(&elbow).len() as i64 / 2 + elbow.faces.len() as i64, -24);
     let rack = welded(&read_stl("rack.stl"));
     assert_solid(&rack);
     assert_eq!(pieces(&rack).len(), 8);
@@ -321,7 +324,7 @@ fn machines_are_made_of_solids() {
 fn helmet_is_one_part_of_four_materials() {
     let parts = read_obj("helmet.obj");
     assert_eq!(parts.len(), 1);
-    assert_no_flat_triangles(&parts[0]);
+    assert_solid(&parts[0]);
     let text = String::from_utf8(bytes("helmet.obj")).unwrap();
     assert_eq!(text.lines().filter(|line| line.starts_with("usemtl ")).count(), 4);
     let library = String::from_utf8(bytes("helmet.mtl")).unwrap();
@@ -348,15 +351,26 @@ fn horn_is_a_sheet_with_two_mouths_and_solids() {
 }
 
 #[test]
-fn biplane_is_made_of_solids_and_skins() {
+fn biplane_has_doubled_skins() {
     let parts: Vec<Part> = read_obj("biplane.obj").iter().map(welded).collect();
     let part = |name: &str| parts.iter().find(|part| part.name == name).unwrap();
     for name in ["fuselage", "cowling", "cowling-paint", "struts", "wheels"] {
         assert_solid(part(name));
     }
-    for name in ["wing-upper", "wing-lower", "fin"] {
+    for (name, back) in [("wing-upper", true), ("wing-lower", true), ("fin", true), ("tail-plane", false)] {
+        let faces: BTreeSet<[usize; 3]> = part(name).faces.iter().map(|face| lowest_first(*face)).collect();
+        let turned = faces.iter().filter(|[a, b, c]| faces.contains(&lowest_first([*c, *b, *a]))).count();
+        let (all, expected) = (part(name).faces.len(), if back { faces.len() } else { 0 });
+        assert_eq!((turned, 2 * faces.len() / if back { 2 } else { 1 }), (expected, all), "{name}");
         assert_no_flat_triangles(part(name));
     }
+}
+
+/// The same face beginning at its lowest corner.
+fn lowest_first(mut face: [usize; 3]) -> [usize; 3] {
+    let lowest = (0..3).min_by_key(|k| face[*k]).unwrap();
+    face.rotate_left(lowest);
+    face
 }
 
 #[test]

@@ -59,6 +59,16 @@ fn a_drawing_is_approved_once_and_compared_from_then_on() {
 }
 
 #[test]
+fn drawings_of_one_name_are_written_side_by_side() {
+    let told = ["here", "there"].map(|place| {
+        let folder = folder(place);
+        check(&drawing(50.0), "lid", &folder, "", &Approval::None).unwrap_err()
+    });
+    let actual = |text: &str| text.lines().find(|line| line.starts_with("actual")).unwrap().to_owned();
+    assert_ne!(actual(&told[0]), actual(&told[1]));
+}
+
+#[test]
 fn order_and_tolerance_are_forgiven() {
     let folder = folder("forgiven");
     check(&drawing(50.0), "lid", &folder, "", &Approval::Bless).unwrap();

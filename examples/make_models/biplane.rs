@@ -35,9 +35,11 @@ fn sheet(chord: f64, span: f64, arch: f64) -> Solid {
     solid
 }
 
-/// Every face a second time, on the same points, with its back to the first.
+/// Every face a second time, on the same points, with its back to the first; both begin at the same corner,
+/// so that they are cut along the same diagonal.
 fn back_to_back(mut solid: Solid) -> Solid {
-    let backs: Vec<Vec<u32>> = solid.faces.iter().map(|face| face.iter().rev().copied().collect()).collect();
+    let back = |face: &Vec<u32>| face[..1].iter().chain(face[1..].iter().rev()).copied().collect();
+    let backs: Vec<Vec<u32>> = solid.faces.iter().map(back).collect();
     solid.faces.extend(backs);
     solid
 }

@@ -88,12 +88,12 @@ pub fn elbow() -> Solid {
     let mut solid = Solid::default();
     let frames = frames();
     let last = frames.len() - 1;
+    // The bore has one ring of faces from mouth to bend: what lies at a flange's inner face is left out.
+    let stops = frames.iter().enumerate().filter(|(i, _)| *i != 1 && *i != last - 1);
     let bore: Vec<Vec<u32>> =
-        frames.iter().map(|frame| frame.ring(&mut solid, DVec2::ZERO, INNER, SIDES)).collect();
-    // The bore has one ring of faces from flange to bend: what lies at the flange's inner face is left out.
-    let stops: Vec<usize> = (0..=last).filter(|i| *i != 1 && *i != last - 1).collect();
-    for pair in stops.windows(2) {
-        solid.band(&bore[pair[1]], &bore[pair[0]]);
+        stops.map(|(_, frame)| frame.ring(&mut solid, DVec2::ZERO, INNER, SIDES)).collect();
+    for pair in bore.windows(2) {
+        solid.band(&pair[1], &pair[0]);
     }
     let skin: Vec<Vec<u32>> =
         frames[1..last].iter().map(|frame| frame.ring(&mut solid, DVec2::ZERO, OUTER, SIDES)).collect();
@@ -101,6 +101,6 @@ pub fn elbow() -> Solid {
         solid.band(&pair[0], &pair[1]);
     }
     flange(&mut solid, [frames[0], frames[1]], &bore[0], &skin[0]);
-    flange(&mut solid, [frames[last - 1], frames[last]], &skin[skin.len() - 1], &bore[last]);
+    flange(&mut solid, [frames[last - 1], frames[last]], &skin[skin.len() - 1], &bore[bore.len() - 1]);
     solid
 }

@@ -54,7 +54,7 @@ fn strap(half_width: f64, tilt: f64, [from, to]: [f64; 2]) -> Solid {
         .map(|i| {
             let turn = from + (to - from) * f64::from(i) / f64::from(steps);
             let out = DVec3::new(0.0, cos(turn), sin(turn));
-            section.iter().map(|&(radius, x)| out * radius + DVec3::X * x).collect()
+            section.iter().rev().map(|&(radius, x)| out * radius + DVec3::X * x).collect()
         })
         .collect();
     let lean = DMat3::from_cols(

@@ -15,7 +15,7 @@ const BRASS: Material = Material { name: "brass", colour: [0.86, 0.68, 0.3], met
 const SILVER: Material = Material { name: "silver", colour: [0.8, 0.8, 0.82], metallic: 1.0, roughness: 0.2 };
 
 const SIDES: usize = 28;
-const BEND_STEPS: usize = 8;
+const BEND_STEPS: usize = 16;
 const TUBE: f64 = 0.62;
 /// Half the height of the coil, half the length of its straight pieces, and how far a turn goes to the back.
 const BEND: f64 = 3.6;

@@ -18,7 +18,10 @@
 //! environment variable `LIGNE_BLESS` set to anything but `0`, drawings are written over the approved ones instead, unless
 //! `CI` is set: drawings are approved by people.
 
+use std::hash::BuildHasher;
 use std::path::{Path, PathBuf};
+
+use rustc_hash::FxBuildHasher;
 
 use crate::diff::{self, Diff, DiffOptions, Picture, Tolerances, View};
 use crate::drawing::Drawing;
@@ -136,7 +139,7 @@ pub fn check(
     let picture = difference.map(|diff| diff.picture(View::Over).to_svg(&SvgOptions::default()));
     for (what, text) in [("actual", Some(drawn)), ("diff", picture)] {
         if let Some(text) = text {
-            let path = beside(name, what);
+            let path = beside(&approved, name, what);
             match std::fs::write(&path, text) {
                 Ok(()) => told += &format!("{what:<10} {}\n", path.display()),
                 Err(error) => {
@@ -157,8 +160,10 @@ fn compare(known: &str, drawn: &str, tolerance: &str) -> Result<Option<Diff>, Er
     Ok(Some(diff::compare(&Picture::from_svg(known)?, &Picture::from_svg(drawn)?, &options)))
 }
 
-/// Where a file for looking at goes: the temporary folder, so that nothing is left in the project.
-fn beside(name: &str, what: &str) -> PathBuf {
+/// Where a file for looking at goes: the temporary folder, so that nothing is left in the project, under a name of the
+/// approved drawing's own, so that tests that run side by side do not write over each other's.
+fn beside(approved: &Path, name: &str, what: &str) -> PathBuf {
     let flat: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
-    std::env::temp_dir().join(format!("ligne-{flat}.{what}.svg"))
+    let place = FxBuildHasher.hash_one(approved);
+    std::env::temp_dir().join(format!("ligne-{flat}-{place:016x}.{what}.svg"))
 }

@@ -35,9 +35,9 @@ pub fn hard_parts(kind: &str, dice: &mut Dice) -> Vec<Solid> {
 pub fn any_camera(dice: &mut Dice) -> Camera {
     let direction = dice.direction();
     if dice.below(2) == 0 {
-        perspective(direction * dice.between(5.0, 7.0), DVec3::ZERO, 35.0)
+        perspective(direction * dice.between(7.0, 8.0), DVec3::ZERO, 35.0)
     } else {
-        orthographic(direction * 6.0, DVec3::ZERO, 3.6)
+        orthographic(direction * 6.0, DVec3::ZERO, 4.4)
     }
 }
 
@@ -80,7 +80,8 @@ fn rod(radius: f64, half: f64, sides: usize, rings: usize) -> Solid {
 }
 
 fn any_rod(dice: &mut Dice) -> Solid {
-    let sides = 8 + dice.below(40);
+    // Nine sides turn by 40 degrees, where creases begin.
+    let sides = 10 + dice.below(38);
     let rings = [1, 1, 1, 3][dice.below(4)];
     rod(dice.between(0.08, 0.3), dice.between(0.4, 1.2), sides, rings)
 }
@@ -141,7 +142,7 @@ fn slivers(dice: &mut Dice) -> Vec<Solid> {
     let mut parts = vec![icosphere(2).moved(|p| p * 0.6)];
     for _ in 0..5 {
         let radius = dice.between(0.004, 0.01);
-        parts.push(placed(rod(radius, 1.2, 8 + dice.below(8), 1), 0.5, dice));
+        parts.push(placed(rod(radius, 1.2, 10 + dice.below(8), 1), 0.5, dice));
     }
     for _ in 0..3 {
         let half = DVec3::new(1.2, 0.0012, dice.between(0.05, 0.2));

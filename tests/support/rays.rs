@@ -113,6 +113,13 @@ impl<'a> Rays<'a> {
         found
     }
 
+    /// The nearest of the wanted faces at a place.
+    pub fn nearest(&self, at: Point, wanted: impl Fn(u32) -> bool) -> Option<f64> {
+        let seen = self.through(at).filter(|seen| wanted(seen.face));
+        let hits = seen.map(|seen| seen.nearness[0] * at.x + seen.nearness[1] * at.y + seen.nearness[2]);
+        hits.max_by(f64::total_cmp)
+    }
+
     /// Whether nothing at all is seen at a place.
     pub fn is_background(&self, at: Point) -> bool {
         self.through(at).next().is_none()

@@ -19,7 +19,8 @@ pub struct Shown {
     pub first: Option<Point>,
 }
 
-/// Asks along all visible view edges, 2 px apart; places that a shift by `excused` px clears are not counted.
+/// Asks along all visible view edges, 2 px apart; places that a shift by `excused` px clears are not counted, nor
+/// places of round lines whose polygon is seen within as much.
 pub fn hidden_by_others(scene: &Scene, camera: &Camera, options: &LineOptions, excused: f64) -> Shown {
     let polygons = Polygons::of(scene);
     let eye = Eye::new(camera);
@@ -53,9 +54,15 @@ fn ask(stages: &Stages, rays: &Rays, id: usize, excused: f64) -> Shown {
         let share = if way.hypot2() > 0.0 { (at - from).dot(way) / way.hypot2() } else { 0.5 };
         let nearness = near_p + (near_q - near_p) * share;
         let hides = |at: Point| rays.before(at, nearness, others) == Before::Something;
-        let rings = [0.25, 0.5, 1.0].map(|part| part * excused);
+        let nearby =
+            || std::iter::once(at).chain([0.25, 0.5, 1.0].into_iter().flat_map(|k| around(at, k * excused)));
+        // A round line lies beside its polygon in depth as well: what counts is whether the polygon is seen there.
+        let polygon_is_seen = |at: Point| {
+            let front = rays.nearest(at, |face| own.contains(&rays.polygons.part[face as usize]));
+            front.is_some_and(|front| rays.before(at, front, others) != Before::Something)
+        };
         shown.asked += 1;
-        if hides(at) && rings.iter().all(|radius| around(at, *radius).all(hides)) {
+        if nearby().all(hides) && !(edge.smooth && nearby().any(polygon_is_seen)) {
             shown.hidden += 1;
             shown.first = shown.first.or(Some(at));
         }

@@ -60,8 +60,9 @@ impl Truth {
         let eye = Eye::new(camera);
         let rays = Rays::new(&polygons, &eye, camera.width, camera.height);
         let lines = lines(&polygons, &eye, MAY_CREASE_DEG);
-        let places =
-            lines.par_iter().enumerate().flat_map_iter(|(id, line)| places(&rays, id, line)).collect();
+        let frame = kurbo::Rect::new(0.0, 0.0, camera.width, camera.height);
+        let along = |(id, line)| places(&rays, id, line).into_iter().filter(|place| frame.contains(place.at));
+        let places = lines.par_iter().enumerate().flat_map_iter(along).collect();
         Self { lines, places }
     }
 
