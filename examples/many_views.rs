@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         hidden,
         seed: style.seed,
         painted: false,
+        depths: [0.0, 1.0],
         names: &[],
     };
     let page = Page { width: 600.0, height: 600.0, unit: Unit::Px, background: style.background };

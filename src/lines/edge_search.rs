@@ -15,7 +15,8 @@ use crate::view::Frame;
 pub struct EdgeSearch {
     /// Edges that may be lines whatever they turn to the eye, ascending.
     fixed: Vec<u32>,
-    /// Edges between flat faces that can be nothing but contours.
+    /// Edges that can be nothing but contours: between flat faces, and within rounded surfaces where the faces
+    /// turn different sides to the eye.
     tree: DualTree,
     faces: usize,
     edges: usize,
@@ -24,7 +25,6 @@ pub struct EdgeSearch {
 /// What an edge may be.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Chance {
-    Nothing,
     OnlyContour,
     Other,
 }
@@ -87,11 +87,6 @@ fn chance(surface: &Surface, edge: usize) -> Chance {
     if first != second {
         return Chance::Other;
     }
-    if faces.iter().all(|f| smooth.corners_of(*f).is_none()) {
-        Chance::OnlyContour
-    } else if smooth.across(mesh, edge).is_some() {
-        Chance::Nothing
-    } else {
-        Chance::Other
-    }
+    let flat = faces.iter().all(|f| smooth.corners_of(*f).is_none());
+    if flat || smooth.across(mesh, edge).is_some() { Chance::OnlyContour } else { Chance::Other }
 }

@@ -29,7 +29,7 @@ enum HiddenPieces {
 /// Builds the view map of all feature lines.
 #[must_use]
 pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptions) -> ViewMap {
-    let limits = Limits::new(mesh.size, &view.frame);
+    let limits = Limits::new(&view.frame);
     let segments = project(mesh, view, lines);
     let hidden = if options.hidden == HiddenLines::None { HiddenPieces::Contours } else { HiddenPieces::All };
     let counting = hidden == HiddenPieces::All;
@@ -80,7 +80,7 @@ pub(super) fn decide_rounded(
 ) -> (Visibility, Rounded) {
     let aside = tolerance::BESIDE_ROUNDED_PX * limits.px;
     let farthest = view.points.iter().map(|p| p.z).filter(|q| q.is_finite()).fold(f64::INFINITY, f64::min);
-    let behind = if view.frame.perspective { farthest / 2.0 } else { farthest - mesh.size };
+    let behind = if view.frame.perspective { farthest / 2.0 } else { farthest - mesh.extents.ball().1 };
     let own = segments.iter().map(|s| s.asked(aside));
     let rounded = segments.iter().filter(|s| s.is_rounded());
     let asked: Vec<ImageSegment> = own.chain(rounded.map(|s| s.probe(aside, behind))).collect();

@@ -26,7 +26,7 @@ pub fn overruled(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<Overrule
         return Vec::new();
     }
     let segments = project(mesh, view, lines);
-    let limits = Limits::new(mesh.size, &view.frame);
+    let limits = Limits::new(&view.frame);
     let (seen, rounded) = decide_rounded(mesh, view, lines, &segments, &limits, false);
     let mut found = Vec::new();
     for (i, segment) in segments.iter().enumerate().filter(|(_, segment)| segment.is_rounded()) {

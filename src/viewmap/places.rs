@@ -32,7 +32,7 @@ pub fn places(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<Place> {
     let advance = rounded::advance(lines, &segments, &image_of);
     let scene = Scene { mesh, view, segments: &segments, sources: &lines.segments, advance: &advance };
     let events = events::find(&scene, &grid_over(&segments, GRID));
-    let px = Limits::new(mesh.size, &view.frame).px;
+    let px = Limits::new(&view.frame).px;
     let mut places = Vec::new();
     for run in rounded::runs(mesh, lines, &segments, &image_of) {
         let backward = even_backward(&run, &scene, tolerance::CUSP_PX * px);
