@@ -141,7 +141,8 @@ fn row(name: &str, scene: &Scene) {
         let count = directions().len();
         // Views after which the tree has saved what it took to make.
         let saved = (plain_time.as_secs_f64() - tree_time.as_secs_f64()) / count as f64;
-        let pays = if saved > 0.0 { format!("{:.0}", (made.as_secs_f64() / saved).ceil()) } else { "-".into() };
+        let pays =
+            if saved > 0.0 { format!("{:.0}", (made.as_secs_f64() / saved).ceil()) } else { "-".into() };
         let share = 100.0 * (asked / count) as f64 / search.tree().len().max(1) as f64;
         println!(
             "{:<26} {edges:>8} {:>7} {:>7}   {:>7} {share:>6.2} {:>8} {:>8}  {:>8.3} {:>8.3} {:>6.0} {pays:>6}",

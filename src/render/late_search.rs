@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use crate::lines::{EdgeSearch, Surface};
 
-/// The search is made for this view of a surface: by then it is likely that there will be many more.
-/// `cargo bench --bench dual_tree` says after how many views it has paid for itself.
+/// The search is made for this view of a surface: by then it is likely that there will be many more. Not
+/// measured yet: the last column of `cargo bench --bench dual_tree` is what it is to be taken from.
 const MADE_FOR_VIEW: u32 = 8;
 
 /// Asking each of fewer edges than this takes no time to speak of.
