@@ -40,11 +40,23 @@ fn main() {
     let given: Vec<PathBuf> =
         std::env::args().skip(1).filter(|a| !a.starts_with("--")).map(PathBuf::from).collect();
     println!(
-        "Means over 26 views; P = perspective, O = orthographic. Asked: edges whose faces are compared."
+        "Means over 26 views; P = perspective, O = orthographic. Asked: edges whose faces are compared. Pays: views \
+         after which the tree has saved the time that it took to make."
     );
     println!(
-        "{:<26} {:>8} {:>7} {:>7}   {:>7} {:>6} {:>8} {:>8}  {:>8} {:>8} {:>6}",
-        "model", "edges", "cubes", "fixed", "asked", "%", "contours", "boxes", "plain ms", "tree ms", "made"
+        "{:<26} {:>8} {:>7} {:>7}   {:>7} {:>6} {:>8} {:>8}  {:>8} {:>8} {:>6} {:>6}",
+        "model",
+        "edges",
+        "cubes",
+        "fixed",
+        "asked",
+        "%",
+        "contours",
+        "boxes",
+        "plain ms",
+        "tree ms",
+        "made",
+        "pays"
     );
     if given.is_empty() {
         for level in 3..=8 {
@@ -126,9 +138,13 @@ fn row(name: &str, scene: &Scene) {
             contours += plain.iter().filter(|s| s.kind == LineKind::Contour).count();
         }
         let count = directions().len();
+        // Views after which the tree has saved what it took to make.
+        let saved = (plain_time.as_secs_f64() - tree_time.as_secs_f64()) / count as f64;
+        let pays =
+            if saved > 0.0 { format!("{:.0}", (made.as_secs_f64() / saved).ceil()) } else { "-".into() };
         let share = 100.0 * (asked / count) as f64 / search.tree().len().max(1) as f64;
         println!(
-            "{:<26} {edges:>8} {:>7} {:>7}   {:>7} {share:>6.2} {:>8} {:>8}  {:>8.3} {:>8.3} {:>6.0}",
+            "{:<26} {edges:>8} {:>7} {:>7}   {:>7} {share:>6.2} {:>8} {:>8}  {:>8.3} {:>8.3} {:>6.0} {pays:>6}",
             format!("{name}, {}", if perspective { "P" } else { "O" }),
             search.tree().cubes(),
             search.fixed().len(),

@@ -48,8 +48,8 @@ fn main() {
 fn rows(name: &str, mesh: &Mesh) {
     let lights = [
         ("directional", Caster::Directional { towards: DVec3::new(0.5, 0.7, 0.6) }),
-        ("point", Caster::Point { position: DVec3::new(0.5, 0.7, 0.6) * mesh.size }),
-        ("six views", Caster::Point { position: DVec3::new(0.21, 0.28, 0.23) * mesh.size }),
+        ("point", Caster::Point { position: DVec3::new(0.5, 0.7, 0.6) * mesh.extents.diagonal }),
+        ("six views", Caster::Point { position: DVec3::new(0.21, 0.28, 0.23) * mesh.extents.diagonal }),
     ];
     let faces = mesh.triangles.len() as u32;
     let asked: Vec<(u32, DVec3)> = (0..100_000_u32)
@@ -59,9 +59,9 @@ fn rows(name: &str, mesh: &Mesh) {
             (face, (a + b + c) / 3.0)
         })
         .collect();
-    for reach in [f64::INFINITY, mesh.size / 10.0] {
+    for reach in [f64::INFINITY, mesh.extents.diagonal / 10.0] {
         let started = Instant::now();
-        let sky = openness(mesh, reach);
+        let sky = openness(mesh, |_| reach);
         let took = started.elapsed();
         let mean = sky.iter().sum::<f64>() / sky.len().max(1) as f64;
         let vertices = sky.len();

@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         hidden,
         seed: style.seed,
         painted: false,
+        depths: [0.0, 1.0],
         names: &[],
         parting: None,
     };

@@ -278,3 +278,28 @@ fn an_empty_surface_is_searched_too() {
     let search = EdgeSearch::new(&surface);
     assert_eq!(check(&surface, &search, &perspective(DVec3::Z, DVec3::ZERO, 30.0), &exact()), (0, 0));
 }
+
+/// A scene of many views makes the trees on its way; no view shows which.
+#[test]
+fn views_with_and_without_the_search_are_alike() {
+    let ball = scene([round_solids::icosphere(5)]);
+    let style = ligne::style::Style::load("technical", &["lines.contours=mesh".to_owned()]).unwrap();
+    let page = |camera: &Camera| ligne::drawing::Page {
+        width: camera.width,
+        height: camera.height,
+        unit: ligne::drawing::Unit::Px,
+        background: None,
+    };
+    let prepared = ligne::render::Prepared::new(&ball, &style);
+    assert!(prepared_edges(&ball) > 20_000);
+    for camera in views(4.0).into_iter().take(12) {
+        let (drawing, _) = prepared.draw(&camera, page(&camera), None);
+        let alone = ligne::render::Prepared::new(&ball, &style).draw(&camera, page(&camera), None).0;
+        assert!(drawing == alone, "{camera:?}");
+    }
+}
+
+/// The number of edges of a scene's mesh.
+fn prepared_edges(scene: &Scene) -> usize {
+    Mesh::build(scene.to_soup()).edges.len()
+}

@@ -84,6 +84,7 @@ fn context(style: &Style) -> InkContext<'static> {
         hidden: style.lines.hidden,
         seed: style.seed,
         painted: style.region.enabled,
+        depths: [2.0, 4.0],
         names: &[],
         parting: None,
     }

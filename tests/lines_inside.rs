@@ -108,7 +108,7 @@ fn a_sphere_bends_alike_everywhere() {
         }
     }
     // A hundredth of the radius.
-    assert!(near(curvature.feature_size, 0.02, 0.0005), "{}", curvature.feature_size);
+    assert!(near(curvature.feature_size(0), 0.02, 0.0005), "{}", curvature.feature_size(0));
 }
 
 #[test]
@@ -230,7 +230,7 @@ fn the_ridges_of_an_ellipsoid_lie_round_its_waist() {
     let camera = orthographic(DVec3::new(3.0, 8.0, 4.0), DVec3::ZERO, 8.0);
     let curvature = Curvature::new(&mesh, &SmoothNormals::rounded(&mesh), 0.0);
     // Half of the least curvature across the waist.
-    let ridge = 1.0 * curvature.feature_size;
+    let ridge = 1.0 * curvature.feature_size(0);
     let inside = InsideOptions { smooth: 0.0, ridge, ..InsideOptions::default() };
     let lines = inside_lines(&mesh, &camera, &options(&[LineKind::Ridge], inside));
     let found = points(&mesh, &lines, LineKind::Ridge);

@@ -271,7 +271,7 @@ fn is_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3) -> bool {
         Caster::Directional { towards } => (*towards, f64::INFINITY),
         Caster::Point { position } => (*position - p, 1.0),
     };
-    let least = 2e-6 * mesh.size / along.length();
+    let least = 2e-6 * mesh.extents.diagonal / along.length();
     (0..mesh.triangles.len() as u32).filter(|f| *f != face).any(|f| {
         let [a, b, c] = mesh.corners(FaceId(f));
         let (u, v) = (b - a, c - a);
@@ -302,7 +302,7 @@ fn inside(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
     let [a, b, c] = mesh.corners(FaceId(face));
     let normal = (b - a).cross(c - a).normalize();
     [(a, b), (b, c), (c, a)].iter().all(|(a, b)| normal.cross(*b - *a).normalize().dot(p - *a) >= -slack)
-        && (p - a).dot(normal).abs() <= 5e-7 * mesh.size
+        && (p - a).dot(normal).abs() <= 5e-7 * mesh.extents.diagonal
 }
 
 fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
@@ -310,8 +310,8 @@ fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
     sun.z = sun.z.abs() + 0.3;
     vec![
         Caster::Directional { towards: sun },
-        Caster::Point { position: dice.direction() * mesh.size },
-        Caster::Point { position: dice.point(0.2) * mesh.size },
+        Caster::Point { position: dice.direction() * mesh.extents.diagonal },
+        Caster::Point { position: dice.point(0.2) * mesh.extents.diagonal },
         Caster::Directional { towards: DVec3::Z },
     ]
 }
@@ -347,7 +347,9 @@ fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
     for ((face, p), mask) in asked.iter().zip(masks) {
         let [a, b, c] = mesh.corners(FaceId(*face));
         for (k, caster) in shadows.casters().iter().enumerate() {
-            let Some(blocked) = surely_blocked(mesh, caster, *face, *p, 1e-5 * mesh.size) else { continue };
+            let Some(blocked) = surely_blocked(mesh, caster, *face, *p, 1e-5 * mesh.extents.diagonal) else {
+                continue;
+            };
             // Faces of solids that are turned away are not asked.
             let outward = outward[mesh.face_part[*face as usize].index()];
             let attached = (b - a).cross(c - a).dot(towards(caster, *p)) * outward <= 0.0;
@@ -372,10 +374,10 @@ fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
         let normal = (b - a).cross(c - a).normalize();
         // Where light grazes a face, what is near in the light's view is not so near on the face.
         let fall = normal.dot(towards(caster, p).normalize()).abs().max(1e-6);
-        let slack = 1e-6 * mesh.size / fall;
+        let slack = 1e-6 * mesh.extents.diagonal / fall;
         assert!([p, q].iter().all(|p| inside(mesh, segment.face, *p, slack)), "{segment:?} {p} {q}");
         let Some(across) = normal.cross(q - p).try_normalize() else { continue };
-        if p.distance(q) < 1e-3 * mesh.size {
+        if p.distance(q) < 1e-3 * mesh.extents.diagonal {
             continue;
         }
         // A narrow strip of shadow may have both its borders between the sides.
@@ -388,7 +390,7 @@ fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
                 sides.map(|side| surely_blocked(mesh, caster, segment.face, side, 0.3 * reach));
             Some(one? != other?)
         };
-        let found = [1e-4, 1e-5, 2e-6].map(|reach| parts(reach * mesh.size / fall.max(0.1)));
+        let found = [1e-4, 1e-5, 2e-6].map(|reach| parts(reach * mesh.extents.diagonal / fall.max(0.1)));
         if found.iter().any(Option::is_some) {
             // Of a strip narrower than that, the other border is near.
             let beside = || {
@@ -399,7 +401,7 @@ fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
                     let m = (p + q) / 2.0;
                     let along = q1 - p1;
                     let t = ((m - p1).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-                    m.distance(p1 + along * t) < 1e-5 * mesh.size / fall
+                    m.distance(p1 + along * t) < 1e-5 * mesh.extents.diagonal / fall
                 })
             };
             assert!(
@@ -421,7 +423,7 @@ fn check_crossings(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice
         let [a, b, c] = mesh.corners(FaceId(face));
         let normal = (b - a).cross(c - a).normalize();
         for (k, caster) in shadows.casters().iter().enumerate() {
-            let sides = [p, q].map(|p| surely_blocked(mesh, caster, face, p, 1e-5 * mesh.size));
+            let sides = [p, q].map(|p| surely_blocked(mesh, caster, face, p, 1e-5 * mesh.extents.diagonal));
             let [Some(one), Some(other)] = sides else { continue };
             let side = |a: DVec3, b: DVec3, p: DVec3| (b - a).cross(p - a).dot(normal) > 0.0;
             let crossings = shadows
@@ -531,7 +533,7 @@ fn models_cast_shadows_on_themselves() {
         let mut dice = Dice::new(1);
         let casters = [
             Caster::Directional { towards: DVec3::new(0.4, 0.8, 0.6) },
-            Caster::Point { position: DVec3::new(0.4, 0.7, -0.5) * mesh.size },
+            Caster::Point { position: DVec3::new(0.4, 0.7, -0.5) * mesh.extents.diagonal },
         ];
         let shadows = Shadows::new(&mesh, &casters);
         let lines = &shadows.lines;

@@ -18,8 +18,9 @@ use eye::Eye;
 use glam::DVec3;
 use ligne::lines::{HiddenLines, LineOptions};
 use ligne::math::tolerance;
-use ligne::mesh::FaceId;
+use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::{Camera, Scene};
+use ligne::view::Frame;
 use pipeline::{Stages, counting, exact, stages};
 use scenes::{CAMERAS, SCENES, random_camera, random_scene};
 use segments::{cover_alike, distance, length, uncovered};
@@ -32,6 +33,11 @@ enum Answer {
     Ambiguous,
 }
 
+/// The difference in depth that counts as touching a face.
+fn contact(mesh: &Mesh, face: u32, frame: &Frame, depth: f64) -> f64 {
+    mesh.extent(FaceId(face)).contact.max(tolerance::CONTACT_PX * frame.px_at(depth))
+}
+
 /// Shoots a ray from the eye to a point of a feature segment.
 fn shoot(stages: &Stages, camera: &Camera, eye: &Eye, segment: usize, point: DVec3) -> Answer {
     let source = &stages.lines.segments[segment];
@@ -40,9 +46,10 @@ fn shoot(stages: &Stages, camera: &Camera, eye: &Eye, segment: usize, point: DVe
     // The ray runs from depth 0 to the point at 1; in a parallel view hits behind the eye count.
     let from = if eye.perspective { eye.eye } else { point - eye.forward * depth };
     let way = point - from;
-    let far = tolerance::NEAR_OF_FARTHEST;
-    let farthest = mesh.positions.iter().map(|p| eye.depth(*p)).fold(0.0, f64::max);
-    let near = camera.near.or(eye.perspective.then_some(farthest * far)).unwrap_or(f64::NEG_INFINITY);
+    let focus = camera.eye.distance(camera.target);
+    let near = camera.near.or(eye.perspective.then_some(focus * tolerance::NEAR_OF_TARGET));
+    let near = near.unwrap_or(f64::NEG_INFINITY);
+    let frame = Frame::new(camera, DVec3::ZERO);
     let mut count = 0;
     for (face, ids) in mesh.triangles.iter().enumerate() {
         let shares = source.ends.map(|end| ids.contains(&end));
@@ -70,9 +77,10 @@ fn shoot(stages: &Stages, camera: &Camera, eye: &Eye, segment: usize, point: DVe
         let hit = e2.dot(q) / determinant * depth;
         let lead = depth - hit;
         let touch = if shares[0] || shares[1] {
-            tolerance::NEIGHBOUR_OF_MODEL * mesh.size
+            let of_part = tolerance::NEIGHBOUR_OF_PART * mesh.extent(FaceId::from(face)).scale;
+            of_part.max(tolerance::NEIGHBOUR_PX * frame.px_at(depth))
         } else {
-            tolerance::CONTACT_OF_MODEL * mesh.size
+            contact(mesh, face as u32, &frame, depth)
         };
         if lead < 0.9 * touch || hit < near - 1e-9 {
             continue;
@@ -122,7 +130,9 @@ fn agrees_with_rays(scene: &Scene, camera: &Camera, tally: &mut Tally) -> Result
         let [p, q] = ends.map(|end| stages.lines.position(&stages.mesh, end));
         let (point, t) = point_seen_at(&eye, a.midpoint(b), p, q);
         let deep = eye.depth(point);
-        let contact = tolerance::CONTACT_OF_MODEL * stages.mesh.size;
+        let frame = Frame::new(&local, DVec3::ZERO);
+        let of_face = |face| contact(&stages.mesh, face, &frame, deep);
+        let contact = (0..stages.mesh.triangles.len() as u32).map(of_face).fold(0.0, f64::max);
         let contact_px = eye.scale * contact / if eye.perspective { deep } else { 1.0 };
         if distance(a, b) < CRUMB_PX.max(10.0 * contact_px) {
             tally.crumbs += 1;

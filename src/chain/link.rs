@@ -302,18 +302,18 @@ fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
     if length > 0.0 { way / length } else { Vec2::ZERO }
 }
 
-/// Orders steps by segment, then by where they begin.
+/// Orders steps by where they begin and end, then by segment: the numbers of segments change with what else is
+/// drawn.
 fn order(map: &ViewMap, a: Step, b: Step) -> std::cmp::Ordering {
     let segment = |s: Step| map.edges[s.edge as usize].segment;
     let at = |v: ViewVertexId| map.vertices[v.index()].position;
     let (p, q) = (at(a.from(map)), at(b.from(map)));
     let (r, s) = (at(a.to(map)), at(b.to(map)));
-    segment(a)
-        .cmp(&segment(b))
-        .then(p.x.total_cmp(&q.x))
+    (p.x.total_cmp(&q.x))
         .then(p.y.total_cmp(&q.y))
         .then(r.x.total_cmp(&s.x))
         .then(r.y.total_cmp(&s.y))
+        .then(segment(a).cmp(&segment(b)))
 }
 
 /// Turns a route to the sense, and a closed one to the start, that its edges alone decide.

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use crate::math::colour::Colour;
 use crate::math::function::{cos, pow};
-use crate::math::tolerance::{LAMP_OF_MODEL, LEAST_CONE};
+use crate::math::tolerance::{LAMP_OF_FRAME, LEAST_CONE};
 use crate::scene::{Light, LightKind};
+use crate::view::Frame;
 
 /// One light in local space.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,15 +89,16 @@ impl Lamp {
         Self { reach, brightness, weight: brightness, colour, shadows: true, caster: None }
     }
 
-    /// The lights of a model, scaled together such that the brightest gives 1 at the model's middle.
+    /// The lights of a model, scaled together such that the brightest gives 1 where the
+    /// camera looks.
     ///
     /// A file's lux and candela suit its renderer's exposure, not drawings. Those without light are
-    /// left out. A lamp within the model counts as a quarter of the model's size away, and one that
-    /// shines elsewhere as if it were aimed at the model: the scale must not hang on a hair.
-    pub fn of_model(lights: &[Light], origin: DVec3, size: f64) -> Vec<Self> {
+    /// left out. A lamp near the target counts as a quarter of the frame's longer side away, and one that
+    /// shines elsewhere as if it were aimed at the target: the scale must not hang on a hair.
+    pub fn of_model(lights: &[Light], origin: DVec3, frame: &Frame) -> Vec<Self> {
         let shines = |light: &&Light| light.intensity.is_finite() && light.intensity > 0.0;
         let mut lamps: Vec<Self> =
-            lights.iter().filter(shines).filter_map(|light| of_light(light, origin, size)).collect();
+            lights.iter().filter(shines).filter_map(|light| of_light(light, origin, frame)).collect();
         let brightest = lamps.iter().map(|lamp| lamp.weight).fold(0.0, f64::max);
         if !(brightest.is_finite() && brightest > 0.0) {
             return Vec::new();
@@ -174,7 +176,8 @@ impl Cone {
 }
 
 /// A light of the model in local space, not yet scaled; none if it has no sound direction.
-fn of_light(light: &Light, origin: DVec3, size: f64) -> Option<Lamp> {
+fn of_light(light: &Light, origin: DVec3, frame: &Frame) -> Option<Lamp> {
+    let size = frame.side_at(frame.focus);
     let size = if size > 0.0 && size.is_finite() { size } else { 1.0 };
     let [r, g, b] = light.colour;
     let colour = Colour::from_linear([r, g, b, 1.0]).channels();
@@ -185,7 +188,7 @@ fn of_light(light: &Light, origin: DVec3, size: f64) -> Option<Lamp> {
         LightKind::Point { position } | LightKind::Spot { position, .. } => {
             let position = position - origin;
             let range = light.range.filter(|range| range.is_finite() && *range > 0.0);
-            let falloff = FallOff::Square { nearest: size * LAMP_OF_MODEL, range };
+            let falloff = FallOff::Square { nearest: size * LAMP_OF_FRAME, range };
             let cone = match light.kind {
                 LightKind::Spot { direction, inner_angle, outer_angle, .. } => {
                     let outer = cos(outer_angle);
@@ -194,7 +197,7 @@ fn of_light(light: &Light, origin: DVec3, size: f64) -> Option<Lamp> {
                 }
                 _ => None,
             };
-            let away = position.length().max(size / 4.0);
+            let away = position.distance(frame.target()).max(size / 4.0);
             Lamp {
                 reach: Reach::Point { position, falloff, cone },
                 weight: light.intensity / (away * away),

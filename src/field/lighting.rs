@@ -67,7 +67,7 @@ impl Lighting {
     ) -> Self {
         let mut lamps = Vec::new();
         if options.from_model {
-            lamps = Lamp::of_model(&scene.lights, mesh.origin, mesh.size);
+            lamps = Lamp::of_model(&scene.lights, mesh.origin, frame);
             if lamps.is_empty() && !scene.lights.is_empty() {
                 warnings.push("the model's lights give no light and are left out".to_owned());
             }

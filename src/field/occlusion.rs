@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use crate::math::function::{cos, sin};
 use crate::math::tolerance;
-use crate::mesh::Mesh;
 use crate::mesh::ray_tree::RayTree;
+use crate::mesh::{FaceId, Mesh};
 
 /// Directions over the whole sphere; a vertex looks into nearly half of them.
 const DIRECTIONS: usize = 256;
@@ -23,11 +23,11 @@ const LEAST_COSINE: f64 = 0.1;
 const TASK: usize = 1 << 8;
 
 /// How much of the sky each vertex of a mesh sees on the outer side of the surface, from 0 (none) to 1
-/// (all). Nothing farther than `reach` (world units) counts; with infinity all does.
+/// (all). Nothing farther from a place than `reach` says there (world units) counts; with infinity all does.
 ///
 /// Vertices without a normal see all.
 #[must_use]
-pub fn openness(mesh: &Mesh, reach: f64) -> Vec<f64> {
+pub fn openness(mesh: &Mesh, reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
     let tree = RayTree::new(mesh);
     let directions = directions();
     let (normals, lifts) = normals(mesh);
@@ -38,7 +38,7 @@ pub fn openness(mesh: &Mesh, reach: f64) -> Vec<f64> {
             let mut last = vec![None; directions.len()];
             (task * TASK..((task + 1) * TASK).min(count))
                 .map(|v| {
-                    let normal = normals[v];
+                    let (normal, reach) = (normals[v], reach(mesh.positions[v]));
                     // From a little above the surface, faces around a hollow are in the way as well.
                     let start = mesh.positions[v] + normal * lifts[v];
                     let (mut seen, mut all) = (0.0, 0.0);
@@ -77,10 +77,15 @@ fn directions() -> Vec<DVec3> {
 /// from: a share of the mean length of the edges around it.
 fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
     let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
-    for face in &mesh.triangles {
+    let mut contacts = vec![0.0f64; mesh.positions.len()];
+    for (id, face) in mesh.triangles.iter().enumerate() {
         let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
         let area = (b - a).cross(c - a);
-        face.iter().for_each(|v| normals[*v as usize] += area);
+        let contact = mesh.extent(FaceId::from(id)).contact;
+        for v in face {
+            normals[*v as usize] += area;
+            contacts[*v as usize] = contacts[*v as usize].max(contact);
+        }
     }
     let mut lengths = vec![(0.0, 0u32); mesh.positions.len()];
     for [a, b] in &mesh.edges.vertices {
@@ -90,11 +95,11 @@ fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
             lengths[*v as usize].1 += 1;
         }
     }
-    let lift = |(sum, count): (f64, u32)| {
-        (tolerance::LOOKOUT_OF_EDGE * sum / f64::from(count.max(1)))
-            .max(tolerance::CONTACT_OF_MODEL * mesh.size)
+    let lift = |((sum, count), contact): ((f64, u32), f64)| {
+        (tolerance::LOOKOUT_OF_EDGE * sum / f64::from(count.max(1))).max(contact)
     };
-    (normals.into_iter().map(DVec3::normalize_or_zero).collect(), lengths.into_iter().map(lift).collect())
+    let lifts = lengths.into_iter().zip(contacts).map(lift).collect();
+    (normals.into_iter().map(DVec3::normalize_or_zero).collect(), lifts)
 }
 
 #[cfg(test)]
@@ -120,6 +125,10 @@ mod tests {
         }
     }
 
+    fn everywhere(_: DVec3) -> f64 {
+        f64::INFINITY
+    }
+
     fn at(mesh: &Mesh, openness: &[f64], p: DVec3) -> f64 {
         let local = p - mesh.origin;
         let vertex = mesh.positions.iter().position(|q| q.distance(local) < 1e-6).expect("a vertex");
@@ -131,16 +140,16 @@ mod tests {
         let mut soup = Soup::default();
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y * 2.0, 4);
         let alone = Mesh::build(soup.clone());
-        assert!(openness(&alone, f64::INFINITY).iter().all(|o| *o == 1.0));
+        assert!(openness(&alone, everywhere).iter().all(|o| *o == 1.0));
         // A square of side 2 at height 1 covers a known part of the sky of the point below its middle:
         // the view factor of four rectangles with sides 1 and 1 at distance 1.
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 1.0), DVec3::Y * 2.0, DVec3::X * 2.0, 4);
         let mesh = Mesh::build(soup);
         let r = 0.5_f64.sqrt();
         let covered = 4.0 / std::f64::consts::TAU * 2.0 * r * crate::math::function::atan2(r, 1.0);
-        let found = at(&mesh, &openness(&mesh, f64::INFINITY), DVec3::ZERO);
+        let found = at(&mesh, &openness(&mesh, everywhere), DVec3::ZERO);
         assert!((found - (1.0 - covered)).abs() < 0.03, "{found} {}", 1.0 - covered);
-        assert_eq!(at(&mesh, &openness(&mesh, 0.9), DVec3::ZERO), 1.0);
+        assert_eq!(at(&mesh, &openness(&mesh, |_| 0.9), DVec3::ZERO), 1.0);
     }
 
     #[test]
@@ -149,7 +158,7 @@ mod tests {
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::X * 20.0, DVec3::Y * 40.0, 8);
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::Y * 40.0, DVec3::Z * 20.0, 8);
         let mesh = Mesh::build(soup);
-        let found = openness(&mesh, f64::INFINITY);
+        let found = openness(&mesh, everywhere);
         // In the corner the normal is halfway, and a wedge of a right angle is left: sin 45°.
         let corner = at(&mesh, &found, DVec3::ZERO);
         assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
@@ -170,8 +179,8 @@ mod tests {
             let positions = (0..8).map(corner).collect();
             Mesh::build(Soup { positions, triangles: turned.collect(), ..Soup::default() })
         };
-        assert!(openness(&build(false), f64::INFINITY).iter().all(|o| *o == 1.0));
-        assert!(openness(&build(true), f64::INFINITY).iter().all(|o| *o == 0.0));
-        assert!(openness(&Mesh::default(), 1.0).is_empty());
+        assert!(openness(&build(false), everywhere).iter().all(|o| *o == 1.0));
+        assert!(openness(&build(true), everywhere).iter().all(|o| *o == 0.0));
+        assert!(openness(&Mesh::default(), everywhere).is_empty());
     }
 }

@@ -4,7 +4,7 @@
 //! a few px cannot be drawn, so the field is averaged over as much. To average n·v is to average
 //! the normals: the one is linear in the other.
 
-use crate::mesh::{Mesh, SmoothNormals};
+use crate::mesh::{FaceId, Mesh, PartId, SmoothNormals};
 use crate::view::Frame;
 
 /// Radius (standard deviation) over which a field is averaged, px.
@@ -18,40 +18,59 @@ const NEAR_ZERO: f64 = 0.35;
 
 /// Averages `values`, one a smooth vertex, around where they vanish.
 pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, values: &mut [f64]) {
-    let rounds = rounds(mesh, smooth, frame);
-    if rounds == 0 {
+    let rounds_of = rounds(mesh, smooth, frame);
+    let most = rounds_of.iter().copied().max().unwrap_or(0);
+    if most == 0 {
         return;
     }
     let near = |corners: &[u32; 3]| corners.iter().any(|v| values[*v as usize].abs() < NEAR_ZERO);
-    let faces: Vec<[u32; 3]> =
-        (0..mesh.triangles.len() as u32).filter_map(|face| smooth.corners_of(face)).filter(near).collect();
-    let mut ids: Vec<u32> = faces.iter().flatten().copied().collect();
+    let rounds = |face: u32| rounds_of[mesh.face_part[face as usize].index()];
+    let mut faces: Vec<(usize, [u32; 3])> = (0..mesh.triangles.len() as u32)
+        .filter_map(|face| Some((rounds(face), smooth.corners_of(face).filter(near)?)))
+        .filter(|(rounds, _)| *rounds > 0)
+        .collect();
+    // Parts that need few rounds drop out early; the order within a part stays.
+    faces.sort_by_key(|(rounds, _)| std::cmp::Reverse(*rounds));
+    let mut ids: Vec<u32> = faces.iter().flat_map(|(_, corners)| corners).copied().collect();
     ids.sort_unstable();
     ids.dedup();
     let mut slots = vec![u32::MAX; values.len()];
     for (slot, id) in ids.iter().enumerate() {
         slots[*id as usize] = slot as u32;
     }
-    let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(|v| slots[v as usize])).collect();
+    for (_, corners) in &mut faces {
+        *corners = corners.map(|v| slots[v as usize]);
+    }
+    let mut rounds_at = vec![0; ids.len()];
+    for (rounds, corners) in &faces {
+        corners.iter().for_each(|v| rounds_at[*v as usize] = rounds_at[*v as usize].max(*rounds));
+    }
     let mut now: Vec<f64> = ids.iter().map(|id| values[*id as usize]).collect();
     // Each vertex counts as much as one of its neighbours, who are met once from each side.
     let mut weights = vec![2.0; ids.len()];
-    for v in faces.iter().flatten() {
+    for v in faces.iter().flat_map(|(_, corners)| corners) {
         weights[*v as usize] += 2.0;
     }
     let mut sums = vec![0.0; ids.len()];
-    for _ in 0..rounds {
+    let mut active = faces.len();
+    for round in 0..most {
+        while let Some((_, corners)) = faces[..active].last().filter(|(rounds, _)| *rounds <= round) {
+            corners.iter().for_each(|v| weights[*v as usize] -= 2.0);
+            active -= 1;
+        }
         for (sum, value) in sums.iter_mut().zip(&now) {
             *sum = 2.0 * value;
         }
-        for [a, b, c] in faces.iter().map(|f| f.map(|v| v as usize)) {
+        for [a, b, c] in faces[..active].iter().map(|(_, f)| f.map(|v| v as usize)) {
             let (at_a, at_b, at_c) = (now[a], now[b], now[c]);
             sums[a] += at_b + at_c;
             sums[b] += at_c + at_a;
             sums[c] += at_a + at_b;
         }
-        for ((value, sum), weight) in now.iter_mut().zip(&sums).zip(&weights) {
-            *value = sum / weight;
+        for (((value, sum), weight), rounds) in now.iter_mut().zip(&sums).zip(&weights).zip(&rounds_at) {
+            if *rounds > round {
+                *value = sum / weight;
+            }
         }
     }
     for (id, value) in ids.iter().zip(now) {
@@ -59,26 +78,36 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
     }
 }
 
-/// How often to average: as many rounds as make up the radius, by the usual length of an edge.
-fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> usize {
-    let page = frame.scale / (frame.width.max(frame.height) / 1000.0);
-    let page =
-        if frame.perspective { page / frame.depth(glam::DVec3::ZERO).max(mesh.size * 1e-3) } else { page };
-    // Some thousand faces tell how long edges are.
-    let stride = (mesh.triangles.len() / 4096).max(1);
-    let faces = (0..mesh.triangles.len()).step_by(stride).filter(|f| smooth.corners_of(*f as u32).is_some());
-    let mut squares: Vec<f64> = faces
-        .map(|f| {
-            let [a, b, c] = mesh.corners(crate::mesh::FaceId(f as u32));
-            (a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a)) / 3.0
-        })
-        .collect();
-    if squares.is_empty() {
-        return 0;
+/// How often to average the values of each part: as many rounds as make up the radius, by the usual length of
+/// an edge of the part, at its middle.
+fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<usize> {
+    let mut faces_of: Vec<Vec<u32>> = Vec::new();
+    for (face, part) in mesh.face_part.iter().enumerate() {
+        if faces_of.len() <= part.index() {
+            faces_of.resize_with(part.index() + 1, Vec::new);
+        }
+        faces_of[part.index()].push(face as u32);
     }
-    let middle = squares.len() / 2;
-    let (_, median, _) = squares.select_nth_unstable_by(middle, f64::total_cmp);
-    let edge = median.sqrt() * page;
-    let rounds = RADIUS_PX * RADIUS_PX / (ROUND * edge * edge).max(f64::MIN_POSITIVE);
-    rounds.round().min(MOST_ROUNDS as f64) as usize
+    let of_part = |(part, faces): (usize, Vec<u32>)| {
+        // Some thousand faces tell how long edges are.
+        let stride = (faces.len() / 4096).max(1);
+        let faces = faces.into_iter().step_by(stride).filter(|f| smooth.corners_of(*f).is_some());
+        let mut squares: Vec<f64> = faces
+            .map(|f| {
+                let [a, b, c] = mesh.corners(FaceId(f));
+                (a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a)) / 3.0
+            })
+            .collect();
+        if squares.is_empty() {
+            return 0;
+        }
+        let middle = squares.len() / 2;
+        let (_, median, _) = squares.select_nth_unstable_by(middle, f64::total_cmp);
+        let extent = mesh.extents.of(PartId::from(part));
+        let depth = frame.depth(extent.middle()).max(extent.scale * 1e-3);
+        let edge = median.sqrt() / frame.px_at(depth);
+        let rounds = RADIUS_PX * RADIUS_PX / (ROUND * edge * edge).max(f64::MIN_POSITIVE);
+        rounds.round().min(MOST_ROUNDS as f64) as usize
+    };
+    faces_of.into_iter().enumerate().map(of_part).collect()
 }

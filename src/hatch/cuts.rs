@@ -13,19 +13,20 @@ use rustc_hash::FxHashMap;
 use super::clip::{between, stretches};
 use super::guide::{Guide, Scope, rank};
 use crate::math::noise::hash;
+use crate::mesh::PartId;
 use crate::region::Ground;
 use crate::region::level_curves::LevelCurve;
 
-/// Guides along the visible parts of level curves, `pitch` (page units) apart where they are densest, of a
-/// model of a size.
-/// `are_seen` tells of points of the page, with a nearness each, whether nothing is in front there.
+/// Guides along the visible parts of level curves, `pitch` (page units) apart where they are densest.
+/// `are_seen` tells of points of the page, with a nearness each, whether nothing is in front there; `place_of`
+/// gives a number to a part and where about in it a point of it lies.
 #[must_use]
 pub fn guides(
     ground: &Ground,
     curves: &[LevelCurve],
     are_seen: impl Fn(&[(Point, f64)]) -> Vec<bool>,
+    place_of: impl Fn(PartId, DVec3) -> u64,
     pitch: f64,
-    size: f64,
     seed: u64,
 ) -> Vec<Guide> {
     let mut pieces: Vec<(u32, f64, f64, u32)> = Vec::new();
@@ -63,8 +64,7 @@ pub fn guides(
         crowding.resize(line.len(), value_at(&curve.density, to) * pitch);
         // A piece is known by its part, its level, and where in the model it lies, roughly.
         let middle = point_at(&curve.points, f64::midpoint(from, to));
-        let [x, y, z] = (middle / (size * ROUGHLY)).round().to_array().map(|x| (x as i64).cast_unsigned());
-        let name = hash(seed, &[curve.part.index() as u64, curve.level.cast_unsigned(), x, y, z]);
+        let name = hash(seed, &[place_of(curve.part, middle), curve.level.cast_unsigned()]);
         let count = counts.entry(name).or_default();
         let id = hash(name, &[*count]);
         *count += 1;
@@ -77,9 +77,6 @@ fn value_at(values: &[f64], place: f64) -> f64 {
     let k = (place as usize).min(values.len() - 2);
     values[k] + (values[k + 1] - values[k]) * (place - k as f64)
 }
-
-/// Pieces of one curve that are told apart lie this part of the model's size from each other.
-const ROUGHLY: f64 = 0.3;
 
 fn point_at(points: &[DVec3], place: f64) -> DVec3 {
     let k = (place as usize).min(points.len() - 2);

@@ -51,18 +51,20 @@ pub fn axes(angle: f64) -> [Vec2; 2] {
 }
 
 /// Straight guides at one angle over the wanted cells of each part, `spacing` apart. Each part has lines of
-/// its own, turned by `turn_parts` radians at most.
+/// its own, turned by `turn_parts` radians at most; `identities` tells parts apart.
 #[must_use]
 pub fn straight(
     ground: &Ground,
     wanted: impl Fn(u32) -> bool,
+    identities: &[u64],
     angle: f64,
     turn_parts: f64,
     spacing: f64,
     seed: u64,
 ) -> Vec<Guide> {
     let count = ground.cells.iter().map(|cell| cell.look.part.index() + 1).max().unwrap_or(0);
-    let angle_of = |part: usize| angle + turn_parts * (2.0 * unit(hash(seed, &[TURN, part as u64])) - 1.0);
+    let identity = |part: usize| identities.get(part).copied().unwrap_or(part as u64);
+    let angle_of = |part: usize| angle + turn_parts * (2.0 * unit(hash(seed, &[TURN, identity(part)])) - 1.0);
     let axes: Vec<[Vec2; 2]> = (0..count).map(|part| axes(angle_of(part))).collect();
     let mut boxes = vec![[f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY]; count];
     for piece in &ground.pieces {
@@ -81,7 +83,7 @@ pub fn straight(
             continue;
         }
         let [along, across] = axes[part];
-        let part_seed = hash(seed, &[part as u64]);
+        let part_seed = hash(seed, &[identity(part)]);
         let shift = unit(part_seed) * spacing;
         let first = ((low - shift) / spacing).floor() as i64;
         let last = ((high - shift) / spacing).ceil() as i64;

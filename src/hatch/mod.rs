@@ -44,6 +44,7 @@ pub use tone::Tone;
 
 use crate::drawing::{Layer, LayerKind, Length, Mark, Paint, Provenance, Unit};
 use crate::math::colour::Colour;
+use crate::math::identity::identities;
 use crate::math::noise::hash;
 use crate::region::{Ground, Look, Samples};
 use crate::stroke::Ink;
@@ -212,7 +213,10 @@ fn guides(
             let px = Length::px(1.0).in_unit(context.unit);
             streamlines(ground, flow, wanted, &is_inked, &Spacing { pitch, doublings, px, seed })
         }
-        None => guide::straight(ground, wanted, angle, turn, pitch, seed),
+        None => {
+            let names = identities(context.parts.iter().map(|name| &**name));
+            guide::straight(ground, wanted, &names, angle, turn, pitch, seed)
+        }
     };
     if layer.swell {
         // All lines are there; their width tells the tone.

@@ -6,10 +6,12 @@
 //! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
 //! lines, get the full search.
 
+use std::cmp::Ordering;
+
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
-use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections};
+use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
 use crate::mesh::trace::Tracer;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{Extent, FaceId, Mesh};
 use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::view::View;
 
@@ -27,8 +29,7 @@ pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLi
     let first = (mesh.positions.len() + lines.points.len()) as u32;
     lines.points.extend(curves.points);
     lines.segments.extend(curves.segments.iter().map(|s| {
-        let [a, b] = s.faces;
-        let nearer = if view.facing[a as usize] { a } else { b } as usize;
+        let owner = owner(mesh, view, s.faces) as usize;
         FeatureSegment {
             ends: s.ends.map(|end| first + end),
             hosts: s.faces,
@@ -37,10 +38,31 @@ pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLi
             smooth: false,
             role: Role::Line,
             strength: 180.0,
-            part: mesh.face_part[nearer],
-            material: mesh.face_material[nearer],
+            part: mesh.face_part[owner],
+            material: mesh.face_material[owner],
         }
     }));
+}
+
+/// Of two faces that pass through each other the one to which the line belongs: the one that turns its
+/// outside to the eye, of two such that of the smaller part, which is what sticks in the other. The order of
+/// parts in the file does not matter.
+fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
+    let sides = [a, b].map(|face| view.facing[face as usize]);
+    if sides[0] != sides[1] {
+        return if sides[0] { a } else { b };
+    }
+    let [of_a, of_b] = [a, b].map(|face| mesh.extent(FaceId(face)));
+    let box_of = |extent: &Extent| [extent.low.to_array(), extent.high.to_array()].concat();
+    let corners = |face: u32| {
+        let mut corners = mesh.triangles[face as usize];
+        corners.sort_unstable();
+        corners
+    };
+    let order = of_a.scale.total_cmp(&of_b.scale);
+    // Of two parts in one place the place of the face decides: vertices are numbered by theirs.
+    let order = order.then_with(|| box_of(of_a).partial_cmp(&box_of(of_b)).unwrap_or(Ordering::Equal));
+    if order.then_with(|| corners(a).cmp(&corners(b))).is_le() { a } else { b }
 }
 
 /// All curves of a mesh.
@@ -51,11 +73,8 @@ pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     } else {
         (0..mesh.triangles.len()).map(|f| !mesh.is_degenerate(FaceId::from(f))).collect()
     };
-    intersections(&IntersectionInput {
-        positions: &mesh.positions,
-        triangles: &mesh.triangles,
-        active: &active,
-    })
+    let input = IntersectionInput { positions: &mesh.positions, triangles: &mesh.triangles, active: &active };
+    intersections_of_parts(&input, |face| mesh.extent(FaceId(face)).scale)
 }
 
 /// The curves of which something shows in a view, whole, and perhaps others.

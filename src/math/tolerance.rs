@@ -1,25 +1,27 @@
 //! Every epsilon of the crate, each tied to the length (or angle) it is a fraction of.
 //!
-//! `model` means the diagonal of the model's bounding box, so that a gear of 3 mm and a cathedral
-//! are judged alike.
+//! `part` means the diagonal of the bounding box of the part that is judged, of the larger one where two
+//! meet (see [`Extent::scale`](crate::mesh::Extent::scale)), so that a gear of 3 mm and a cathedral are judged
+//! alike, and whatever else a model has changes nothing. Lengths in px of what lies in space are meant at its
+//! depth.
 
-/// Vertices nearer than this fraction of the model are one vertex, where they lie on open edges.
-pub const WELD_OF_MODEL: f64 = 1e-8;
+/// Vertices nearer than this fraction of the part are one vertex, where they lie on open edges.
+pub const WELD_OF_PART: f64 = 1e-8;
 
-/// Single-precision files additionally weld within this fraction of their largest coordinate:
+/// Single-precision files additionally weld within this fraction of a part's largest coordinate:
 /// one and a half units in the last place of an `f32`.
 pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 
-/// A triangle lower than this fraction of the model is degenerate: it hides nothing and has no
+/// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
 /// normal worth asking.
-pub const DEGENERATE_HEIGHT_OF_MODEL: f64 = 1e-12;
+pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;
 
-/// A vertex this near to the plane of a triangle (fraction of the model) lies in it, where surfaces
+/// A vertex this near to the plane of a triangle (fraction of the part) lies in it, where surfaces
 /// are tested for passing through each other.
-pub const PLANE_OF_MODEL: f64 = 1e-12;
+pub const PLANE_OF_PART: f64 = 1e-12;
 
-/// Two triangles whose common part is no longer than this fraction of the model merely touch.
-pub const OVERLAP_OF_MODEL: f64 = 1e-9;
+/// Two triangles whose common part is no longer than this fraction of the part merely touch.
+pub const OVERLAP_OF_PART: f64 = 1e-9;
 
 /// Planes at an angle of this sine or less are parallel, and have no line in common.
 pub const PARALLEL_SINE: f64 = 1e-9;
@@ -32,8 +34,11 @@ pub const EDGE_ON_COSINE: f64 = 1e-10;
 /// this may be seen edge-on: twice what [`EDGE_ON_COSINE`] says, for rounding.
 pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_COSINE;
 
-/// A surface this near in depth (fraction of the model) touches a line rather than hiding it.
-pub const CONTACT_OF_MODEL: f64 = 5e-7;
+/// A surface this near in depth (fraction of its part) touches a line rather than hiding it.
+pub const CONTACT_OF_PART: f64 = 5e-7;
+
+/// The same in px: nearer than this nothing is drawn apart.
+pub const CONTACT_PX: f64 = 5e-4;
 
 /// A point this near to the projected border of a triangle (px) counts as inside, so that a line
 /// exactly behind an edge is hidden by the faces of that edge.
@@ -42,8 +47,8 @@ pub const COVER_PX: f64 = 1e-7;
 /// Hidden or visible pieces shorter than this (px) are rounding, not geometry.
 pub const PIECE_PX: f64 = 1e-4;
 
-/// The near plane of a perspective view lies at this fraction of the farthest depth of the model.
-pub const NEAR_OF_FARTHEST: f64 = 1e-5;
+/// The near plane of a perspective view lies at this fraction of the way from eye to target.
+pub const NEAR_OF_TARGET: f64 = 1e-5;
 
 /// How far beside a contour (px) the view asks whether there is only background.
 pub const BESIDE_PX: f64 = 1e-3;
@@ -52,8 +57,11 @@ pub const BESIDE_PX: f64 = 1e-3;
 pub const BESIDE_ROUNDED_PX: f64 = 1.0;
 
 /// A surface that shares a vertex with a line hides it only where it is at least this much nearer
-/// (fraction of the model): below that lies rounding.
-pub const NEIGHBOUR_OF_MODEL: f64 = 1e-10;
+/// (fraction of its part): below that lies rounding.
+pub const NEIGHBOUR_OF_PART: f64 = 1e-10;
+
+/// The same in px.
+pub const NEIGHBOUR_PX: f64 = 1e-7;
 
 /// A triangle lower than this in the image (px) is seen edge-on and covers nothing.
 pub const IMAGE_HEIGHT_PX: f64 = 1e-8;
@@ -106,8 +114,9 @@ pub const LEAK_PX: f64 = 1.2;
 /// A border that ends this near (px) to another one goes on to it.
 pub const BRIDGE_PX: f64 = 1.0;
 
-/// Light of a model's lamp grows no more nearer to it than this fraction of the model.
-pub const LAMP_OF_MODEL: f64 = 1e-3;
+/// Light of a model's lamp grows no more nearer to it than this fraction of the frame's longer side, as it is
+/// at the target.
+pub const LAMP_OF_FRAME: f64 = 1e-3;
 
 /// Highlights fade where light falls at less than this cosine, so that they end without a jump
 /// where the surface turns away from the light.
@@ -117,9 +126,9 @@ pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
 /// KHR_lights_punctual advises.
 pub const LEAST_CONE: f64 = 1e-3;
 
-/// Boxes that rays are tested against are this fraction of the model wider than what is in them:
-/// several roundings of single precision.
-pub const RAY_BOX_OF_MODEL: f64 = 1e-6;
+/// Boxes that rays are tested against are this fraction of the mesh wider than what is in them:
+/// several roundings of single precision. What the rays meet is decided exactly.
+pub const RAY_BOX_OF_MESH: f64 = 1e-6;
 
 /// How much of the sky a vertex sees is asked from this far above it, as a fraction of the edges around
 /// it.

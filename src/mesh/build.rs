@@ -1,10 +1,10 @@
-//! From [`Soup`] to [`Mesh`]: centring, order, welding, cleaning, topology, face normals.
+//! From [`Soup`] to [`Mesh`]: origin, order, welding, cleaning, topology, face normals.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clean::{one_of_doubles, retain_faces};
-use super::{Cleaning, EdgeFaces, Edges, Mesh, Soup, order, weld};
+use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, weld};
 use crate::math::tolerance;
 
 impl Mesh {
@@ -21,21 +21,19 @@ impl Mesh {
         let Some((low, high)) = bounds(&soup) else {
             return Self { cleaning, ..Self::default() };
         };
-        // The sum makes the zeros of flat models positive.
-        let origin = (low + high) / 2.0 + DVec3::ZERO;
-        let size = low.distance(high);
-        let largest = low.abs().max(high.abs()).max_element();
-        soup.positions.par_iter_mut().for_each(|p| *p = *p - origin + DVec3::ZERO);
-
-        cleaning.welded = order::by_place(&mut soup, low - origin, (high - low).max_element());
+        // The sum makes zeros positive.
+        soup.positions.par_iter_mut().for_each(|p| *p += DVec3::ZERO);
+        cleaning.welded = order::by_place(&mut soup, low.abs().max(high.abs()).max_element());
+        let origin = extents::origin(low, high);
+        if origin != DVec3::ZERO {
+            soup.positions.par_iter_mut().for_each(|p| *p -= origin);
+        }
         drop_collapsed(&mut soup, &mut cleaning);
         let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
 
-        let mut reach = tolerance::WELD_OF_MODEL * size;
-        if soup.single_precision {
-            reach = reach.max(tolerance::WELD_OF_F32_COORDINATE * largest);
-        }
-        if let Some(joined) = weld::near(&soup.positions, &border_vertices(&edges), reach) {
+        let extents = Extents::new(&soup, origin);
+        let (borders, reaches) = border_vertices(&soup, &edges, &extents);
+        if let Some(joined) = weld::near(&soup.positions, &borders, &reaches) {
             replace_vertices(&mut soup, &joined, &mut cleaning);
             drop_collapsed(&mut soup, &mut cleaning);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
@@ -46,15 +44,16 @@ impl Mesh {
             edges = Edges::build(soup.positions.len(), &soup.triangles);
         }
 
-        let face_normals = face_normals(&soup.positions, &soup.triangles, size);
+        soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
+        let scale = |face: usize| extents.of(soup.triangle_part[face]).scale;
+        let face_normals = face_normals(&soup.positions, &soup.triangles, scale);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
-        soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
         soup.triangle_material.resize(soup.triangles.len(), super::MaterialId::default());
         Self {
             origin,
-            size,
+            extents,
             positions: soup.positions,
             triangles: soup.triangles,
             face_normals,
@@ -108,31 +107,39 @@ fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
     soup.wires.retain(|w| w.vertices[0] != w.vertices[1]);
 }
 
-fn border_vertices(edges: &Edges) -> Vec<u32> {
-    let mut vertices: Vec<u32> = (0..edges.len())
-        .filter(|e| matches!(edges.faces(*e), EdgeFaces::One(_)))
-        .flat_map(|e| edges.vertices[e])
-        .collect();
-    vertices.sort_unstable();
-    vertices.dedup();
-    vertices
+/// The vertices on open edges, and how near to each others are the same vertex: by the largest of its parts.
+fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, Vec<f64>) {
+    let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
+    let open = |e: usize| match edges.faces(e) {
+        EdgeFaces::One(face) => Some((edges.vertices[e], extents.of(part(face)).weld)),
+        _ => None,
+    };
+    let ends = (0..edges.len()).filter_map(open);
+    let mut vertices: Vec<(u32, f64)> = ends.flat_map(|(ends, reach)| ends.map(|v| (v, reach))).collect();
+    vertices.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    vertices.dedup_by_key(|(vertex, _)| *vertex);
+    vertices.into_iter().unzip()
 }
 
-/// Unit normals; zero where the triangle is lower than rounding.
-pub(super) fn face_normals(positions: &[DVec3], triangles: &[[u32; 3]], size: f64) -> Vec<[f32; 3]> {
-    let normal = |t: &[u32; 3]| {
+/// Unit normals; zero where the triangle is lower than rounding, by the scale of its part.
+pub(super) fn face_normals(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    scale: impl Fn(usize) -> f64 + Sync,
+) -> Vec<[f32; 3]> {
+    let normal = |(face, t): (usize, &[u32; 3])| {
         let [a, b, c] = t.map(|v| positions[v as usize]);
         let (u, v, w) = (b - a, c - a, c - b);
         let cross = u.cross(v);
         let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
         let area = cross.length();
-        if area <= tolerance::DEGENERATE_HEIGHT_OF_MODEL * size * longest {
+        if area <= tolerance::DEGENERATE_HEIGHT_OF_PART * scale(face) * longest {
             [0.0; 3]
         } else {
             (cross / area).as_vec3().to_array()
         }
     };
-    triangles.par_iter().with_min_len(1 << 12).map(normal).collect()
+    triangles.par_iter().enumerate().with_min_len(1 << 12).map(normal).collect()
 }
 
 #[cfg(test)]
@@ -162,7 +169,7 @@ mod tests {
             &[[0, 1, 2], [3, 5, 4]],
         ));
         assert_eq!((mesh.cleaning.welded, mesh.cleaning.borders), (2, 4));
-        assert_eq!(mesh.origin, DVec3::new(0.5, 0.5 + d / 2.0, 0.0));
+        assert_eq!(mesh.origin, DVec3::ZERO);
     }
 
     #[test]

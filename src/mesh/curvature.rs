@@ -12,7 +12,7 @@ use super::curvature_derivative;
 use super::diffusion::diffuse;
 use super::fans::{Fans, GRAIN, sides};
 use super::feature_size;
-use super::{FaceId, Mesh, SmoothNormals};
+use super::{FaceId, Mesh, PartId, SmoothNormals};
 use crate::math::linear::solve;
 
 /// The principal curvatures at a point of a surface, and their directions.
@@ -43,20 +43,31 @@ pub struct Curvature {
     /// four different entries of a symmetric 2 × 2 × 2 tensor, 111, 112, 122, 222. One per smooth
     /// vertex.
     pub derivative: Vec<[f64; 4]>,
-    /// Size of the features of the surface, world units; see `feature_size::feature_size`.
-    pub feature_size: f64,
+    /// Size of the features of each part, world units; see `feature_size::feature_sizes`.
+    pub feature_sizes: Vec<f64>,
+    /// The part of each smooth vertex.
+    part_of: Vec<PartId>,
 }
 
 impl Curvature {
-    /// Measures a surface whose normals are smoothed over the length `smoothing`, world units.
+    /// Measures a surface whose normals are smoothed over `smoothing` times the scale of each part.
     #[must_use]
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
         let fans = Fans::new(mesh, smooth);
-        let normals = diffuse(smooth, &fans, smoothing);
+        let part_of = fans.parts(mesh, smooth.vertices.len());
+        let length = |part: PartId| smoothing * mesh.extents.of(part).scale;
+        let normals = diffuse(smooth, &fans, &part_of, length);
         let principal = principal(mesh, smooth, &fans, &normals);
         let derivative = curvature_derivative::derivative(mesh, smooth, &fans, &normals, &principal);
-        let feature_size = feature_size::feature_size(mesh, &fans, &principal);
-        Self { fans, normals, principal, derivative, feature_size }
+        let feature_sizes = feature_size::feature_sizes(mesh, &fans, &principal, &part_of);
+        Self { fans, normals, principal, derivative, feature_sizes, part_of }
+    }
+
+    /// The size of the features around a smooth vertex, world units.
+    #[inline]
+    #[must_use]
+    pub fn feature_size(&self, vertex: u32) -> f64 {
+        self.feature_sizes[self.part_of[vertex as usize].index()]
     }
 }
 

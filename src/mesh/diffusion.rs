@@ -10,8 +10,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::SmoothNormals;
 use super::fans::{Fans, GRAIN};
+use super::{PartId, SmoothNormals};
 
 /// Terms that add less than this to the sum are left out.
 const LEAST_TERM: f64 = 2e-3;
@@ -20,23 +20,53 @@ const LEAST_TERM: f64 = 2e-3;
 /// more exactly.
 const MOST_EDGES: f64 = 4.0;
 
-/// The unit normals, smoothed with a bell curve of standard deviation `length`, world units; no
-/// more than [`MOST_EDGES`]. Where edges are as long as that, normals stay as they are.
-pub(super) fn diffuse(smooth: &SmoothNormals, fans: &Fans, length: f64) -> Vec<DVec3> {
+/// The unit normals, smoothed with a bell curve of the standard deviation that `length` gives for each part,
+/// world units; no more than [`MOST_EDGES`]. Where edges are as long as that, normals stay as they are.
+/// `part_of` has one part per smooth vertex.
+pub(super) fn diffuse(
+    smooth: &SmoothNormals,
+    fans: &Fans,
+    part_of: &[PartId],
+    length: impl Fn(PartId) -> f64,
+) -> Vec<DVec3> {
     let areas: Vec<f64> = fans.frames.iter().map(|frame| frame.areas.iter().sum()).collect();
-    let edge2 = usual_edge_squared(&areas);
-    if length <= 0.0 || edge2 <= 0.0 {
+    let part_of_face = |face: usize| part_of[smooth.corners[face][0] as usize].index();
+    let mut areas_of: Vec<Vec<f64>> = Vec::new();
+    for (face, area) in areas.iter().enumerate().filter(|(_, area)| **area > 0.0) {
+        let part = part_of_face(face);
+        if areas_of.len() <= part {
+            areas_of.resize_with(part + 1, Vec::new);
+        }
+        areas_of[part].push(*area);
+    }
+    let edge2_of: Vec<f64> = areas_of.into_iter().map(usual_edge_squared).collect();
+    let weights_of = |(part, edge2): (usize, &f64)| {
+        let length = length(PartId::from(part));
+        if length <= 0.0 || *edge2 <= 0.0 {
+            return vec![1.0];
+        }
+        // A step spreads by a third of the squared edge in each direction, where triangles are regular.
+        let steps = 3.0 * (length * length / edge2).min(MOST_EDGES * MOST_EDGES);
+        weights(steps / 2.0)
+    };
+    let weights_of: Vec<Vec<f64>> = edge2_of.iter().enumerate().map(weights_of).collect();
+    let terms = weights_of.iter().map(Vec::len).max().unwrap_or(1);
+    if terms == 1 {
         return smooth.normals.clone();
     }
-    // A step spreads by a third of the squared edge in each direction, where triangles are regular.
-    let steps = 3.0 * (length * length / edge2).min(MOST_EDGES * MOST_EDGES);
-    let mut flow = Flow::new(smooth, fans, &areas, edge2 / EDGE2_OF_AREA);
-    let weights = weights(steps / 2.0);
+    let usual = |face: usize| edge2_of[part_of_face(face)] / EDGE2_OF_AREA;
+    let mut flow = Flow::new(smooth, fans, &areas, usual);
+    // A vertex in no fan stays as it is.
+    let weight = |vertex: usize, k: usize| {
+        let weights = weights_of.get(part_of[vertex].index());
+        weights.map_or(f64::from(u8::from(k == 0)), |weights| weights.get(k).copied().unwrap_or(0.0))
+    };
     let mut before = vec![DVec3::ZERO; smooth.normals.len()];
     let mut now = smooth.normals.clone();
-    let mut sum: Vec<DVec3> = now.iter().map(|n| *n * weights[0]).collect();
-    for (k, weight) in weights.iter().enumerate().skip(1) {
-        flow.step(&now, &mut before, &mut sum, if k == 1 { 1.0 } else { 2.0 }, *weight);
+    let mut sum: Vec<DVec3> = now.iter().enumerate().map(|(v, n)| *n * weight(v, 0)).collect();
+    for k in 1..terms {
+        let factor = if k == 1 { 1.0 } else { 2.0 };
+        flow.step(&now, &mut before, &mut sum, factor, |vertex| weight(vertex, k));
         std::mem::swap(&mut now, &mut before);
     }
     sum.par_iter_mut().with_min_len(GRAIN).for_each(|normal| *normal = normal.normalize_or_zero());
@@ -57,8 +87,9 @@ struct Flow<'a> {
 }
 
 impl<'a> Flow<'a> {
-    fn new(smooth: &'a SmoothNormals, fans: &'a Fans, areas: &[f64], usual: f64) -> Self {
-        let parts: Vec<f64> = areas.iter().map(|area| area.min(usual)).collect();
+    fn new(smooth: &'a SmoothNormals, fans: &'a Fans, areas: &[f64], usual: impl Fn(usize) -> f64) -> Self {
+        let part = |(face, area): (usize, &f64)| if *area > 0.0 { area.min(usual(face)) } else { 0.0 };
+        let parts: Vec<f64> = areas.iter().enumerate().map(part).collect();
         let around = (0..smooth.normals.len())
             .into_par_iter()
             .with_min_len(GRAIN)
@@ -78,7 +109,14 @@ impl<'a> Flow<'a> {
     /// One step of Chebyshev's recurrence for the matrix 2 S − 1, whose eigenvalues lie from −1 to
     /// 1: `before` becomes `factor` (2 S − 1) `now` − `before`, and `sum` grows by `weight` times
     /// that.
-    fn step(&mut self, now: &[DVec3], before: &mut [DVec3], sum: &mut [DVec3], factor: f64, weight: f64) {
+    fn step(
+        &mut self,
+        now: &[DVec3],
+        before: &mut [DVec3],
+        sum: &mut [DVec3],
+        factor: f64,
+        weight: impl Fn(usize) -> f64 + Sync,
+    ) {
         let (smooth, fans, parts, around) = (self.smooth, self.fans, &self.parts, &self.around);
         self.means.par_iter_mut().with_min_len(GRAIN).enumerate().for_each(|(face, mean)| {
             if parts[face] > 0.0 {
@@ -92,7 +130,7 @@ impl<'a> Flow<'a> {
             let (inverse, rest) = around[vertex];
             let step = whole * inverse + now[vertex] * rest;
             *before = (step * 2.0 - now[vertex]) * factor - *before;
-            *sum += *before * weight;
+            *sum += *before * weight(vertex);
         });
     }
 }
@@ -100,9 +138,8 @@ impl<'a> Flow<'a> {
 /// Square of the edge of an even-sided triangle, in areas.
 const EDGE2_OF_AREA: f64 = 2.309_401_076_758_503;
 
-/// The square of the edge of an even-sided triangle as large as the median of all.
-fn usual_edge_squared(areas: &[f64]) -> f64 {
-    let mut sound: Vec<f64> = areas.iter().copied().filter(|a| *a > 0.0).collect();
+/// The square of the edge of an even-sided triangle as large as the median of all, 0 without any.
+fn usual_edge_squared(mut sound: Vec<f64>) -> f64 {
     if sound.is_empty() {
         return 0.0;
     }

@@ -34,7 +34,7 @@ impl DualTree {
     /// Only edges where two faces with area meet are told apart; all others are always proposed.
     #[must_use]
     pub fn new(mesh: &Mesh, active: impl Fn(usize) -> bool + Sync) -> Self {
-        let radius = mesh.size / 2.0;
+        let radius = mesh.extents.ball().1;
         // The same operations as where faces are asked, so that rounding is the same as well.
         let plane = |face: u32| {
             let [a, b, c] = mesh.corners(FaceId(face));

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::smooth_normals::NO_NORMAL;
-use super::{FaceId, Mesh, SmoothNormals};
+use super::{FaceId, Mesh, PartId, SmoothNormals};
 
 /// The smallest piece of work for a thread, in vertices or faces.
 pub(super) const GRAIN: usize = 1 << 12;
@@ -70,6 +70,15 @@ impl Fans {
     pub fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let range = self.starts[vertex] as usize..self.starts[vertex + 1] as usize;
         self.corners[range].iter().map(|corner| ((corner >> 2) as usize, (corner & 3) as usize))
+    }
+
+    /// The part of each of so many smooth vertices: that of the first face around it.
+    #[must_use]
+    pub fn parts(&self, mesh: &Mesh, vertices: usize) -> Vec<PartId> {
+        let part = |vertex| {
+            self.around(vertex).next().map_or_else(PartId::default, |(face, _)| mesh.face_part[face])
+        };
+        (0..vertices).map(part).collect()
     }
 
     /// Whether a face is in the fans of its corners.

@@ -48,16 +48,28 @@ pub struct IntersectionSegment {
 ///
 /// Triangles with a common vertex are neighbours and never reported; nor are overlaps in one
 /// plane, triangles that touch from one side, and contacts shorter than
-/// [`OVERLAP_OF_MODEL`](crate::math::tolerance::OVERLAP_OF_MODEL) of the diagonal of the box
-/// around all triangles. A vertex in the other plane is no obstacle where the other two corners
-/// lie on either side. The result does not depend on the number of threads.
+/// [`OVERLAP_OF_PART`](crate::math::tolerance::OVERLAP_OF_PART) of the diagonal of the box
+/// around all triangles, which count as one part. A vertex in the other plane is no obstacle where the other
+/// two corners lie on either side. The result does not depend on the number of threads.
 #[must_use]
 pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
     let Some((low, high)) = bounds(input.positions, input.triangles) else {
         return IntersectionCurves::default();
     };
-    let tolerance = PairTolerance::of_model((high - low).length());
-    join(&find_pairs(input, low, high, tolerance))
+    let scale = (high - low).length();
+    join(&find_pairs(input, low, high, |_| scale))
+}
+
+/// The same of triangles of several parts, each as large as `scale` says: the larger one counts.
+#[must_use]
+pub fn intersections_of_parts(
+    input: &IntersectionInput,
+    scale: impl Fn(u32) -> f64 + Sync,
+) -> IntersectionCurves {
+    let Some((low, high)) = bounds(input.positions, input.triangles) else {
+        return IntersectionCurves::default();
+    };
+    join(&find_pairs(input, low, high, scale))
 }
 
 /// All pairs of triangles without common vertices that have something in common, sorted; `low`
@@ -66,18 +78,20 @@ pub(super) fn find_pairs(
     input: &IntersectionInput,
     low: DVec3,
     high: DVec3,
-    tolerance: PairTolerance,
+    scale: impl Fn(u32) -> f64 + Sync,
 ) -> Vec<Pair> {
     let IntersectionInput { positions, triangles, active } = *input;
     let tree = BoxTree::new(positions, triangles, active, low, high);
     let mut pairs = tree.overlaps(|face, others, found: &mut Vec<Pair>| {
         let own = &Triangle::new(positions, triangles[face as usize]);
+        let own_scale = scale(face);
         for &other in others {
             let other_vertices = triangles[other as usize];
             if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
                 continue;
             }
             let other_triangle = Triangle::new(positions, other_vertices);
+            let tolerance = PairTolerance::of_parts(own_scale.max(scale(other)));
             let common = if face < other {
                 cross(own, &other_triangle, tolerance)
             } else {

@@ -13,6 +13,7 @@ pub mod dual_tree;
 pub mod edge_arc;
 pub mod edge_set;
 pub mod edges;
+pub mod extents;
 pub mod fans;
 pub mod feature_size;
 mod groups;
@@ -46,24 +47,25 @@ pub use dual_tree::{DualTree, ToneTree};
 pub use edge_arc::EdgeArc;
 pub use edge_set::EdgeSet;
 pub use edges::{EdgeFaces, Edges};
+pub use extents::{Extent, Extents};
 pub use hard_edges::HardEdges;
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use patches::Patches;
 pub use smooth_normals::SmoothNormals;
 pub use soup::{EdgeMark, Soup, Wire};
 
-/// A welded triangle mesh, centred on its bounding box.
+/// A welded triangle mesh.
 ///
 /// Non-manifold and open meshes are fine; every face has three different vertices and no face
 /// stands twice in one part. Vertices and faces stand in an order that rests on their places, not on the
 /// file's. Built by [`Mesh::build`].
 #[derive(Debug, Clone, Default)]
 pub struct Mesh {
-    /// The world point that is the zero of `positions`: the centre of the bounding box, so that
-    /// far-away models keep their digits.
+    /// The world point that is the zero of `positions`: zero itself, or for models far from it a round point
+    /// near them, so that they keep their digits.
     pub origin: DVec3,
-    /// Diagonal of the bounding box, world units; every tolerance is a fraction of it.
-    pub size: f64,
+    /// How large each part is; every tolerance is a fraction of that.
+    pub extents: Extents,
     /// Vertices, world units relative to `origin`.
     pub positions: Vec<DVec3>,
     /// Vertex ids of each face, counter-clockwise seen from outside as far as the file is right.

@@ -6,6 +6,9 @@
 //! go by part and material, which stay as the file has them, and then by their corners; each begins with its
 //! first corner. Lines without faces follow the same rule.
 //!
+//! The curve is that of the whole space, not of the model's box: which of two places comes first depends on
+//! nothing but these two, so that parts that come and go leave all others in their order.
+//!
 //! Source: Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966, for
 //! the curve.
 
@@ -15,9 +18,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{MaterialId, PartId, Soup};
+use crate::math::power::power_of_two_above;
 
-/// Cells of the curve along each side of the model's box: as many as three coordinates fit in 64 bits.
-const CELLS: f64 = (1u32 << 21) as f64;
+/// Cells of the curve from zero along each axis and to either side: as many as three coordinates fit in 64
+/// bits. Within a cell the places themselves are compared.
+const CELLS: f64 = (1u32 << 20) as f64;
 
 /// The smallest piece of work for a thread, in vertices or faces.
 const GRAIN: usize = 1 << 14;
@@ -59,11 +64,11 @@ impl Entry {
     }
 }
 
-/// Orders all of a soup whose box begins at `low` and has `side` as its longest side. Vertices at one place
-/// become one; returns how many went that way.
-pub(super) fn by_place(soup: &mut Soup, low: DVec3, side: f64) -> u64 {
+/// Orders all of a soup with coordinates up to `largest`. Vertices at one place become one; returns how many
+/// went that way.
+pub(super) fn by_place(soup: &mut Soup, largest: f64) -> u64 {
     let before = soup.positions.len();
-    let new_id = order_vertices(&mut soup.positions, low, side);
+    let new_id = order_vertices(&mut soup.positions, largest);
     order_faces(soup, &new_id);
     for wire in &mut soup.wires {
         wire.vertices = wire.vertices.map(|v| new_id[v as usize]);
@@ -74,22 +79,29 @@ pub(super) fn by_place(soup: &mut Soup, low: DVec3, side: f64) -> u64 {
 }
 
 /// Sorts the places and leaves each once; returns the new id of each old vertex.
-fn order_vertices(positions: &mut Vec<DVec3>, low: DVec3, side: f64) -> Vec<u32> {
-    let scale = if side > 0.0 { CELLS / side } else { 0.0 };
+fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
+    // A power of two, so that the cells of a larger model are made of those of a smaller one.
+    let cell = power_of_two_above(largest) / CELLS;
     let keyed: Vec<(u64, u32)> = positions
         .par_iter()
         .enumerate()
         .with_min_len(GRAIN)
-        .map(|(id, p)| (along_curve((*p - low) * scale), id as u32))
+        .map(|(id, p)| (along_curve(*p, cell), id as u32))
         .collect();
-    // Most of the work is done by large cells, of which a surface meets one for every few vertices.
+    // Most of the work is done by large cells, of which a surface meets one for every few vertices. What all
+    // keys begin with says nothing.
+    let first = keyed.first().map_or(0, |(key, _)| *key);
+    let different =
+        keyed.par_iter().with_min_len(GRAIN).map(|(key, _)| key ^ first).reduce(|| 0, |a, b| a | b);
+    let used = 64 - different.leading_zeros();
     let depth = (positions.len() / 8).max(1).ilog2().div_ceil(2).min(7);
-    let large = |key: u64| (key >> (63 - 3 * depth)) as u32;
-    let mut keyed = counting_sort(&keyed, 1 << (3 * depth), |(key, _)| large(*key));
+    let bits = (3 * depth).min(used);
+    let large = |key: u64| (key >> (used - bits)) as u32 & ((1 << bits) - 1);
+    let mut keyed = counting_sort(&keyed, 1 << bits, |(key, _)| large(*key));
     let place = |id: u32| positions[id as usize];
     let at_one_cell = |a: &(u64, u32), b: &(u64, u32)| large(a.0) == large(b.0);
     for_each_run(&mut keyed, at_one_cell, |cell| {
-        cell.sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| by_coordinates(place(a.1), place(b.1))));
+        cell.sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| along_exact_curve(place(a.1), place(b.1))));
     });
 
     let mut new_id = vec![0; positions.len()];
@@ -105,11 +117,56 @@ fn order_vertices(positions: &mut Vec<DVec3>, low: DVec3, side: f64) -> Vec<u32>
     new_id
 }
 
-/// How far along the curve a cell lies. What lies outside the box, unused, counts as on its border.
-fn along_curve(cell: DVec3) -> u64 {
-    let most = CELLS - 1.0;
-    let [x, y, z] = cell.clamp(DVec3::ZERO, DVec3::splat(most)).to_array().map(|c| spread(c as u64));
+/// How far along the curve the cell of a place lies: first come the signs, then the cells from zero outward.
+/// What lies beyond all cells, unused, counts as in the last.
+fn along_curve(place: DVec3, cell: f64) -> u64 {
+    let number = |x: f64| {
+        let from_zero = (x.abs() / cell).min(CELLS - 1.0) as u64;
+        // The places below zero are a mirror image, so that coordinates grow along the curve.
+        if x < 0.0 { CELLS as u64 - 1 - from_zero } else { from_zero + CELLS as u64 }
+    };
+    let [x, y, z] = place.to_array().map(|x| spread(number(x)));
     x | y << 1 | z << 2
+}
+
+/// The order of two places along the curve, to the last bit: the axis along which the larger cells part them
+/// decides.
+///
+/// Source: Connor and Kumar, *Fast construction of k-nearest neighbor graphs for point clouds*, 2010, section
+/// 3, for the order of floating-point numbers.
+fn along_exact_curve(a: DVec3, b: DVec3) -> Ordering {
+    if !(a.is_finite() && b.is_finite()) {
+        // Unused, and last.
+        return b.is_finite().cmp(&a.is_finite()).then_with(|| by_coordinates(a, b));
+    }
+    let (mut level, mut order) = (i64::MIN, Ordering::Equal);
+    for (p, q) in [(a.z, b.z), (a.y, b.y), (a.x, b.x)] {
+        let parts = parting_level(p, q);
+        if parts > level {
+            (level, order) = (parts, p.total_cmp(&q));
+        }
+    }
+    order
+}
+
+/// The level of the largest cells that part two numbers; the least for equal ones.
+fn parting_level(p: f64, q: f64) -> i64 {
+    const DIGITS: u32 = f64::MANTISSA_DIGITS - 1;
+    if (p < 0.0) != (q < 0.0) {
+        return i64::MAX;
+    }
+    let (p, q) = (p.abs().to_bits(), q.abs().to_bits());
+    // Below the normal numbers digits count from the least normal one.
+    let exponent = |bits: u64| (bits >> DIGITS).max(1) as i64;
+    let digits = |bits: u64| bits & ((1 << DIGITS) - 1) | u64::from(bits >> DIGITS > 0) << DIGITS;
+    if p == q {
+        i64::MIN
+    } else if exponent(p) == exponent(q) {
+        let highest = 63 - (digits(p) ^ digits(q)).leading_zeros();
+        exponent(p) - i64::from(DIGITS) + i64::from(highest)
+    } else {
+        exponent(p).max(exponent(q))
+    }
 }
 
 /// Moves the 21 lowest bits apart, so that there are two free ones after each.
@@ -251,6 +308,7 @@ fn reorder<T: Copy + Default + Send + Sync>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::noise::{hash, unit};
     use crate::mesh::{EdgeMark, PaintId, Wire};
 
     /// Two triangles that share a side, each with all that a face may have.
@@ -296,7 +354,7 @@ mod tests {
     #[test]
     fn faces_go_by_material_and_begin_with_their_first_corner() {
         let mut soup = soup();
-        assert_eq!(by_place(&mut soup, DVec3::ZERO, 1.0), 0);
+        assert_eq!(by_place(&mut soup, 1.0), 0);
         // Along the curve: 0 0, then 1 0, then 0 1, then 1 1.
         let places: Vec<[f64; 2]> = soup.positions.iter().map(|p| [p.x, p.y]).collect();
         assert_eq!(places, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
@@ -308,7 +366,7 @@ mod tests {
     #[test]
     fn numbering_leaves_no_trace() {
         let mut first = soup();
-        by_place(&mut first, DVec3::ZERO, 1.0);
+        by_place(&mut first, 1.0);
         // Other ids, other corners in front, zeros of another sign, a vertex twice, an unused one at an old place.
         let mut second = soup();
         second.positions = [3, 2, 0, 1, 2].map(|k: usize| soup().positions[k]).to_vec();
@@ -328,7 +386,7 @@ mod tests {
         second.triangle_paint.reverse();
         second.wires[0].vertices = [0, 1];
         second.wires[1].vertices = [3, 2];
-        assert_eq!(by_place(&mut second, DVec3::ZERO, 1.0), 1);
+        assert_eq!(by_place(&mut second, 1.0), 1);
         assert_eq!(values(&first), values(&second));
     }
 
@@ -341,7 +399,7 @@ mod tests {
             ..Soup::default()
         };
         // Two places in one cell of the curve are two.
-        assert_eq!(by_place(&mut soup, DVec3::ZERO, 1.0), 2);
+        assert_eq!(by_place(&mut soup, 1.0), 2);
         assert_eq!(soup.positions, [DVec3::X, DVec3::splat(0.5), near]);
         assert_eq!(soup.triangles, [[0, 2, 1]; 2]);
     }
@@ -355,7 +413,7 @@ mod tests {
                 triangle_paint: paints.map(PaintId).to_vec(),
                 ..Soup::default()
             };
-            by_place(&mut soup, DVec3::ZERO, 1.0);
+            by_place(&mut soup, 1.0);
             soup.triangle_paint
         };
         assert_eq!(twins([7, 8]), twins([8, 7]));
@@ -365,7 +423,44 @@ mod tests {
     fn bits_are_spread_and_the_curve_ends_at_the_border() {
         assert_eq!(spread(0b1011), 0b1_000_001_001);
         assert_eq!(spread((1 << 21) - 1), 0x1249_2492_4924_9249);
-        assert_eq!(along_curve(DVec3::splat(1e300)), (1 << 63) - 1);
-        assert_eq!(along_curve(DVec3::new(-5.0, 1.0, 2.0)), 0b100_010);
+        assert_eq!(along_curve(DVec3::splat(1e300), 1.0), (1 << 63) - 1);
+        assert_eq!(along_curve(DVec3::splat(-1e300), 1.0), 0);
+        let zero = 0b111 << 60;
+        assert_eq!(along_curve(DVec3::new(0.5, 1.0, 2.0), 1.0), zero | 0b100_010);
+        assert!(along_curve(DVec3::new(-0.5, 1.0, 2.0), 1.0) < zero);
+    }
+
+    #[test]
+    fn the_size_of_cells_does_not_show() {
+        // Of all sizes and both signs.
+        let number = |k: u64| {
+            let chance = |word: u64| unit(hash(7, &[k, word]));
+            (chance(0) - 0.5) * [1.0, 0.1, 1e-4, 1e-7, 1e-12][(chance(1) * 5.0) as usize]
+        };
+        let mut sorted: Vec<DVec3> =
+            (0..300).map(|k| DVec3::new(number(3 * k), number(3 * k + 1), number(3 * k + 2))).collect();
+        sorted.sort_by(|a, b| along_exact_curve(*a, *b));
+        for cell in [1e-9, 1e-6, 1e-3, 0.1].map(power_of_two_above) {
+            assert!(sorted.is_sorted_by_key(|p| along_curve(*p, cell)), "{cell}");
+        }
+        assert_eq!(along_exact_curve(DVec3::ZERO, DVec3::new(0.0, 0.0, 5e-324)), Ordering::Less);
+        let lost = DVec3::new(f64::NAN, 0.0, 0.0);
+        assert_eq!(along_exact_curve(lost, DVec3::X), Ordering::Greater);
+    }
+
+    #[test]
+    fn what_is_added_leaves_the_rest_in_order() {
+        let order = |far: &[DVec3]| {
+            let mut positions: Vec<DVec3> = (0..40)
+                .map(|k| DVec3::new(f64::from(k % 7) - 3.0, f64::from(k % 5), f64::from(k)) / 7.0)
+                .collect();
+            let own = positions.len();
+            positions.extend(far);
+            let new_id = order_vertices(&mut positions, 1e3);
+            let mut ids: Vec<usize> = (0..own).collect();
+            ids.sort_by_key(|k| new_id[*k]);
+            ids
+        };
+        assert_eq!(order(&[]), order(&[DVec3::splat(-900.0), DVec3::splat(0.3), DVec3::X * 1e3]));
     }
 }

@@ -85,21 +85,21 @@ impl RayTree {
     /// The tree of all faces that have an area.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Self {
-        let half = (mesh.size / 2.0).max(f64::MIN_POSITIVE);
+        let (middle, half) = mesh.extents.ball();
         let mut order: Vec<(u64, u32)> = (0..mesh.triangles.len() as u32)
             .into_par_iter()
             .with_min_len(1 << 10)
             .filter(|face| !mesh.is_degenerate(FaceId(*face)))
             .map(|face| {
                 let [a, b, c] = mesh.corners(FaceId(face));
-                (morton((a + b + c) / (3.0 * half)), face)
+                (morton(((a + b + c) / 3.0 - middle) / half), face)
             })
             .collect();
         order.par_sort_unstable();
         let triangles: Vec<[DVec3; 3]> = order.iter().map(|(_, face)| mesh.corners(FaceId(*face))).collect();
 
         // Wider than rounding of the rays can be.
-        let slack = tolerance::RAY_BOX_OF_MODEL * mesh.size;
+        let slack = tolerance::RAY_BOX_OF_MESH * (half + middle.length());
         let mut levels: Vec<Vec<Node>> = vec![
             triangles
                 .chunks(WIDTH)

@@ -286,6 +286,7 @@ impl Work {
         done: &[Piece],
     ) -> (Mesh, SmoothNormals) {
         let faces = || kept.iter().copied().chain(done.iter().map(|piece| piece.face));
+        let hosts: Vec<u32> = faces().collect();
         let triangles: Vec<[u32; 3]> = kept
             .iter()
             .map(|face| mesh.triangles[*face as usize])
@@ -317,8 +318,10 @@ impl Work {
             normals: mesh.normals.clone(),
             corner_normals,
             origin: mesh.origin,
-            size: mesh.size,
-            face_normals: super::build::face_normals(&self.positions, &triangles, mesh.size),
+            extents: mesh.extents.clone(),
+            face_normals: super::build::face_normals(&self.positions, &triangles, |f| {
+                mesh.extent(super::FaceId(hosts[f])).scale
+            }),
             face_part: faces().map(|f| mesh.face_part[f as usize]).collect(),
             face_material: faces().map(|f| mesh.face_material[f as usize]).collect(),
             face_paint: faces().filter_map(|f| mesh.face_paint.get(f as usize).copied()).collect(),

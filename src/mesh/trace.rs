@@ -4,7 +4,6 @@
 //! the curve goes on in the face beyond that edge; where a vertex lies in the other plane, in one
 //! of the faces around it.
 
-use glam::DVec3;
 use rustc_hash::FxHashSet;
 
 use super::intersect::{IntersectionCurves, IntersectionInput, Pair, find_pairs, join};
@@ -15,24 +14,24 @@ use super::{EdgeFaces, FaceId, Mesh};
 #[derive(Debug, Clone, Copy)]
 pub struct Tracer<'a> {
     mesh: &'a Mesh,
-    tolerance: PairTolerance,
 }
 
 impl<'a> Tracer<'a> {
     /// The tracer of a mesh.
     #[must_use]
     pub fn new(mesh: &'a Mesh) -> Self {
-        Self { mesh, tolerance: PairTolerance::of_model(mesh.size) }
+        Self { mesh }
     }
 
     /// The pairs among the active faces that pass through each other, the lesser face first.
     #[must_use]
     pub fn pairs_among(&self, active: &[bool]) -> Vec<[u32; 2]> {
         let Mesh { positions, triangles, .. } = self.mesh;
-        // The mesh is centred, so that its diagonal spans a box around it.
-        let high = DVec3::splat(self.mesh.size / 2.0);
+        let (middle, radius) = self.mesh.extents.ball();
         let input = IntersectionInput { positions, triangles, active };
-        find_pairs(&input, -high, high, self.tolerance).iter().map(|pair| pair.faces).collect()
+        let scale = |face: u32| self.mesh.extent(FaceId(face)).scale;
+        let pairs = find_pairs(&input, middle - radius, middle + radius, scale);
+        pairs.iter().map(|pair| pair.faces).collect()
     }
 
     /// The whole curves to which the given pairs of faces belong, as far as triangles without
@@ -66,7 +65,8 @@ impl<'a> Tracer<'a> {
 
     fn common(&self, [a, b]: [u32; 2]) -> Option<Common> {
         let triangle = |face: u32| Triangle::new(&self.mesh.positions, self.mesh.triangles[face as usize]);
-        cross(&triangle(a), &triangle(b), self.tolerance)
+        let scale = [a, b].map(|face| self.mesh.extent(FaceId(face)).scale);
+        cross(&triangle(a), &triangle(b), PairTolerance::of_parts(scale[0].max(scale[1])))
     }
 
     fn are_neighbours(&self, a: u32, b: u32) -> bool {

@@ -8,7 +8,7 @@
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-use crate::math::tolerance::{OVERLAP_OF_MODEL, PARALLEL_SINE, PLANE_OF_MODEL};
+use crate::math::tolerance::{OVERLAP_OF_PART, PARALLEL_SINE, PLANE_OF_PART};
 
 /// Lengths below which a pair of triangles merely touches, in world units.
 #[derive(Debug, Clone, Copy)]
@@ -20,10 +20,11 @@ pub struct PairTolerance {
 }
 
 impl PairTolerance {
-    /// The tolerance for a model whose bounding box has this diagonal.
+    /// The tolerance for triangles of parts that are this large.
+    #[inline]
     #[must_use]
-    pub fn of_model(diagonal: f64) -> Self {
-        Self { plane: PLANE_OF_MODEL * diagonal, overlap: OVERLAP_OF_MODEL * diagonal }
+    pub fn of_parts(scale: f64) -> Self {
+        Self { plane: PLANE_OF_PART * scale, overlap: OVERLAP_OF_PART * scale }
     }
 }
 
@@ -48,8 +49,8 @@ impl Triangle {
         let corners = vertices.map(|v| positions[v as usize]);
         let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
         let normal = e1.cross(e2);
-        // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the model. Where
-        // the corner's sine is above 1/100 that is less than 3e-13 of the model in distance, well
+        // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the way to q. Where
+        // the corner's sine is above 1/100 that is less than 3e-13 of this way in distance, well
         // inside the tolerance within which a vertex lies in the plane anyway.
         let trusted = normal.length_squared() > 1e-4 * e1.length_squared() * e2.length_squared();
         Self { vertices, corners, normal, trusted }

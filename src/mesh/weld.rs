@@ -9,26 +9,29 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// For each vertex the smallest id of those that are joined to it by steps of at most
-/// `tolerance`, looking only at `candidates` (ascending); `None` if nothing is joined.
+/// For each vertex the smallest id of those that are joined to it, looking only at `candidates`
+/// (ascending): steps are at most as long as the greater of what `reaches` says of both their ends. `None` if
+/// nothing is joined.
 #[must_use]
-pub fn near(positions: &[DVec3], candidates: &[u32], tolerance: f64) -> Option<Vec<u32>> {
+pub fn near(positions: &[DVec3], candidates: &[u32], reaches: &[f64]) -> Option<Vec<u32>> {
+    let tolerance = reaches.iter().copied().fold(0.0, f64::max);
     if tolerance <= 0.0 {
         return None;
     }
     // Cells are much larger than the tolerance, so that few points need to ask a second cell.
     let cell = tolerance * 16.0;
     let key = |p: DVec3| (p / cell).floor().to_array().map(|c| c as i64);
-    let mut cells: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
+    let mut cells: FxHashMap<[i64; 3], Vec<(u32, f64)>> = FxHashMap::default();
     let mut parent: Vec<u32> = Vec::new();
-    for &id in candidates {
+    for (&id, &reach) in candidates.iter().zip(reaches) {
         let p = positions[id as usize];
         let (low, high) = (key(p - tolerance), key(p + tolerance));
         for x in low[0]..=high[0] {
             for y in low[1]..=high[1] {
                 for z in low[2]..=high[2] {
-                    for &other in cells.get(&[x, y, z]).map_or(&[][..], Vec::as_slice) {
-                        if positions[other as usize].distance_squared(p) <= tolerance * tolerance {
+                    for &(other, other_reach) in cells.get(&[x, y, z]).map_or(&[][..], Vec::as_slice) {
+                        let reach = reach.max(other_reach);
+                        if positions[other as usize].distance_squared(p) <= reach * reach {
                             if parent.is_empty() {
                                 parent = (0..positions.len() as u32).collect();
                             }
@@ -39,7 +42,7 @@ pub fn near(positions: &[DVec3], candidates: &[u32], tolerance: f64) -> Option<V
                 }
             }
         }
-        cells.entry(key(p)).or_default().push(id);
+        cells.entry(key(p)).or_default().push((id, reach));
     }
     if parent.is_empty() {
         return None;
@@ -69,8 +72,12 @@ mod tests {
         let mut doubled = places.clone();
         doubled.extend(places.iter().map(|p| *p + DVec3::splat(5e-7)));
         let all: Vec<u32> = (0..400).collect();
-        let joined = near(&doubled, &all, 1e-6).expect("pairs lie within the tolerance");
+        let joined = near(&doubled, &all, &[1e-6; 400]).expect("pairs lie within the tolerance");
         assert!((0..200).all(|i| joined[i + 200] == i as u32));
-        assert_eq!(near(&doubled, &all, 1e-7), None);
+        assert_eq!(near(&doubled, &all, &[1e-7; 400]), None);
+        // The greater of two reaches counts.
+        let reaches: Vec<f64> = (0..400).map(|i| if i < 100 { 1e-6 } else { 1e-9 }).collect();
+        let joined = near(&doubled, &all, &reaches).expect("the first hundred pairs are joined");
+        assert!((0..200).all(|i| (joined[i + 200] == i as u32) == (i < 100)));
     }
 }

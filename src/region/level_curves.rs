@@ -190,14 +190,15 @@ pub fn are_seen(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
         .zip(own)
         .map(|(front, own)| {
             front.is_some_and(|front| {
-                frame.depth_of(own) - frame.depth_of(front.nearness) < lit.mesh.size * SAME_DEPTH
+                frame.depth_of(own) - frame.depth_of(front.nearness)
+                    < frame.px_at(frame.depth_of(own)) * SAME_DEPTH_PX
             })
         })
         .collect()
 }
 
-/// Depths that differ by no more than this part of the model's size are the same surface.
-const SAME_DEPTH: f64 = 1e-4;
+/// Depths that differ by no more than this (px) are the same surface.
+const SAME_DEPTH_PX: f64 = 0.1;
 
 impl Lit<'_> {
     /// Whether the eye may see a face.

@@ -80,11 +80,20 @@ pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
     if noded.bridge(reach) {
         noded.cut_all();
     }
+    // Points are numbered by where they are, so that what follows does not depend on what else there is.
+    let mut points = noded.points.clone();
+    points.sort_unstable();
+    let number = |old: u32| points.binary_search(&noded.points[old as usize]).unwrap_or_default() as u32;
+    let numbers: Vec<u32> = (0..noded.points.len() as u32).map(number).collect();
     let mut pieces: Vec<Piece> = noded.pieces;
+    for piece in &mut pieces {
+        piece.ends = piece.ends.map(|end| numbers[end as usize]);
+        piece.ends.sort_unstable();
+    }
     // Where two pieces coincide, the stronger border stays.
     pieces.sort_unstable();
     pieces.dedup_by_key(|piece| piece.ends);
-    Noded { points: noded.points, pieces }
+    Noded { points, pieces }
 }
 
 #[derive(Default)]

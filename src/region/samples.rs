@@ -273,7 +273,7 @@ impl Probe<'_> {
     /// are smoothed: bends smaller than what strokes could follow do not count.
     fn bends(&self, samples: &Samples, angle: f64) -> Vec<Axis> {
         let lit = self.lit;
-        let size = lit.mesh.size;
+        let frame = &lit.view.frame;
         let normals = self.smooth_normals(samples);
         let columns = samples.columns;
         let around = |k: usize, step: usize, has_before: bool, has_after: bool| {
@@ -295,7 +295,8 @@ impl Probe<'_> {
                 let (column, row) = (k % columns, k / columns);
                 let x = around(k, 1, column > 0, column + 1 < columns);
                 let y = around(k, columns, row > 0, row + 1 < samples.rows);
-                match bend([x.0, y.0], [x.1, y.1], angle, size) {
+                let depth = self.hits[k].map_or(frame.focus, |(_, at)| frame.depth(at));
+                match bend([x.0, y.0], [x.1, y.1], angle, frame.side_at(depth)) {
                     Some((way, sure)) => along(way, sure),
                     None => [0.0; 2],
                 }
@@ -317,7 +318,7 @@ impl Probe<'_> {
         let frame = &self.lit.view.frame;
         let level = frame.up.cross(normal);
         let level = if level.length_squared() > LEVEL * LEVEL { level.normalize() } else { frame.right };
-        let step = self.lit.mesh.size * STEP_OF_MODEL;
+        let step = frame.px_at(frame.depth(at)) * STEP_PX;
         let [from, to] = [at, at + level * step].map(|p| frame.image_from_local(p).truncate());
         to - from
     }
@@ -326,8 +327,8 @@ impl Probe<'_> {
 /// Light that changes by this much from point to point shows its direction for sure.
 const STEEP: f64 = 0.02;
 
-/// Directions are carried to the page over this part of the model's size.
-const STEP_OF_MODEL: f64 = 1e-5;
+/// Directions are carried to the page over this length, px.
+const STEP_PX: f64 = 1e-2;
 
 /// The sureness of directions that nothing but a habit asks for.
 const HABIT: f64 = 0.004;
@@ -371,7 +372,7 @@ fn bend(ways: [DVec3; 2], turns: [DVec3; 2], angle: f64, size: f64) -> Option<(D
 /// Surfaces that face straight up or down, but for this cosine, have no level direction.
 const LEVEL: f64 = 0.05;
 
-/// A surface that bends by this angle (radians) over the size of the model bends for sure.
+/// A surface that bends by this angle (radians) over the longer side of the frame bends for sure.
 const BENDS: f64 = 2.0;
 
 fn turned(v: DVec2, angle: f64) -> DVec2 {

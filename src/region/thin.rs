@@ -30,12 +30,35 @@ pub(super) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) ->
                 }
                 points.clear();
                 lines.follow(first, end, &mut done, &mut points);
+                make_canonical(&mut points);
                 let border = segments[first].1;
                 simplify(&points, tolerance(border), border, &mut out);
             }
         }
     }
+    // Neither sense nor order of the lines shows.
+    out.iter_mut().for_each(|(ends, _)| ends.sort_unstable());
+    out.sort_unstable();
     out
+}
+
+/// Turns a line so that it begins at its lesser end; a ring begins at its least point and goes on to the lesser
+/// of its neighbours.
+fn make_canonical(points: &mut Vec<GridPoint>) {
+    let last = points.len() - 1;
+    if points[0] != points[last] {
+        if points[last] < points[0] {
+            points.reverse();
+        }
+        return;
+    }
+    points.pop();
+    let least = (0..last).min_by_key(|k| points[*k]).unwrap_or(0);
+    points.rotate_left(least);
+    if points.last() < points.get(1) {
+        points[1..].reverse();
+    }
+    points.push(points[0]);
 }
 
 /// Segments by their ends.

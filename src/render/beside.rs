@@ -25,11 +25,13 @@ pub(super) const BESIDE_PX: f64 = 1.5;
 /// Places of a line at which it is asked lie no farther apart than this, px.
 pub(super) const STEP_PX: f64 = 3.0;
 
-/// What lies this much farther (part of the model) is as far as background.
-const FAR_OF_MODEL: f64 = 0.2;
+/// What lies this much farther (part of the frame's longer side, as it is at the line's depth) is as far as
+/// background.
+const FAR_OF_FRAME: f64 = 0.2;
 
-/// Of two surfaces beside a line the nearer one is the line's own if it is so much nearer, part of the model.
-pub(super) const NEARER_OF_MODEL: f64 = 0.01;
+/// Of two surfaces beside a line the nearer one is the line's own if it is so much nearer, in
+/// the same measure.
+pub(super) const NEARER_OF_FRAME: f64 = 0.01;
 
 /// A view, and where it lies on the page.
 pub(super) struct Beside<'a> {
@@ -73,7 +75,7 @@ impl Wanted {
 }
 
 /// Numbers of feature segments that last while the eye moves, where there are any: of segments on edges of
-/// the mesh, from their vertices. 0 for all others. None if no pen has a hand.
+/// the mesh, from the places of their vertices. 0 for all others. None if no pen has a hand.
 pub(super) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOptions) -> Vec<u64> {
     let has_hand = |pen: &Pen| pen.hand.is_on();
     let changed = options.rules.iter().any(|rule| {
@@ -84,10 +86,12 @@ pub(super) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOpt
     if !changed && !has_hand(&options.pen) {
         return Vec::new();
     }
-    let vertices = surface.mesh.positions.len() as u32;
+    let mesh = &surface.mesh;
     let name = |ends: [u32; 2]| {
-        let [a, b] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        if b < vertices { hash(0, &[u64::from(a), u64::from(b)]).max(1) } else { 0 }
+        let [a, b] = [ends[0].min(ends[1]), ends[0].max(ends[1])].map(|end| mesh.positions.get(end as usize));
+        let (Some(a), Some(b)) = (a, b) else { return 0 };
+        let [a, b] = [a, b].map(|p| hash(0, &(*p + mesh.origin).to_array().map(f64::to_bits)));
+        hash(a, &[b]).max(1)
     };
     lines.segments.iter().map(|segment| name(segment.ends)).collect()
 }
@@ -160,11 +164,11 @@ impl Beside<'_> {
         }
         let seen = self.seen(&places, light);
         let mut pairs = seen.chunks_exact(2);
-        let size = self.surface.mesh.size;
+        let frame = &self.view.frame;
         for chain in chains.iter_mut().filter(|chain| chain.invisibility == 0) {
             for sample in &mut chain.samples {
                 if let Some([left, right]) = pairs.next() {
-                    learn(sample, *left, *right, size);
+                    learn(sample, *left, *right, frame.side_at(sample.depth));
                 }
             }
         }
@@ -212,11 +216,11 @@ pub(super) fn across(chain: &Chain, i: usize) -> Vec2 {
 /// What a point of a line learns from what is seen on both sides of it.
 fn learn(sample: &mut Sample, left: Option<Seen>, right: Option<Seen>, size: f64) {
     let depth = |seen: Option<Seen>| seen.map_or(f64::INFINITY, |seen| seen.depth);
-    let apart = (depth(right) - depth(left)) / (size * NEARER_OF_MODEL).max(f64::MIN_POSITIVE);
+    let apart = (depth(right) - depth(left)) / (size * NEARER_OF_FRAME).max(f64::MIN_POSITIVE);
     // Between two backgrounds nothing is nearer.
     sample.side = if apart.is_nan() { 0.0 } else { apart.clamp(-1.0, 1.0) };
     let farther = depth(left).max(depth(right)) - sample.depth;
-    sample.gap = (farther / (size * FAR_OF_MODEL).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    sample.gap = (farther / (size * FAR_OF_FRAME).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     let light = |seen: Option<Seen>| seen.map_or(0.0, |seen| seen.light);
     let share = (1.0 + sample.side) / 2.0;
     sample.light = match (left, right) {

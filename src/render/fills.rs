@@ -134,7 +134,8 @@ impl<'a> Fills<'a> {
         }
         let shadows = Shadows::new(mesh, shading.casters());
         let dims = style.light.occlusion > 0.0;
-        let openness = if dims { openness(mesh, mesh.size * NOOK_OF_MODEL) } else { Vec::new() };
+        let nook = |at: DVec3| frame.side_at(frame.depth(at)) * NOOK_OF_FRAME;
+        let openness = if dims { openness(mesh, nook) } else { Vec::new() };
         Self {
             surface,
             paintable,
@@ -216,8 +217,8 @@ impl<'a> Fills<'a> {
     }
 }
 
-/// Nooks are dark where they see no sky within this part of the model's size.
-const NOOK_OF_MODEL: f64 = 0.15;
+/// Nooks are dark where they see no sky within this part of the frame's longer side, as it is at their depth.
+const NOOK_OF_FRAME: f64 = 0.15;
 
 /// With no more lights than this, tones are sought for every set of them that may be in shadow; with
 /// more, for none, each, and all.

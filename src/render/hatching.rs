@@ -12,8 +12,10 @@ use crate::hatch::{self, Direction, Flow, Grain, Guide, HatchContext, HatchLayer
 use crate::lines::Lit;
 use crate::math::colour::Colour;
 use crate::math::function::{cos, sin};
+use crate::math::identity::identities;
 use crate::math::noise::hash;
-use crate::mesh::{FaceId, Mesh, PaintId};
+use crate::math::power::power_of_two_below;
+use crate::mesh::{FaceId, Mesh, PaintId, PartId};
 use crate::region::level_curves::{are_seen, level_curves};
 use crate::region::samples::Asked;
 use crate::region::{self, Ground, Look, RegionOptions, Samples, Seen};
@@ -187,11 +189,10 @@ fn fixed(
     let pitch = layer.pitch().in_unit(page.unit);
     let mesh = lit.mesh;
     let frame = &lit.view.frame;
-    // A pitch as it is in the middle of the model, rounded to a power of two, so that small changes of
+    // A pitch as it is where the camera looks, rounded to a power of two, so that small changes of
     // the view change nothing; two finer sets make up for what is seen at a slant.
-    let depth = frame.depth(DVec3::ZERO).max(mesh.size * 1e-3);
-    let in_model = pitch / frame.scale * if frame.perspective { depth } else { 1.0 };
-    let spacing = floor_to_power_of_two(in_model) / FINER;
+    let in_model = pitch / frame.scale * if frame.perspective { frame.focus } else { 1.0 };
+    let spacing = power_of_two_below(in_model) / FINER;
     let angle = layer.angle.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
     let up = match scene.up {
@@ -200,9 +201,10 @@ fn fixed(
     };
     let across = up * cosine + (DVec3::X + up.cross(DVec3::X) * SLANT).normalize() * sine;
     let cut = |face: u32| Some(mesh.corners(FaceId(face)).map(|p| (p + mesh.origin).dot(across) / spacing));
-    let texels = texture_scale(mesh);
+    let texels = if layer.direction == Direction::Uv { texture_scales(mesh) } else { Vec::new() };
     let woven = |face: u32| {
         let corners = mesh.corner_uvs.get(face as usize)?;
+        let texels = texels.get(mesh.face_part[face as usize].index())?;
         let value = |uv: u32| {
             let [u, v] = mesh.uvs.get(uv as usize)?.map(f64::from);
             Some((u * cosine + v * sine) * texels / spacing)
@@ -218,7 +220,13 @@ fn fixed(
         Direction::Page | Direction::Surface | Direction::Light => return None,
     };
     let seen = |points: &[(Point, f64)]| are_seen(lit, offset, points);
-    Some(cuts::guides(ground, &curves, seen, pitch, mesh.size, seed))
+    let names = identities(scene.parts.iter().map(|part| part.name.as_str()));
+    let name = |part: PartId, at: DVec3| {
+        let rough = (at + mesh.origin) / (mesh.extents.of(part).scale * ROUGHLY);
+        let [x, y, z] = rough.round().to_array().map(|x| (x as i64).cast_unsigned());
+        hash(names.get(part.index()).copied().unwrap_or_default(), &[x, y, z])
+    };
+    Some(cuts::guides(ground, &curves, seen, name, pitch, seed))
 }
 
 /// Sets of cuts are this much closer than strokes lie on a surface that faces the eye.
@@ -227,22 +235,29 @@ const FINER: f64 = 4.0;
 /// Slanting cuts are turned away from the axes of the model by this much, for walls run along these.
 const SLANT: f64 = 0.35;
 
-fn floor_to_power_of_two(x: f64) -> f64 {
-    if x.is_normal() && x > 0.0 { f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000) } else { 1.0 }
-}
+/// Pieces of one curve that are told apart lie this part of the size of their part from each other.
+const ROUGHLY: f64 = 0.3;
 
-/// The length in the model of a unit of texture coordinates, on average.
-fn texture_scale(mesh: &Mesh) -> f64 {
-    let (mut space, mut texture) = (0.0, 0.0);
+/// The length in each part of a unit of texture coordinates, on average.
+fn texture_scales(mesh: &Mesh) -> Vec<f64> {
+    let mut sums: Vec<[f64; 2]> = Vec::new();
     for (face, uvs) in mesh.corner_uvs.iter().enumerate() {
         let [Some(a), Some(b), Some(c)] = uvs.map(|uv| mesh.uvs.get(uv as usize)) else { continue };
         let [p, q, r] = mesh.corners(FaceId(face as u32));
-        space += (q - p).cross(r - p).length();
+        let part = mesh.face_part[face].index();
+        if sums.len() <= part {
+            sums.resize(part + 1, [0.0; 2]);
+        }
+        let [space, texture] = &mut sums[part];
+        *space += (q - p).cross(r - p).length();
         let [a, b, c] = [a, b, c].map(|uv| DVec2::new(f64::from(uv[0]), f64::from(uv[1])));
-        texture += (b - a).perp_dot(c - a).abs();
+        *texture += (b - a).perp_dot(c - a).abs();
     }
-    let scale = (space / texture).sqrt();
-    if scale.is_normal() { scale } else { mesh.size }
+    let scale = |(part, [space, texture]): (usize, [f64; 2])| {
+        let scale = (space / texture).sqrt();
+        if scale.is_normal() { scale } else { mesh.extents.of(PartId::from(part)).scale }
+    };
+    sums.into_iter().enumerate().map(scale).collect()
 }
 
 /// Distance of the points at which the page is asked for light and directions, px.

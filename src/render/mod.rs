@@ -4,6 +4,7 @@ mod beside;
 pub mod defects;
 mod fills;
 mod hatching;
+mod late_search;
 pub mod report;
 pub mod stage;
 mod stages;
@@ -32,6 +33,7 @@ use crate::viewmap::{self, ViewMap};
 use beside::Beside;
 use fills::{Fills, Paintable};
 use hatching::Hatching;
+use late_search::LateSearch;
 use stages::Made;
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
@@ -99,6 +101,7 @@ pub struct Prepared<'a> {
     surface: Surface,
     /// For views that need finer triangles it is made anew.
     paintable: Option<Paintable>,
+    search: LateSearch,
 }
 
 impl<'a> Prepared<'a> {
@@ -111,7 +114,7 @@ impl<'a> Prepared<'a> {
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);
         let paintable = fills::is_lit(style).then(|| Paintable::new(&surface));
-        Self { scene, style, sought, paints, surface, paintable }
+        Self { scene, style, sought, paints, surface, paintable, search: LateSearch::default() }
     }
 
     /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
@@ -149,7 +152,9 @@ impl<'a> Prepared<'a> {
         let view = View::new(&surface.mesh, camera);
         report.stages_ms.topology = watch.lap_ms();
 
-        let mut lines = lines::extract(surface, &view, sought);
+        // Finer triangles are those of this view alone.
+        let search = if refined.is_none() { self.search.of_next_view(surface) } else { None };
+        let mut lines = lines::extract_with(surface, search, &view, sought);
         let mut warnings = Vec::new();
         let fills = paintable.zip(paints.as_ref()).map(|(paintable, paints)| {
             Fills::new(surface, paintable, &view, scene, paints, style, &mut warnings)
@@ -208,6 +213,7 @@ impl<'a> Prepared<'a> {
             hidden: style.lines.hidden,
             seed: style.seed,
             painted: style.region.enabled,
+            depths: view.frame.depths(),
             names: &names,
             parting: blacks.map(|_| Parting {
                 colour: style.background.unwrap_or(Colour::WHITE),

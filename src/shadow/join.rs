@@ -6,7 +6,6 @@ use glam::DVec3;
 
 use super::envelope::Run;
 use super::receive::Borders;
-use crate::math::tolerance;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::Frame;
 
@@ -28,14 +27,16 @@ const GRAZING_COSINE: f64 = 1e-7;
 /// light's view share a node, and where loose ends meet: there the shadow of one edge goes on as that
 /// of another.
 pub(super) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
-    let reach = tolerance::CONTACT_OF_MODEL * mesh.size;
     let mut all = Joined::default();
+    // How far from each point another may lie that is the same.
+    let mut reaches: Vec<f64> = Vec::new();
     for borders in &views {
         let frame = &borders.light.view.frame;
         let mut at_node: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (edge, runs) in borders.edges.iter().zip(&borders.runs) {
             let mut before: Option<(f64, u32)> = None;
             for run in runs {
+                let reach = mesh.extent(FaceId(run.face)).contact;
                 let [p, q] = [(run.start, run.nearness[0]), (run.end, run.nearness[1])]
                     .map(|(t, nearness)| on_face(mesh, frame, run, edge.at(t), nearness));
                 let start = match before {
@@ -45,13 +46,13 @@ pub(super) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
                     }
                     _ => None,
                 };
-                let start = start.unwrap_or_else(|| all.add(p));
+                let start = start.unwrap_or_else(|| all.add(p, reach, &mut reaches));
                 let known = if run.end == 1.0 {
                     all.near(at_node.get(&edge.nodes[1]).map_or(&[], Vec::as_slice), q, reach)
                 } else {
                     None
                 };
-                let end = known.unwrap_or_else(|| all.add(q));
+                let end = known.unwrap_or_else(|| all.add(q, reach, &mut reaches));
                 for (t, node, point) in [(run.start, edge.nodes[0], start), (run.end, edge.nodes[1], end)] {
                     if t == 0.0 || t == 1.0 {
                         at_node.entry(node).or_default().push(point);
@@ -64,13 +65,14 @@ pub(super) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
             }
         }
     }
-    all.join_loose_ends(reach);
+    all.join_loose_ends(&reaches);
     all
 }
 
 impl Joined {
-    fn add(&mut self, point: DVec3) -> u32 {
+    fn add(&mut self, point: DVec3, reach: f64, reaches: &mut Vec<f64>) -> u32 {
         self.points.push(point);
+        reaches.push(reach);
         self.points.len() as u32 - 1
     }
 
@@ -81,7 +83,8 @@ impl Joined {
 
     /// Joins points that end one segment each and lie near each other, and drops what is left of
     /// no length.
-    fn join_loose_ends(&mut self, reach: f64) {
+    fn join_loose_ends(&mut self, reaches: &[f64]) {
+        let greatest = reaches.iter().copied().fold(0.0, f64::max);
         let mut uses = vec![0u32; self.points.len()];
         for (_, ends) in &self.segments {
             ends.iter().for_each(|end| uses[*end as usize] += 1);
@@ -95,9 +98,10 @@ impl Joined {
                 continue;
             }
             for b in &loose[i + 1..] {
-                if place(*b).x - place(*a).x > reach {
+                if place(*b).x - place(*a).x > greatest {
                     break;
                 }
+                let reach = reaches[*a as usize].max(reaches[*b as usize]);
                 if joined_to[*b as usize] == *b && place(*a).distance(place(*b)) <= reach {
                     joined_to[*b as usize] = *a;
                 }

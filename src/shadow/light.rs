@@ -44,9 +44,9 @@ impl LightView {
     }
 }
 
-/// The views of a light over a mesh whose origin is zero; none for a light that is nowhere.
+/// The views of a light over a mesh; none for a light that is nowhere.
 pub(super) fn views(mesh: &Mesh, caster: &Caster) -> Vec<LightView> {
-    let radius = mesh.size / 2.0;
+    let (middle, radius) = mesh.extents.ball();
     let camera = |eye: DVec3, forward: DVec3, projection: Projection| {
         let up = forward.any_orthonormal_vector();
         Camera { eye, target: eye + forward * radius, up, projection, width: SIDE, height: SIDE, near: None }
@@ -56,15 +56,16 @@ pub(super) fn views(mesh: &Mesh, caster: &Caster) -> Vec<LightView> {
         Caster::Directional { towards } => {
             let Some(towards) = towards.try_normalize() else { return Vec::new() };
             let height = 2.0 * radius * MARGIN;
-            whole(camera(towards * (2.0 * radius), -towards, Projection::Orthographic { height }))
+            whole(camera(middle + towards * (2.0 * radius), -towards, Projection::Orthographic { height }))
         }
         Caster::Point { position } if !position.is_finite() => Vec::new(),
         Caster::Point { position } => {
-            let distance = position.length();
+            let distance = position.distance(middle);
             if distance > FAR * radius {
                 let half = atan2(radius, (distance * distance - radius * radius).sqrt());
                 let fov_y_deg = 2.0 * MARGIN * half.to_degrees();
-                return whole(camera(position, -position / distance, Projection::Perspective { fov_y_deg }));
+                let towards = (middle - position) / distance;
+                return whole(camera(position, towards, Projection::Perspective { fov_y_deg }));
             }
             let projection = Projection::Perspective { fov_y_deg: 90.0 };
             (0..6_usize)

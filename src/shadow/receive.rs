@@ -46,7 +46,7 @@ pub(super) fn borders<'a>(surface: &Surface, light: &'a LightView) -> Borders<'a
     let Surface { mesh, .. } = surface;
     let edges = cast::edges(surface, light);
     let candidates = candidates(mesh, &light.view, &edges);
-    let limits = Limits::new(mesh.size, &light.view.frame);
+    let limits = Limits::new(&light.view.frame);
     let first = |k: usize| candidates.partition_point(|(edge, _)| (*edge as usize) < k);
     let runs = (0..edges.len())
         .into_par_iter()
@@ -64,7 +64,7 @@ pub(super) fn borders<'a>(surface: &Surface, light: &'a LightView) -> Borders<'a
 /// What may receive the shadow of each edge, in the order of the edges.
 fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candidate)> {
     let Some(first) = edges.first() else { return Vec::new() };
-    let limits = &Limits::new(mesh.size, &view.frame);
+    let limits = &Limits::new(&view.frame);
     let bounds = (first.a.truncate(), first.a.truncate());
     let (low, high) = edges.iter().fold(bounds, |(low, high), edge| {
         let (a, b) = (edge.a.truncate(), edge.b.truncate());
@@ -151,11 +151,11 @@ impl Tester<'_> {
         let (p, q) = (edge.at(item.start).truncate(), edge.at(item.end).truncate());
         let at = |t: f64| if t >= 1.0 { item.end } else { item.start + (item.end - item.start) * t };
         let neighbour = shared[0].is_some() || shared[1].is_some();
-        let step = if neighbour { self.limits.neighbour } else { self.limits.contact };
         let nearness = |t: f64| nearness(corners, edge.at(t), shared[0].or(shared[1]).unwrap_or(0));
         // How much farther than the edge the face is.
         let depth = |t: f64| edge.at(t).z - nearness(t);
-        let is_behind = |t: f64| depth(t) > self.view.frame.nearness_step(edge.at(t).z, step);
+        let step = |q: f64| self.limits.step(q, &face.slack, neighbour, &self.view.frame);
+        let is_behind = |t: f64| depth(t) > step(edge.at(t).z);
         let candidate = |start: f64, end: f64, touches: bool| Candidate {
             face: face.face,
             start,

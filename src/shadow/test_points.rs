@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use super::Caster;
 use super::light::LightView;
 use super::outside::Outside;
-use crate::math::tolerance;
 use crate::mesh::{FaceId, Mesh};
 use crate::viewmap::front_faces;
 
@@ -25,7 +24,6 @@ pub(super) fn mark(
         .with_min_len(1 << 10)
         .map(|(face, point)| !is_averted(mesh, caster, outside, *face, *point))
         .collect();
-    let contact = tolerance::CONTACT_OF_MODEL * mesh.size;
     for light in views {
         let frame = &light.view.frame;
         let chosen: Vec<usize> =
@@ -38,6 +36,8 @@ pub(super) fn mark(
             let Some(front) = front else { continue };
             let (face, point) = points[*k];
             let gap = front.nearness - image.z;
+            let contact = [face, front.face].map(|face| mesh.extent(FaceId(face)).contact);
+            let contact = contact[0].max(contact[1]);
             if front.face != face
                 && gap > frame.nearness_step(image.z, contact)
                 && distance(point, mesh.corners(FaceId(front.face))) > contact

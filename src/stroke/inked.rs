@@ -58,7 +58,9 @@ pub(super) struct Inked<'a> {
     pub joined: [Option<f64>; 2],
     /// Where nearer lines pass over it.
     pub gaps: &'a [[f64; 2]],
-    /// The depths of the nearest and the farthest line.
+    /// What tells the parts apart.
+    pub identities: &'a [u64],
+    /// The depths of what counts as near and as far.
     pub depths: [f64; 2],
     /// Whether its width may vary: not that of dashed lines.
     pub solid: bool,
@@ -208,7 +210,8 @@ impl Inked<'_> {
             hash(1, &[cell(p.x), cell(p.y)])
         };
         let place = if known == 0 { begins() } else { known };
-        hash(place, &[chain.kind as u64, u64::from(chain.part.0)])
+        let part = self.identities.get(chain.part.index()).copied().unwrap_or_default();
+        hash(place, &[chain.kind as u64, part])
     }
 }
 

@@ -39,6 +39,7 @@ use crate::chain::{Chain, Under};
 use crate::drawing::{Layer, LayerKind, Length, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
 use crate::lines::HiddenLines;
 use crate::math::colour::Colour;
+use crate::math::identity::identities;
 use axis::Axis;
 use inked::{Inked, Shape};
 use inks::Tint;
@@ -59,6 +60,8 @@ pub struct InkContext<'a> {
     pub seed: u64,
     /// Whether surfaces are painted under the lines, so that lines must not leave their borders.
     pub painted: bool,
+    /// The depths of what counts as near and as far.
+    pub depths: [f64; 2],
     /// For feature segments, by their number, what lasts while the eye moves; 0 = nothing. May be empty.
     pub names: &'a [u64],
     /// What parts spot blacks, where there are any.
@@ -134,8 +137,8 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
 fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Mark>> {
     let px = context.px();
     let axes: Vec<Axis> = chains.par_iter().map(|chain| Axis::of(chain, px).evened(px)).collect();
-    let depths = chains.iter().flat_map(|chain| &chain.samples).map(|sample| sample.depth);
-    let depths = depths.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], d| [l.min(d), h.max(d)]);
+    let identities = identities(context.parts.iter().map(|name| &**name));
+    let depths = context.depths;
     let reach = |pen: &Pen| {
         let halo = pen.halo.in_unit(context.unit);
         if halo > 0.0 { halo + pen.width.in_unit(context.unit) / 2.0 } else { 0.0 }
@@ -168,7 +171,8 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
         };
         let joined = joined[i].map(|end| end.and_then(there));
         let shapes =
-            Inked { chain, axis, pen, thick, joined, gaps, depths, solid, inks: &inks }.shapes(context);
+            Inked { chain, axis, pen, thick, joined, gaps, identities: &identities, depths, solid, inks: &inks }
+                .shapes(context);
         let painted = shapes.into_iter().map(|(shape, colour)| match shape {
             Shape::Path(path, closed) => stroked(path, closed, colour, chain, context, pen),
             Shape::Outline { path, axis, width: mean } => {

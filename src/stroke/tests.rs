@@ -39,6 +39,7 @@ fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
         hidden: style.lines.hidden,
         seed: style.seed,
         painted: false,
+        depths: [1.0, 2.0],
         names: &[],
         parting: None,
     };

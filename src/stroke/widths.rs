@@ -35,7 +35,7 @@ pub(super) struct Setting {
     pub swell: Swell,
     /// User units in a px.
     pub px: f64,
-    /// The depths of the nearest and the farthest line.
+    /// The depths of what counts as near and as far.
     pub depths: [f64; 2],
     /// User units in which bends count by half.
     pub bend_radius: f64,

@@ -27,6 +27,8 @@ pub struct Frame {
     pub height: f64,
     /// Depth of the near plane; `None` cuts nothing.
     pub near: Option<f64>,
+    /// Depth of the camera's target: where lengths are measured that are the same all over the picture.
+    pub focus: f64,
 }
 
 impl Frame {
@@ -56,7 +58,23 @@ impl Frame {
             width: camera.width,
             height: camera.height,
             near: camera.near,
+            focus: camera.eye.distance(camera.target),
         }
+    }
+
+    /// What tolerances call a px: a thousandth of the longer side of the frame, user units.
+    #[inline]
+    #[must_use]
+    pub fn px(&self) -> f64 {
+        self.width.max(self.height) / 1000.0
+    }
+
+    /// The length in the world of a px at some depth, seen square on.
+    #[inline]
+    #[must_use]
+    pub fn px_at(&self, depth: f64) -> f64 {
+        let px = self.px() / self.scale;
+        if self.perspective { px * depth.abs() } else { px }
     }
 
     /// Distance from the eye along the optical axis, of a local point.
@@ -129,6 +147,35 @@ impl Frame {
     #[must_use]
     pub fn nearness_step(&self, q: f64, depth_step: f64) -> f64 {
         if self.perspective { depth_step * q * q } else { depth_step }
+    }
+
+    /// The same at nearness `q`, of a difference that is as long as something across the line of sight that is
+    /// `length` user units long in the image.
+    #[inline]
+    #[must_use]
+    pub fn nearness_across(&self, q: f64, length: f64) -> f64 {
+        if self.perspective { length / self.scale * q } else { length / self.scale }
+    }
+
+    /// The length in the world of the longer side of the frame, at some depth.
+    #[inline]
+    #[must_use]
+    pub fn side_at(&self, depth: f64) -> f64 {
+        1000.0 * self.px_at(depth)
+    }
+
+    /// The depths of what counts as near and as far in the picture: as deep as the frame's longer side is long,
+    /// around the target.
+    #[must_use]
+    pub fn depths(&self) -> [f64; 2] {
+        let half = self.side_at(self.focus) / 2.0;
+        [self.focus - half, self.focus + half]
+    }
+
+    /// The point that the camera looks at, local space.
+    #[must_use]
+    pub fn target(&self) -> DVec3 {
+        self.eye + self.forward * self.focus
     }
 
     /// Whether the triangle a, b, c turns its outside (counter-clockwise) to the eye.

@@ -38,9 +38,7 @@ impl View {
     pub fn new(mesh: &Mesh, camera: &Camera) -> Self {
         let mut frame = Frame::new(camera, mesh.origin);
         if frame.near.is_none() && frame.perspective {
-            let farthest = mesh.positions.par_iter().with_min_len(1 << 14).map(|p| frame.depth(*p));
-            let farthest = farthest.reduce(|| 0.0, f64::max);
-            frame.near = Some(farthest.max(f64::MIN_POSITIVE) * tolerance::NEAR_OF_FARTHEST);
+            frame.near = Some(frame.focus.max(f64::MIN_POSITIVE) * tolerance::NEAR_OF_TARGET);
         }
         let points: Vec<DVec3> =
             mesh.positions.par_iter().with_min_len(1 << 14).map(|p| frame.image_from_local(*p)).collect();

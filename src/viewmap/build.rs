@@ -28,7 +28,7 @@ enum HiddenPieces {
 /// Builds the view map of all feature lines.
 #[must_use]
 pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptions) -> ViewMap {
-    let limits = Limits::new(mesh.size, &view.frame);
+    let limits = Limits::new(&view.frame);
     let segments = project(mesh, view, lines);
     let hidden = if options.hidden == HiddenLines::None { HiddenPieces::Contours } else { HiddenPieces::All };
     let counting = hidden == HiddenPieces::All;

@@ -11,10 +11,9 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::grid::{Grid, TileBox};
-use super::occlude::Limits;
+use super::occlude::{Limits, Slack};
 use super::occluders::{Triangles, corners};
 use super::project::ImageSegment;
-use crate::view::Frame;
 
 /// Squares along the longer side of the grid, about: about as many as pixels of a picture.
 const SQUARES_ACROSS: u32 = 1024;
@@ -55,9 +54,11 @@ impl Covers {
                 let mut cover = vec![OPEN; squares.len()];
                 let wanted = |square| wanted[squares.tile_of_square(square, triangles.grid, per_tile)];
                 for id in ids {
-                    let (points, _) = corners(triangles.mesh, triangles.view, *id);
-                    let frame = &triangles.view.frame;
-                    add(&points, &squares, frame, triangles.limits, wanted, &mut cover);
+                    let (points, face) = corners(triangles.mesh, triangles.view, *id);
+                    let slack = Slack::of(triangles.mesh.extent(crate::mesh::FaceId(face)));
+                    let (frame, limits) = (&triangles.view.frame, triangles.limits);
+                    let step = |q: f64| 2.0 * limits.step(q, &slack, false, frame);
+                    add(&points, &squares, step, limits, wanted, &mut cover);
                 }
                 cover
             })
@@ -117,7 +118,7 @@ fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
 pub(super) fn add(
     points: &[DVec3; 3],
     squares: &Grid,
-    frame: &Frame,
+    step: impl Fn(f64) -> f64,
     limits: &Limits,
     wanted: impl Fn(usize) -> bool,
     cover: &mut [f64],
@@ -148,7 +149,7 @@ pub(super) fn add(
             let centre = squares.corner(column, u32::from(row)) + half;
             let middle = points[0].z + slope.dot(centre - points[0].truncate());
             let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(low.z);
-            let least = least - frame.nearness_step(least, 2.0 * limits.contact);
+            let least = least - step(least);
             cover[square] = cover[square].max(least);
         }
     }

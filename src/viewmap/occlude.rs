@@ -15,8 +15,10 @@
 use glam::{DVec2, DVec3};
 
 use super::graph::ViewVertexKind;
+use super::occluders::Occluder;
 use super::project::ImageSegment;
 use crate::math::tolerance;
+use crate::mesh::Extent;
 use crate::view::Frame;
 
 /// Part of a segment's parameter range, with the reason for each end.
@@ -39,7 +41,7 @@ pub struct Limits {
     pub cover: f64,
     /// Triangles lower than this in the image cover nothing, user units.
     pub height: f64,
-    /// Depth difference that counts as touching, world units.
+    /// Depth difference that counts as touching, as it would look across the line of sight, user units.
     pub contact: f64,
     /// The same for triangles that share a vertex with the segment.
     pub neighbour: f64,
@@ -54,21 +56,48 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The tolerances for a model of the given size in a frame. A px is a thousandth of the
-    /// longer side of the frame here, whatever the user unit.
+    /// The tolerances in a frame. A px is a thousandth of the longer side of the frame here, whatever the
+    /// user unit.
     #[must_use]
-    pub fn new(size: f64, frame: &Frame) -> Self {
-        let px = frame.width.max(frame.height) / 1000.0;
+    pub fn new(frame: &Frame) -> Self {
+        let px = frame.px();
         Self {
             cover: tolerance::COVER_PX * px,
             height: tolerance::IMAGE_HEIGHT_PX * px,
-            contact: tolerance::CONTACT_OF_MODEL * size,
-            neighbour: tolerance::NEIGHBOUR_OF_MODEL * size,
+            contact: tolerance::CONTACT_PX * px,
+            neighbour: tolerance::NEIGHBOUR_PX * px,
             piece: tolerance::PIECE_PX * px,
             beside: tolerance::BESIDE_PX * px,
             double: tolerance::DOUBLE_PX * px,
             px,
         }
+    }
+
+    /// By how much nearer than a line at nearness `q` a triangle must be to hide it.
+    #[inline]
+    #[must_use]
+    pub fn step(&self, q: f64, own: &Slack, shares_vertex: bool, frame: &Frame) -> f64 {
+        let (in_image, in_space) =
+            if shares_vertex { (self.neighbour, own.neighbour) } else { (self.contact, own.contact) };
+        frame.nearness_across(q, in_image).max(frame.nearness_step(q, in_space))
+    }
+}
+
+/// Depth differences within the reach of rounding for a triangle, whatever the view, world units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slack {
+    /// What counts as touching.
+    pub contact: f64,
+    /// The same for lines that share a vertex with the triangle.
+    pub neighbour: f64,
+}
+
+impl Slack {
+    /// Of the triangles of a part.
+    #[inline]
+    #[must_use]
+    pub fn of(extent: &Extent) -> Self {
+        Self { contact: extent.contact, neighbour: tolerance::NEIGHBOUR_OF_PART * extent.scale }
     }
 }
 
@@ -117,19 +146,18 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     (start <= end).then_some((start, end))
 }
 
-/// What a triangle hides of the part of a segment between two parameters. `ids` are the
-/// triangle's vertex ids.
+/// What a triangle hides of the part of a segment between two parameters.
 #[inline]
 #[must_use]
 pub fn hidden_interval(
     segment: &ImageSegment,
     (from, to): (f64, f64),
-    corners: &[DVec3; 3],
-    ids: [u32; 3],
+    triangle: &Occluder,
     frame: &Frame,
     limits: &Limits,
 ) -> Option<Interval> {
-    let shared = segment.ends.map(|end| ids.iter().position(|id| *id == end));
+    let corners = &triangle.corners;
+    let shared = segment.ends.map(|end| triangle.ids.iter().position(|id| *id == end));
     if shared[0].is_some() && shared[1].is_some() {
         return None;
     }
@@ -146,12 +174,11 @@ pub fn hidden_interval(
     let farthest = corners[0].z.min(corners[1].z).min(corners[2].z);
     let at_corner = |end: usize| shared[end].is_some() && !segment.cut[end];
     let is_neighbour = shared[0].is_some() || shared[1].is_some();
-    let step = if is_neighbour { limits.neighbour } else { limits.contact };
     let lead = |t: f64| {
         let p = segment.at(t);
         // Steep triangles extrapolate badly: their plane counts only within their own depths.
         let plane = (base.z + slope.dot(p.truncate() - base.truncate())).clamp(farthest, nearest);
-        plane - p.z - frame.nearness_step(p.z, step)
+        plane - p.z - limits.step(p.z, &triangle.slack, is_neighbour, frame)
     };
     let (at_start, at_end) = (lead(start), lead(end));
     let mut hidden =

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::cover::Sides;
 use super::grid::{Grid, TileBox};
 use super::grouped::{Grouped, bucket};
-use super::occlude::Limits;
+use super::occlude::{Limits, Slack};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -26,6 +26,8 @@ pub struct Occluder {
     pub ids: [u32; 3],
     /// Its corners in image space.
     pub corners: [DVec3; 3],
+    /// What counts as touching it, whatever the view.
+    pub slack: Slack,
 }
 
 /// The triangles of a view over a grid of tiles.
@@ -112,6 +114,7 @@ impl Triangles<'_> {
             face,
             ids: self.mesh.triangles[face as usize],
             corners,
+            slack: Slack::of(self.mesh.extent(FaceId(face))),
         }
     }
 

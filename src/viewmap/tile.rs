@@ -125,7 +125,8 @@ impl Context<'_> {
         let mut cover = vec![OPEN; grid.len()];
         if !self.counting {
             for entry in entries.iter() {
-                cover::add(&entry.corners, grid, &self.view.frame, self.limits, |_| true, &mut cover);
+                let step = |q: f64| 2.0 * self.limits.step(q, &entry.slack, false, &self.view.frame);
+                cover::add(&entry.corners, grid, step, self.limits, |_| true, &mut cover);
             }
         }
         let mut fine: Vec<(u32, Item)> = Vec::with_capacity(items.len() * 2);
@@ -218,8 +219,7 @@ impl Context<'_> {
                 continue;
             }
             *tests += 1;
-            let found =
-                hidden_interval(segment, part, &entry.corners, entry.ids, &self.view.frame, self.limits);
+            let found = hidden_interval(segment, part, entry, &self.view.frame, self.limits);
             let Some(found) = found else {
                 continue;
             };

@@ -98,7 +98,7 @@ fn lights_of_the_camera_turn_with_it() {
 }
 
 #[test]
-fn the_brightest_light_of_a_model_gives_one_at_its_middle() {
+fn the_brightest_light_of_a_model_gives_one_at_the_target() {
     let point_light = LightKind::Point { position: DVec3::new(0.0, 0.0, 6.0) };
     let sun = LightKind::Directional { direction: DVec3::NEG_X };
     // 3600 candela at 6 units are 100 lux.
@@ -106,9 +106,9 @@ fn the_brightest_light_of_a_model_gives_one_at_its_middle() {
     near(value_in_model(both.clone(), DVec3::ZERO, DVec3::Z), 1.0);
     near(value_in_model(both.clone(), DVec3::ZERO, DVec3::X), 0.25);
     near(value_in_model(both, DVec3::new(0.0, 0.0, 3.0), DVec3::Z), 4.0);
-    // A lamp within the model counts as a quarter of its size away.
+    // A lamp near the target counts as a quarter of the frame's side of 2 away.
     let inside = vec![model_light(LightKind::Point { position: DVec3::ZERO }, 7.0)];
-    near(value_in_model(inside, DVec3::new(0.0, 0.0, -1.0), DVec3::Z), 1.0);
+    near(value_in_model(inside, DVec3::new(0.0, 0.0, -0.5), DVec3::Z), 1.0);
 }
 
 #[test]

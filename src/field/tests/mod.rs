@@ -26,7 +26,7 @@ fn frame(eye: DVec3) -> Frame {
 }
 
 fn mesh() -> Mesh {
-    Mesh { size: 4.0, ..Mesh::default() }
+    Mesh::default()
 }
 
 /// The shading of a scene seen from in front, and its warnings.

@@ -30,7 +30,6 @@ pub(super) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
         (0..count).into_par_iter().with_min_len(1 << 12).map(|v| bend(seen, v)).collect();
     let uphill: Vec<DVec3> =
         (0..count).into_par_iter().with_min_len(1 << 12).map(|v| uphill(seen, &apparent, v)).collect();
-    let size2 = seen.curvature.feature_size * seen.curvature.feature_size;
     let position = |v: u32| seen.mesh.positions[seen.smooth.vertices[v as usize] as usize];
     let set = trace_crossings(
         seen.mesh,
@@ -40,7 +39,7 @@ pub(super) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
     );
     let measure = |point: &EdgePoint, _| {
         let [a, b] = point.between.map(|v| apparent[v as usize].q1);
-        (a + (b - a) * point.t) * size2 / positive(options.apparent_ridge)
+        (a + (b - a) * point.t) * seen.size(point) * seen.size(point) / positive(options.apparent_ridge)
     };
     seen.add(&set, |_| Some(LineKind::Ridge), measure, lines);
 }

@@ -20,7 +20,7 @@ pub use options::InsideOptions;
 use super::zero_set::{EdgePoint, ZeroSet};
 use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::math::tolerance;
-use crate::mesh::feature_size::MOST_OF_MODEL;
+use crate::mesh::feature_size::MOST_OF_PART;
 use crate::mesh::{Curvature, Mesh, SmoothNormals};
 use crate::view::View;
 
@@ -38,7 +38,7 @@ pub fn wanted(options: &LineOptions) -> bool {
 /// The curvature that the lines inside of a mesh are found by.
 #[must_use]
 pub fn curvature(mesh: &Mesh, smooth: &SmoothNormals, options: &InsideOptions) -> Curvature {
-    Curvature::new(mesh, smooth, options.smooth * MOST_OF_MODEL * mesh.size)
+    Curvature::new(mesh, smooth, options.smooth * MOST_OF_PART)
 }
 
 /// Adds the lines inside of the kinds asked for.
@@ -91,6 +91,11 @@ impl<'a> Seen<'a> {
             })
             .collect();
         Self { mesh, view, smooth, curvature, open: mesh.cleaning.borders > 0, eye }
+    }
+
+    /// The size of the features around a point, world units.
+    fn size(&self, point: &EdgePoint) -> f64 {
+        self.curvature.feature_size(point.between[0])
     }
 
     /// A number for each smooth vertex.

@@ -19,7 +19,6 @@ pub(super) fn find(
     options: &InsideOptions,
     lines: &mut FeatureLines,
 ) {
-    let size = seen.curvature.feature_size;
     for sign in [1.0, -1.0] {
         // A ridge of the outside is a valley of the inside.
         let kind = |face: u32| {
@@ -40,7 +39,7 @@ pub(super) fn find(
         let measure = |point: &EdgePoint, side: f64| {
             let [a, b] = point.between.map(|v| sign * seen.curvature.principal[v as usize].k1);
             let threshold = if sign * side > 0.0 { options.ridge } else { options.valley };
-            (a + (b - a) * point.t) * size / positive(threshold)
+            (a + (b - a) * point.t) * seen.size(point) / positive(threshold)
         };
         seen.add(&set, kind, measure, lines);
     }

@@ -23,7 +23,7 @@ pub(super) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
     });
     let set = trace(seen.mesh, seen.smooth, &radial, |face| seen.shows(face));
     let change = seen.field(|v| change(seen, v));
-    let size2 = seen.curvature.feature_size * seen.curvature.feature_size;
+    let size2 = |point: &EdgePoint| seen.size(point) * seen.size(point);
     let cosine = |point: &EdgePoint| {
         let [a, b] = point.between.map(|v| seen.eye[v as usize].z);
         a + (b - a) * point.t
@@ -34,7 +34,7 @@ pub(super) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
         move |point: &EdgePoint, side: f64| {
             let towards = cosine(point) * side;
             if towards > 0.0 {
-                sense * side * point.value(change) * size2 / (positive(threshold) * towards)
+                sense * side * point.value(change) * size2(point) / (positive(threshold) * towards)
             } else {
                 0.0
             }

@@ -1,0 +1,30 @@
+//! Powers of two: lengths that stay the same while what they are taken from changes a little, and by which
+//! numbers are divided without rounding.
+
+/// The greatest power of two that is no greater than `x`; 1 for what has none.
+#[must_use]
+pub fn power_of_two_below(x: f64) -> f64 {
+    if x.is_normal() && x > 0.0 { f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000) } else { 1.0 }
+}
+
+/// The least power of two that is greater than `x`; 1 for what has none.
+#[must_use]
+pub fn power_of_two_above(x: f64) -> f64 {
+    let above = 2.0 * power_of_two_below(x);
+    if x.is_normal() && x > 0.0 && above.is_finite() { above } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_are_around() {
+        for (x, below, above) in [(1.0, 1.0, 2.0), (0.3, 0.25, 0.5), (1000.0, 512.0, 1024.0)] {
+            assert_eq!((power_of_two_below(x), power_of_two_above(x)), (below, above));
+        }
+        for x in [0.0, -3.0, f64::NAN, f64::INFINITY] {
+            assert_eq!((power_of_two_below(x), power_of_two_above(x)), (1.0, 1.0));
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! [`Extents`]: how large each part is and where it lies, by which what concerns it is judged.
+//!
+//! Tolerances are fractions of the parts that they are about, never of the whole model: what becomes of one
+//! part must not depend on others that lie elsewhere.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{FaceId, Mesh, PartId, Soup};
+use crate::math::power::power_of_two_above;
+use crate::math::tolerance;
+
+/// The smallest piece of work for a thread, in faces.
+const GRAIN: usize = 1 << 14;
+
+/// The origin of a mesh lies on a grid with steps of this many times the power of two above its size, so
+/// that parts that come and go do not move it.
+const ORIGIN_OF_SIZE: f64 = 256.0;
+
+/// Coordinates are known to some sixteen digits: no part is measured by less than this share of its largest
+/// coordinate.
+const SCALE_OF_LARGEST: f64 = 1.0 / 256.0;
+
+/// Contact by the precision of a file's coordinates never reaches farther than this share of the part: a file
+/// that says so little of a part says nothing of what touches it.
+const CONTACT_AT_MOST: f64 = 1e-3;
+
+/// How large a part is and where it lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Least coordinates, local space.
+    pub low: DVec3,
+    /// Greatest coordinates, local space.
+    pub high: DVec3,
+    /// The length that its tolerances are fractions of, world units: the diagonal of its box.
+    pub scale: f64,
+    /// Surfaces this near touch, as far as the numbers of the file can tell, world units.
+    pub contact: f64,
+    /// Vertices this near are one vertex, world units.
+    pub weld: f64,
+}
+
+impl Extent {
+    const NOTHING: Self =
+        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, scale: 0.0, contact: 0.0, weld: 0.0 };
+
+    /// Diagonal of the box, world units.
+    #[must_use]
+    pub fn diagonal(&self) -> f64 {
+        if self.low.x <= self.high.x { self.low.distance(self.high) } else { 0.0 }
+    }
+
+    /// Middle of the box, local space.
+    #[must_use]
+    pub fn middle(&self) -> DVec3 {
+        if self.low.x <= self.high.x { self.low / 2.0 + self.high / 2.0 } else { DVec3::ZERO }
+    }
+}
+
+/// The extents of all parts of a mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Extents {
+    of_part: Vec<Extent>,
+    /// Middle of the box around all, local space. Only for searches, whose findings do not depend on it.
+    pub middle: DVec3,
+    /// Diagonal of that box. Only for searches as well.
+    pub diagonal: f64,
+}
+
+impl Extents {
+    /// The extents of what is in a soup, whose positions are relative to `origin`.
+    pub(super) fn new(soup: &Soup, origin: DVec3) -> Self {
+        let part = |face: usize| soup.triangle_part.get(face).copied().unwrap_or_default();
+        type Boxes = Vec<(PartId, DVec3, DVec3)>;
+        let grow = |boxes: &mut Boxes, part: PartId, vertices: &[u32]| {
+            if boxes.last().is_none_or(|last| last.0 != part) {
+                boxes.push((part, DVec3::INFINITY, DVec3::NEG_INFINITY));
+            }
+            if let Some((_, low, high)) = boxes.last_mut() {
+                for v in vertices {
+                    let p = soup.positions[*v as usize];
+                    (*low, *high) = (low.min(p), high.max(p));
+                }
+            }
+        };
+        let of_faces: Vec<Boxes> = soup
+            .triangles
+            .par_chunks(GRAIN)
+            .enumerate()
+            .map(|(chunk, faces)| {
+                let mut boxes = Boxes::new();
+                faces.iter().enumerate().for_each(|(i, t)| grow(&mut boxes, part(chunk * GRAIN + i), t));
+                boxes
+            })
+            .collect();
+        let mut boxes = of_faces.concat();
+        soup.wires.iter().for_each(|wire| grow(&mut boxes, wire.part, &wire.vertices));
+
+        let mut all = Extent::NOTHING;
+        let count = boxes.iter().map(|(part, ..)| part.index() + 1).max().unwrap_or(0);
+        let mut of_part = vec![Extent::NOTHING; count];
+        for (part, low, high) in boxes {
+            for extent in [&mut of_part[part.index()], &mut all] {
+                (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
+            }
+        }
+        for extent in &mut of_part {
+            extent.measure(origin, soup.single_precision);
+        }
+        Self { of_part, middle: all.middle(), diagonal: all.diagonal() }
+    }
+
+    /// The extent of a part; nothing for a part without faces and wires.
+    #[must_use]
+    pub fn of(&self, part: PartId) -> &Extent {
+        self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
+    }
+
+    /// A ball that holds all vertices: its middle, local space, and its radius. Both are rounded, so that they
+    /// seldom change when parts come, go and move.
+    #[must_use]
+    pub fn ball(&self) -> (DVec3, f64) {
+        if self.diagonal == 0.0 {
+            return (self.middle, 1.0);
+        }
+        let step = power_of_two_above(self.diagonal) / 8.0;
+        let middle = (self.middle / step).round() * step;
+        // The middle is off by no more than half a step along each axis.
+        let least = self.diagonal / 2.0 + step;
+        let quarter = step / 2.0;
+        (middle, (least / quarter).ceil() * quarter)
+    }
+}
+
+impl Extent {
+    fn measure(&mut self, origin: DVec3, single_precision: bool) {
+        if self.low.x > self.high.x {
+            return;
+        }
+        let diagonal = self.diagonal();
+        let largest = self.low.abs().max(self.high.abs()).max_element();
+        self.scale = diagonal.max(SCALE_OF_LARGEST * largest);
+        let (low, high) = (self.low + origin, self.high + origin);
+        let largest = low.abs().max(high.abs()).max_element();
+        let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
+        self.weld = (tolerance::WELD_OF_PART * self.scale).max(written);
+        self.contact =
+            (tolerance::CONTACT_OF_PART * self.scale).max((2.0 * written).min(CONTACT_AT_MOST * self.scale));
+    }
+}
+
+/// The zero of a mesh whose box is given: zero itself, unless the model lies far from it for its size. It
+/// lies on a coarse grid, and subtracting it rounds nothing.
+pub(super) fn origin(low: DVec3, high: DVec3) -> DVec3 {
+    let middle = low / 2.0 + high / 2.0;
+    let size = low.distance(high);
+    if size == 0.0 {
+        return middle + DVec3::ZERO;
+    }
+    let step = ORIGIN_OF_SIZE * power_of_two_above(size);
+    // The sum makes zeros positive.
+    (middle / step).round() * step + DVec3::ZERO
+}
+
+impl Mesh {
+    /// The extent of the part that a face belongs to.
+    #[inline]
+    #[must_use]
+    pub fn extent(&self, face: FaceId) -> &Extent {
+        self.extents.of(self.face_part[face.index()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_origin_is_zero_near_zero_and_near_the_model_far_away() {
+        let at = |x: f64| origin(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 1.0, 1.0, 1.0));
+        assert_eq!(at(-0.3), DVec3::ZERO);
+        assert_eq!(at(100.0), DVec3::ZERO);
+        let far = at(1e6 + 0.3);
+        assert!((far.x - 1e6).abs() <= 256.5 && far.x % 512.0 == 0.0 && far.y == 0.0, "{far}");
+        assert_eq!(at(1e6 + 0.3), at(1e6 + 40.3));
+    }
+
+    #[test]
+    fn parts_are_measured_each_by_itself() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let soup = |far: f64| Soup {
+            positions: corners.into_iter().chain(corners.map(|p| p * 3.0 + DVec3::Z * far)).collect(),
+            triangles: vec![[0, 1, 2], [3, 4, 5]],
+            triangle_part: vec![PartId(0), PartId(2)],
+            ..Soup::default()
+        };
+        let (near, far) = (Mesh::build(soup(2.0)), Mesh::build(soup(7.0)));
+        assert_eq!(near.extents.of(PartId(0)), far.extents.of(PartId(0)));
+        assert_eq!(near.extents.of(PartId(0)).scale, 2.0_f64.sqrt());
+        assert_eq!(near.extents.of(PartId(2)).scale, 18.0_f64.sqrt());
+        for part in [1, 9] {
+            assert_eq!(near.extents.of(PartId(part)).scale, 0.0);
+        }
+        let (middle, radius) = far.extents.ball();
+        assert!(far.positions.iter().all(|p| p.distance(middle) <= radius));
+    }
+}

@@ -1,0 +1,181 @@
+//! What a fixed camera sees of one part does not depend on other parts far from it in the image: hiding or
+//! moving a part changes no mark elsewhere, not by one byte.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use glam::DVec3;
+use kurbo::{PathEl, Point, Rect, Shape};
+use ligne::drawing::{LayerKind, Mark, Paint};
+use ligne::render::render;
+use ligne::scene::{Camera, Scene};
+use ligne::style::Style;
+use ligne::view::Frame;
+
+/// Marks nearer than this (px) to the box around the image of a part may change with it.
+const NEAR_PX: f64 = 3.0;
+
+fn open(name: &str) -> (Scene, Camera) {
+    let path = format!("{}/examples/models/{name}", env!("CARGO_MANIFEST_DIR"));
+    let scene = Scene::open(path).expect("the example models are part of the project");
+    let mut camera = Camera::three_quarter_of(scene.up);
+    (camera.width, camera.height) = (700.0, 700.0);
+    let camera = camera.fit(&scene);
+    (scene, camera)
+}
+
+/// All that is written of a mark.
+fn written(layer: LayerKind, mark: &Mark) -> String {
+    let mut text = format!("{layer:?} {:?} ", mark.provenance);
+    let path = |text: &mut String, path: &kurbo::BezPath| {
+        let mut point = |p: Point| {
+            let hundredths = |x: f64| (x * 100.0).round() as i64;
+            let _ = write!(text, "{},{} ", hundredths(p.x), hundredths(p.y));
+        };
+        for element in path.elements() {
+            match *element {
+                PathEl::MoveTo(p) | PathEl::LineTo(p) => point(p),
+                PathEl::QuadTo(p, q) => [p, q].into_iter().for_each(&mut point),
+                PathEl::CurveTo(p, q, r) => [p, q, r].into_iter().for_each(&mut point),
+                PathEl::ClosePath => {}
+            }
+        }
+    };
+    path(&mut text, &mark.path);
+    match &mark.paint {
+        Paint::Stroke(paint) => {
+            let _ = write!(text, "stroke {:.3} {:?} {:?}", paint.width, paint.colour, paint.dash);
+        }
+        Paint::Fill(colour) => {
+            let _ = write!(text, "fill {colour:?}");
+        }
+        Paint::Outline(paint) => {
+            let _ = write!(text, "outline {:.3} {:?}", paint.width, paint.colour);
+        }
+    }
+    text
+}
+
+/// How often each mark stands in a drawing, of those that lie apart from some boxes.
+fn apart(scene: &Scene, camera: &Camera, style: &Style, boxes: &[Rect]) -> BTreeMap<String, u32> {
+    let mut marks = BTreeMap::new();
+    for layer in &render(scene, camera, style).layers {
+        for mark in &layer.marks {
+            let around = mark.path.bounding_box().inflate(NEAR_PX, NEAR_PX);
+            let is_near = |other: &Rect| {
+                around.x0 <= other.x1
+                    && other.x0 <= around.x1
+                    && around.y0 <= other.y1
+                    && other.y0 <= around.y1
+            };
+            if !boxes.iter().any(is_near) {
+                *marks.entry(written(layer.kind, mark)).or_default() += 1;
+            }
+        }
+    }
+    marks
+}
+
+/// The box around the image of a part.
+fn image_of(scene: &Scene, camera: &Camera, name: &str) -> Rect {
+    let frame = Frame::new(camera, DVec3::ZERO);
+    let mut around: Option<Rect> = None;
+    for part in scene.parts.iter().filter(|part| part.name == name) {
+        for point in &scene.geometries[part.geometry].positions {
+            let p = frame.image_from_local(part.world_from_part.transform_point3(*point));
+            let p = Rect::new(p.x, p.y, p.x, p.y);
+            around = Some(around.map_or(p, |r| r.union(p)));
+        }
+    }
+    around.unwrap_or_else(|| panic!("there is no part {name}"))
+}
+
+/// How many marks apart from the parts differ, of how many, between a scene and a changed one.
+fn differing(
+    (scene, camera): &(Scene, Camera),
+    style: &Style,
+    name: &str,
+    change: impl Fn(&mut Scene),
+) -> (usize, usize) {
+    let mut changed = scene.clone();
+    change(&mut changed);
+    let mut boxes = vec![image_of(scene, camera, name)];
+    if changed.parts.iter().any(|part| part.name == name) {
+        boxes.push(image_of(&changed, camera, name));
+    }
+    let before = apart(scene, camera, style, &boxes);
+    let after = apart(&changed, camera, style, &boxes);
+    let only = |a: &BTreeMap<String, u32>, b: &BTreeMap<String, u32>| -> Vec<String> {
+        a.iter().filter(|(mark, count)| b.get(*mark) != Some(count)).map(|(mark, _)| mark.clone()).collect()
+    };
+    let (gone, come) = (only(&before, &after), only(&after, &before));
+    if std::env::var_os("LIGNE_SHOW").is_some() {
+        for (sign, marks) in [('-', &gone), ('+', &come)] {
+            for mark in marks {
+                eprintln!("{sign} {}", &mark[..mark.len().min(400)]);
+            }
+        }
+    }
+    (gone.len().max(come.len()), before.values().map(|count| *count as usize).sum())
+}
+
+const CASTLE: [&str; 7] = [
+    "keep-flag",
+    "tower-north-east-flag",
+    "keep-pole",
+    "gate-turret-left-spike",
+    "trees",
+    "shield",
+    "ground",
+];
+const PUMP: [&str; 6] =
+    ["lifting-eye", "anchor-1", "terminal-box", "motor-bolt-2", "fan-cover", "filler-plug"];
+
+fn check(model: &str, styles: &[&str], parts: &[&str]) {
+    let seen = open(model);
+    let mut faults = String::new();
+    for preset in styles {
+        let style = Style::preset(preset).expect("a style of the project");
+        for name in parts {
+            let hide = |scene: &mut Scene| scene.keep_parts(&[], &[(*name).to_owned()]);
+            let shift = (seen.1.target - seen.1.eye).length() * DVec3::new(0.011, 0.013, 0.007);
+            let shove = |scene: &mut Scene| {
+                for part in scene.parts.iter_mut().filter(|part| part.name == *name) {
+                    part.world_from_part.translation += shift;
+                }
+            };
+            for (what, (differ, all)) in [
+                ("hiding", differing(&seen, &style, name, hide)),
+                ("moving", differing(&seen, &style, name, shove)),
+            ] {
+                if differ > 0 || std::env::var_os("LIGNE_SHOW").is_some() {
+                    let _ = writeln!(
+                        faults,
+                        "{model}, {preset}: {what} {name} changes {differ} of {all} marks elsewhere"
+                    );
+                }
+            }
+        }
+    }
+    if std::env::var_os("LIGNE_SHOW").is_some() {
+        eprintln!("{faults}");
+    } else {
+        assert!(faults.is_empty(), "\n{faults}");
+    }
+}
+
+#[test]
+fn hiding_or_moving_a_part_of_a_castle_changes_nothing_elsewhere() {
+    check("castle.obj", &["ink", "toon"], &CASTLE);
+}
+
+#[test]
+fn hiding_or_moving_a_part_of_a_pump_changes_nothing_elsewhere() {
+    check("pump.glb", &["ink", "toon"], &PUMP);
+}
+
+#[test]
+fn hatching_elsewhere_stays_as_well() {
+    check("castle.obj", &["pen"], &CASTLE);
+    check("pump.glb", &["pen"], &PUMP);
+}
