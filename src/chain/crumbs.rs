@@ -25,32 +25,26 @@ const INSIDE: f64 = 5.0;
 const INSIDE_PEAK: f64 = 0.25;
 
 /// Leaves out every line that is a crumb.
-pub(super) fn drop_crumbs(
-    raws: &mut Vec<Raw>,
-    degrees: &mut Degrees,
-    organic: &[bool],
-    tidy: f64,
-    bin: &mut Bin,
-) {
+pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
     // All are judged before any goes, so that no order matters.
-    let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, organic, tidy)).collect();
+    let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, tidy)).collect();
     let mut crumb = crumbs.into_iter();
     raws.retain(|raw| {
         let goes = crumb.next().unwrap_or(false);
         if goes {
-            bin.put(raw, || Reason::of_crumb(raw, degrees, organic));
+            bin.put(raw, || Reason::of_crumb(raw, degrees));
             degrees.leave_out(raw);
         }
         !goes
     });
 }
 
-fn is_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool], tidy: f64) -> bool {
+fn is_crumb(raw: &Raw, degrees: &Degrees, tidy: f64) -> bool {
     if raw.class.hidden {
         return false;
     }
     let length = raw.length();
-    let scanned = organic.get(raw.class.part.index()).copied().unwrap_or(false);
+    let scanned = raw.class.figure;
     if scanned && raw.class.kind == LineKind::Crease {
         return raw.pronounced < NOISE * tidy;
     }

@@ -50,15 +50,8 @@ struct Buckets {
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within
 /// `distance`, shortest first.
-pub(super) fn drop_doubles(
-    raws: &mut Vec<Raw>,
-    degrees: &mut Degrees,
-    organic: &[bool],
-    distance: f64,
-    bin: &mut Bin,
-) {
-    let mut suspects: Vec<u32> =
-        (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize], organic)).collect();
+pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance: f64, bin: &mut Bin) {
+    let mut suspects: Vec<u32> = (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize])).collect();
     if suspects.is_empty() {
         return;
     }
@@ -113,11 +106,11 @@ pub(super) fn drop_doubles(
 }
 
 /// Whether a line may be a double at all: exact models draw every line they have.
-fn is_suspect(raw: &Raw, organic: &[bool]) -> bool {
+fn is_suspect(raw: &Raw) -> bool {
     !raw.class.hidden
         && match raw.class.kind {
             LineKind::Contour => raw.smooth,
-            LineKind::Crease => organic.get(raw.class.part.index()).copied().unwrap_or(false),
+            LineKind::Crease => raw.class.figure,
             _ => false,
         }
 }

@@ -20,6 +20,8 @@ pub(super) struct Class {
     pub hidden: bool,
     pub silhouette: bool,
     pub both_seen: bool,
+    /// Whether it is a line of a figure or a scan.
+    pub figure: bool,
 }
 
 impl Class {
@@ -32,6 +34,7 @@ impl Class {
             hidden: edge.invisibility > 0,
             silhouette: edge.silhouette,
             both_seen: edge.both_seen,
+            figure: edge.figure,
         }
     }
 

@@ -47,12 +47,11 @@ impl Reason {
     }
 
     /// Why a line is a crumb that was found to be one.
-    pub(super) fn of_crumb(raw: &Raw, degrees: &Degrees, organic: &[bool]) -> Self {
-        let scanned = organic.get(raw.class.part.index()).copied().unwrap_or(false);
+    pub(super) fn of_crumb(raw: &Raw, degrees: &Degrees) -> Self {
         let ends = [0, 1].map(|side| raw.covered[side] || degrees.is_free(raw.ends[side]));
         match raw.class.kind {
             kind if kind.is_inside() => Self::Weak,
-            LineKind::Crease if scanned => Self::Noise,
+            LineKind::Crease if raw.class.figure => Self::Noise,
             _ if raw.is_ring() => Self::Loop,
             _ if ends[0] && ends[1] => Self::Crumb,
             _ => Self::Spur,

@@ -41,7 +41,7 @@ fn map_of(lines: &[Polyline]) -> ViewMap {
                 silhouette: false,
                 both_seen: false,
                 smooth: *smooth,
-                rounded: *smooth,
+                figure: *smooth,
                 strength: 90.0,
                 part: PartId(0),
                 material: MaterialId(0),

@@ -9,13 +9,12 @@ use rayon::prelude::*;
 use super::crumbs::drop_crumbs;
 use super::doubles::drop_doubles;
 use super::gaps::bridge;
-use super::line::length;
 use super::link::{Class, routes};
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use super::silhouette;
 use super::stitch::stitch;
-use crate::lines::{HiddenLines, LineKind};
+use crate::lines::HiddenLines;
 use crate::viewmap::ViewMap;
 
 /// Hidden gaps are bridged up to this part of the tidy length.
@@ -38,7 +37,6 @@ const ROUNDS: usize = 3;
 /// left out goes to the bin.
 pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64, bin: &mut Bin) -> Vec<Raw> {
     let mut classes: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of(e))).collect();
-    let mut organic = Vec::new();
     if tidy > 0.0 {
         if map.edges.iter().any(|e| e.invisibility > 0) {
             let sources: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of_source(e))).collect();
@@ -47,13 +45,15 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64,
         for class in classes.iter_mut().flatten() {
             class.silhouette = false;
         }
-        organic = organic_parts(map);
+    } else {
+        // Nothing is taken for noise.
+        classes.iter_mut().flatten().for_each(|class| class.figure = false);
     }
     if hidden == HiddenLines::None {
         classes.iter_mut().filter(|c| c.is_some_and(|c| c.hidden)).for_each(|c| *c = None);
     }
     let routes = routes(map, &classes, window);
-    let raw = |route| Raw::of_route(map, &routes, route, &classes, &organic);
+    let raw = |route| Raw::of_route(map, &routes, route, &classes);
     let mut raws: Vec<Raw> = (0..routes.len()).into_par_iter().with_min_len(64).filter_map(raw).collect();
     if tidy <= 0.0 {
         return raws;
@@ -62,8 +62,8 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64,
     for _ in 0..ROUNDS {
         let count = raws.len();
         raws = stitch(raws, &mut degrees, tidy, bin);
-        drop_doubles(&mut raws, &mut degrees, &organic, DOUBLE * tidy, bin);
-        drop_crumbs(&mut raws, &mut degrees, &organic, tidy, bin);
+        drop_doubles(&mut raws, &mut degrees, DOUBLE * tidy, bin);
+        drop_crumbs(&mut raws, &mut degrees, tidy, bin);
         if raws.len() == count {
             break;
         }
@@ -77,21 +77,4 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64,
         silhouette::cut(raw, SILHOUETTE * tidy, &mut parts);
     }
     parts
-}
-
-/// For each part, whether most of what is seen of its contour runs over smooth surface: a scan or
-/// another rounded shape, whose creases may be noise.
-fn organic_parts(map: &ViewMap) -> Vec<bool> {
-    let parts = map.edges.iter().map(|e| e.part.index() + 1).max().unwrap_or(0);
-    let mut balance = vec![0.0; parts];
-    for edge in map.edges.iter().filter(|edge| edge.invisibility == 0) {
-        let way = map.vertices[edge.end.index()].position - map.vertices[edge.start.index()].position;
-        let length = length(way);
-        balance[edge.part.index()] += match edge.kind {
-            LineKind::Contour if edge.rounded => length,
-            LineKind::Contour | LineKind::Crease => -length,
-            _ => 0.0,
-        };
-    }
-    balance.into_iter().map(|b| b > 0.0).collect()
 }

@@ -6,7 +6,8 @@
 use glam::DVec3;
 
 use crate::math::tolerance;
-use crate::mesh::{EdgeArc, Mesh, SmoothNormals, refine};
+use crate::mesh::refine::{self, Refined};
+use crate::mesh::{EdgeArc, Mesh, SmoothNormals};
 use crate::view::Frame;
 
 /// To vanish in between two values of one sign, the field has to fall from both: half of what the
@@ -16,11 +17,7 @@ const REACH: f64 = 0.55;
 /// The mesh with its edges cut near the contour of a view until none is farther from its arc than
 /// [`tolerance::ARC_PX`]; `None` where they are short enough already.
 #[must_use]
-pub fn finer_near_contours(
-    mesh: &Mesh,
-    smooth: &SmoothNormals,
-    frame: &Frame,
-) -> Option<(Mesh, SmoothNormals)> {
+pub fn finer_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Option<Refined> {
     let px = frame.width.max(frame.height) / 1000.0;
     // How long a world length is on the page where it is nearest to the eye, seen square on.
     let page = |[a, b]: [DVec3; 2]| {

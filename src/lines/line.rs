@@ -46,6 +46,8 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that the mesh's corners along the line are
     /// artefacts.
     pub smooth: bool,
+    /// Whether it is a line of a figure or a scan, all of which is round but for its creases.
+    pub figure: bool,
     /// What it does in the drawing.
     pub role: Role,
     /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
@@ -67,6 +69,7 @@ impl FeatureSegment {
             kind: LineKind::Wire,
             both_seen: true,
             smooth: false,
+            figure: false,
             role: Role::Line,
             strength: 180.0,
             part: wire.part,

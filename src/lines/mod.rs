@@ -23,6 +23,8 @@ pub use lit::Lit;
 pub use options::{Contours, HiddenLines, LineOptions, Normals};
 pub use surface::Surface;
 
+use rayon::prelude::*;
+
 use crate::field;
 use crate::mesh::Patches;
 use crate::view::View;
@@ -79,6 +81,10 @@ pub fn extract_with(
     }
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));
+    }
+    let is_figure = |face: u32| surface.figure.get(face as usize) == Some(&true);
+    if surface.figure.contains(&true) {
+        lines.segments.par_iter_mut().for_each(|s| s.figure = s.hosts.into_iter().any(is_figure));
     }
     lines
 }

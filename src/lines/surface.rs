@@ -5,6 +5,8 @@ use glam::Vec3;
 use super::LineOptions;
 use super::options::{Contours, Normals};
 use crate::field;
+use crate::mesh::patches;
+use crate::mesh::refine::Refined;
 use crate::mesh::{EdgeFaces, HardEdges, Mesh, Patches, SmoothNormals};
 use crate::scene::Camera;
 use crate::view::Frame;
@@ -23,6 +25,8 @@ pub struct Surface {
     /// The normals of its rounded parts, whose contours are smooth; none with
     /// [`Contours::Mesh`].
     pub smooth: SmoothNormals,
+    /// Whether each face is part of a figure or a scan, all of which is round but for its creases.
+    pub figure: Vec<bool>,
     /// Whether faces were cut that the model does not have.
     pub refined: bool,
 }
@@ -36,14 +40,15 @@ impl Surface {
         }
         if options.contours == Contours::Mesh {
             let hard = HardEdges::above(&mesh, options.crease_deg);
-            return Self { mesh, hard, ..Self::default() };
+            let figure = patches::figures(&mesh);
+            return Self { mesh, hard, figure, ..Self::default() };
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
             mesh.forget_normals(|face| !patches.believed[face as usize]);
         }
         let smooth = normals(&mesh, &patches);
-        Self { mesh, hard: patches.hard, smooth, refined: false }
+        Self { mesh, hard: patches.hard, smooth, figure: patches.figure, refined: false }
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the
@@ -57,8 +62,9 @@ impl Surface {
     #[must_use]
     pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
         let frame = Frame::new(camera, self.mesh.origin);
-        let (mesh, smooth) = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
-        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, refined: true })
+        let Refined { mesh, smooth, hosts } = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
+        let figure = hosts.iter().filter_map(|face| self.figure.get(*face as usize).copied()).collect();
+        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, figure, refined: true })
     }
 }
 

@@ -73,6 +73,13 @@ impl Patches {
     }
 }
 
+/// Whether each face of a mesh is part of a figure or a scan, all of which is round but for its creases.
+#[must_use]
+pub fn figures(mesh: &Mesh) -> Vec<bool> {
+    let verdicts = verdicts(mesh, &Planes::new(mesh), false);
+    verdicts.iter().map(|verdict| verdict.make == Make::Round).collect()
+}
+
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, only
 /// chains that turn by more and stand out from what is around them.
 fn hard_edges(mesh: &Mesh, makes: &[Make], crease_deg: f64) -> HardEdges {

@@ -31,6 +31,17 @@ struct Piece {
     face: u32,
 }
 
+/// A mesh of which faces were cut.
+#[derive(Debug, Clone)]
+pub struct Refined {
+    /// The finer mesh; its first vertices are those of the given one.
+    pub mesh: Mesh,
+    /// Its normals.
+    pub smooth: SmoothNormals,
+    /// The face of the given mesh that each of its faces is part of.
+    pub hosts: Vec<u32>,
+}
+
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
 /// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
 /// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
@@ -42,7 +53,7 @@ pub fn refined(
     smooth: &SmoothNormals,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
-) -> Option<(Mesh, SmoothNormals)> {
+) -> Option<Refined> {
     if smooth.is_empty() {
         return None;
     }
@@ -278,13 +289,7 @@ impl Work {
         (uvs, corner_uvs)
     }
 
-    fn finish(
-        self,
-        mesh: &Mesh,
-        smooth: &SmoothNormals,
-        kept: &[u32],
-        done: &[Piece],
-    ) -> (Mesh, SmoothNormals) {
+    fn finish(self, mesh: &Mesh, smooth: &SmoothNormals, kept: &[u32], done: &[Piece]) -> Refined {
         let faces = || kept.iter().copied().chain(done.iter().map(|piece| piece.face));
         let hosts: Vec<u32> = faces().collect();
         let triangles: Vec<[u32; 3]> = kept
@@ -340,7 +345,7 @@ impl Work {
             straight: smooth.straight.carried(mesh, &finer),
             seamless: smooth.seamless,
         };
-        (finer, finer_smooth)
+        Refined { mesh: finer, smooth: finer_smooth, hosts }
     }
 }
 
@@ -402,10 +407,10 @@ mod tests {
             let half = ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4;
             if half { ends[0].distance(ends[1]) * 10.0 } else { 0.0 }
         };
-        let (finer, normals) =
+        let Refined { mesh: finer, smooth: normals, hosts } =
             refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
         assert_eq!(mesh.triangles.len(), 20);
-        assert!(finer.triangles.len() > 500);
+        assert!(finer.triangles.len() > 500 && hosts.len() == finer.triangles.len());
         assert_eq!((finer.edges.border_count(), finer.edges.non_manifold_count()), (0, 0));
         let euler = finer.positions.len() as i64 - finer.edges.len() as i64 + finer.triangles.len() as i64;
         assert_eq!(euler, 2);

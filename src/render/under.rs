@@ -111,7 +111,9 @@ fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, colo
             let sides = sides.map(|front| front.filter(|front| is_own(&front.face)));
             let nearer = nearer(sides, |front| {
                 let depth = beside.view.frame.depth_of(front.nearness);
-                depth / (beside.view.frame.side_at(beside.view.frame.focus) * NEARER_OF_FRAME).max(f64::MIN_POSITIVE)
+                depth
+                    / (beside.view.frame.side_at(beside.view.frame.focus) * NEARER_OF_FRAME)
+                        .max(f64::MIN_POSITIVE)
             });
             let faces = nearer.into_iter().flatten();
             let darkest = faces.filter_map(|front| colour_of(front.face)).min_by_key(|c| (weight(*c), *c));

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::envelope::Run;
 use super::receive::Borders;
+use crate::math::power::power_of_two_below;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::Frame;
 
@@ -38,7 +39,8 @@ pub(super) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
             for run in runs {
                 let reach = mesh.extent(FaceId(run.face)).contact;
                 let [p, q] = [(run.start, run.nearness[0]), (run.end, run.nearness[1])]
-                    .map(|(t, nearness)| on_face(mesh, frame, run, edge.at(t), nearness));
+                    .map(|(t, nearness)| on_face(mesh, frame, run, edge.at(t), nearness))
+                    .map(|p| rounded(p, reach));
                 let start = match before {
                     Some((end, point)) if end == run.start => all.near(&[point], p, reach),
                     _ if run.start == 0.0 => {
@@ -129,6 +131,13 @@ impl Joined {
             *ends = ends.map(|end| place[end as usize]);
         }
     }
+}
+
+/// A point rounded to a small part of the length within which points are one, so that what the light's
+/// frame does to the last digits does not show.
+fn rounded(p: DVec3, reach: f64) -> DVec3 {
+    let step = power_of_two_below(reach / 64.0);
+    (p / step).round() * step
 }
 
 /// The point of a face behind a point of the light's image, local space; `nearness` is where it lies as

@@ -50,6 +50,7 @@ impl ShadowLines {
             kind: LineKind::Isophote,
             both_seen: true,
             smooth: false,
+            figure: false,
             role: Role::Line,
             strength: 0.0,
             part: mesh.face_part[segment.face as usize],

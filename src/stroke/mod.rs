@@ -170,9 +170,19 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
             if side == 0 { widths.first() } else { widths.last() }.copied()
         };
         let joined = joined[i].map(|end| end.and_then(there));
-        let shapes =
-            Inked { chain, axis, pen, thick, joined, gaps, identities: &identities, depths, solid, inks: &inks }
-                .shapes(context);
+        let shapes = Inked {
+            chain,
+            axis,
+            pen,
+            thick,
+            joined,
+            gaps,
+            identities: &identities,
+            depths,
+            solid,
+            inks: &inks,
+        }
+        .shapes(context);
         let painted = shapes.into_iter().map(|(shape, colour)| match shape {
             Shape::Path(path, closed) => stroked(path, closed, colour, chain, context, pen),
             Shape::Outline { path, axis, width: mean } => {

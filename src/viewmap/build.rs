@@ -9,7 +9,7 @@ use super::occlude::{Interval, Limits};
 use super::project::{ImageSegment, project};
 use super::rounded::{self, Rounded};
 use super::visibility::decide;
-use crate::lines::{Contours, FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
+use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -50,7 +50,6 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
         map: ViewMap::default(),
         vertex_of_end: vec![UNSET; mesh.positions.len() + lines.points.len()],
         hidden,
-        along_mesh: options.contours == Contours::Mesh,
     };
     let (mut layers, mut beside): (Vec<Layer>, Vec<Interval>) = (Vec::new(), Vec::new());
     let mut question = 0;
@@ -83,8 +82,6 @@ struct Builder<'a> {
     map: ViewMap,
     vertex_of_end: Vec<u32>,
     hidden: HiddenPieces,
-    /// Whether no contour is drawn as a curve.
-    along_mesh: bool,
 }
 
 /// What visibility says of one segment.
@@ -106,8 +103,6 @@ struct Piece {
 impl Builder<'_> {
     fn add(&mut self, segment: &ImageSegment, seen: Seen, shortest: f64) {
         let source = &self.lines.segments[segment.source as usize];
-        // Along edges of the mesh throughout, what turns softly is as likely round as not.
-        let rounded = source.role != Role::Line || (self.along_mesh && source.smooth);
         let is_witness = matches!(segment.role, Role::Witness { .. });
         let keeps_hidden =
             !is_witness && (self.hidden == HiddenPieces::All || source.kind == LineKind::Contour);
@@ -131,7 +126,7 @@ impl Builder<'_> {
             } else {
                 self.cut_vertex(segment, piece.end, piece.end_kind)
             };
-            self.map.edges.push(view_edge(source, rounded, segment.source, from, to, piece));
+            self.map.edges.push(view_edge(source, segment.source, from, to, piece));
             start = Some(to);
         }
     }
@@ -168,7 +163,6 @@ impl Builder<'_> {
 
 fn view_edge(
     source: &FeatureSegment,
-    rounded: bool,
     segment: u32,
     start: ViewVertexId,
     end: ViewVertexId,
@@ -182,7 +176,7 @@ fn view_edge(
         silhouette: piece.silhouette,
         both_seen: source.both_seen,
         smooth: source.smooth,
-        rounded,
+        figure: source.figure,
         strength: source.strength,
         part: source.part,
         material: source.material,

@@ -239,7 +239,7 @@ mod tests {
                 silhouette: false,
                 both_seen: false,
                 smooth: false,
-                rounded: false,
+                figure: false,
                 strength: 180.0,
                 part: PartId(0),
                 material: MaterialId(0),
