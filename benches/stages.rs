@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
 use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
-use ligne::mesh::{Edges, HardEdges, Mesh, SmoothNormals};
+use ligne::mesh::{Edges, Extents, HardEdges, Mesh, SmoothNormals};
 use ligne::render;
 use ligne::scene::{Camera, Geometry, Part, Scene};
 use ligne::style::Style;
@@ -146,7 +146,9 @@ fn visibility(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn doubles(bencher: Bencher, name: &str) {
     let map = made(name).view_map();
-    bencher.with_inputs(|| map.clone()).bench_refs(|map| doubles::remove(map, 0.02, true));
+    bencher
+        .with_inputs(|| map.clone())
+        .bench_refs(|map| doubles::remove(map, 0.02, true, &Extents::default()));
 }
 
 #[divan::bench(args = SCENES)]

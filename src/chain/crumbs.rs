@@ -86,8 +86,11 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, tidy: f64) -> bool {
             // On exact models only what ends in the middle of a surface is doubtful.
             length < tidy && [0, 1].iter().all(|side| free[*side] && !raw.covered[*side])
         }
-        // A slit in a scan is a defect of its mesh.
-        LineKind::Border if scanned => free[0] && free[1],
+        // A slit in a scan is a defect of its mesh; the edge of a sheet that comes out from under another is not.
+        LineKind::Border if scanned => {
+            let is_whole = !raw.covered[0] && !raw.covered[1];
+            free[0] && free[1] && (is_whole || length < PARTLY_COVERED * tidy)
+        }
         LineKind::Wire | LineKind::Border | LineKind::Motion => false,
         _ => length < 0.25 * tidy && free[0] && free[1],
     }

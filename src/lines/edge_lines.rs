@@ -205,12 +205,29 @@ impl<'a> Finder<'a> {
         } else {
             return None;
         };
-        let nearer = real.iter().copied().find(|f| self.view.facing[*f as usize]).unwrap_or(real[0]);
+        let nearer = self.owner(&real);
         Some(FeatureSegment {
             both_seen: !contour,
             strength: turn,
             ..self.segment(edge, kind, nearer, [real[0], real[1]])
         })
+    }
+
+    /// Of faces that meet in one edge the one to which the line belongs: one that turns its outside to the
+    /// eye, of the smallest part. The order of parts in the file does not matter.
+    fn owner(&self, faces: &[u32]) -> u32 {
+        let mesh = self.mesh;
+        let seen = faces.iter().copied().filter(|f| self.view.facing[*f as usize]);
+        let corners = |face: u32| {
+            let mut corners = mesh.triangles[face as usize];
+            corners.sort_unstable();
+            corners
+        };
+        let first = seen.min_by(|a, b| {
+            let of = |face: u32| mesh.extent(FaceId(face));
+            of(*a).precedence(of(*b)).then_with(|| corners(*a).cmp(&corners(*b)))
+        });
+        first.unwrap_or(faces[0])
     }
 
     /// Degrees by which the surface turns in the corner between two faces into which the eye

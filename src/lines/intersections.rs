@@ -6,12 +6,10 @@
 //! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
 //! lines, get the full search.
 
-use std::cmp::Ordering;
-
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
 use crate::mesh::trace::Tracer;
-use crate::mesh::{Extent, FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh};
 use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::view::View;
 
@@ -54,16 +52,13 @@ fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
         return if sides[0] { a } else { b };
     }
     let [of_a, of_b] = [a, b].map(|face| mesh.extent(FaceId(face)));
-    let box_of = |extent: &Extent| [extent.low.to_array(), extent.high.to_array()].concat();
     let corners = |face: u32| {
         let mut corners = mesh.triangles[face as usize];
         corners.sort_unstable();
         corners
     };
-    let order = of_a.scale.total_cmp(&of_b.scale);
     // Of two parts in one place the place of the face decides: vertices are numbered by theirs.
-    let order = order.then_with(|| box_of(of_a).partial_cmp(&box_of(of_b)).unwrap_or(Ordering::Equal));
-    if order.then_with(|| corners(a).cmp(&corners(b))).is_le() { a } else { b }
+    if of_a.precedence(of_b).then_with(|| corners(a).cmp(&corners(b))).is_le() { a } else { b }
 }
 
 /// All curves of a mesh.

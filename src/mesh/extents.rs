@@ -3,6 +3,8 @@
 //! Tolerances are fractions of the parts that they are about, never of the whole model: what becomes of one
 //! part must not depend on others that lie elsewhere.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -48,6 +50,14 @@ impl Extent {
     #[must_use]
     pub fn diagonal(&self) -> f64 {
         if self.low.x <= self.high.x { self.low.distance(self.high) } else { 0.0 }
+    }
+
+    /// The order of two parts by their size, then by where they are, which does not depend on that in the file.
+    #[must_use]
+    pub fn precedence(&self, other: &Self) -> Ordering {
+        let place = |extent: &Self| [extent.low.to_array(), extent.high.to_array()];
+        let by_place = || place(self).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
+        self.scale.total_cmp(&other.scale).then_with(by_place)
     }
 
     /// Middle of the box, local space.

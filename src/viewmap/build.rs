@@ -71,7 +71,7 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     let mut map = builder.map;
     map.tests = seen.tests;
     map.contours = rounded.counts;
-    doubles::remove(&mut map, limits.double, view.frame.perspective);
+    doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
     map
 }
 

@@ -2,7 +2,9 @@
 //!
 //! Edges of parts that touch, coplanar faces and T-vertices make lines that coincide in the image
 //! without being one edge of the mesh. Of two such lines the weaker kind gives way, of equal kinds
-//! the later one. Lines that share a node may be a fold of one curve, and must coincide to rounding.
+//! the farther one, whatever the order of the parts in the file. Lines that share a node may be a fold of one curve, and must coincide to rounding.
+
+use std::cmp::Ordering;
 
 use glam::DVec3;
 use kurbo::{Point, Vec2};
@@ -11,6 +13,7 @@ use rayon::prelude::*;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::grid::Grid;
 use super::grouped::{Grouped, bucket};
+use crate::mesh::Extents;
 
 /// Lines shorter than this many times the distance have no direction to speak of, and are left
 /// alone.
@@ -21,9 +24,9 @@ const SHORTEST_SHARE: f64 = 8.0;
 const JOINED_SHARE: f64 = 1e-3;
 
 /// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
-/// edge. `perspective` tells how depth runs along a line.
-pub fn remove(map: &mut ViewMap, within: f64, perspective: bool) {
-    let covered = find_covered(map, within);
+/// edge. `perspective` tells how depth runs along a line, `extents` which of two parts in one place comes first.
+pub fn remove(map: &mut ViewMap, within: f64, perspective: bool, extents: &Extents) {
+    let covered = find_covered(map, within, extents);
     if covered.is_empty() {
         return;
     }
@@ -44,7 +47,7 @@ pub fn remove(map: &mut ViewMap, within: f64, perspective: bool) {
 }
 
 /// For each edge that gives way, the range of its parameter that another covers; ascending.
-fn find_covered(map: &ViewMap, within: f64) -> Vec<(u32, (f64, f64))> {
+fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64, f64))> {
     let long_enough = |e: &ViewEdge| e.invisibility == 0 && Line::of(map, e).length > SHORTEST_SHARE * within;
     let ids: Vec<u32> =
         (0..map.edges.len() as u32).filter(|id| long_enough(&map.edges[*id as usize])).collect();
@@ -71,7 +74,7 @@ fn find_covered(map: &ViewMap, within: f64) -> Vec<(u32, (f64, f64))> {
     let mut covered: Vec<(u32, (f64, f64))> = ids
         .par_iter()
         .with_min_len(256)
-        .flat_map_iter(|id| covered_with(map, *id, within, &grid, &lines_of))
+        .flat_map_iter(|id| covered_with(map, *id, within, extents, (&grid, &lines_of)))
         .collect();
     covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
     covered
@@ -82,8 +85,8 @@ fn covered_with(
     map: &ViewMap,
     id: u32,
     within: f64,
-    grid: &Grid,
-    lines_of: &Grouped<u32>,
+    extents: &Extents,
+    (grid, lines_of): (&Grid, &Grouped<u32>),
 ) -> Vec<(u32, (f64, f64))> {
     let edge = &map.edges[id as usize];
     let line = Line::of(map, edge);
@@ -110,8 +113,7 @@ fn covered_with(
         if !line.runs_along(&other_line, within) {
             continue;
         }
-        // The other edge came first: it stays unless it is the weaker kind.
-        let (loser, range) = if edge.kind < other.kind {
+        let (loser, range) = if precedence(map, extents, edge, other).is_lt() {
             (other_id, other_line.covered_by(&line, within))
         } else {
             (id, line.covered_by(&other_line, within))
@@ -119,6 +121,22 @@ fn covered_with(
         covered.extend(range.map(|range| (loser, range)));
     }
     covered
+}
+
+/// Which of two edges that coincide stays: the lesser. Of parts that touch the smaller one has the line.
+fn precedence(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> Ordering {
+    let ends = |edge: &ViewEdge| [edge.start, edge.end].map(|v| map.vertices[v.index()]);
+    let depth = |edge: &ViewEdge| ends(edge).iter().map(|end| end.depth).sum::<f64>();
+    let place = |edge: &ViewEdge| {
+        let mut places = ends(edge).map(|end| [end.position.x, end.position.y]);
+        places.sort_by(|p, q| p.partial_cmp(q).unwrap_or(Ordering::Equal));
+        places
+    };
+    let by_depth = || depth(one).total_cmp(&depth(other));
+    let by_place = || place(one).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
+    let by_part = || extents.of(one.part).precedence(extents.of(other.part));
+    let last = || other.segment.cmp(&one.segment);
+    one.kind.cmp(&other.kind).then_with(by_depth).then_with(by_place).then_with(by_part).then_with(last)
 }
 
 fn vector(p: Point) -> DVec3 {
@@ -260,7 +278,7 @@ mod tests {
             ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
             ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, false);
+        remove(&mut m, 0.005, false, &Extents::default());
         let (k, c) = (LineKind::Crease, LineKind::Contour);
         assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
     }
@@ -272,7 +290,7 @@ mod tests {
             ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
             ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, false);
+        remove(&mut m, 0.005, false, &Extents::default());
         assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
     }
 }

@@ -86,6 +86,14 @@ impl Grid {
         Self { columns: count(size.x), rows: count(size.y), cell, origin: low, per_cell: 1.0 / cell }
     }
 
+    /// A grid of tiles of a given side from `low` until `high` is in it.
+    #[must_use]
+    pub fn of_cells(low: DVec2, high: DVec2, cell: f64) -> Self {
+        let count = |length: f64| ((length / cell) as u32).saturating_add(1);
+        let size = high - low;
+        Self { columns: count(size.x), rows: count(size.y), cell, origin: low, per_cell: 1.0 / cell }
+    }
+
     /// The same grid with `across` finer tiles along each side of every tile.
     #[must_use]
     pub fn refined(&self, across: u32) -> Self {

@@ -146,7 +146,8 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     (start <= end).then_some((start, end))
 }
 
-/// What a triangle hides of the part of a segment between two parameters.
+/// What a triangle hides of the part of a segment between two parameters: that part of what it hides of the
+/// whole, so that it does not matter how the segment is cut.
 #[inline]
 #[must_use]
 pub fn hidden_interval(
@@ -161,10 +162,10 @@ pub fn hidden_interval(
     if shared[0].is_some() && shared[1].is_some() {
         return None;
     }
-    let (p, q) = (segment.at(from).truncate(), segment.at(to).truncate());
-    let (start, end) = covered(p, q, corners, limits)?;
-    let at = |t: f64| if t >= 1.0 { to } else { from + (to - from) * t };
-    let (start, end) = (at(start), at(end));
+    let range =
+        |from: f64, to: f64| covered(segment.at(from).truncate(), segment.at(to).truncate(), corners, limits);
+    let part = range(from, to)?;
+    let (start, end) = if (from, to) == (0.0, 1.0) { part } else { range(0.0, 1.0)? };
     // Heights over the plane are measured from the shared corner, where they vanish exactly.
     let base = corners[shared[0].or(shared[1]).unwrap_or(0)];
     let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);
@@ -197,5 +198,11 @@ pub fn hidden_interval(
         let t = start + span * (at_start / (at_start - at_end));
         (hidden.end, hidden.end_kind) = (t, ViewVertexKind::Piercing);
     }
-    Some(hidden)
+    if hidden.start < from {
+        (hidden.start, hidden.start_kind) = (from, ViewVertexKind::TJunction);
+    }
+    if hidden.end > to {
+        (hidden.end, hidden.end_kind) = (to, ViewVertexKind::TJunction);
+    }
+    (hidden.start <= hidden.end).then_some(hidden)
 }

@@ -25,6 +25,7 @@ use super::occlude::{Interval, Limits};
 use super::occluders::{Occluder, Triangles};
 use super::project::ImageSegment;
 use super::tile::{Context, Item, TileResult};
+use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -120,13 +121,21 @@ pub fn decide(
     gather(segments, limits, &buried, &results)
 }
 
-/// A grid over the box around all segments.
+/// A grid over the box around all segments. Its tiles seldom move when lines come and go: they are a power of
+/// two wide, and lie on multiples of that.
 pub(super) fn grid_over(segments: &[ImageSegment], across: u32) -> Grid {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) =
         segments.iter().fold(nothing, |(low, high), s| (low.min(s.a).min(s.b), high.max(s.a).max(s.b)));
     let (low, high) = if segments.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (low, high) };
-    Grid::new(low.truncate(), high.truncate(), across)
+    let (low, high) = (low.truncate(), high.truncate());
+    let size = (high - low).max_element();
+    if !(size > 0.0 && size.is_finite()) {
+        return Grid::new(low, high, across);
+    }
+    // Between 0.7 and 1.4 times as many as asked for.
+    let cell = power_of_two_above(size / f64::from(across) * std::f64::consts::FRAC_1_SQRT_2);
+    Grid::of_cells((low / cell).floor() * cell, high, cell)
 }
 
 /// Denser meshes want smaller tiles; crowded tiles are cut further.
