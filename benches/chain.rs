@@ -32,7 +32,7 @@ fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
             silhouette: false,
             both_seen: kind == LineKind::Crease,
             smooth: kind == LineKind::Contour,
-            figure: kind == LineKind::Contour,
+            scan: kind == LineKind::Contour,
             strength: 90.0,
             part: PartId(0),
             material: MaterialId(0),

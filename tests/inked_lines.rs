@@ -426,9 +426,8 @@ fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
         Paint::Fill(_) => 0.0,
     };
     assert!(!inner.is_empty() && !outer.is_empty());
-    // The box is 5.83 across: 0.6 of a fifth of that is 0.515.
-    let size = (16.0 + 16.0 + 1.3_f64 * 1.3).sqrt();
-    let wanted = 4.0 * (1.0 - 0.7 * (1.0 - 0.6 / (0.2 * size)));
+    // The frame is 5 across, and 0.6 lie between.
+    let wanted = 4.0 * (1.0 - 0.7 * (1.0 - 0.6 / (0.2 * 5.0)));
     assert!(inner.iter().all(|mark| (width(mark) - wanted).abs() < 0.1), "{} {wanted}", width(inner[0]));
     assert!(outer.iter().all(|mark| (width(mark) - 4.0).abs() < 0.1));
 }

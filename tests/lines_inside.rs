@@ -264,11 +264,11 @@ fn lines_do_not_depend_on_the_unit_or_the_order_of_faces() {
     let lines = inside_lines(&mesh, &orthographic(eye, DVec3::ZERO, 4.0), &all);
     assert!(lines.segments.len() > 100);
 
-    let large = mesh_of(&solid.clone().moved(|p| p * 1000.0));
-    let of_large = inside_lines(&large, &orthographic(eye * 1000.0, DVec3::ZERO, 4000.0), &all);
+    let large = mesh_of(&solid.clone().moved(|p| p * 1024.0));
+    let of_large = inside_lines(&large, &orthographic(eye * 1024.0, DVec3::ZERO, 4096.0), &all);
     assert_eq!(lines.segments.len(), of_large.segments.len());
     for (small, large) in lines.points.iter().zip(&of_large.points) {
-        assert!((*small * 1000.0).distance(*large) < 1e-5, "{small} {large}");
+        assert!((*small * 1024.0).distance(*large) < 1e-5, "{small} {large}");
     }
     assert!(lines.strengths.iter().zip(&of_large.strengths).all(|(a, b)| (a - b).abs() < 1e-4));
 

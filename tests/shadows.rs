@@ -310,8 +310,8 @@ fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
     sun.z = sun.z.abs() + 0.3;
     vec![
         Caster::Directional { towards: sun },
-        Caster::Point { position: dice.direction() * mesh.extents.diagonal },
-        Caster::Point { position: dice.point(0.2) * mesh.extents.diagonal },
+        Caster::Point { position: mesh.extents.middle + dice.direction() * mesh.extents.diagonal },
+        Caster::Point { position: mesh.extents.middle + dice.point(0.2) * mesh.extents.diagonal },
         Caster::Directional { towards: DVec3::Z },
     ]
 }

@@ -27,7 +27,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
         kind: LineKind::Intersection,
         both_seen: true,
         smooth: false,
-        figure: false,
+        scan: false,
         role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[s.faces[0] as usize],

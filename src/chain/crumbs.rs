@@ -44,7 +44,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, tidy: f64) -> bool {
         return false;
     }
     let length = raw.length();
-    let scanned = raw.class.figure;
+    let scanned = raw.class.scan;
     if scanned && raw.class.kind == LineKind::Crease {
         return raw.pronounced < NOISE * tidy;
     }

@@ -110,7 +110,7 @@ fn is_suspect(raw: &Raw) -> bool {
     !raw.class.hidden
         && match raw.class.kind {
             LineKind::Contour => raw.smooth,
-            LineKind::Crease => raw.class.figure,
+            LineKind::Crease => raw.class.scan,
             _ => false,
         }
 }

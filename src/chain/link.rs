@@ -20,8 +20,8 @@ pub(super) struct Class {
     pub hidden: bool,
     pub silhouette: bool,
     pub both_seen: bool,
-    /// Whether it is a line of a figure or a scan.
-    pub figure: bool,
+    /// Whether it is a line of a scan.
+    pub scan: bool,
 }
 
 impl Class {
@@ -34,7 +34,7 @@ impl Class {
             hidden: edge.invisibility > 0,
             silhouette: edge.silhouette,
             both_seen: edge.both_seen,
-            figure: edge.figure,
+            scan: edge.scan,
         }
     }
 

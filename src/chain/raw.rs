@@ -33,12 +33,12 @@ pub(super) struct Raw {
 
 impl Raw {
     /// The line of a route; `None` for one seen end-on as a point. All of it counts as lying on a
-    /// smooth surface if it is a contour or crease of a figure.
+    /// smooth surface if it is a contour or crease of a scan.
     pub fn of_route(map: &ViewMap, routes: &Routes, route: usize, classes: &[Option<Class>]) -> Option<Self> {
         let (steps, closed) = routes.get(route);
         let (first, last) = (steps.first()?, steps.last()?);
         let class = classes[first.edge as usize]?;
-        let noisy = class.figure && matches!(class.kind, LineKind::Contour | LineKind::Crease);
+        let noisy = class.scan && matches!(class.kind, LineKind::Contour | LineKind::Crease);
         let line = Line::of_route(map, steps, closed, noisy);
         // A closed line of two points runs there and back.
         let line = if closed && line.len() == 2 { line.opened_at(0) } else { line };

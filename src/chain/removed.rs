@@ -51,7 +51,7 @@ impl Reason {
         let ends = [0, 1].map(|side| raw.covered[side] || degrees.is_free(raw.ends[side]));
         match raw.class.kind {
             kind if kind.is_inside() => Self::Weak,
-            LineKind::Crease if raw.class.figure => Self::Noise,
+            LineKind::Crease if raw.class.scan => Self::Noise,
             _ if raw.is_ring() => Self::Loop,
             _ if ends[0] && ends[1] => Self::Crumb,
             _ => Self::Spur,

@@ -41,7 +41,7 @@ fn map_of(lines: &[Polyline]) -> ViewMap {
                 silhouette: false,
                 both_seen: false,
                 smooth: *smooth,
-                figure: *smooth,
+                scan: *smooth,
                 strength: 90.0,
                 part: PartId(0),
                 material: MaterialId(0),
@@ -196,7 +196,7 @@ fn crumbs_and_spurs_go_and_the_outline_stays() {
     let (kept, removed) = link_and_keep(&map, &ChainOptions::default(), Unit::Px, HiddenLines::Solid);
     assert_eq!(kept, chains);
     let reasons: Vec<_> = removed.iter().map(|r| (r.kind, r.reason)).collect();
-    assert_eq!(reasons, [(LineKind::Contour, Reason::Spur), (LineKind::Crease, Reason::Noise)]);
+    assert_eq!(reasons, [(LineKind::Contour, Reason::Spur), (LineKind::Crease, Reason::Crumb)]);
     assert_eq!(removed[1].points, [Point::new(300.0, 300.0), Point::new(302.0, 300.5)]);
 }
 

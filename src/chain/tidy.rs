@@ -47,7 +47,7 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64,
         }
     } else {
         // Nothing is taken for noise.
-        classes.iter_mut().flatten().for_each(|class| class.figure = false);
+        classes.iter_mut().flatten().for_each(|class| class.scan = false);
     }
     if hidden == HiddenLines::None {
         classes.iter_mut().filter(|c| c.is_some_and(|c| c.hidden)).for_each(|c| *c = None);

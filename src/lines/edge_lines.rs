@@ -286,7 +286,7 @@ impl<'a> Finder<'a> {
             kind,
             both_seen: true,
             smooth: false,
-            figure: false,
+            scan: false,
             role: Role::Line,
             strength: 180.0,
             part: self.mesh.face_part[nearer as usize],

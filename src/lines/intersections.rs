@@ -34,7 +34,7 @@ pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLi
             kind: LineKind::Intersection,
             both_seen: true,
             smooth: false,
-            figure: false,
+            scan: false,
             role: Role::Line,
             strength: 180.0,
             part: mesh.face_part[owner],

@@ -54,7 +54,7 @@ pub(super) fn segment(mesh: &Mesh, face: u32, hosts: [u32; 2], ends: [u32; 2]) -
         kind: LineKind::Isophote,
         both_seen: true,
         smooth: hosts[1] == NO_FACE,
-        figure: false,
+        scan: false,
         role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[face as usize],

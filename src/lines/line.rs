@@ -46,8 +46,8 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that the mesh's corners along the line are
     /// artefacts.
     pub smooth: bool,
-    /// Whether it is a line of a figure or a scan, all of which is round but for its creases.
-    pub figure: bool,
+    /// Whether it is a line of a scan, some of whose lines may be noise.
+    pub scan: bool,
     /// What it does in the drawing.
     pub role: Role,
     /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
@@ -69,7 +69,7 @@ impl FeatureSegment {
             kind: LineKind::Wire,
             both_seen: true,
             smooth: false,
-            figure: false,
+            scan: false,
             role: Role::Line,
             strength: 180.0,
             part: wire.part,

@@ -82,9 +82,14 @@ pub fn extract_with(
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));
     }
-    let is_figure = |face: u32| surface.figure.get(face as usize) == Some(&true);
-    if surface.figure.contains(&true) {
-        lines.segments.par_iter_mut().for_each(|s| s.figure = s.hosts.into_iter().any(is_figure));
-    }
+    mark_scans(surface, &mut lines);
     lines
+}
+
+/// Tells the lines of scans.
+fn mark_scans(surface: &Surface, lines: &mut FeatureLines) {
+    let is_scan = |face: u32| surface.scan.get(face as usize) == Some(&true);
+    if surface.scan.contains(&true) {
+        lines.segments.par_iter_mut().for_each(|s| s.scan = s.hosts.into_iter().any(is_scan));
+    }
 }

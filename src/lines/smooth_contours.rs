@@ -75,7 +75,7 @@ fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
         kind: LineKind::Contour,
         both_seen: false,
         smooth: true,
-        figure: false,
+        scan: false,
         role: Role::Curve,
         strength: 0.0,
         part: mesh.face_part[face as usize],

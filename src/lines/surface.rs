@@ -25,8 +25,9 @@ pub struct Surface {
     /// The normals of its rounded parts, whose contours are smooth; none with
     /// [`Contours::Mesh`].
     pub smooth: SmoothNormals,
-    /// Whether each face is part of a figure or a scan, all of which is round but for its creases.
-    pub figure: Vec<bool>,
+    /// Whether each face is part of a scan: round, without normals of its own, so that some of its lines may be
+    /// noise.
+    pub scan: Vec<bool>,
     /// Whether faces were cut that the model does not have.
     pub refined: bool,
 }
@@ -40,15 +41,15 @@ impl Surface {
         }
         if options.contours == Contours::Mesh {
             let hard = HardEdges::above(&mesh, options.crease_deg);
-            let figure = patches::figures(&mesh);
-            return Self { mesh, hard, figure, ..Self::default() };
+            let scan = patches::scans(&mesh);
+            return Self { mesh, hard, scan, ..Self::default() };
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
             mesh.forget_normals(|face| !patches.believed[face as usize]);
         }
         let smooth = normals(&mesh, &patches);
-        Self { mesh, hard: patches.hard, smooth, figure: patches.figure, refined: false }
+        Self { mesh, hard: patches.hard, smooth, scan: patches.scan, refined: false }
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the
@@ -63,8 +64,8 @@ impl Surface {
     pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
         let frame = Frame::new(camera, self.mesh.origin);
         let Refined { mesh, smooth, hosts } = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
-        let figure = hosts.iter().filter_map(|face| self.figure.get(*face as usize).copied()).collect();
-        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, figure, refined: true })
+        let scan = hosts.iter().filter_map(|face| self.scan.get(*face as usize).copied()).collect();
+        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, scan, refined: true })
     }
 }
 

@@ -146,13 +146,14 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    /// A square of n × n cells, each cut in two, over 0..1 × 0..1.
+    /// A square of n × n cells, each cut in two, one unit wide, around zero.
     fn square(n: u32) -> (Mesh, SmoothNormals) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         for y in 0..=n {
             for x in 0..=n {
-                positions.push(DVec3::new(f64::from(x), f64::from(y), 0.0) / f64::from(n));
+                let place = DVec3::new(f64::from(x), f64::from(y), 0.0) / f64::from(n);
+                positions.push(place - DVec3::new(0.5, 0.5, 0.0));
                 if x < n && y < n {
                     let a = y * (n + 1) + x;
                     triangles.push([a, a + 1, a + n + 2]);

@@ -181,7 +181,7 @@ mod tests {
         let c = mesh.cleaning;
         assert_eq!((c.doubled, c.collapsed, c.degenerate), (1, 1, 1));
         // The flat face goes on in the one that runs the other way along its side.
-        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 3, 1]]);
+        assert_eq!(mesh.triangles, [[0, 1, 3], [0, 2, 1]]);
     }
 
     #[test]

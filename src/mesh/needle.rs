@@ -88,7 +88,7 @@ mod tests {
             ..Soup::default()
         });
         let needle = (0..3).find(|f| mesh.is_degenerate(FaceId(*f))).unwrap();
-        let at = |x: f64| mesh.positions.iter().position(|p| p.x == x && p.y < 0.0).unwrap() as u32;
-        assert_eq!(beyond(&mesh, needle, at(-1.0), at(0.0)), Beyond::Nothing);
+        let at = |x: f64| mesh.positions.iter().position(|p| p.x == x && p.y == 0.0).unwrap() as u32;
+        assert_eq!(beyond(&mesh, needle, at(0.0), at(1.0)), Beyond::Nothing);
     }
 }

@@ -48,6 +48,8 @@ pub struct Patches {
     pub rounded: Vec<bool>,
     /// Whether each face is part of a figure or a scan, all of which is round but for its creases.
     pub figure: Vec<bool>,
+    /// Whether each face is part of a scan: a round piece that no file's normals shade.
+    pub scan: Vec<bool>,
     /// Whether the file's normals tell the shape of each face, if it has any.
     pub believed: Vec<bool>,
 }
@@ -68,16 +70,16 @@ impl Patches {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
             add_free_forms(mesh, &planes, &makes, parts, &mut rounded);
         }
+        let scan = verdicts.iter().map(|verdict| verdict.scan).collect();
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
-        Self { hard, rims, rounded, figure, believed }
+        Self { hard, rims, rounded, figure, scan, believed }
     }
 }
 
-/// Whether each face of a mesh is part of a figure or a scan, all of which is round but for its creases.
+/// Whether each face of a mesh is part of a scan: see [`Patches::scan`].
 #[must_use]
-pub fn figures(mesh: &Mesh) -> Vec<bool> {
-    let verdicts = verdicts(mesh, &Planes::new(mesh), false);
-    verdicts.iter().map(|verdict| verdict.make == Make::Round).collect()
+pub fn scans(mesh: &Mesh) -> Vec<bool> {
+    verdicts(mesh, &Planes::new(mesh), false).iter().map(|verdict| verdict.scan).collect()
 }
 
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, only

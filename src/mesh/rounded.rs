@@ -54,10 +54,12 @@ pub(super) enum Make {
     Round,
 }
 
-/// What a piece is, and whether its file's normals tell its shape.
+/// What a piece is, and how its file's normals have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Verdict {
     pub make: Make,
+    /// Whether it is round, and no file's normals shade it.
+    pub scan: bool,
     pub believed: bool,
 }
 
@@ -104,7 +106,8 @@ impl Count {
         let astray = share(self.astray, self.faces) >= FEW_ASTRAY;
         let as_planes = faceted && shape == Make::Round;
         let believed = !(astray || armoured || as_planes || (all && machined));
-        Verdict { make: if plain && !all { Make::Block } else { shape }, believed }
+        let make = if plain && !all { Make::Block } else { shape };
+        Verdict { make, scan: make == Make::Round && !shaded, believed }
     }
 }
 

@@ -143,7 +143,7 @@ mod tests {
         let turned = |e: &usize| matches!(mesh.edges.faces(*e), EdgeFaces::Two { same_way: true, .. });
         assert_eq!((0..mesh.edges.len()).filter(turned).count(), 0);
         let middle = |face: usize| mesh.corners(FaceId(face as u32)).iter().sum::<DVec3>() / 3.0;
-        let strip: Vec<usize> = (0..mesh.triangles.len()).filter(|f| middle(*f).y < -1.0).collect();
+        let strip: Vec<usize> = (0..mesh.triangles.len()).filter(|f| middle(*f).y < 1.0).collect();
         assert_eq!((mesh.triangles.len(), strip.len()), (21, 20));
         strip.into_iter().filter(|face| mesh.face_normals[*face][2] > 0.0).count()
     }

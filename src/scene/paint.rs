@@ -213,7 +213,7 @@ mod tests {
         assert_eq!(paints.list.len(), 5);
         let mesh = Mesh::build(scene.to_painted_soup(&paints));
         assert_eq!(paints.of_geometry(0), [4, 3, 0, 1].map(PaintId));
-        assert_eq!(mesh.face_paint, [4, 0, 3, 1].map(PaintId));
+        assert_eq!(mesh.face_paint, [4, 3, 0, 1].map(PaintId));
         assert_eq!(paints.list[3], Paint { material: MaterialId(0), colour: Colour::rgb(0, 0, 255) });
         assert_eq!(paints.list[4].colour, Colour::rgb(255, 0, 0));
         // Lines see one material.

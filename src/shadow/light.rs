@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::Caster;
 use crate::math::function::atan2;
-use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
 use crate::scene::{Camera, Projection};
 use crate::view::View;
@@ -48,8 +47,6 @@ impl LightView {
 /// The views of a light over a mesh; none for a light that is nowhere.
 pub(super) fn views(mesh: &Mesh, caster: &Caster) -> Vec<LightView> {
     let (middle, radius) = mesh.extents.ball();
-    // Lines of a light are judged short by the size of its image, which seldom changes.
-    let radius = power_of_two_above(radius);
     let camera = |eye: DVec3, forward: DVec3, projection: Projection| {
         let up = forward.any_orthonormal_vector();
         Camera { eye, target: eye + forward * radius, up, projection, width: SIDE, height: SIDE, near: None }

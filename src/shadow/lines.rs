@@ -50,7 +50,7 @@ impl ShadowLines {
             kind: LineKind::Isophote,
             both_seen: true,
             smooth: false,
-            figure: false,
+            scan: false,
             role: Role::Line,
             strength: 0.0,
             part: mesh.face_part[segment.face as usize],

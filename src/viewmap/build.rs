@@ -176,7 +176,7 @@ fn view_edge(
         silhouette: piece.silhouette,
         both_seen: source.both_seen,
         smooth: source.smooth,
-        figure: source.figure,
+        scan: source.scan,
         strength: source.strength,
         part: source.part,
         material: source.material,

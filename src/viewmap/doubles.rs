@@ -257,7 +257,7 @@ mod tests {
                 silhouette: false,
                 both_seen: false,
                 smooth: false,
-                figure: false,
+                scan: false,
                 strength: 180.0,
                 part: PartId(0),
                 material: MaterialId(0),

@@ -65,8 +65,8 @@ pub struct ViewEdge {
     /// Whether the line lies on a smooth surface, so that the corners of the mesh along it are
     /// artefacts of tessellation: contours of rounded surfaces.
     pub smooth: bool,
-    /// Whether the line is one of a figure or a scan, all of which is round but for its creases.
-    pub figure: bool,
+    /// Whether the line is one of a scan, some of whose lines may be noise.
+    pub scan: bool,
     /// How pronounced the line is: for a crease its dihedral angle in degrees (0 to 180),
     /// for other kinds 180.
     pub strength: f32,

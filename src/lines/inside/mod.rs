@@ -157,7 +157,7 @@ impl<'a> Seen<'a> {
                 kind,
                 both_seen: true,
                 smooth: true,
-                figure: false,
+                scan: false,
                 role: Role::Line,
                 strength: 0.0,
                 part: self.mesh.face_part[segment.face as usize],
