@@ -6,7 +6,7 @@ use ligne::chain::{ChainOptions, link};
 use ligne::drawing::Unit;
 use ligne::lines::{HiddenLines, LineKind};
 use ligne::math::function::{cos, sin};
-use ligne::mesh::{MaterialId, PartId};
+use ligne::mesh::{MaterialId, Origin, PartId};
 use ligne::viewmap::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 
 fn main() {
@@ -32,7 +32,7 @@ fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
             silhouette: false,
             both_seen: kind == LineKind::Crease,
             smooth: kind == LineKind::Contour,
-            scan: kind == LineKind::Contour,
+            origin: if kind == LineKind::Contour { Origin::Scanned } else { Origin::Constructed },
             strength: 90.0,
             part: PartId(0),
             material: MaterialId(0),

@@ -9,7 +9,7 @@ use glam::DVec3;
 use ligne::lines::intersections::{all_curves, visible_curves};
 use ligne::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, Role};
 use ligne::mesh::intersect::IntersectionCurves;
-use ligne::mesh::{Mesh, Soup};
+use ligne::mesh::{Mesh, Origin, Soup};
 use ligne::scene::{Camera, Scene, UpAxis};
 use ligne::view::View;
 use ligne::viewmap;
@@ -27,7 +27,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
         kind: LineKind::Intersection,
         both_seen: true,
         smooth: false,
-        scan: false,
+        origin: Origin::default(),
         role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[s.faces[0] as usize],

@@ -3,6 +3,7 @@
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
+use crate::mesh::Origin;
 
 /// A crease of a scan must be this many times longer than a crumb if it turns by a right angle; the
 /// fainter, the longer.
@@ -44,7 +45,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, tidy: f64) -> bool {
         return false;
     }
     let length = raw.length();
-    let scanned = raw.class.scan;
+    let scanned = raw.class.origin == Origin::Scanned;
     if scanned && raw.class.kind == LineKind::Crease {
         return raw.pronounced < NOISE * tidy;
     }
@@ -72,11 +73,11 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, tidy: f64) -> bool {
     }
     match raw.class.kind {
         LineKind::Contour if raw.smooth => {
-            let floating = scanned && ends[0] && ends[1];
-            let least = match (floating, free[0] && free[1]) {
-                (true, true) => FLOATING * tidy,
-                (true, false) => PARTLY_COVERED * tidy,
-                (false, _) => tidy,
+            let (floating, free) = (ends[0] && ends[1], free[0] && free[1]);
+            let least = match raw.class.origin {
+                Origin::Scanned if floating && free => FLOATING * tidy,
+                Origin::Scanned | Origin::Modelled if floating => PARTLY_COVERED * tidy,
+                _ => tidy,
             };
             // Where it is the last piece of another line, round a corner, that line needs it.
             let spur = [0, 1].map(|side| !ends[side] && degrees.is_junction(raw.ends[side]));

@@ -8,6 +8,7 @@ use super::line::{Line, distance2, length};
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
+use crate::mesh::Origin;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
 const PARALLEL_COSINE: f64 = 0.82;
@@ -110,7 +111,7 @@ fn is_suspect(raw: &Raw) -> bool {
     !raw.class.hidden
         && match raw.class.kind {
             LineKind::Contour => raw.smooth,
-            LineKind::Crease => raw.class.scan,
+            LineKind::Crease => raw.class.origin == Origin::Scanned,
             _ => false,
         }
 }

@@ -8,7 +8,7 @@ use kurbo::Vec2;
 
 use super::line::length;
 use crate::lines::LineKind;
-use crate::mesh::{MaterialId, PartId};
+use crate::mesh::{MaterialId, Origin, PartId};
 use crate::viewmap::{ViewEdge, ViewMap, ViewVertexId};
 
 /// Edges of equal class may join into one chain.
@@ -20,8 +20,7 @@ pub(super) struct Class {
     pub hidden: bool,
     pub silhouette: bool,
     pub both_seen: bool,
-    /// Whether it is a line of a scan.
-    pub scan: bool,
+    pub origin: Origin,
 }
 
 impl Class {
@@ -34,7 +33,7 @@ impl Class {
             hidden: edge.invisibility > 0,
             silhouette: edge.silhouette,
             both_seen: edge.both_seen,
-            scan: edge.scan,
+            origin: edge.origin,
         }
     }
 

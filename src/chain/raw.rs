@@ -3,6 +3,7 @@
 use super::line::{Line, length};
 use super::link::{Class, Routes};
 use crate::lines::LineKind;
+use crate::mesh::Origin;
 use crate::viewmap::{ViewEdge, ViewMap, ViewVertexId, ViewVertexKind};
 
 /// Degrees of a dihedral angle that on a scan may well be noise.
@@ -38,7 +39,8 @@ impl Raw {
         let (steps, closed) = routes.get(route);
         let (first, last) = (steps.first()?, steps.last()?);
         let class = classes[first.edge as usize]?;
-        let noisy = class.scan && matches!(class.kind, LineKind::Contour | LineKind::Crease);
+        let noisy =
+            class.origin == Origin::Scanned && matches!(class.kind, LineKind::Contour | LineKind::Crease);
         let line = Line::of_route(map, steps, closed, noisy);
         // A closed line of two points runs there and back.
         let line = if closed && line.len() == 2 { line.opened_at(0) } else { line };

@@ -4,6 +4,7 @@ use kurbo::Point;
 
 use super::raw::{Degrees, Raw};
 use crate::lines::LineKind;
+use crate::mesh::Origin;
 
 /// Why a line was left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -51,7 +52,7 @@ impl Reason {
         let ends = [0, 1].map(|side| raw.covered[side] || degrees.is_free(raw.ends[side]));
         match raw.class.kind {
             kind if kind.is_inside() => Self::Weak,
-            LineKind::Crease if raw.class.scan => Self::Noise,
+            LineKind::Crease if raw.class.origin == Origin::Scanned => Self::Noise,
             _ if raw.is_ring() => Self::Loop,
             _ if ends[0] && ends[1] => Self::Crumb,
             _ => Self::Spur,

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::math::function::{cos, sin};
+use crate::mesh::Origin;
 use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
 /// Points, what line they make, and whether it lies on a smooth surface.
@@ -41,7 +42,7 @@ fn map_of(lines: &[Polyline]) -> ViewMap {
                 silhouette: false,
                 both_seen: false,
                 smooth: *smooth,
-                scan: *smooth,
+                origin: if *smooth { Origin::Scanned } else { Origin::Constructed },
                 strength: 90.0,
                 part: PartId(0),
                 material: MaterialId(0),

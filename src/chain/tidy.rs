@@ -15,6 +15,7 @@ use super::removed::{Bin, Reason};
 use super::silhouette;
 use super::stitch::stitch;
 use crate::lines::HiddenLines;
+use crate::mesh::Origin;
 use crate::viewmap::ViewMap;
 
 /// Hidden gaps are bridged up to this part of the tidy length.
@@ -47,7 +48,7 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64,
         }
     } else {
         // Nothing is taken for noise.
-        classes.iter_mut().flatten().for_each(|class| class.scan = false);
+        classes.iter_mut().flatten().for_each(|class| class.origin = Origin::Constructed);
     }
     if hidden == HiddenLines::None {
         classes.iter_mut().filter(|c| c.is_some_and(|c| c.hidden)).for_each(|c| *c = None);

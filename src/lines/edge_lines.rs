@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::mesh::dihedral::{mark, runs_up};
 use crate::mesh::needle::{Beyond, beyond};
-use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, HardEdges, Mesh, SmoothNormals};
+use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, HardEdges, Mesh, Origin, SmoothNormals};
 use crate::view::View;
 
 /// All edges of the mesh that are feature lines of the kinds asked for, in edge order. Of rounded
@@ -286,7 +286,7 @@ impl<'a> Finder<'a> {
             kind,
             both_seen: true,
             smooth: false,
-            scan: false,
+            origin: Origin::default(),
             role: Role::Line,
             strength: 180.0,
             part: self.mesh.face_part[nearer as usize],

@@ -9,7 +9,7 @@
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
 use crate::mesh::trace::Tracer;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh, Origin};
 use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::view::View;
 
@@ -34,7 +34,7 @@ pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLi
             kind: LineKind::Intersection,
             both_seen: true,
             smooth: false,
-            scan: false,
+            origin: Origin::default(),
             role: Role::Line,
             strength: 180.0,
             part: mesh.face_part[owner],

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE, Role};
 use crate::field::SurfacePoint;
 use crate::math::tolerance;
-use crate::mesh::{FaceId, Mesh, PaintId};
+use crate::mesh::{FaceId, Mesh, Origin, PaintId};
 
 /// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow.
 pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
@@ -54,7 +54,7 @@ pub(super) fn segment(mesh: &Mesh, face: u32, hosts: [u32; 2], ends: [u32; 2]) -
         kind: LineKind::Isophote,
         both_seen: true,
         smooth: hosts[1] == NO_FACE,
-        scan: false,
+        origin: Origin::default(),
         role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[face as usize],

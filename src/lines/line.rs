@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::LineKind;
-use crate::mesh::{MaterialId, Mesh, PartId, Wire};
+use crate::mesh::{MaterialId, Mesh, Origin, PartId, Wire};
 
 /// In [`FeatureSegment::hosts`]: no face.
 pub const NO_FACE: u32 = u32::MAX;
@@ -46,8 +46,8 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that the mesh's corners along the line are
     /// artefacts.
     pub smooth: bool,
-    /// Whether it is a line of a scan, some of whose lines may be noise.
-    pub scan: bool,
+    /// How the surface it lies on came about.
+    pub origin: Origin,
     /// What it does in the drawing.
     pub role: Role,
     /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
@@ -69,7 +69,7 @@ impl FeatureSegment {
             kind: LineKind::Wire,
             both_seen: true,
             smooth: false,
-            scan: false,
+            origin: Origin::default(),
             role: Role::Line,
             strength: 180.0,
             part: wire.part,

@@ -26,7 +26,7 @@ pub use surface::Surface;
 use rayon::prelude::*;
 
 use crate::field;
-use crate::mesh::Patches;
+use crate::mesh::{Origin, Patches};
 use crate::view::View;
 
 /// n·v as contours are traced from it, one per smooth vertex: averaged where it is near zero.
@@ -82,14 +82,15 @@ pub fn extract_with(
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));
     }
-    mark_scans(surface, &mut lines);
+    tell_origins(surface, &mut lines);
     lines
 }
 
-/// Tells the lines of scans.
-fn mark_scans(surface: &Surface, lines: &mut FeatureLines) {
-    let is_scan = |face: u32| surface.scan.get(face as usize) == Some(&true);
-    if surface.scan.contains(&true) {
-        lines.segments.par_iter_mut().for_each(|s| s.scan = s.hosts.into_iter().any(is_scan));
+/// Tells how the surfaces came about that lines lie on.
+fn tell_origins(surface: &Surface, lines: &mut FeatureLines) {
+    if surface.origins.iter().all(|origin| *origin == Origin::Constructed) {
+        return;
     }
+    let origin = |face: u32| surface.origins.get(face as usize).copied().unwrap_or_default();
+    lines.segments.par_iter_mut().for_each(|s| s.origin = origin(s.hosts[0]).max(origin(s.hosts[1])));
 }

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use super::folds;
 use super::zero_set::{self, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
-use crate::mesh::{EdgeArc, Mesh, SmoothNormals};
+use crate::mesh::{EdgeArc, Mesh, Origin, SmoothNormals};
 use crate::view::View;
 
 const NONE: u32 = u32::MAX;
@@ -75,7 +75,7 @@ fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
         kind: LineKind::Contour,
         both_seen: false,
         smooth: true,
-        scan: false,
+        origin: Origin::default(),
         role: Role::Curve,
         strength: 0.0,
         part: mesh.face_part[face as usize],

@@ -7,7 +7,7 @@ use super::options::{Contours, Normals};
 use crate::field;
 use crate::mesh::patches;
 use crate::mesh::refine::Refined;
-use crate::mesh::{EdgeFaces, HardEdges, Mesh, Patches, SmoothNormals};
+use crate::mesh::{EdgeFaces, HardEdges, Mesh, Origin, Patches, SmoothNormals};
 use crate::scene::Camera;
 use crate::view::Frame;
 
@@ -25,9 +25,8 @@ pub struct Surface {
     /// The normals of its rounded parts, whose contours are smooth; none with
     /// [`Contours::Mesh`].
     pub smooth: SmoothNormals,
-    /// Whether each face is part of a scan: round, without normals of its own, so that some of its lines may be
-    /// noise.
-    pub scan: Vec<bool>,
+    /// How the surface at each face came about.
+    pub origins: Vec<Origin>,
     /// Whether faces were cut that the model does not have.
     pub refined: bool,
 }
@@ -41,15 +40,15 @@ impl Surface {
         }
         if options.contours == Contours::Mesh {
             let hard = HardEdges::above(&mesh, options.crease_deg);
-            let scan = patches::scans(&mesh);
-            return Self { mesh, hard, scan, ..Self::default() };
+            let origins = patches::origins(&mesh);
+            return Self { mesh, hard, origins, ..Self::default() };
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
             mesh.forget_normals(|face| !patches.believed[face as usize]);
         }
         let smooth = normals(&mesh, &patches);
-        Self { mesh, hard: patches.hard, smooth, scan: patches.scan, refined: false }
+        Self { mesh, hard: patches.hard, smooth, origins: patches.origins, refined: false }
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the
@@ -64,8 +63,8 @@ impl Surface {
     pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
         let frame = Frame::new(camera, self.mesh.origin);
         let Refined { mesh, smooth, hosts } = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
-        let scan = hosts.iter().filter_map(|face| self.scan.get(*face as usize).copied()).collect();
-        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, scan, refined: true })
+        let origins = hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect();
+        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, origins, refined: true })
     }
 }
 

@@ -51,6 +51,7 @@ pub use extents::{Extent, Extents};
 pub use hard_edges::HardEdges;
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use patches::Patches;
+pub use rounded::Origin;
 pub use smooth_normals::SmoothNormals;
 pub use soup::{EdgeMark, Soup, Wire};
 

@@ -10,7 +10,7 @@
 use super::edge_set::EdgeSet;
 use super::groups::Groups;
 use super::planes::{Planes, area};
-use super::rounded::{LEAST_EDGES, Make, verdicts};
+use super::rounded::{LEAST_EDGES, Make, Origin, verdicts};
 use super::{Dihedral, EdgeFaces, FaceId, HardEdges, Mesh};
 use crate::math::function::acos;
 
@@ -48,8 +48,8 @@ pub struct Patches {
     pub rounded: Vec<bool>,
     /// Whether each face is part of a figure or a scan, all of which is round but for its creases.
     pub figure: Vec<bool>,
-    /// Whether each face is part of a scan: a round piece that no file's normals shade.
-    pub scan: Vec<bool>,
+    /// How the surface at each face came about.
+    pub origins: Vec<Origin>,
     /// Whether the file's normals tell the shape of each face, if it has any.
     pub believed: Vec<bool>,
 }
@@ -70,16 +70,16 @@ impl Patches {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
             add_free_forms(mesh, &planes, &makes, parts, &mut rounded);
         }
-        let scan = verdicts.iter().map(|verdict| verdict.scan).collect();
+        let origins = verdicts.iter().map(|verdict| verdict.origin).collect();
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
-        Self { hard, rims, rounded, figure, scan, believed }
+        Self { hard, rims, rounded, figure, origins, believed }
     }
 }
 
-/// Whether each face of a mesh is part of a scan: see [`Patches::scan`].
+/// How the surface at each face of a mesh came about.
 #[must_use]
-pub fn scans(mesh: &Mesh) -> Vec<bool> {
-    verdicts(mesh, &Planes::new(mesh), false).iter().map(|verdict| verdict.scan).collect()
+pub fn origins(mesh: &Mesh) -> Vec<Origin> {
+    verdicts(mesh, &Planes::new(mesh), false).iter().map(|verdict| verdict.origin).collect()
 }
 
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, only

@@ -54,12 +54,23 @@ pub(super) enum Make {
     Round,
 }
 
+/// How a surface came about, as far as its mesh tells: by that its lines may be noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
+pub enum Origin {
+    /// All its lines are meant.
+    #[default]
+    Constructed,
+    /// A figure that its file's normals shade round: what is small and stands alone is a matter of its few faces.
+    Modelled,
+    /// A round surface without normals: small folds and short creases are as likely noise as not.
+    Scanned,
+}
+
 /// What a piece is, and how its file's normals have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Verdict {
     pub make: Make,
-    /// Whether it is round, and no file's normals shade it.
-    pub scan: bool,
+    pub origin: Origin,
     pub believed: bool,
 }
 
@@ -107,7 +118,12 @@ impl Count {
         let as_planes = faceted && shape == Make::Round;
         let believed = !(astray || armoured || as_planes || (all && machined));
         let make = if plain && !all { Make::Block } else { shape };
-        Verdict { make, scan: make == Make::Round && !shaded, believed }
+        let origin = match (make, shaded) {
+            (Make::Round, false) => Origin::Scanned,
+            (Make::Round, true) => Origin::Modelled,
+            _ => Origin::Constructed,
+        };
+        Verdict { make, origin, believed }
     }
 }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::join::Joined;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Origin};
 
 /// A straight piece of the border of a shadow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl ShadowLines {
             kind: LineKind::Isophote,
             both_seen: true,
             smooth: false,
-            scan: false,
+            origin: Origin::default(),
             role: Role::Line,
             strength: 0.0,
             part: mesh.face_part[segment.face as usize],

@@ -176,7 +176,7 @@ fn view_edge(
         silhouette: piece.silhouette,
         both_seen: source.both_seen,
         smooth: source.smooth,
-        scan: source.scan,
+        origin: source.origin,
         strength: source.strength,
         part: source.part,
         material: source.material,

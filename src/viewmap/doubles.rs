@@ -233,7 +233,7 @@ fn cut(
 mod tests {
     use super::*;
     use crate::lines::LineKind;
-    use crate::mesh::{MaterialId, PartId};
+    use crate::mesh::{MaterialId, Origin, PartId};
 
     type Drawn = ((f64, f64), (f64, f64), LineKind);
 
@@ -257,7 +257,7 @@ mod tests {
                 silhouette: false,
                 both_seen: false,
                 smooth: false,
-                scan: false,
+                origin: Origin::default(),
                 strength: 180.0,
                 part: PartId(0),
                 material: MaterialId(0),

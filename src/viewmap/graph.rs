@@ -3,7 +3,7 @@
 use kurbo::Point;
 
 use crate::lines::LineKind;
-use crate::mesh::{MaterialId, PartId};
+use crate::mesh::{MaterialId, Origin, PartId};
 
 /// A node of the view map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -65,8 +65,8 @@ pub struct ViewEdge {
     /// Whether the line lies on a smooth surface, so that the corners of the mesh along it are
     /// artefacts of tessellation: contours of rounded surfaces.
     pub smooth: bool,
-    /// Whether the line is one of a scan, some of whose lines may be noise.
-    pub scan: bool,
+    /// How the surface it lies on came about.
+    pub origin: Origin,
     /// How pronounced the line is: for a crease its dihedral angle in degrees (0 to 180),
     /// for other kinds 180.
     pub strength: f32,

@@ -21,7 +21,7 @@ use super::zero_set::{EdgePoint, ZeroSet};
 use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::math::tolerance;
 use crate::mesh::feature_size::MOST_OF_PART;
-use crate::mesh::{Curvature, Mesh, SmoothNormals};
+use crate::mesh::{Curvature, Mesh, Origin, SmoothNormals};
 use crate::view::View;
 
 /// The measure from which on a line is as strong as can be.
@@ -157,7 +157,7 @@ impl<'a> Seen<'a> {
                 kind,
                 both_seen: true,
                 smooth: true,
-                scan: false,
+                origin: Origin::default(),
                 role: Role::Line,
                 strength: 0.0,
                 part: self.mesh.face_part[segment.face as usize],
