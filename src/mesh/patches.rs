@@ -29,6 +29,10 @@ const FREE_FORM: f64 = 1.0;
 const ROUNDING: f64 = 2e-4;
 /// With more than this share of flat edges a patch is machined all over: flat quads have a third.
 const MANY_FLAT: f64 = 0.45;
+/// With more than this share of edges that turn by more than this (cosine, 15 degrees) a patch of a machined part
+/// is too coarse for a curve that all would agree on, and is what its faces are.
+const FEW_COARSE: f64 = 0.1;
+const COARSE_COSINE: f32 = 0.966;
 /// Patches of which flats hold more than this part are machined all over.
 const FEW_FLATS: f64 = 0.1;
 /// A face is long if it is so many times as long as wide: nobody knows what lies between its ends. Patches
@@ -134,6 +138,7 @@ fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
 struct Count {
     edges: u32,
     flat: u32,
+    coarse: u32,
     area: f64,
     in_flats: f64,
     in_long: f64,
@@ -144,9 +149,18 @@ impl Count {
     fn is_free_form(&self) -> bool {
         self.edges >= LEAST_EDGES
             && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
+            && f64::from(self.coarse) <= FEW_COARSE * f64::from(self.edges)
             && self.in_flats <= FEW_FLATS * self.area
             && self.in_long <= FEW_LONG * self.area
             && self.curvature >= FREE_FORM
+    }
+}
+
+/// Whether the surface turns over an edge between two faces by more than a cosine says.
+fn turns(mesh: &Mesh, edge: usize, cosine: f32) -> bool {
+    match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, same_way } => Dihedral::of(mesh, faces, same_way).cosine < cosine,
+        _ => false,
     }
 }
 
@@ -178,6 +192,7 @@ fn add_free_forms(
                 let count = &mut counts[patches.of(face) as usize];
                 count.edges += 1;
                 count.flat += u32::from(planes.flat.contains(edge));
+                count.coarse += u32::from(turns(mesh, edge, COARSE_COSINE));
             }
             None => mesh.edges.vertices[edge].iter().for_each(|v| ends[*v as usize] = true),
         }
