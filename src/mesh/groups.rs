@@ -2,12 +2,13 @@
 
 /// Faces in groups, each known by the least face in it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Groups {
+pub struct Groups {
     first: Vec<u32>,
 }
 
 impl Groups {
     /// The groups of `count` faces of which `joins` tells pairs.
+    #[must_use]
     pub fn new(count: usize, joins: impl FnOnce(&mut dyn FnMut(u32, u32))) -> Self {
         let mut first: Vec<u32> = (0..count as u32).collect();
         joins(&mut |a, b| {
@@ -23,6 +24,7 @@ impl Groups {
 
     /// The least face of the group that a face is in.
     #[inline]
+    #[must_use]
     pub fn of(&self, face: u32) -> u32 {
         self.first[face as usize]
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::mesh::{EdgeFaces, FaceId, Mesh};
+use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh};
 
 /// On which side of a face it is outside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,18 +51,18 @@ impl Piece {
 
 /// On which side of each face it is outside: one for each face of the mesh.
 pub(super) fn outside(mesh: &Mesh) -> Vec<Outside> {
-    let mut above: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
-    for edge in 0..mesh.edges.len() {
-        if let EdgeFaces::Two { faces: [a, b], .. } = mesh.edges.faces(edge) {
-            let (a, b) = (root(&mut above, a), root(&mut above, b));
-            above[a.max(b) as usize] = a.min(b);
+    let connected = Groups::new(mesh.triangles.len(), |join| {
+        for edge in 0..mesh.edges.len() {
+            if let EdgeFaces::Two { faces: [a, b], .. } = mesh.edges.faces(edge) {
+                join(a, b);
+            }
         }
-    }
+    });
     let mut pieces = vec![Piece::default(); mesh.triangles.len()];
     for face in 0..mesh.triangles.len() as u32 {
         let [a, b, c] = mesh.corners(FaceId(face));
-        let piece = &mut pieces[root(&mut above, face) as usize];
-        // The smallest face of a piece is its root, and comes first.
+        let piece = &mut pieces[connected.of(face) as usize];
+        // The least face of a piece comes first.
         if piece.area == 0.0 {
             piece.place = a;
         }
@@ -73,22 +73,12 @@ pub(super) fn outside(mesh: &Mesh) -> Vec<Outside> {
     }
     for edge in 0..mesh.edges.len() {
         if let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) {
-            let piece = &mut pieces[root(&mut above, faces[0]) as usize];
+            let piece = &mut pieces[connected.of(faces[0]) as usize];
             piece.edges += 1;
             piece.mixed += usize::from(same_way);
         }
     }
-    (0..mesh.triangles.len() as u32).map(|face| pieces[root(&mut above, face) as usize].outside()).collect()
-}
-
-/// The smallest face of the piece that a face belongs to.
-fn root(above: &mut [u32], mut face: u32) -> u32 {
-    while above[face as usize] != face {
-        let next = above[above[face as usize] as usize];
-        above[face as usize] = next;
-        face = next;
-    }
-    face
+    (0..mesh.triangles.len() as u32).map(|face| pieces[connected.of(face) as usize].outside()).collect()
 }
 
 #[cfg(test)]
