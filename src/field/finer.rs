@@ -24,7 +24,12 @@ pub fn finer_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
         if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
     };
-    let is_long = |a: DVec3, b: DVec3| a.distance(b) * page([a, b]) > tolerance::SHORT_EDGE_PX;
+    // Squares and no quotient: this is asked of every edge of the model.
+    let short = (tolerance::SHORT_EDGE_PX * px / frame.scale).powi(2);
+    let is_long = |a: DVec3, b: DVec3| {
+        let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
+        depth > 0.0 && a.distance_squared(b) > short * depth * depth
+    };
     let want = |ends: [DVec3; 2], normals: [DVec3; 2]| {
         let to_eye = ends.map(|p| frame.to_eye(p));
         let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));

@@ -4,6 +4,8 @@
 //! a few px cannot be drawn, so the field is averaged over as much. To average n·v is to average
 //! the normals: the one is linear in the other.
 
+use rayon::prelude::*;
+
 use crate::mesh::{FaceId, Mesh, PartId, SmoothNormals};
 use crate::view::Frame;
 
@@ -26,15 +28,18 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
     let near = |corners: &[u32; 3]| corners.iter().any(|v| values[*v as usize].abs() < NEAR_ZERO);
     let rounds = |face: u32| rounds_of[mesh.face_part[face as usize].index()];
     let mut faces: Vec<(usize, [u32; 3])> = (0..mesh.triangles.len() as u32)
+        .into_par_iter()
+        .with_min_len(1 << 14)
         .filter_map(|face| Some((rounds(face), smooth.corners_of(face).filter(near)?)))
         .filter(|(rounds, _)| *rounds > 0)
         .collect();
     // Parts that need few rounds drop out early; the order within a part stays.
     faces.sort_by_key(|(rounds, _)| std::cmp::Reverse(*rounds));
-    let mut ids: Vec<u32> = faces.iter().flat_map(|(_, corners)| corners).copied().collect();
-    ids.sort_unstable();
-    ids.dedup();
     let mut slots = vec![u32::MAX; values.len()];
+    for v in faces.iter().flat_map(|(_, corners)| corners) {
+        slots[*v as usize] = 0;
+    }
+    let ids: Vec<u32> = (0..values.len() as u32).filter(|id| slots[*id as usize] == 0).collect();
     for (slot, id) in ids.iter().enumerate() {
         slots[*id as usize] = slot as u32;
     }
@@ -81,17 +86,26 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
 /// How often to average the values of each part: as many rounds as make up the radius, by the usual length of
 /// an edge of the part, at its middle.
 fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<usize> {
-    let mut faces_of: Vec<Vec<u32>> = Vec::new();
-    for (face, part) in mesh.face_part.iter().enumerate() {
-        if faces_of.len() <= part.index() {
-            faces_of.resize_with(part.index() + 1, Vec::new);
+    let mut count_of: Vec<usize> = Vec::new();
+    for part in &mesh.face_part {
+        if count_of.len() <= part.index() {
+            count_of.resize(part.index() + 1, 0);
         }
-        faces_of[part.index()].push(face as u32);
+        count_of[part.index()] += 1;
+    }
+    // Some thousand faces of each part tell how long its edges are.
+    let mut faces_of: Vec<Vec<u32>> = vec![Vec::new(); count_of.len()];
+    let mut passed = vec![0usize; count_of.len()];
+    for (face, part) in mesh.face_part.iter().enumerate() {
+        let part = part.index();
+        if passed[part] == 0 {
+            faces_of[part].push(face as u32);
+            passed[part] = (count_of[part] / 4096).max(1);
+        }
+        passed[part] -= 1;
     }
     let of_part = |(part, faces): (usize, Vec<u32>)| {
-        // Some thousand faces tell how long edges are.
-        let stride = (faces.len() / 4096).max(1);
-        let faces = faces.into_iter().step_by(stride).filter(|f| smooth.corners_of(*f).is_some());
+        let faces = faces.into_iter().filter(|f| smooth.corners_of(*f).is_some());
         let mut squares: Vec<f64> = faces
             .map(|f| {
                 let [a, b, c] = mesh.corners(FaceId(f));

@@ -8,10 +8,11 @@
 //! 4.1 and 4.2; the points lie on the arcs over the edges rather than on the edges themselves.
 
 use glam::DVec3;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::folds;
-use super::zero_set::{self, ZeroSet};
+use super::zero_set::{self, EdgePoint, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::{EdgeArc, Mesh, Origin, SmoothNormals};
 use crate::view::View;
@@ -31,11 +32,14 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64], li
     // Faces without area have no side, but the curve passes through them.
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = (mesh.positions.len() + lines.points.len()) as u32;
-    lines.points.extend(set.points.iter().map(|p| EdgeArc::over(mesh, smooth, p.between).at(p.t)));
+    let point = |p: &EdgePoint| EdgeArc::over(mesh, smooth, p.between).at(p.t);
+    let points: Vec<DVec3> = set.points.par_iter().with_min_len(1 << 10).map(point).collect();
+    lines.points.extend(points);
     let position = |end: u32| lines.position(mesh, end);
     let pieces: Vec<Piece> = set
         .segments
-        .iter()
+        .par_iter()
+        .with_min_len(1 << 10)
         .map(|s| {
             let ends = s.ends.map(|end| first + end);
             let advance = advance(view, smooth, &set, s.ends, ends.map(position));

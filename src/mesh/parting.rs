@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::smooth_normals::{NO_NORMAL, NormalSum, chosen, file_normals};
+use super::smooth_normals::{FaceWeights, NO_NORMAL, NormalSum, chosen, file_normals};
 use super::{FaceId, Mesh, SmoothNormals};
 
 /// A corner of a rounded face at a vertex where surfaces are parted.
@@ -96,7 +96,9 @@ fn add(mesh: &Mesh, smooth: &mut SmoothNormals, vertex: u32, keeps: bool, fan: &
     let (mut of_faces, mut of_file) = (NormalSum::default(), DVec3::ZERO);
     for corner in fan {
         let which = usize::from(corner.which);
-        of_faces.add(&mesh.corners(FaceId(corner.face)), which);
+        if let Some(weights) = FaceWeights::new(mesh.corners(FaceId(corner.face))) {
+            of_faces.add(&weights, which);
+        }
         of_file += file_normals(mesh, corner.face as usize)[which];
     }
     let normal = chosen(of_faces.normal(), of_file);

@@ -172,10 +172,12 @@ fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVe
                 if slots.iter().all(|slot| *slot >= sums.len()) || !counts(face) {
                     continue;
                 }
-                let corners = triangle.map(|v| mesh.positions[v as usize]);
+                let Some(weighted) = FaceWeights::new(triangle.map(|v| mesh.positions[v as usize])) else {
+                    continue;
+                };
                 for (k, slot) in slots.iter().enumerate() {
                     if let Some(sum) = sums.get_mut(*slot) {
-                        sum.add(&corners, k);
+                        sum.add(&weighted, k);
                     }
                 }
                 if !own.is_empty() {
@@ -210,22 +212,42 @@ pub(super) struct NormalSum {
 /// Faces around a vertex whose areas differ by more than this are an edge strip and what it borders.
 const UNEVEN: f64 = 6.0;
 
-impl NormalSum {
-    /// Adds the face with these corners, one of which is the vertex.
+/// What a face adds to the normals at its corners.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FaceWeights {
+    /// The normal, as long as the face is large, twice.
+    cross: DVec3,
+    squared: f64,
+    inverse: f64,
+    /// At each corner one through the squared lengths of the two sides there.
+    of_max: [f64; 3],
+}
+
+impl FaceWeights {
+    /// Of a face with these corners; none if it has no area.
     #[inline]
-    pub fn add(&mut self, corners: &[DVec3; 3], which: usize) {
-        let (u, v) = (corners[(which + 1) % 3] - corners[which], corners[(which + 2) % 3] - corners[which]);
-        let cross = u.cross(v);
-        let (squared, weight) = (cross.length_squared(), u.length_squared() * v.length_squared());
-        if squared <= 0.0 || weight <= 0.0 {
-            return;
-        }
+    pub fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let cross = ca.cross(ab);
+        let squared = cross.length_squared();
+        let sides = [ab, bc, ca].map(DVec3::length_squared);
+        let weights = [sides[2] * sides[0], sides[0] * sides[1], sides[1] * sides[2]];
+        let has_area = squared > 0.0 && weights.iter().all(|weight| *weight > 0.0);
+        has_area.then(|| Self { cross, squared, inverse: 1.0 / squared, of_max: weights.map(|w| 1.0 / w) })
+    }
+}
+
+impl NormalSum {
+    /// Adds a face of which a corner is the vertex.
+    #[inline]
+    pub fn add(&mut self, face: &FaceWeights, which: usize) {
         // Max, eq. 2.
-        self.of_max += cross / weight;
+        let of_max = face.of_max[which];
+        self.of_max += face.cross * of_max;
         // The sine stands for the angle, to which it is near where faces are many.
-        self.of_area += cross * (squared / weight).sqrt();
-        self.most = self.most.max(squared);
-        self.least = self.least.max(1.0 / squared);
+        self.of_area += face.cross * (face.squared * of_max).sqrt();
+        self.most = self.most.max(face.squared);
+        self.least = self.least.max(face.inverse);
     }
 
     /// The sum that is meant, not of unit length.
