@@ -43,6 +43,18 @@ impl EdgeSet {
         })
     }
 
+    /// These edges of `count` and those of the set.
+    #[must_use]
+    pub fn with(&self, more: &[usize], count: usize) -> Self {
+        if more.is_empty() {
+            return self.clone();
+        }
+        let mut words = self.words.clone();
+        words.resize(count.div_ceil(64), 0);
+        more.iter().for_each(|edge| words[edge / 64] |= 1 << (edge % 64));
+        Self { words }
+    }
+
     /// The edges with the same vertices in another mesh.
     #[must_use]
     pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {

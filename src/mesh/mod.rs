@@ -34,6 +34,7 @@ pub mod smooth_normals;
 pub mod solid;
 pub mod soup;
 mod space_curve;
+mod thickness;
 pub mod trace;
 pub mod triangle_pair;
 pub mod weld;

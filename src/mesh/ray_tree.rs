@@ -77,6 +77,8 @@ struct Ray {
 pub struct RayTree {
     /// Corners of each triangle along the curve.
     triangles: Vec<[DVec3; 3]>,
+    /// The face each of them is.
+    faces: Vec<u32>,
     /// Level 0 holds the boxes of the triangles, each level above those of the nodes below.
     levels: Vec<Vec<Node>>,
 }
@@ -96,7 +98,8 @@ impl RayTree {
             })
             .collect();
         order.par_sort_unstable();
-        let triangles: Vec<[DVec3; 3]> = order.iter().map(|(_, face)| mesh.corners(FaceId(*face))).collect();
+        let faces: Vec<u32> = order.iter().map(|(_, face)| *face).collect();
+        let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| mesh.corners(FaceId(*face))).collect();
 
         // Wider than rounding of the rays can be.
         let slack = tolerance::RAY_BOX_OF_MESH * (half + middle.length());
@@ -126,7 +129,7 @@ impl RayTree {
             let above = above.collect();
             levels.push(above);
         }
-        Self { triangles, levels }
+        Self { triangles, faces, levels }
     }
 
     /// Whether a ray from a point meets a face nearer than `reach` times the length of `direction`.
@@ -146,10 +149,45 @@ impl RayTree {
         reach: f64,
         last: &mut Option<u32>,
     ) -> bool {
-        let meets = |rank: u32| meets(&self.triangles[rank as usize], point, direction, reach);
+        let meets = |rank: u32| meets(&self.triangles[rank as usize], point, direction, reach).is_some();
         if last.is_some_and(meets) {
             return true;
         }
+        let mut blocked = false;
+        self.each_near(point, direction, reach, |rank| {
+            blocked = meets(rank);
+            if blocked {
+                *last = Some(rank);
+            }
+            !blocked
+        });
+        blocked
+    }
+
+    /// The nearest face among those that count which a ray from a point meets, and how far away that is in lengths of
+    /// `direction`, if it is less than `reach`. A face that holds the point itself may be met or not.
+    pub(crate) fn first_met(
+        &self,
+        point: DVec3,
+        direction: DVec3,
+        reach: f64,
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<(u32, f64)> {
+        let mut first: Option<(u32, f64)> = None;
+        self.each_near(point, direction, reach, |rank| {
+            let face = self.faces[rank as usize];
+            let at = meets(&self.triangles[rank as usize], point, direction, reach).filter(|_| counts(face));
+            let is_nearer = |at: f64| first.is_none_or(|(other, best)| (at, face) < (best, other));
+            if let Some(at) = at.filter(|at| is_nearer(*at)) {
+                first = Some((face, at));
+            }
+            true
+        });
+        first
+    }
+
+    /// Calls for each triangle whose box a ray meets, until it is told to stop.
+    fn each_near(&self, point: DVec3, direction: DVec3, reach: f64, mut go_on: impl FnMut(u32) -> bool) {
         let inverse = |x: f64| if x.abs() < 1e-30 { 1e30 } else { (1.0 / x) as f32 };
         let ray = Ray {
             start: point.as_vec3().to_array(),
@@ -173,33 +211,31 @@ impl RayTree {
                 if level > 0 {
                     stack[count] = (level - 1, child);
                     count += 1;
-                } else if meets(child) {
-                    *last = Some(child);
-                    return true;
+                } else if !go_on(child) {
+                    return;
                 }
             }
         }
-        false
     }
 }
 
-/// Whether a ray meets a triangle between its start and `reach`.
+/// Where a ray meets a triangle, if between its start and `reach`.
 ///
 /// Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
 #[inline]
-fn meets([a, b, c]: &[DVec3; 3], start: DVec3, direction: DVec3, reach: f64) -> bool {
+fn meets([a, b, c]: &[DVec3; 3], start: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
     let (u, v) = (*b - *a, *c - *a);
     let across = direction.cross(v);
     let volume = u.dot(across);
     if volume == 0.0 {
-        return false;
+        return None;
     }
     let from = start - *a;
     let s = from.dot(across) / volume;
     let turned = from.cross(u);
     let t = direction.dot(turned) / volume;
     let at = v.dot(turned) / volume;
-    s >= 0.0 && t >= 0.0 && s + t <= 1.0 && at > 0.0 && at < reach
+    (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && at > 0.0 && at < reach).then_some(at)
 }
 
 /// Position along the Morton curve of a point in the cube from −1 to 1, 63 bits.
@@ -249,7 +285,7 @@ mod tests {
                 let direction = if n % 50 == 0 { DVec3::X } else { direction };
                 for reach in [0.3, 9.0, f64::INFINITY] {
                     let all = (0..mesh.triangles.len() as u32)
-                        .any(|face| meets(&mesh.corners(FaceId(face)), start, direction, reach));
+                        .any(|face| meets(&mesh.corners(FaceId(face)), start, direction, reach).is_some());
                     assert_eq!(tree.is_blocked(start, direction, reach), all, "{count} {n} {reach}");
                     blocked += u32::from(all);
                 }

@@ -8,7 +8,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::edge_set::EdgeSet;
 use super::smooth_normals::NO_NORMAL;
+use super::thickness;
 use super::{EdgeArc, EdgeFaces, EdgeMark, Edges, Mesh, SmoothNormals};
 
 /// Parts up to so many rounded faces are cut in no time.
@@ -16,6 +18,9 @@ const SMALL: usize = 20_000;
 /// A larger part of which no more than one edge in so many is wanted is dense enough as it is: what is
 /// left are slivers, and building all of it anew would cost more than they show.
 const FEW: usize = 500;
+
+/// Only what stands out so many times as far as wanted is asked for its thickness: less is not seen.
+const SWOLLEN: f64 = 6.0;
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
@@ -57,7 +62,7 @@ pub fn refined(
     if smooth.is_empty() {
         return None;
     }
-    let marked: Vec<Vec<(usize, [u32; 2])>> = (0..mesh.edges.len().div_ceil(CHUNK))
+    let marked: Vec<Vec<Marked>> = (0..mesh.edges.len().div_ceil(CHUNK))
         .into_par_iter()
         .map(|k| {
             let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
@@ -67,10 +72,11 @@ pub fn refined(
                 is_long(mesh.positions[a as usize], mesh.positions[b as usize])
             });
             let ends = long.filter_map(|edge| Some((edge, smooth.across(mesh, edge)?)));
-            ends.filter(|(_, ends)| {
+            ends.filter_map(|(edge, ends)| {
                 let position = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
                 let normal = |v: u32| smooth.normals[v as usize];
-                want(ends.map(position), ends.map(normal)) > 1.0
+                let wanted = want(ends.map(position), ends.map(normal));
+                (wanted > 1.0).then_some(Marked { edge, ends, wanted })
             })
             .collect()
         })
@@ -79,9 +85,12 @@ pub fn refined(
     if marked.is_empty() {
         return None;
     }
+    let swollen: Vec<(usize, [u32; 2])> =
+        marked.iter().filter(|m| m.wanted > SWOLLEN).map(|m| (m.edge, m.ends)).collect();
+    let thin = thickness::thin(mesh, smooth, &swollen);
     let mut work = Work::new(mesh, smooth);
-    for ends in marked {
-        work.cut(ends);
+    for marked in marked.iter().filter(|marked| thin.binary_search(&marked.edge).is_err()) {
+        work.cut(marked.ends);
     }
     let (kept, mut open) = work.affected(mesh, smooth);
     let mut done: Vec<Piece> = Vec::new();
@@ -102,15 +111,26 @@ pub fn refined(
         }
     }
     done.append(&mut open);
-    Some(work.finish(mesh, smooth, &kept, &done))
+    let straight = smooth.straight.with(&thin, mesh.edges.len());
+    Some(work.finish(mesh, smooth, &straight, &kept, &done))
+}
+
+/// An edge to cut.
+#[derive(Clone, Copy)]
+struct Marked {
+    edge: usize,
+    /// Its smooth vertices.
+    ends: [u32; 2],
+    /// How much it is wanted.
+    wanted: f64,
 }
 
 const CHUNK: usize = 1 << 14;
 
-/// The ends of the marked edges, but for those of parts that are dense enough.
-fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, marked: Vec<(usize, [u32; 2])>) -> Vec<[u32; 2]> {
+/// The marked edges, but for those of parts that are dense enough.
+fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Marked>) -> Vec<Marked> {
     if marked.is_empty() || mesh.triangles.len() <= SMALL {
-        return marked.into_iter().map(|(_, ends)| ends).collect();
+        return marked;
     }
     let part_of = |edge: usize| match mesh.edges.faces(edge) {
         EdgeFaces::One(face) | EdgeFaces::Two { faces: [face, _], .. } => {
@@ -123,9 +143,10 @@ fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, marked: Vec<(usize, 
     for (part, corners) in mesh.face_part.iter().zip(&smooth.corners) {
         faces[part.index()] += usize::from(corners[0] != NO_NORMAL);
     }
-    marked.iter().for_each(|(edge, _)| wanted[part_of(*edge)] += 1);
+    marked.iter().for_each(|marked| wanted[part_of(marked.edge)] += 1);
     let is_dense = |part: usize| faces[part] > SMALL && wanted[part] <= faces[part] * 3 / 2 / FEW;
-    marked.into_iter().filter(|(edge, _)| !is_dense(part_of(*edge))).map(|(_, ends)| ends).collect()
+    marked.retain(|marked| !is_dense(part_of(marked.edge)));
+    marked
 }
 
 struct Work {
@@ -289,7 +310,14 @@ impl Work {
         (uvs, corner_uvs)
     }
 
-    fn finish(self, mesh: &Mesh, smooth: &SmoothNormals, kept: &[u32], done: &[Piece]) -> Refined {
+    fn finish(
+        self,
+        mesh: &Mesh,
+        smooth: &SmoothNormals,
+        straight: &EdgeSet,
+        kept: &[u32],
+        done: &[Piece],
+    ) -> Refined {
         let faces = || kept.iter().copied().chain(done.iter().map(|piece| piece.face));
         let hosts: Vec<u32> = faces().collect();
         let triangles: Vec<[u32; 3]> = kept
@@ -342,7 +370,7 @@ impl Work {
             vertices: self.vertices,
             corners,
             parting: smooth.parting.carried(mesh, &finer),
-            straight: smooth.straight.carried(mesh, &finer),
+            straight: straight.carried(mesh, &finer),
             seamless: smooth.seamless,
         };
         Refined { mesh: finer, smooth: finer_smooth, hosts }

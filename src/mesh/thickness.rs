@@ -1,0 +1,94 @@
+//! `thin`: edges whose arcs would stand out from them by more than half of what is between them and the
+//! wall behind.
+//!
+//! Blades, fins and plates have long edges, and normals that turn at their ends; rounded over these, both
+//! their sides would swell to an egg. A shell is as thin, but both its walls bend the same way, and keep
+//! their distance.
+
+use rayon::prelude::*;
+
+use super::ray_tree::RayTree;
+use super::{EdgeArc, FaceId, Mesh, SmoothNormals};
+
+/// The largest part of the thickness by which it may change.
+const HALF: f64 = 0.5;
+/// A ray starts so many heights of the arc inside the edge, so as not to meet the faces beside it.
+const INSIDE: f64 = 1e-3;
+
+/// Which of the edges, with the smooth vertices at their ends, are thin; in order.
+pub(super) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2])]) -> Vec<usize> {
+    if edges.is_empty() {
+        return Vec::new();
+    }
+    let tree = RayTree::new(mesh);
+    let is_thin = |(edge, ends): &(usize, [u32; 2])| {
+        let arc = EdgeArc::over(mesh, smooth, *ends);
+        let (height, normal) = (arc.height(), arc.middle_normal());
+        let rise = height.dot(normal);
+        let [a, b] = mesh.edges.vertices[*edge].map(|v| mesh.positions[v as usize]);
+        let start = (a + b) / 2.0 - normal * (INSIDE * rise.abs());
+        let part = mesh.face_part[mesh.edges.faces(*edge).list()[0] as usize];
+        // Were the wall behind to stand out by as much, each would have half.
+        let reach = 2.0 * rise.abs() / HALF;
+        let behind = tree.first_met(start, -normal, reach, |face| mesh.face_part[face as usize] == part);
+        behind.is_some_and(|(face, thickness)| (rise + swelling(mesh, smooth, face)).abs() > HALF * thickness)
+    };
+    edges.par_iter().filter(|edge| is_thin(edge)).map(|(edge, _)| *edge).collect()
+}
+
+/// How far a face stands out where it is rounded, on the mean over its sides; negative where it is hollow.
+fn swelling(mesh: &Mesh, smooth: &SmoothNormals, face: u32) -> f64 {
+    let Some(corners) = smooth.corners_of(face) else { return 0.0 };
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let rise = |k: usize| {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        EdgeArc::over(mesh, smooth, [a.min(b), a.max(b)]).height().dot(normal)
+    };
+    (0..3).map(rise).sum::<f64>() / 3.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+    use glam::DVec3;
+
+    /// Two sheets between the same four corners of a strip: one with its middle at `top`, one at `bottom`, with the
+    /// normals of what they are parts of.
+    fn strip(bend: [f64; 2], apart: f64) -> (Mesh, SmoothNormals) {
+        let mut soup = Soup::default();
+        for (sheet, bend) in bend.into_iter().enumerate() {
+            let (up, first) = (1.0 - 2.0 * sheet as f64, soup.positions.len() as u32);
+            for (x, y) in [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)] {
+                soup.positions.push(DVec3::new(x, y, up * apart / 2.0));
+                let normal = DVec3::new(bend * (x - 2.0), 0.0, up).normalize();
+                soup.normals.push(normal.as_vec3().to_array());
+            }
+            let quad = [[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|v| v + first));
+            soup.triangles.extend(if sheet == 0 { quad } else { quad.map(|[a, b, c]| [a, c, b]) });
+        }
+        soup.corner_normals = soup.triangles.clone();
+        let mesh = Mesh::build(soup);
+        let smooth = SmoothNormals::rounded(&mesh);
+        (mesh, smooth)
+    }
+
+    fn thin_edges(bend: [f64; 2], apart: f64) -> usize {
+        let (mesh, smooth) = strip(bend, apart);
+        let edges: Vec<(usize, [u32; 2])> = (0..mesh.edges.len())
+            .filter_map(|edge| Some((edge, smooth.across(&mesh, edge)?)))
+            .filter(|(_, ends)| EdgeArc::over(&mesh, &smooth, *ends).height().length() > 1e-6)
+            .collect();
+        assert_eq!(edges.len(), 6, "two long sides and a diagonal of each sheet bend");
+        thin(&mesh, &smooth, &edges).len()
+    }
+
+    #[test]
+    fn a_blade_does_not_swell_and_a_shell_bends() {
+        // Both sheets stand out by 0.25 over their sides.
+        assert_eq!(thin_edges([0.13, 0.13], 0.5), 6, "a blade");
+        assert_eq!(thin_edges([0.13, 0.13], 2.0), 0, "a cushion");
+        assert_eq!(thin_edges([0.13, -0.13], 0.5), 0, "a shell");
+    }
+}
