@@ -6,11 +6,13 @@
 //! cargo bench --bench dual_tree [-- MODEL…]
 //! ```
 
-#[path = "../tests/support/models.rs"]
+#[path = "../tests/library/support/models.rs"]
 mod models;
-#[path = "../tests/support/round_solids.rs"]
+#[path = "../tests/library/support/round_solids.rs"]
+#[expect(dead_code, reason = "tests draw more of them")]
 mod round_solids;
-#[path = "../tests/support/solids.rs"]
+#[path = "../tests/library/support/solids.rs"]
+#[expect(dead_code, reason = "tests draw more of them")]
 mod solids;
 
 use std::path::PathBuf;

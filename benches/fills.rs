@@ -8,9 +8,10 @@
 //! borders, visibility, regions, chains, ink. The *floor* under it is one depth raster of its faces,
 //! 1024 pixels along each side. Ratios can be compared between machines, times cannot.
 
-#[path = "../tests/support/models.rs"]
+#[path = "../tests/library/support/models.rs"]
 mod models;
-#[path = "../tests/support/solids.rs"]
+#[path = "../tests/library/support/solids.rs"]
+#[expect(dead_code, reason = "tests draw more of them")]
 mod solids;
 
 use std::hint::black_box;

@@ -8,7 +8,7 @@
 //! ink; and the laying and clipping of its strokes, alone, in parts of the time of visibility. Ratios can be
 //! compared between machines, times cannot.
 
-#[path = "../tests/support/models.rs"]
+#[path = "../tests/library/support/models.rs"]
 mod models;
 
 use std::path::PathBuf;

@@ -1,12 +1,15 @@
 //! How long the search for intersections takes, on generated solids and on scans.
 
-#[path = "../tests/support/mesh_file.rs"]
-mod mesh_file;
-#[path = "../tests/support/solids.rs"]
+#[path = "../tests/library/support/models.rs"]
+mod models;
+#[path = "../tests/library/support/solids.rs"]
+#[expect(dead_code, reason = "tests draw more of them")]
 mod solids;
 
 use divan::Bencher;
 use glam::DVec3;
+use ligne::Scene;
+use ligne::mesh::Mesh;
 use ligne::mesh::intersect::{IntersectionInput, intersections};
 use solids::Solid;
 
@@ -27,6 +30,13 @@ fn facing(solid: &Solid) -> Vec<bool> {
         .collect()
 }
 
+/// A shared model, or a line that it is absent.
+fn scan(name: &str) -> Option<Solid> {
+    let scene = Scene::open(models::find(name)?).ok()?;
+    let Mesh { positions, triangles, .. } = Mesh::build(scene.to_soup());
+    Some(Solid { positions, triangles })
+}
+
 fn search(bencher: Bencher, solid: &Solid, active: &[bool]) {
     let input = IntersectionInput { positions: &solid.positions, triangles: &solid.triangles, active };
     bencher.counter(divan::counter::ItemsCount::new(solid.triangles.len())).bench(|| intersections(&input));
@@ -36,14 +46,14 @@ const SCANS: [&str; 3] = ["organic/stanford-bunny.obj", "organic/dragon-202k.ply
 
 #[divan::bench(args = SCANS, sample_count = 15)]
 fn scan_all_faces(bencher: Bencher, name: &str) {
-    if let Some(solid) = mesh_file::read(name) {
+    if let Some(solid) = scan(name) {
         search(bencher, &solid, &[]);
     }
 }
 
 #[divan::bench(args = SCANS, sample_count = 15)]
 fn scan_facing_half(bencher: Bencher, name: &str) {
-    if let Some(solid) = mesh_file::read(name) {
+    if let Some(solid) = scan(name) {
         search(bencher, &solid, &facing(&solid));
     }
 }

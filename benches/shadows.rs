@@ -4,7 +4,7 @@
 //! cargo bench --bench shadows [-- MODEL…]
 //! ```
 
-#[path = "../tests/support/models.rs"]
+#[path = "../tests/library/support/models.rs"]
 mod models;
 
 use std::path::PathBuf;

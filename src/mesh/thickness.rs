@@ -5,12 +5,13 @@
 //! their sides would swell to an egg. A shell is as thin, but both its walls bend the same way, and keep
 //! their distance.
 
+use glam::Vec3;
 use rayon::prelude::*;
 
 use super::ray_tree::RayTree;
 use super::{EdgeArc, FaceId, Mesh, SmoothNormals};
 
-/// The largest part of the thickness by which it may change.
+/// An arc stands out by no more than this part of the thickness, and changes that by no more.
 const HALF: f64 = 0.5;
 /// A ray starts so many heights of the arc inside the edge, so as not to meet the faces beside it.
 const INSIDE: f64 = 1e-3;
@@ -27,10 +28,17 @@ pub(super) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
         let rise = height.dot(normal);
         let [a, b] = mesh.edges.vertices[*edge].map(|v| mesh.positions[v as usize]);
         let start = (a + b) / 2.0 - normal * (INSIDE * rise.abs());
-        let part = mesh.face_part[mesh.edges.faces(*edge).list()[0] as usize];
-        // Were the wall behind to stand out by as much, each would have half.
-        let reach = 2.0 * rise.abs() / HALF;
-        let behind = tree.first_met(start, -normal, reach, |face| mesh.face_part[face as usize] == part);
+        let own = mesh.face_part[mesh.edges.faces(*edge).list()[0] as usize];
+        // The ray leaves the part where it meets the wall behind, which does not begin at the edge.
+        let is_wall = |face: u32| {
+            let outward = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
+            let corners = mesh.triangles[face as usize];
+            mesh.face_part[face as usize] == own
+                && outward.dot(normal) < 0.0
+                && !mesh.edges.vertices[*edge].iter().any(|v| corners.contains(v))
+        };
+        let reach = rise.abs() / HALF;
+        let behind = tree.first_met(start, -normal, reach, is_wall);
         behind.is_some_and(|(face, thickness)| (rise + swelling(mesh, smooth, face)).abs() > HALF * thickness)
     };
     edges.par_iter().filter(|edge| is_thin(edge)).map(|(edge, _)| *edge).collect()
@@ -87,8 +95,8 @@ mod tests {
     #[test]
     fn a_blade_does_not_swell_and_a_shell_bends() {
         // Both sheets stand out by 0.25 over their sides.
-        assert_eq!(thin_edges([0.13, 0.13], 0.5), 6, "a blade");
-        assert_eq!(thin_edges([0.13, 0.13], 2.0), 0, "a cushion");
-        assert_eq!(thin_edges([0.13, -0.13], 0.5), 0, "a shell");
+        assert_eq!(thin_edges([0.13, 0.13], 0.4), 6, "a blade");
+        assert_eq!(thin_edges([0.13, 0.13], 0.6), 0, "a cushion");
+        assert_eq!(thin_edges([0.13, -0.13], 0.4), 0, "a shell");
     }
 }

@@ -1,0 +1,317 @@
+//! `ligne test`: cases, verdicts, blessing, reports.
+
+use crate::folder::{Folder, Run};
+use usvg::roxmltree::{Document, Node};
+
+const VIEW: &str = "model = '../cubes.obj'\nazimuth = 30\nsize = 300\n";
+
+/// A folder with two approved cases, `cases/ink` and `cases/deep/toon`.
+fn approved(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("cubes.mtl", "newmtl red\nKd 0.8 0.1 0.1\nnewmtl blue\nKd 0.1 0.1 0.8\n");
+    folder.write("cubes.obj", &painted("blue"));
+    folder.write("cases/ink.toml", VIEW);
+    folder.write("cases/deep/toon.toml", "model = '../../cubes.obj'\nstyle = 'toon'\nsize = 200\n");
+    folder.ligne("test cases --bless").done();
+    folder
+}
+
+/// The cubes with a red base and a knob of another material.
+fn painted(knob: &str) -> String {
+    let text = crate::folder::CUBES.replacen("o base", "mtllib cubes.mtl\no base\nusemtl red", 1);
+    text.replacen("o knob", &format!("o knob\nusemtl {knob}"), 1)
+}
+
+/// Checks that some drawings differ and nothing worse, and gives what was said.
+fn failing(run: &Run) -> &str {
+    assert_eq!((run.status, run.err.as_str()), (Some(1), ""), "{run:?}");
+    &run.out
+}
+
+#[test]
+fn what_is_blessed_passes() {
+    let folder = Folder::with_cubes("test-bless");
+    folder.write("cases/ink.toml", VIEW);
+    let run = folder.ligne("test cases");
+    let out = failing(&run);
+    assert!(
+        out.starts_with("new      ink: nobody has approved cases/ink.svg yet\n1 case: 0 passed, 1 is new\n"),
+        "{out}"
+    );
+    assert!(out.contains("--bless"), "{out}");
+    assert_eq!(folder.names_in("cases"), ["ink.toml"]);
+    let blessed = folder.ligne("test cases --bless");
+    assert!(blessed.done().out.starts_with("blessed  ink: "), "{blessed:?}");
+    assert_eq!(folder.names_in("cases"), ["ink.svg", "ink.toml"]);
+    folder.ligne("draw cubes.obj wanted.svg --azimuth 30 --size 300").done();
+    assert_eq!(folder.text("cases/ink.svg"), folder.text("wanted.svg"));
+    assert_eq!(folder.ligne("test cases").done().out, "passed   ink\n1 case: 1 passed\n");
+    assert_eq!(folder.ligne("test cases --quiet").done().out, "");
+    assert_eq!(folder.ligne("test cases/ink.toml").done().out, "passed   ink\n1 case: 1 passed\n");
+    // What passes is not written again.
+    let touched = folder.text("cases/ink.svg") + "<!-- mine -->";
+    folder.write("cases/ink.svg", &touched);
+    assert_eq!(folder.ligne("test cases --bless").done().out, "passed   ink\n1 case: 1 passed\n");
+    assert_eq!(folder.text("cases/ink.svg"), touched);
+}
+
+#[test]
+fn a_machine_may_not_bless() {
+    let folder = approved("test-ci");
+    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+    let before = folder.text("cases/ink.svg");
+    let run = folder.run_with(&[("CI", "true")], "test cases --bless");
+    run.refused("error: --bless: the variable CI is set");
+    assert_eq!(folder.text("cases/ink.svg"), before);
+    failing(&folder.run_with(&[("CI", "true")], "test cases"));
+    folder.run_with(&[("CI", "")], "test cases --bless").done();
+    assert_ne!(folder.text("cases/ink.svg"), before);
+}
+
+#[test]
+fn a_camera_moved_by_a_fifth_of_a_degree_is_seen() {
+    let folder = approved("test-camera");
+    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 30.2\n"));
+    let run = folder.ligne("test cases");
+    let out = failing(&run);
+    assert!(out.contains("passed   deep/toon\ndiffers  ink: "), "{out}");
+    assert!(out.contains("base") && out.contains("knob"), "{out}");
+    assert!(out.contains("2 cases: 1 passed, 1 differs\n"), "{out}");
+    // Within a tolerance of its own it is the same.
+    folder.write("cases/ink.toml", &(VIEW.replace("= 30\n", "= 30.2\n") + "tolerance = '5px'\n"));
+    folder.ligne("test cases").done();
+    folder.write(
+        "cases/ink.toml",
+        &(VIEW.replace("= 30\n", "= 30.2\n") + "tolerance = { default = 5, contour = '0.01px' }\n"),
+    );
+    failing(&folder.ligne("test cases"));
+}
+
+#[test]
+fn the_tolerance_of_the_project_counts() {
+    let folder = approved("test-project");
+    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 30.2\n"));
+    // Defaults of drawing do not reach into cases.
+    folder.write(
+        "ligne.toml",
+        "[draw]\nstyle = 'technical'\nazimuth = 5\n[diff]\ntolerance = { lines = '5px' }\n",
+    );
+    folder.ligne("test cases").done();
+    failing(&folder.ligne("test cases --no-config"));
+    failing(&folder.ligne("--no-config test cases"));
+    folder
+        .write("cases/ink.toml", &(VIEW.replace("= 30\n", "= 30.2\n") + "tolerance = { lines = '0.1px' }\n"));
+    failing(&folder.ligne("test cases"));
+    folder.write("ligne.toml", "[diff]\ntolerance = { lines = 'wide' }\n");
+    folder.ligne("test cases").refused("ligne.toml: line 2: `wide` is no tolerance");
+    folder.write("ligne.toml", "[diff]\ntolerence = 1\n");
+    folder
+        .ligne("test cases")
+        .refused("ligne.toml: line 2: unknown key `tolerence`; did you mean `tolerance`?");
+}
+
+#[test]
+fn a_part_left_out_is_named() {
+    let folder = approved("test-part");
+    folder.write(
+        "cases/ink.toml",
+        &(VIEW.to_owned() + "hide = 'knob'\ncamera = '../camera.json'\n").replace("azimuth = 30\n", ""),
+    );
+    folder.write("camera.json", CAMERA);
+    folder.ligne("test cases --bless").done();
+    let whole = folder.text("cases/ink.toml").replace("hide = 'knob'\n", "");
+    folder.write("cases/ink.toml", &whole);
+    let run = folder.ligne("test cases");
+    let out = failing(&run);
+    let lines: Vec<&str> = out.lines().filter(|line| line.starts_with("         ")).collect();
+    assert!(lines.iter().any(|line| line.contains("knob")), "{out}");
+    folder.ligne("test cases --bless").done();
+    folder.write("cases/ink.toml", &(whole + "hide = 'knob'\n"));
+    let run = folder.ligne("test cases");
+    let out = failing(&run);
+    assert!(out.lines().any(|line| line.starts_with("         ") && line.contains("knob")), "{out}");
+}
+
+/// Sees both cubes whole, whatever is left out.
+const CAMERA: &str = r#"{"type":"perspective","eye":[6,5,9],"target":[0,0.75,0],"up":[0,1,0],"fov_y_deg":35,
+    "width_px":300,"height_px":300}"#;
+
+#[test]
+fn another_colour_is_seen() {
+    let folder = approved("test-colour");
+    folder.write("cubes.mtl", "newmtl red\nKd 0.8 0.1 0.1\nnewmtl blue\nKd 0.1 0.7 0.8\n");
+    let run = folder.ligne("test cases");
+    let out = failing(&run);
+    assert!(out.contains("differs  deep/toon: ") && out.contains("passed   ink\n"), "{out}");
+    let lines: Vec<&str> = out.lines().filter(|line| line.starts_with("         ")).collect();
+    assert!(!lines.is_empty() && lines.iter().all(|line| line.contains("knob")), "{out}");
+}
+
+#[test]
+fn broken_cases_fail_and_hinder_blessing() {
+    let folder = approved("test-broken");
+    let before = folder.text("cases/ink.svg");
+    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+    let faults = [
+        (
+            "model = '../cubes.obj'\nazimut = 3\n",
+            "broken.toml: line 2: unknown key `azimut`; did you mean `azimuth`?",
+        ),
+        ("model = '../cubes.obj'\nview = 'iso'\nazimuth = 3\n", "`view` and `azimuth` exclude each other"),
+        ("model = '../none.obj'\n", "none.obj: "),
+        ("model = 3\n", "broken.toml: line 1: a number does not fit here; write a path"),
+        ("size = 3\n", "broken.toml: there is no `model`"),
+        (
+            "model = '../cubes.obj'\nscale = '1:2'\n",
+            "broken.toml: line 2: `scale` means nothing without `page`",
+        ),
+        ("model = '../cubes.obj'\ndrawing = 'ink.svg'\n", "the case `ink` has the same drawing"),
+        ("model = '../cubes.obj'\ndrawing = 'a.png'\n", "broken.toml: line 2: cases/a.png is no SVG"),
+        ("model = '../cubes.obj'\ntolerance = 'wide'\n", "broken.toml: line 2: `wide` is no tolerance"),
+        ("model = '../cubes.obj'\nstyle = 'none.toml'\n", "line 2: cases/none.toml: cannot read"),
+        ("model = '../cubes.obj'\nonly = 'none'\n", "the parts are base, knob"),
+        ("model = '../doubled.obj'\nstrict = true\n", "doubled.obj: "),
+        ("model = \n", "broken.toml: line 1: "),
+    ];
+    folder.write("doubled.obj", &format!("{}f 13 14 15 16\n", crate::folder::CUBES));
+    for (text, wanted) in faults {
+        folder.write("cases/broken.toml", text);
+        let run = folder.ligne("test cases --bless");
+        assert_eq!(run.status, Some(2), "{run:?}");
+        let out = &run.out;
+        assert!(out.contains("error    broken: ") && out.contains(wanted), "no `{wanted}` in {out}");
+        assert!(out.contains(" cannot be drawn\nNothing is blessed while"), "{out}");
+        assert_eq!(folder.text("cases/ink.svg"), before);
+    }
+    folder.write("cases/broken.toml", "model = '../cubes.obj'\n");
+    folder.write("cases/broken.svg", "no drawing");
+    let run = folder.ligne("test cases");
+    assert!(run.status == Some(2) && run.out.contains("cases/broken.svg: "), "{run:?}");
+}
+
+#[test]
+fn wrong_calls_are_refused() {
+    let folder = approved("test-calls");
+    folder.write("empty/readme.txt", "nothing");
+    folder.ligne("test empty").refused("error: empty: there is no case in this folder");
+    folder.ligne("test nowhere").refused("nowhere: there is no such folder");
+    folder.ligne("test cases --only none").refused("no case has such a name");
+    folder.ligne("test cases --report none/a.html").refused("create the folder first");
+    folder.ligne("test cases --report-all").refused("--report");
+}
+
+#[test]
+fn only_some_and_what_is_passed_over() {
+    let folder = approved("test-only");
+    folder.write("cases/_sheets/mine.toml", "extends = 'ink'\n");
+    folder.write("cases/.hidden.toml", "x");
+    folder.write("cases/ligne.toml", "[draw]\nstyle = 'toon'\n");
+    folder.write("cases/ink.toml", &(VIEW.to_owned() + "style = '_sheets/mine.toml'\n"));
+    let run = folder.ligne("test cases --threads 1");
+    assert_eq!(run.done().out, "passed   deep/toon\npassed   ink\n2 cases: 2 passed\n");
+    assert_eq!(folder.ligne("test cases --only deep/*").done().out, "passed   deep/toon\n1 case: 1 passed\n");
+    folder.write("cases/deep/old.svg", "<svg/>");
+    let run = folder.ligne("test cases");
+    assert!(run.done().err.starts_with("warning: cases/deep/old.svg: no case draws this"), "{run:?}");
+    // A case may name its drawing.
+    folder.write(
+        "cases/deep/named.toml",
+        "model = '../../cubes.obj'\nstyle = 'toon'\nsize = 200\ndrawing = 'old.svg'\n",
+    );
+    folder.write("cases/deep/old.svg", &folder.text("cases/deep/toon.svg"));
+    assert_eq!(folder.ligne("test cases").done().err, "");
+}
+
+fn children<'a>(node: Node<'a, 'a>, name: &str) -> Vec<Node<'a, 'a>> {
+    node.children().filter(|child| child.has_tag_name(name)).collect()
+}
+
+#[test]
+fn junit_tells_passes_failures_and_errors() {
+    let folder = approved("test-junit");
+    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+    folder.write("cases/new.toml", VIEW);
+    folder.write("cases/broken & <wrong>.toml", "model = '../none.obj'\n");
+    let run = folder.ligne("test cases --junit results.xml");
+    assert_eq!(run.status, Some(2), "{run:?}");
+    let text = folder.text("results.xml");
+    let document = Document::parse(&text).expect("XML");
+    let suites = document.root_element();
+    assert_eq!(suites.tag_name().name(), "testsuites");
+    let suite = children(suites, "testsuite")[0];
+    let count = |name: &str| suite.attribute(name).unwrap_or_default().to_owned();
+    assert_eq!(["tests", "failures", "errors", "skipped"].map(count), ["4", "2", "1", "0"]);
+    let cases = children(suite, "testcase");
+    let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
+    let names: Vec<String> = cases.iter().map(name).collect();
+    assert_eq!(names, ["broken & <wrong>", "deep/toon", "ink", "new"]);
+    let verdicts: Vec<_> = cases
+        .iter()
+        .map(|case| {
+            let verdict = case.children().find(Node::is_element)?;
+            Some((verdict.tag_name().name().to_owned(), verdict.attribute("type")?.to_owned()))
+        })
+        .collect();
+    let verdict = |element: &str, kind: &str| Some((element.to_owned(), kind.to_owned()));
+    assert_eq!(
+        verdicts,
+        [verdict("error", "error"), None, verdict("failure", "differs"), verdict("failure", "new")]
+    );
+    assert!(
+        cases[0]
+            .children()
+            .find(Node::is_element)
+            .and_then(|e| e.attribute("message"))
+            .is_some_and(|m| m.contains("none.obj"))
+    );
+    assert!(cases.iter().all(|case| case.attribute("time").is_some_and(|t| t.parse::<f64>().is_ok())));
+}
+
+#[test]
+fn the_page_shows_before_after_and_difference() {
+    let folder = approved("test-page");
+    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+    folder.write("cases/new.toml", VIEW);
+    failing(&folder.ligne("test cases --report page.html"));
+    let html = folder.text("page.html");
+    let document =
+        Document::parse(html.strip_prefix("<!DOCTYPE html>\n").expect("a doctype")).expect("well-formed");
+    let sections: Vec<Node> = document.descendants().filter(|node| node.has_tag_name("section")).collect();
+    let classes: Vec<_> = sections.iter().filter_map(|section| section.attribute("class")).collect();
+    assert_eq!(classes, ["passed", "differs", "new"]);
+    let captions = |section: &Node| -> Vec<String> {
+        section.descendants().filter_map(|node| node.attribute("alt")).map(ToOwned::to_owned).collect()
+    };
+    assert!(captions(&sections[0]).is_empty());
+    assert_eq!(captions(&sections[1]), ["before", "after", "difference"]);
+    assert_eq!(captions(&sections[2]), ["after"]);
+    for image in document.descendants().filter(|node| node.has_tag_name("img")) {
+        let source = image.attribute("src").expect("a source");
+        assert!(source.starts_with("data:image/svg+xml;base64,"), "{source}");
+    }
+    assert!(
+        !html.contains("http:") && !html.contains("https:") && !html.contains("<script"),
+        "asks for nothing"
+    );
+    failing(&folder.ligne("test cases --report page.html --report-all"));
+    let html = folder.text("page.html");
+    let document =
+        Document::parse(html.strip_prefix("<!DOCTYPE html>\n").expect("a doctype")).expect("well-formed");
+    assert_eq!(document.descendants().filter(|node| node.has_tag_name("img")).count(), 6);
+}
+
+#[test]
+fn drawings_that_fail_are_kept_while_they_fail() {
+    let folder = approved("test-output");
+    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+    folder.write("cases/deep/new.toml", "model = '../../cubes.obj'\n");
+    failing(&folder.ligne("test cases --output out"));
+    assert_eq!(folder.names_in("out"), ["deep", "ink.actual.svg", "ink.diff.svg"]);
+    assert_eq!(folder.names_in("out/deep"), ["new.actual.svg"]);
+    folder.ligne("draw cubes.obj wanted.svg --azimuth 60 --size 300").done();
+    assert_eq!(folder.text("out/ink.actual.svg"), folder.text("wanted.svg"));
+    Document::parse(&folder.text("out/ink.diff.svg")).expect("XML");
+    folder.ligne("test cases --bless --output out").done();
+    assert_eq!(folder.names_in("out"), ["deep"]);
+    assert!(folder.names_in("out/deep").is_empty());
+}

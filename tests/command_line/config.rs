@@ -1,0 +1,233 @@
+//! `ligne.toml` and environment variables: who wins, what is refused, and where errors point.
+
+use crate::folder::{Folder, Run};
+
+/// Draws with options in one folder and configured in another: the bytes must be the same.
+fn same_as_typed(name: &str, config: &str, typed: &str) {
+    let folder = Folder::with_cubes(name);
+    folder.ligne(&format!("draw cubes.obj typed.svg {typed}")).done();
+    folder.write("ligne.toml", config);
+    folder.ligne("draw cubes.obj configured.svg").done();
+    assert_eq!(folder.text("typed.svg"), folder.text("configured.svg"), "{config}");
+    folder.ligne("draw cubes.obj plain.svg --no-config").done();
+    assert_ne!(folder.text("typed.svg"), folder.text("plain.svg"), "{config}: nothing to configure");
+}
+
+#[test]
+fn keys_mean_what_options_mean() {
+    let pairs = [
+        ("style = 'technical'", "--style technical"),
+        ("view = 'iso'", "--view iso"),
+        ("azimuth = -30\nelevation = 10.5", "--azimuth=-30 --elevation 10.5"),
+        ("fov = 60.0", "--fov 60"),
+        ("ortho = true", "--ortho"),
+        ("up = 'z'", "--up z"),
+        ("only = 'kn*'", "--only kn*"),
+        ("hide = ['nothing', 'base']", "--hide base"),
+        ("size = 300", "--size 300"),
+        ("size = '300x200'", "--size 300x200"),
+        (
+            "page = 'A5'\nlandscape = true\nmargin = '5mm'\nscale = '4:1'",
+            "--page A5 --landscape --margin 5mm --scale 4:1",
+        ),
+        ("background = '#eee'", "--background #eee"),
+        ("precision = 0", "--precision 0"),
+        ("group = 'part'\nid-prefix = 'a-'", "--group part --id-prefix a-"),
+        (
+            "set = { pen.width = 3, \"lines.hidden\" = 'dashed' }",
+            "--set pen.width=3 --set lines.hidden=dashed",
+        ),
+        ("set = ['pen.width=3', 'lines.hidden=dashed']", "--set pen.width=3 --set lines.hidden=dashed"),
+        (
+            "[draw.set]\npen.width = 3\nlines.kinds = [\n 'contour',\n]",
+            "--set pen.width=3 --set lines.kinds=['contour']",
+        ),
+        ("style = 'sketch'\nseed = 7", "--style sketch --seed 7"),
+    ];
+    for (i, (keys, typed)) in pairs.iter().enumerate() {
+        same_as_typed(&format!("config-same-{i}"), &format!("[draw]\n{keys}\n"), typed);
+    }
+}
+
+/// Draws the cubes, with variables and words; the text of the drawing.
+fn drawn(folder: &Folder, variables: &[(&str, &str)], words: &str) -> String {
+    folder.run_with(variables, &format!("draw cubes.obj {words} - --quiet")).done().out.clone()
+}
+
+#[test]
+fn a_flag_wins_over_a_variable_and_that_over_the_file() {
+    let folder = Folder::with_cubes("config-order");
+    let style = |name: &str| drawn(&folder, &[], &format!("--no-config --style {name}"));
+    let (ink, technical, plotter, patent) =
+        (style("ink"), style("technical"), style("plotter"), style("patent"));
+    folder.write("ligne.toml", "[draw]\nstyle = 'technical'\n");
+    let variable = [("LIGNE_STYLE", "plotter")];
+    assert_eq!(drawn(&folder, &[], ""), technical);
+    assert_eq!(drawn(&folder, &variable, ""), plotter);
+    assert_eq!(drawn(&folder, &variable, "--style patent"), patent);
+    assert_eq!(drawn(&folder, &variable, "--no-config"), plotter);
+    assert_eq!(drawn(&folder, &[("LIGNE_STYLE", "")], "--no-config"), ink);
+    assert_eq!(drawn(&folder, &[("LIGNE_THREADS", "1")], "--style ink"), ink);
+    let wrong = folder.run_with(&[("LIGNE_THREADS", "many")], "draw cubes.obj a.svg");
+    wrong.refused("LIGNE_THREADS: `many` does not fit here");
+    folder
+        .run_with(&[("LIGNE_STYLE", "inc")], "draw cubes.obj a.svg")
+        .refused("LIGNE_STYLE: there is no style `inc`");
+    // A variable that a flag displaces is not looked at.
+    folder.run_with(&[("LIGNE_THREADS", "many")], "draw cubes.obj a.svg --threads 1").done();
+}
+
+#[test]
+fn a_flag_displaces_what_it_excludes() {
+    let folder = Folder::with_cubes("config-displaced");
+    let plain = |words: &str| drawn(&folder, &[], &format!("--no-config {words}"));
+    let pairs = [
+        ("view = 'iso'", "--azimuth 10", "--azimuth 10"),
+        ("azimuth = 80", "--view top", "--view top"),
+        ("azimuth = 80\nfov = 50", "--elevation 5", "--azimuth 80 --fov 50 --elevation 5"),
+        ("camera = 'c.json'", "--azimuth 10", "--azimuth 10"),
+        ("page = 'A4'\nlandscape = true\nscale = '10:1'", "--size 300", "--size 300"),
+        ("size = 300", "--page A6", "--page A6"),
+        ("landscape = true", "--page A6", "--page A6 --landscape"),
+        ("landscape = true", "--size 300", "--size 300"),
+        ("page = 'A6'", "--landscape", "--page A6 --landscape"),
+        ("ortho = true", "--fov 20", "--fov 20"),
+        ("only = 'base'", "--only knob", "--only knob"),
+        ("set = { pen.width = 3, seed = 4 }", "--set pen.width=1", "--set seed=4 --set pen.width=1"),
+    ];
+    folder.write("c.json", "{}");
+    let wanted = pairs.map(|(_, _, meant)| plain(meant));
+    for ((keys, typed, _), wanted) in pairs.iter().zip(wanted) {
+        folder.write("ligne.toml", &format!("[draw]\n{keys}\n"));
+        assert_eq!(drawn(&folder, &[], typed), wanted, "{keys} with {typed}");
+    }
+}
+
+#[test]
+fn the_file_is_found_upward_and_its_paths_are_its_own() {
+    let folder = Folder::with_cubes("config-upward");
+    folder.write("styles/mine.toml", "extends = 'ink'\npen.width = 4\n");
+    folder.write(
+        "camera.json",
+        r#"{"type":"orthographic","eye":[0,0,9],"target":[0,0,0],"up":[0,1,0],
+        "ortho_height":10,"width_px":60,"height_px":40}"#,
+    );
+    folder.write(
+        "brush.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z'/></svg>",
+    );
+    folder.write("deep/er/cubes.obj", crate::folder::CUBES);
+    let keys = "style = 'styles/mine.toml'\ncamera = 'camera.json'\nset = { pen.brush.file = 'brush.svg' }";
+    folder.write("ligne.toml", &format!("[draw]\n{keys}\n"));
+    folder.ligne("draw cubes.obj above.svg").done();
+    let below = |words: &[&str]| -> Run {
+        let output =
+            folder.command(words).current_dir(folder.path("deep/er")).output().expect("the program runs");
+        Run::new(output)
+    };
+    below(&["draw", "cubes.obj", "below.svg"]).done();
+    assert_eq!(folder.text("above.svg"), folder.text("deep/er/below.svg"));
+    assert!(folder.text("above.svg").contains("viewBox=\"0 0 60 40\""));
+    assert!(folder.text("above.svg").contains("data-axis"), "a brush draws outlines");
+    // The nearest one counts, alone.
+    folder.write("deep/ligne.toml", "");
+    below(&["draw", "cubes.obj", "plain.svg"]).done();
+    assert!(folder.text("deep/er/plain.svg").contains("viewBox=\"0 0 1000 1000\""));
+    folder.write("deep/ligne.toml", "[draw]\nstlye = 'ink'\n");
+    below(&["draw", "cubes.obj", "no.svg"])
+        .refused("../ligne.toml: line 2: unknown key `stlye`; did you mean `style`?");
+}
+
+#[test]
+fn faults_are_shown_with_file_line_and_caret() {
+    let folder = Folder::with_cubes("config-faults");
+    folder.write("sheet.toml", "pen.width = 'wide'\n");
+    let faults = [
+        ("[drow]\n", "line 1: unknown key `drow`; did you mean `draw`?"),
+        ("draw = 3\n", "line 1: a number does not fit here; write a table"),
+        (
+            "[draw]\nstyle = 'ink'\nazimut = 3\n",
+            "line 3: unknown key `azimut`; did you mean `azimuth`?\n 3 | azimut = 3\n   | ^^^^^^",
+        ),
+        (
+            "[draw]\nelevation = 91\n",
+            "line 2: `91` does not fit here; write degrees from -90 to 90\n 2 | elevation = 91\n   |             ^^",
+        ),
+        ("[draw]\nview = 'izo'\n", "line 2: unknown value `izo`; did you mean `iso`?"),
+        ("[draw]\nstyle = 'technicl'\n", "line 2: there is no style `technicl`; did you mean `technical`?"),
+        ("[draw]\nstyle = 'none.toml'\n", "line 2: none.toml: cannot read the style sheet"),
+        ("[draw]\northo = 'yes'\n", "line 2: text does not fit here; write true or false"),
+        ("[draw]\nhide = [3]\n", "line 2: a number does not fit here; write text, or a list of texts"),
+        ("[draw]\nsize = [3, 4]\n", "line 2: a list does not fit here; write text or a number"),
+        ("[draw]\nset = { pen.wdith = 3 }\n", "line 2: unknown key `wdith`; did you mean `width`?"),
+        ("[draw]\nset = 'pen.width'\n", "line 2: there is no `=`; write KEY=VALUE"),
+        (
+            "[draw]\nview = 'iso'\nazimuth = 3\n",
+            "line 3: `view` and `azimuth` exclude each other; leave one out",
+        ),
+        ("[draw]\nthreads = 0\n", "line 2: `0` does not fit here"),
+        ("[draw]\nreport = 'a.json'\n", "line 2: unknown key `report`"),
+        ("[draw]\nview = \n", "line 2: "),
+    ];
+    for (text, wanted) in faults {
+        folder.write("ligne.toml", text);
+        let run = folder.ligne("draw cubes.obj a.svg");
+        run.refused(&format!("ligne.toml: {wanted}"));
+    }
+    // What is wrong inside a sheet is told of the sheet.
+    folder.write("ligne.toml", "[draw]\nstyle = 'sheet.toml'\n");
+    folder.ligne("draw cubes.obj a.svg").refused("error: sheet.toml: line 1: ");
+    folder.ligne("draw cubes.obj a.svg --no-config").done();
+    // Help and other commands need no sound file.
+    folder.ligne("draw --help").done();
+    folder.ligne("info cubes.obj").done();
+}
+
+#[test]
+fn comparisons_take_the_tolerance_and_how_models_are_drawn() {
+    let folder = Folder::with_cubes("config-diff");
+    folder.ligne("draw cubes.obj a.svg --azimuth 30 --size 300").done();
+    folder.ligne("draw cubes.obj b.svg --azimuth 30.2 --size 300").done();
+    let status = |words: &str| folder.ligne(&format!("diff {words}")).status;
+    assert_eq!(status("a.svg b.svg"), Some(1));
+    folder.write("ligne.toml", "[diff]\ntolerance = { default = '0.01px', lines = 5 }\n");
+    assert_eq!(status("a.svg b.svg"), Some(0));
+    assert_eq!(status("a.svg b.svg --no-config"), Some(1));
+    assert_eq!(status("a.svg b.svg --tolerance 0.1px"), Some(1));
+    // The drawing is compared with the model, drawn as the project draws; what differs is said aloud.
+    let draw = "[draw]\nquiet = true\nazimuth = 30\nsize = 300\n";
+    folder.write("ligne.toml", draw);
+    assert_eq!(status("a.svg cubes.obj"), Some(0));
+    assert_eq!(status("b.svg cubes.obj"), Some(1));
+    assert!(folder.ligne("diff b.svg cubes.obj").out.contains("knob"));
+    assert_eq!(status("b.svg cubes.obj --azimuth 30.2"), Some(0));
+    folder.write("ligne.toml", &format!("{draw}\n[diff]\ntolerance = 'wide'\n"));
+    folder.ligne("diff a.svg b.svg").refused("ligne.toml: line 7: `wide` is no tolerance");
+}
+
+#[test]
+fn the_manual_has_its_sections() {
+    let folder = Folder::new("config-man");
+    let page = folder.ligne("man").done().out.replace("\\-", "-");
+    for wanted in [
+        ".TH LIGNE 1",
+        ".SH NAME",
+        ".SH ENVIRONMENT",
+        "LIGNE_STYLE",
+        "LIGNE_THREADS",
+        ".SH FILES",
+        "ligne.toml",
+        ".SH \"EXIT STATUS\"",
+        ".SH EXAMPLES",
+        "ligne-draw(1)",
+        "--no-config",
+    ] {
+        assert!(page.contains(wanted), "{wanted} in {page}");
+    }
+    let draw = folder.ligne("man draw").done().out.replace("\\-", "-");
+    assert!(
+        draw.contains(".TH LIGNE-DRAW 1") && draw.contains("--elevation") && draw.contains("LIGNE_STYLE")
+    );
+    assert!(!folder.ligne("man info").done().out.contains("LIGNE_STYLE"));
+    folder.ligne("man drow").refused("did you mean `draw`?");
+}

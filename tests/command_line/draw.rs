@@ -1,0 +1,298 @@
+//! The command line with the whole pipeline behind it: what is drawn, written and said.
+
+use crate::folder::Folder;
+use ligne::render::Stage;
+use serde_json::Value;
+
+/// The numbers of an attribute of the root element.
+fn root(svg: &str, attribute: &str) -> String {
+    let document = usvg::roxmltree::Document::parse(svg).expect("valid XML");
+    document.root_element().attribute(attribute).unwrap_or_default().to_owned()
+}
+
+fn report(folder: &Folder, name: &str) -> Value {
+    serde_json::from_str(&folder.text(name)).expect("a report in JSON")
+}
+
+#[test]
+fn draws_to_the_current_folder_and_says_so() {
+    let folder = Folder::with_cubes("default");
+    let run = folder.ligne("draw cubes.obj");
+    assert_eq!(run.done().out, "");
+    let line = run.err.trim_end();
+    assert!(line.starts_with("cubes.svg: 1000 x 1000 px, ") && line.ends_with(" s, 24 triangles"), "{run:?}");
+    assert_eq!(line.lines().count(), 1, "{run:?}");
+    assert_eq!(root(&folder.text("cubes.svg"), "viewBox"), "0 0 1000 1000");
+    assert_eq!(folder.names(), ["cubes.obj", "cubes.svg"]);
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let folder = Folder::with_cubes("quiet");
+    let run = folder.ligne("draw cubes.obj a.svg --quiet");
+    assert_eq!((run.done().out.as_str(), run.err.as_str()), ("", ""));
+}
+
+#[test]
+fn standard_output_gets_the_same_bytes_as_a_file() {
+    let folder = Folder::with_cubes("stdout");
+    let run = folder.ligne("draw cubes.obj - -o a.svg -o a.png");
+    assert_eq!(run.done().out, folder.text("a.svg"));
+    assert!(folder.read("a.png").starts_with(b"\x89PNG"));
+    assert_eq!(run.err.lines().count(), 3, "{run:?}");
+    assert!(run.err.starts_with("standard output: 1000 x 1000 px, "), "{run:?}");
+}
+
+#[test]
+fn threads_change_no_byte() {
+    let folder = Folder::with_cubes("threads");
+    folder.ligne("draw cubes.obj one.svg --threads 1").done();
+    folder.ligne("draw cubes.obj two.svg --threads 2").done();
+    folder.ligne("draw cubes.obj any.svg").done();
+    assert_eq!(folder.text("one.svg"), folder.text("two.svg"));
+    assert_eq!(folder.text("one.svg"), folder.text("any.svg"));
+}
+
+#[test]
+fn pages_are_in_millimetres() {
+    let folder = Folder::with_cubes("page");
+    let run = folder.ligne("draw cubes.obj a.svg --page A4 --landscape");
+    assert!(run.done().err.starts_with("a.svg: 297 x 210 mm, "), "{run:?}");
+    let svg = folder.text("a.svg");
+    assert_eq!(root(&svg, "viewBox"), "0 0 297 210");
+    assert_eq!((root(&svg, "width"), root(&svg, "height")), ("297mm".to_owned(), "210mm".to_owned()));
+}
+
+/// Left, top, right and bottom of all lines of a drawing, in user units.
+fn extent(svg: &str) -> [f64; 4] {
+    let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).expect("a drawing");
+    let lines = tree.node_by_id("lines").expect("lines");
+    let bounds = lines.abs_bounding_box();
+    let scale: f64 = root(svg, "viewBox").split(' ').nth(2).and_then(|w| w.parse().ok()).expect("a width");
+    let scale = scale / f64::from(tree.size().width());
+    [bounds.left(), bounds.top(), bounds.right(), bounds.bottom()].map(|v| f64::from(v) * scale)
+}
+
+#[test]
+fn scale_is_true_on_paper() {
+    let folder = Folder::with_cubes("scale");
+    folder.ligne("draw cubes.obj a.svg --page 100x100mm --scale 10:1 --view front").done();
+    let [left, top, right, bottom] = extent(&folder.text("a.svg"));
+    assert!((right - left - 20.0).abs() < 0.01, "the base is 2 mm wide, on paper 20: {left} {right}");
+    assert!((bottom - top - 35.0).abs() < 0.01, "the whole is 3.5 mm high, on paper 35: {top} {bottom}");
+    assert!((left + right - 100.0).abs() < 0.02 && (top + bottom - 100.0).abs() < 0.02, "centred");
+    let run = folder.ligne("draw cubes.obj b.svg --page 100x100mm --scale 100:1 --view front");
+    assert!(run.done().err.contains("larger than the page at this scale; 22.86:1 would fit"), "{run:?}");
+}
+
+#[test]
+fn the_model_fills_the_frame_with_a_margin() {
+    let folder = Folder::with_cubes("frame");
+    for options in ["", "--view iso", "--azimuth -100 --elevation 60", "--fov 60", "--ortho", "--up z"] {
+        folder
+            .ligne(&format!("draw cubes.obj a.svg {options} --set chain.smooth=0 --set chain.fit=false"))
+            .done();
+        let [left, top, right, bottom] = extent(&folder.text("a.svg"));
+        let free = [left, top, 1000.0 - right, 1000.0 - bottom];
+        let least = free.into_iter().fold(f64::INFINITY, f64::min);
+        assert!((least - 50.0).abs() < 0.1, "{options}: {free:?}");
+        assert!((free[0] - free[2]).abs() < 0.1 && (free[1] - free[3]).abs() < 0.1, "{options}: {free:?}");
+    }
+}
+
+#[test]
+fn margins_keep_the_picture_off_the_rim() {
+    let folder = Folder::with_cubes("margin");
+    folder.ligne("draw cubes.obj a.svg --page 100x80mm --margin 2cm --view front").done();
+    let [left, top, right, bottom] = extent(&folder.text("a.svg"));
+    assert!(left > 20.0 && top > 20.0 && right < 80.0 && bottom < 60.0, "{left} {top} {right} {bottom}");
+    assert!(bottom - top > 38.0, "{top} {bottom}");
+}
+
+#[test]
+fn camera_records_are_obeyed() {
+    let folder = Folder::with_cubes("camera");
+    folder.write(
+        "camera.json",
+        r#"{"type":"orthographic","eye":[0,0,9],"target":[0,0,0],"up":[0,1,0],"ortho_height":10,
+            "width_px":600,"height_px":400}"#,
+    );
+    let run = folder.ligne("draw cubes.obj a.svg --camera camera.json");
+    assert!(run.done().err.starts_with("a.svg: 600 x 400 px, "), "{run:?}");
+    // 40 px to the unit, the origin in the middle.
+    let [left, top, right, bottom] = extent(&folder.text("a.svg"));
+    let expected = [260.0, 100.0, 340.0, 240.0];
+    let apart = [left, top, right, bottom].into_iter().zip(expected).map(|(a, b)| (a - b).abs());
+    assert!(apart.into_iter().all(|d| d < 0.02), "{left} {top} {right} {bottom}");
+    folder.write("wrong.json", "{\"type\":\"perspective\"}");
+    folder.ligne("draw cubes.obj b.svg --camera wrong.json").refused("wrong.json: key eye: ");
+    folder.ligne("draw cubes.obj b.svg --camera Front").refused("there is no camera `Front`");
+    assert_eq!(folder.names(), ["a.svg", "camera.json", "cubes.obj", "wrong.json"]);
+}
+
+#[test]
+fn parts_are_chosen_by_name() {
+    let folder = Folder::with_cubes("parts");
+    let only = folder.ligne("draw cubes.obj only.svg --only kn*");
+    assert!(only.done().err.ends_with("12 triangles\n"), "{only:?}");
+    folder.ligne("draw cubes.obj hidden.svg --hide base").done();
+    assert_eq!(folder.text("only.svg"), folder.text("hidden.svg"));
+    assert!(
+        folder.text("only.svg").contains("data-part=\"knob\"") && !folder.text("only.svg").contains("base")
+    );
+    folder.ligne("draw cubes.obj none.svg --only nothing").refused("the parts are base, knob");
+}
+
+#[test]
+fn groups_and_ids_are_as_asked() {
+    let folder = Folder::with_cubes("groups");
+    folder.ligne("draw cubes.obj a.svg --group part --id-prefix fig1- --precision 0").done();
+    let svg = folder.text("a.svg");
+    assert!(svg.contains("id=\"fig1-part-base\"") && svg.contains("<title>knob</title>"), "{svg}");
+    let document = usvg::roxmltree::Document::parse(&svg).expect("valid XML");
+    let paths = document.descendants().filter_map(|node| node.attribute("d"));
+    assert!(paths.into_iter().all(|d| !d.contains('.')), "{svg}");
+}
+
+#[test]
+fn the_report_has_stages_and_counts() {
+    let folder = Folder::with_cubes("report");
+    folder.ligne("draw cubes.obj a.svg -o a.png --report r.json").done();
+    let report = report(&folder, "r.json");
+    assert_eq!(report["counts"]["triangles"], 24);
+    assert_eq!(report["counts"]["vertices"], 16);
+    assert_eq!(report["counts"]["edges"], 36);
+    let bytes = (folder.read("a.svg").len() + folder.read("a.png").len()) as u64;
+    assert_eq!(report["counts"]["bytes_out"], bytes);
+    assert!(report["counts"]["paths"].as_u64() > Some(0), "{report}");
+    let stages = report["stages_ms"].as_object().expect("stages");
+    assert_eq!(stages.len(), 10);
+    assert!(stages.values().all(|ms| ms.as_f64() >= Some(0.0)), "{report}");
+    assert!(report["stages_ms"]["load"].as_f64() > Some(0.0), "{report}");
+    assert_eq!(report["warnings"], serde_json::json!([]));
+}
+
+#[test]
+fn stages_can_be_drawn() {
+    let folder = Folder::with_cubes("stage");
+    for stage in ["lines", "viewmap", "chains"] {
+        folder.run(&["draw", "cubes.obj", &format!("{stage}.svg"), "--stage", stage]).done();
+        root(&folder.text(&format!("{stage}.svg")), "viewBox");
+    }
+}
+
+#[test]
+fn warnings_are_named_and_strict_refuses_them() {
+    let folder = Folder::with_cubes("warnings");
+    // A face given twice is dropped once.
+    folder.write("doubled.obj", &format!("{}f 13 14 15 16\n", crate::folder::CUBES));
+    let run = folder.ligne("draw doubled.obj a.svg --report r.json");
+    assert!(run.done().err.starts_with("warning: doubled.obj: "), "{run:?}");
+    assert!(!report(&folder, "r.json")["warnings"].as_array().expect("a list").is_empty());
+    folder.write("kept.svg", "mine");
+    let strict = folder.ligne("draw doubled.obj kept.svg --strict");
+    strict.refused("error: doubled.obj: ");
+    assert_eq!(folder.text("kept.svg"), "mine");
+    assert_eq!(folder.ligne("draw doubled.obj b.svg --quiet").done().err, "");
+    let info = folder.ligne("info doubled.obj");
+    assert!(info.done().out.contains("warning"), "{info:?}");
+}
+
+#[test]
+fn styles_can_be_chosen_and_changed() {
+    let folder = Folder::with_cubes("styles");
+    let list = folder.ligne("styles");
+    for name in ["ink", "technical", "plotter"] {
+        let line = list.done().out.lines().find(|line| line.starts_with(name)).map(str::len);
+        assert!(line > Some(name.len() + 10), "{name} has an idea: {list:?}");
+        let sheet = folder.run(&["styles", name]);
+        assert!(sheet.done().out.starts_with('#'), "{sheet:?}");
+        folder.write("own.toml", &sheet.out);
+        folder.run(&["draw", "cubes.obj", "built-in.svg", "--style", name]).done();
+        folder.run(&["draw", "cubes.obj", "own.svg", "--style", "own.toml"]).done();
+        assert_eq!(folder.text("built-in.svg"), folder.text("own.svg"), "{name}");
+    }
+    folder.ligne("styles inc").refused("ink");
+    folder.ligne("draw cubes.obj a.svg --style inc").refused("ink");
+    folder.ligne("draw cubes.obj a.svg --set lines.crease=3").refused("crease_deg");
+    folder.ligne("draw cubes.obj few.svg --set lines.kinds=[\"border\"]").done();
+    assert!(!folder.text("few.svg").contains("class=\"crease"));
+}
+
+#[test]
+fn the_background_is_as_asked() {
+    let folder = Folder::with_cubes("background");
+    folder.ligne("draw cubes.obj none.svg --background none").done();
+    folder.ligne("draw cubes.obj red.svg --background #ff0000").done();
+    assert!(
+        !folder.text("none.svg").contains("id=\"paper\"") && folder.text("red.svg").contains("fill=\"#f00\"")
+    );
+}
+
+#[test]
+fn png_has_the_pixels_asked_for() {
+    let folder = Folder::with_cubes("png");
+    let size = |name: &str| {
+        let png = folder.read(name);
+        let number = |at: usize| png.get(at..at + 4).map(|b| u32::from_be_bytes([b[0], b[1], b[2], b[3]]));
+        (number(16), number(20))
+    };
+    folder.ligne("draw cubes.obj a.png --size 320x200").done();
+    assert_eq!(size("a.png"), (Some(320), Some(200)));
+    folder.ligne("draw cubes.obj b.png --size 320x200 --dpi 192").done();
+    assert_eq!(size("b.png"), (Some(640), Some(400)));
+    folder.ligne("draw cubes.obj c.png --page 101.6x50.8mm --dpi 100").done();
+    assert_eq!(size("c.png"), (Some(400), Some(200)));
+}
+
+#[test]
+fn pdf_is_a_format_like_the_others() {
+    let folder = Folder::with_cubes("pdf");
+    let run = folder.ligne("draw cubes.obj sheet.PDF --page A5 --style technical");
+    assert!(run.done().err.starts_with("sheet.PDF: 148 x 210 mm, "), "{run:?}");
+    let pdf = folder.read("sheet.PDF");
+    assert!(pdf.starts_with(b"%PDF-1.7") && pdf.trim_ascii_end().ends_with(b"%%EOF"));
+}
+
+#[test]
+fn info_says_what_is_in_the_file() {
+    let folder = Folder::with_cubes("info");
+    let text = folder.ligne("info cubes.obj").done().out.clone();
+    assert!(text.starts_with("cubes.obj: OBJ, "), "{text}");
+    assert!(
+        text.contains("24 triangles, 16 vertices") && text.contains("    knob: 12 triangles\n"),
+        "{text}"
+    );
+    assert!(text.contains("2 x 3.5 x 2, from (-1, -1, -1) to (1, 2.5, 1)"), "{text}");
+    let json = folder.ligne("info cubes.obj --json").done().out.clone();
+    let info: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!((&info["format"], &info["triangles"]), (&Value::from("OBJ"), &Value::from(24)));
+    assert_eq!(info["parts"][1]["name"], "knob");
+    assert_eq!(info["bounds"]["max"], serde_json::json!([1.0, 2.5, 1.0]));
+}
+
+#[test]
+fn threads_do_not_change_what_the_program_writes() {
+    let folder = Folder::with_cubes("threads");
+    for (threads, out) in [("1", "one.svg"), ("2", "two.svg"), ("2", "again.svg")] {
+        folder
+            .ligne(&format!("draw cubes.obj {out} --threads {threads} --set lines.hidden=\"dashed\""))
+            .done();
+    }
+    let one = folder.read("one.svg");
+    assert!(one == folder.read("two.svg") && one == folder.read("again.svg"));
+}
+
+#[test]
+fn an_unknown_stage_is_refused_with_those_there_are() {
+    let folder = Folder::with_cubes("stage");
+    let run = folder.ligne("draw cubes.obj --stage fields");
+    run.refused("'fields'");
+    for stage in Stage::ALL {
+        assert!(run.err.contains(stage.name()), "{run:?}");
+        let file = format!("{}.svg", stage.name());
+        folder.run(&["draw", "cubes.obj", &file, "--stage", stage.name()]).done();
+        assert!(folder.text(&file).contains("<path"), "{file}");
+    }
+    assert!(folder.ligne("draw --help").out.contains("docs/stages.md"));
+}

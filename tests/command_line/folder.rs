@@ -1,0 +1,146 @@
+//! What the tests of the command line share: running the program in a folder of its own.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// A cube of side 2 with a second, smaller one on top, each a part of its own.
+pub const CUBES: &str = "\
+o base
+v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
+f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8
+o knob
+v -.5 1.5 -.5\nv .5 1.5 -.5\nv .5 2.5 -.5\nv -.5 2.5 -.5\nv -.5 1.5 .5\nv .5 1.5 .5\nv .5 2.5 .5\nv -.5 2.5 .5
+f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 11 12 16 15\nf 10 11 15 14\nf 12 9 13 16
+";
+
+/// A folder that is removed at the end of the test.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    /// An empty folder; `name` is the test's.
+    pub fn new(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("ligne-test-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).expect("a folder for the test");
+        Self(folder)
+    }
+
+    /// The same with the cubes in `cubes.obj`.
+    pub fn with_cubes(name: &str) -> Self {
+        let folder = Self::new(name);
+        folder.write("cubes.obj", CUBES);
+        folder
+    }
+
+    pub fn write(&self, name: &str, text: &str) {
+        let path = self.0.join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder of the test");
+        fs::write(path, text).expect("a file of the test");
+    }
+
+    pub fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.0.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    pub fn text(&self, name: &str) -> String {
+        String::from_utf8(self.read(name)).expect("text")
+    }
+
+    /// Names of the files in it, in the order of the alphabet.
+    pub fn names(&self) -> Vec<String> {
+        self.names_in("")
+    }
+
+    /// The same of a folder in it.
+    pub fn names_in(&self, inner: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.0.join(inner)).expect("the folder of the test");
+        let mut names: Vec<String> =
+            entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// Runs `ligne` in the folder; arguments are parted by blanks.
+    pub fn ligne(&self, line: &str) -> Run {
+        self.run(&line.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs `ligne` in the folder.
+    pub fn run(&self, args: &[&str]) -> Run {
+        let output = self.command(args).output().expect("the program runs");
+        Run::new(output)
+    }
+
+    /// Runs `ligne` in the folder, with environment variables.
+    pub fn run_with(&self, variables: &[(&str, &str)], line: &str) -> Run {
+        let mut command = self.command(&line.split_whitespace().collect::<Vec<_>>());
+        Run::new(command.envs(variables.iter().copied()).output().expect("the program runs"))
+    }
+
+    /// The path of a file in it.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// `ligne`, not yet started.
+    pub fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ligne"));
+        command.args(args).current_dir(&self.0);
+        // What the machine that runs the tests prefers is no matter of theirs.
+        for variable in ["LIGNE_STYLE", "LIGNE_THREADS", "CI"] {
+            command.env_remove(variable);
+        }
+        command
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// What a run left.
+#[derive(Debug)]
+pub struct Run {
+    pub status: Option<i32>,
+    pub out: String,
+    pub err: String,
+}
+
+impl Run {
+    pub fn new(output: Output) -> Self {
+        Self {
+            status: output.status.code(),
+            out: String::from_utf8_lossy(&output.stdout).into_owned(),
+            err: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
+    }
+
+    /// Checks that the call was refused, that nothing went to standard output, and that standard
+    /// error holds `what`.
+    pub fn refused(&self, what: &str) {
+        assert_eq!(self.status, Some(2), "{self:?}");
+        assert!(self.err.contains(what), "no `{what}` in {self:?}");
+        assert!(self.out.is_empty() && !self.err.contains("panicked"), "{self:?}");
+    }
+
+    /// Checks the exit status.
+    pub fn ends(&self, status: i32) -> &Self {
+        assert!(self.status == Some(status) && !self.err.contains("panicked"), "{self:?}");
+        self
+    }
+
+    /// Checks that standard output or standard error holds `what`.
+    pub fn says(&self, what: &str) -> &Self {
+        assert!(self.out.contains(what) || self.err.contains(what), "no `{what}` in {self:?}");
+        self
+    }
+
+    /// Checks that all went well.
+    pub fn done(&self) -> &Self {
+        assert_eq!(self.status, Some(0), "{self:?}");
+        self
+    }
+}

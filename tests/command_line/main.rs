@@ -1,0 +1,12 @@
+//! Tests of the program `ligne`, a file for each command or matter.
+
+mod folder;
+
+mod calls;
+mod cases;
+mod config;
+mod diff;
+mod documentation;
+mod draw;
+mod fmt;
+mod pictures;

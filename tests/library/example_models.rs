@@ -1,0 +1,427 @@
+//! The models in `examples/models` are sound: closed, outward, without flat triangles, fully named.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+#[path = "../../examples/make_stress/scenes.rs"]
+mod scenes;
+
+type Point = [f64; 3];
+
+/// A part as read: its name, its points, and triangles between them.
+struct Part {
+    name: String,
+    points: Vec<Point>,
+    faces: Vec<[usize; 3]>,
+}
+
+fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
+}
+
+fn bytes(name: &str) -> Vec<u8> {
+    std::fs::read(path(name)).unwrap()
+}
+
+/// The objects of an OBJ file; faces fanned, indices kept as the file shares them.
+fn read_obj(name: &str) -> Vec<Part> {
+    let mut points: Vec<Point> = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
+    for line in String::from_utf8(bytes(name)).unwrap().lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[0] {
+            "o" => parts.push(Part { name: words[1].to_owned(), points: Vec::new(), faces: Vec::new() }),
+            "v" => points.push([1, 2, 3].map(|k| words[k].parse().unwrap())),
+            "f" => {
+                let id = |word: &str| word.split('/').next().unwrap().parse::<usize>().unwrap() - 1;
+                let corners: Vec<usize> = words[1..].iter().map(|word| id(word)).collect();
+                let fan = corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]);
+                parts.last_mut().unwrap().faces.extend(fan);
+            }
+            _ => {}
+        }
+    }
+    parts.iter_mut().for_each(|part| part.points = points.clone());
+    parts
+}
+
+fn float(bytes: &[u8]) -> f64 {
+    f64::from(f32::from_le_bytes(bytes[..4].try_into().unwrap()))
+}
+
+fn int(bytes: &[u8]) -> usize {
+    u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize
+}
+
+fn read_stl(name: &str) -> Part {
+    let bytes = bytes(name);
+    let count = int(&bytes[80..]);
+    assert_eq!(bytes.len(), 84 + 50 * count);
+    let corners = (0..3 * count).map(|i| {
+        let start = 84 + 50 * (i / 3) + 12 + 12 * (i % 3);
+        [0, 4, 8].map(|k| float(&bytes[start + k..]))
+    });
+    let faces = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    Part { name: name.to_owned(), points: corners.collect(), faces }
+}
+
+fn read_ply(name: &str) -> Part {
+    let bytes = bytes(name);
+    let mark = b"end_header\n";
+    let end = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len();
+    let header = String::from_utf8(bytes[..end].to_vec()).unwrap();
+    let count = |what: &str| -> usize {
+        header.lines().find_map(|line| line.strip_prefix(what)).unwrap().trim().parse().unwrap()
+    };
+    let (vertices, faces) = (count("element vertex"), count("element face"));
+    let stride = if header.contains("property float nx") { 24 } else { 12 };
+    assert_eq!(bytes.len(), end + stride * vertices + 13 * faces);
+    let points = (0..vertices).map(|i| [0, 4, 8].map(|k| float(&bytes[end + stride * i + k..]))).collect();
+    let start = end + stride * vertices;
+    let faces = (0..faces).map(|i| [1, 5, 9].map(|k| int(&bytes[start + 13 * i + k..]))).collect();
+    Part { name: name.to_owned(), points, faces }
+}
+
+/// The same part with equal points made one.
+fn welded(part: &Part) -> Part {
+    let mut known: BTreeMap<[u64; 3], usize> = BTreeMap::new();
+    let mut points = Vec::new();
+    let ids: Vec<usize> = part
+        .points
+        .iter()
+        .map(|point| {
+            *known.entry(point.map(|value| (value + 0.0).to_bits())).or_insert_with(|| {
+                points.push(*point);
+                points.len() - 1
+            })
+        })
+        .collect();
+    let faces = part.faces.iter().map(|face| face.map(|corner| ids[corner])).collect();
+    Part { name: part.name.clone(), points, faces }
+}
+
+fn minus(a: Point, b: Point) -> Point {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// How often each directed edge occurs.
+fn edges(part: &Part) -> BTreeMap<(usize, usize), usize> {
+    let mut edges = BTreeMap::new();
+    for [a, b, c] in &part.faces {
+        for edge in [(*a, *b), (*b, *c), (*c, *a)] {
+            *edges.entry(edge).or_default() += 1;
+        }
+    }
+    edges
+}
+
+/// The faces of each connected piece.
+fn pieces(part: &Part) -> Vec<Vec<[usize; 3]>> {
+    let mut leader: Vec<usize> = (0..part.points.len()).collect();
+    fn root(leader: &mut [usize], mut id: usize) -> usize {
+        while leader[id] != id {
+            leader[id] = leader[leader[id]];
+            id = leader[id];
+        }
+        id
+    }
+    for face in &part.faces {
+        let [a, b, c] = face.map(|corner| root(&mut leader, corner));
+        leader[b] = a;
+        let c = root(&mut leader, c);
+        leader[c] = a;
+    }
+    let mut pieces: BTreeMap<usize, Vec<[usize; 3]>> = BTreeMap::new();
+    for face in &part.faces {
+        pieces.entry(root(&mut leader, face[0])).or_default().push(*face);
+    }
+    pieces.into_values().collect()
+}
+
+/// Six times the volume between some faces and a point.
+fn volume(part: &Part, faces: &[[usize; 3]], origin: Point) -> f64 {
+    let corner = |id: usize| minus(part.points[id], origin);
+    faces.iter().map(|[a, b, c]| dot(corner(*a), cross(corner(*b), corner(*c)))).sum()
+}
+
+fn assert_no_flat_triangles(part: &Part) {
+    for face in &part.faces {
+        let [a, b, c] = face.map(|corner| part.points[corner]);
+        let [u, v, w] = [minus(b, a), minus(c, b), minus(a, c)];
+        let longest = [u, v, w].map(|side| dot(side, side)).into_iter().fold(0.0, f64::max);
+        let area = cross(u, v);
+        // Height over length: a needle of less than one to a thousand counts as flat.
+        assert!(dot(area, area).sqrt() > 1e-3 * longest, "flat triangle {a:?} {b:?} {c:?} in {}", part.name);
+    }
+}
+
+/// Each edge once in each direction, every piece turned outwards, no flat triangle.
+fn assert_solid(part: &Part) {
+    assert!(!part.faces.is_empty(), "{} is empty", part.name);
+    let edges = edges(part);
+    for ((a, b), count) in &edges {
+        assert_eq!((*count, edges.get(&(*b, *a))), (1, Some(&1)), "edge {a} {b} of {}", part.name);
+    }
+    for faces in pieces(part) {
+        assert!(
+            volume(part, &faces, part.points[faces[0][0]]) > 0.0,
+            "a piece of {} is inside out",
+            part.name
+        );
+    }
+    assert_no_flat_triangles(part);
+}
+
+#[test]
+fn teapot_is_open_only_where_newell_left_it_open() {
+    let parts = read_obj("teapot.obj");
+    let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["body", "lid", "handle", "spout"]);
+    for (part, borders) in parts.iter().zip([1, 1, 2, 2]) {
+        let edges = edges(part);
+        assert!(edges.values().all(|count| *count == 1), "{} is not turned one way", part.name);
+        let open: BTreeMap<usize, usize> =
+            edges.keys().filter(|(a, b)| !edges.contains_key(&(*b, *a))).copied().collect();
+        let mut left: BTreeSet<usize> = open.keys().copied().collect();
+        let mut loops = 0;
+        while let Some(first) = left.pop_first() {
+            loops += 1;
+            let mut at = open[&first];
+            while at != first {
+                assert!(left.remove(&at), "the borders of {} branch", part.name);
+                at = open[&at];
+            }
+        }
+        assert_eq!(loops, borders, "borders of {}", part.name);
+        // From the middle of the borders, as if they were closed by caps.
+        let middle = std::array::from_fn(|k| {
+            open.keys().map(|&id| part.points[id][k]).sum::<f64>() / open.len() as f64
+        });
+        assert!(volume(part, &part.faces, middle) > 0.0, "{} is inside out", part.name);
+        assert_no_flat_triangles(part);
+    }
+    let triangles: usize = parts.iter().map(|part| part.faces.len()).sum();
+    assert!((6000..10_000).contains(&triangles), "{triangles} triangles");
+}
+
+#[test]
+fn gear_is_one_solid() {
+    let parts = read_obj("gear.obj");
+    assert_eq!((parts.len(), parts[0].name.as_str()), (1, "gear"));
+    assert_solid(&parts[0]);
+    assert_eq!(pieces(&parts[0]).len(), 1);
+    // One bore and six holes: an Euler number of 2 - 2 * 7.
+    let (faces, edges) = (parts[0].faces.len() as i64, edges(&parts[0]).len() as i64 / 2);
+    assert_eq!(parts[0].points.len() as i64 - edges + faces, -12);
+}
+
+#[test]
+fn bracket_is_one_solid() {
+    let part = welded(&read_stl("bracket.stl"));
+    assert_solid(&part);
+    assert_eq!(pieces(&part).len(), 1);
+    // Two holes in the base, five in the wall.
+    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(part.points.len() as i64 - edges + faces, -12);
+}
+
+#[test]
+fn knot_is_one_solid() {
+    let part = read_ply("knot.ply");
+    assert_solid(&part);
+    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(part.points.len() as i64 - edges + faces, 0);
+}
+
+#[test]
+fn bear_is_one_coarse_solid() {
+    let part = read_ply("bear.ply");
+    assert_solid(&part);
+    assert_eq!(pieces(&part).len(), 1);
+    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(part.points.len() as i64 - edges + faces, 2);
+    assert!((500..900).contains(&faces), "{faces} faces");
+}
+
+#[test]
+fn castle_is_made_of_named_solids() {
+    let parts = read_obj("castle.obj");
+    parts.iter().for_each(assert_solid);
+    let names: BTreeSet<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names.len(), parts.len(), "names are unique");
+    for name in ["keep", "gatehouse", "steps", "wall-front", "tower-south-east-roof", "keep-flag"] {
+        assert!(names.contains(name), "no part {name}");
+    }
+    let library = String::from_utf8(bytes("castle.mtl")).unwrap();
+    let known: BTreeSet<&str> = library.lines().filter_map(|line| line.strip_prefix("newmtl ")).collect();
+    let text = String::from_utf8(bytes("castle.obj")).unwrap();
+    let used: BTreeSet<&str> = text.lines().filter_map(|line| line.strip_prefix("usemtl ")).collect();
+    assert_eq!(known, used);
+}
+
+/// Checks every mesh of a glTF file.
+fn assert_meshes_solid(document: &gltf::Document, buffers: &[gltf::buffer::Data]) {
+    for mesh in document.meshes() {
+        let mut part = Part { name: mesh.name().unwrap().to_owned(), points: Vec::new(), faces: Vec::new() };
+        for primitive in mesh.primitives() {
+            let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()]));
+            part.points.extend(reader.read_positions().unwrap().map(|point| point.map(f64::from)));
+            let corners: Vec<usize> =
+                reader.read_indices().unwrap().into_u32().map(|id| id as usize).collect();
+            part.faces.extend(corners.chunks_exact(3).map(|face| [face[0], face[1], face[2]]));
+            let mut normals = reader.read_normals().into_iter().flatten();
+            assert!(normals.all(|n| (n.map(|v| v * v).iter().sum::<f32>() - 1.0).abs() < 1e-4));
+        }
+        assert_solid(&welded(&part));
+    }
+}
+
+#[test]
+fn pump_is_made_of_named_solids() {
+    let (document, buffers, _) = gltf::import(path("pump.glb")).unwrap();
+    assert_meshes_solid(&document, &buffers);
+    let names: BTreeSet<String> = document.nodes().map(|node| node.name().unwrap().to_owned()).collect();
+    assert_eq!(names.len(), document.nodes().len(), "names are unique");
+    for name in ["base-plate", "volute", "motor-housing", "coupling-star", "cover-bolt-10", "camera"] {
+        assert!(names.contains(name), "no node {name}");
+    }
+    assert_eq!(document.cameras().len(), 1);
+    let bolt = document.meshes().find(|mesh| mesh.name() == Some("bolt")).unwrap().index();
+    let shown = document.nodes().filter(|node| node.mesh().is_some_and(|mesh| mesh.index() == bolt));
+    assert!(shown.count() >= 20, "bolts are instanced");
+}
+
+#[test]
+fn machines_are_made_of_solids() {
+    for (name, count) in
+        [("shaft.obj", 8), ("drum.obj", 21), ("elbow.obj", 1), ("bevels.obj", 3), ("goose.obj", 7)]
+    {
+        let parts = read_obj(name);
+        assert_eq!(parts.len(), count, "parts of {name}");
+        parts.iter().for_each(|part| assert_solid(&welded(part)));
+    }
+    let elbow = read_obj("elbow.obj").remove(0);
+    // A bore and twelve holes.
+    assert_eq!(elbow.points.len() as i64 - edges(&elbow).len() as i64 / 2 + elbow.faces.len() as i64, -24);
+    let rack = welded(&read_stl("rack.stl"));
+    assert_solid(&rack);
+    assert_eq!(pieces(&rack).len(), 8);
+    let shelf = read_ply("shelf.ply");
+    assert_solid(&shelf);
+    assert_eq!(pieces(&shelf).len(), 5);
+    assert!(pieces(&shelf).iter().any(|piece| piece.len() > 4500), "a scan");
+}
+
+#[test]
+fn helmet_is_one_part_of_four_materials() {
+    let parts = read_obj("helmet.obj");
+    assert_eq!(parts.len(), 1);
+    assert_solid(&parts[0]);
+    let text = String::from_utf8(bytes("helmet.obj")).unwrap();
+    assert_eq!(text.lines().filter(|line| line.starts_with("usemtl ")).count(), 4);
+    let library = String::from_utf8(bytes("helmet.mtl")).unwrap();
+    assert_eq!(library.lines().filter(|line| line.starts_with("newmtl ")).count(), 4);
+}
+
+#[test]
+fn street_is_made_of_many_solids_without_normals() {
+    let (document, buffers, _) = gltf::import(path("street.glb")).unwrap();
+    assert_meshes_solid(&document, &buffers);
+    assert!(document.nodes().filter(|node| node.mesh().is_some()).count() > 100);
+    let mut primitives = document.meshes().flat_map(|mesh| mesh.primitives());
+    assert!(primitives.all(|primitive| primitive.get(&gltf::Semantic::Normals).is_none()));
+}
+
+#[test]
+fn horn_is_a_sheet_with_two_mouths_and_solids() {
+    let parts = read_obj("horn.obj");
+    parts[1..].iter().for_each(assert_solid);
+    let edges = edges(&parts[0]);
+    assert!(edges.values().all(|count| *count == 1));
+    // Mouth piece and bell, a ring of as many sides each.
+    assert_eq!(edges.keys().filter(|(a, b)| !edges.contains_key(&(*b, *a))).count(), 2 * 28);
+}
+
+#[test]
+fn biplane_has_doubled_skins() {
+    let parts: Vec<Part> = read_obj("biplane.obj").iter().map(welded).collect();
+    let part = |name: &str| parts.iter().find(|part| part.name == name).unwrap();
+    for name in ["fuselage", "cowling", "cowling-paint", "struts", "wheels"] {
+        assert_solid(part(name));
+    }
+    for (name, back) in [("wing-upper", true), ("wing-lower", true), ("fin", true), ("tail-plane", false)] {
+        let faces: BTreeSet<[usize; 3]> = part(name).faces.iter().map(|face| lowest_first(*face)).collect();
+        let turned = faces.iter().filter(|[a, b, c]| faces.contains(&lowest_first([*c, *b, *a]))).count();
+        let (all, expected) = (part(name).faces.len(), if back { faces.len() } else { 0 });
+        assert_eq!((turned, 2 * faces.len() / if back { 2 } else { 1 }), (expected, all), "{name}");
+        assert_no_flat_triangles(part(name));
+    }
+}
+
+/// The same face beginning at its lowest corner.
+fn lowest_first(mut face: [usize; 3]) -> [usize; 3] {
+    let lowest = (0..3).min_by_key(|k| face[*k]).unwrap();
+    face.rotate_left(lowest);
+    face
+}
+
+#[test]
+fn stress_scenes_have_their_size() {
+    let part = |scene: scenes::Triangles| {
+        let faces = scene.faces.iter().map(|face| face.map(|corner| corner as usize)).collect();
+        Part { name: "scene".to_owned(), points: scene.points, faces }
+    };
+    let city = part(scenes::city(20));
+    assert_eq!(city.faces.len(), 12 * 20 * 20);
+    assert_solid(&city);
+    let sphere = part(scenes::sphere(16));
+    assert_eq!(sphere.faces.len(), 12 * 16 * 16);
+    assert_solid(&sphere);
+    let sponge = part(scenes::menger(2));
+    // Cells of a sponge of level n show 2 * 20^n + 4 * 8^n squares.
+    assert_eq!(sponge.faces.len(), 2 * (2 * 400 + 4 * 64));
+    let edges = edges(&sponge);
+    assert!(edges.iter().all(|((a, b), count)| edges.get(&(*b, *a)) == Some(count)));
+    let terrain = part(scenes::terrain(32));
+    assert_eq!(terrain.faces.len(), 2 * 32 * 32);
+    assert!(terrain.faces.iter().all(|face| {
+        let [a, b, c] = face.map(|corner| terrain.points[corner]);
+        cross(minus(b, a), minus(c, a))[1] > 0.0
+    }));
+}
+
+#[test]
+fn all_models_together_are_small() {
+    let names = [
+        "teapot.obj",
+        "gear.obj",
+        "bracket.stl",
+        "knot.ply",
+        "bear.ply",
+        "castle.obj",
+        "castle.mtl",
+        "pump.glb",
+        "shaft.obj",
+        "drum.obj",
+        "elbow.obj",
+        "bevels.obj",
+        "horn.obj",
+        "goose.obj",
+        "biplane.obj",
+        "helmet.obj",
+        "helmet.mtl",
+        "street.glb",
+        "shelf.ply",
+        "rack.stl",
+    ];
+    let sum: usize = names.iter().map(|name| bytes(name).len()).sum();
+    assert!(sum < 3_600_000, "{sum} bytes");
+}

@@ -1,0 +1,42 @@
+//! Tests of the library, a file for each capability. `cargo test --test library shadows::` asks one.
+
+mod support;
+
+mod architecture;
+mod closed_forms;
+mod contour_validity;
+mod default_drawings;
+mod default_properties;
+mod determinism;
+mod diff;
+mod diff_hostile;
+mod diff_properties;
+mod dual_tree;
+mod example_models;
+mod export;
+mod fmt;
+mod gltf;
+mod golden;
+mod halftone;
+mod hard_edges;
+mod hatching;
+mod inked_lines;
+mod intersections;
+mod lines_inside;
+mod loading;
+mod locality;
+mod models;
+mod order_of_parts;
+mod permuted;
+mod properties;
+mod regions;
+mod shadows;
+mod smooth_contours;
+mod smooth_properties;
+mod stability;
+mod stages;
+mod style;
+mod style_fills;
+mod testing;
+mod visibility;
+mod visible_intersections;

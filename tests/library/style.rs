@@ -1,0 +1,329 @@
+//! Style sheets: built-in ones, extending, changes on the command line, and what errors say.
+
+use std::path::PathBuf;
+
+use ligne::drawing::Length;
+use ligne::lines::HiddenLines;
+use ligne::math::colour::Colour;
+use ligne::stroke::{Ink, LayersBy, Order};
+use ligne::style::Style;
+
+/// A folder of sheets that is removed at the end of the test.
+struct Sheets(PathBuf);
+
+impl Sheets {
+    fn new(name: &str, files: &[(&str, &str)]) -> Self {
+        let folder = std::env::temp_dir().join(format!("ligne-style-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for (file, text) in files {
+            std::fs::write(folder.join(file), text).unwrap();
+        }
+        Self(folder)
+    }
+
+    fn path(&self, file: &str) -> String {
+        self.0.join(file).to_str().unwrap().to_owned()
+    }
+
+    /// What is said of the sheet, without the folder.
+    fn error(&self, file: &str) -> String {
+        let error = Style::load(&self.path(file), &[]).unwrap_err();
+        error.to_string().replace(&format!("{}/", self.0.display()), "")
+    }
+}
+
+impl Drop for Sheets {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn set(changes: &[&str]) -> Result<Style, ligne::Error> {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    Style::load("ink", &changes)
+}
+
+#[test]
+fn every_built_in_style_loads_and_states_its_idea() {
+    let names: Vec<&str> = Style::names().collect();
+    assert_eq!(
+        names,
+        [
+            "blueprint",
+            "comic",
+            "comic-flats",
+            "engraving",
+            "flat",
+            "gooch",
+            "gradient",
+            "ink",
+            "noir",
+            "patent",
+            "pen",
+            "pencil",
+            "pencil-plain",
+            "plotter",
+            "rim",
+            "sketch",
+            "stipple",
+            "suggestive",
+            "technical",
+            "toon",
+            "toon-highlight",
+            "woodcut",
+        ]
+    );
+    for name in names {
+        Style::load(name, &[]).unwrap_or_else(|error| panic!("{error}"));
+        assert!(Style::idea(name).unwrap().ends_with('.'), "{name}");
+        assert!(Style::sheet_text(name).unwrap().starts_with("# "), "{name}");
+    }
+    assert_eq!(Style::preset("nothing"), None);
+    assert_eq!(Style::default(), Style::preset("ink").unwrap());
+    assert_eq!(Style::preset("technical").unwrap().lines.hidden, HiddenLines::Dashed);
+    let layers = Style::preset("plotter").unwrap().stroke.layers;
+    assert_eq!((layers.by, layers.order), (LayersBy::Pen, Order::Travel));
+}
+
+#[test]
+fn the_keys_other_programs_use_can_be_set() {
+    let style = set(&[
+        "lines.kinds=[\"contour\", \"crease\"]",
+        "lines.crease_deg=30",
+        "lines.hidden=dashed",
+        "lines.enabled=0",
+        "chain.smooth=0",
+        "chain.simplify=0",
+        "chain.tidy=0",
+        "chain.fit=false",
+        "seed=7",
+    ])
+    .unwrap();
+    assert_eq!(style.lines.kinds.len(), 2);
+    assert!((style.lines.crease_deg - 30.0).abs() < 1e-12);
+    assert_eq!(style.lines.hidden, HiddenLines::Dashed);
+    assert!(!style.lines.enabled);
+    assert_eq!(style.chain.smooth, Length::px(0.0));
+    assert!(!style.chain.fit);
+    assert_eq!(style.seed, 7);
+    assert!(!set(&["chain.fit=0"]).unwrap().chain.fit);
+    assert!(set(&["chain.fit=0", "chain.fit=1"]).unwrap().chain.fit);
+    assert!(set(&["chain.fit = true"]).unwrap().chain.fit);
+}
+
+#[test]
+fn values_may_be_bare_words() {
+    let style = set(&["pen.width=0.35mm", "pen.colour=#f00", "page.background=none"]).unwrap();
+    assert_eq!(style.stroke.pen.width, Length::mm(0.35));
+    assert_eq!(style.stroke.pen.colour, Ink::Fixed(Colour::rgb(255, 0, 0)));
+    assert_eq!(style.background, None);
+    let style = set(&["pen.colour={ shade = 0.4 }"]).unwrap();
+    assert_eq!(style.stroke.pen.colour, Ink::Shade(0.4));
+}
+
+#[test]
+fn a_set_of_one_field_keeps_the_others() {
+    let style = set(&["pen.silhouette.width=5"]).unwrap();
+    let before = Style::default();
+    assert_eq!(style.lines, before.lines);
+    assert_eq!(style.stroke.rules.len(), before.stroke.rules.len());
+    let widest = style.stroke.rules.iter().filter_map(|rule| rule.pen.width).map(|w| w.value);
+    assert!((widest.fold(0.0, f64::max) - 5.0).abs() < 1e-12);
+}
+
+#[test]
+fn sheets_extend_sheets_and_their_rules_add_up() {
+    let sheets = Sheets::new(
+        "extend",
+        &[
+            (
+                "a.toml",
+                "extends = \"ink\"\n[lines]\ncrease_deg = 20\n[[rule]]\nwhen = { part = \"b*\" }\npen = { width = 3 }\n",
+            ),
+            (
+                "b.toml",
+                "extends = \"a.toml\"\n[lines]\nhidden = \"solid\"\n[[rule]]\npen = { opacity = 0.5 }\n",
+            ),
+        ],
+    );
+    let style = Style::load(&sheets.path("b.toml"), &[]).unwrap();
+    assert!((style.lines.crease_deg - 20.0).abs() < 1e-12);
+    assert_eq!(style.lines.hidden, HiddenLines::Solid);
+    assert_eq!(style.stroke.rules.len(), Style::default().stroke.rules.len() + 2);
+    assert_eq!(style.stroke.rules.last().unwrap().pen.opacity, Some(0.5));
+}
+
+#[test]
+fn a_sheet_that_extends_itself_is_refused() {
+    let sheets = Sheets::new(
+        "cycle",
+        &[("a.toml", "seed = 1\nextends = \"b.toml\"\n"), ("b.toml", "extends = \"a.toml\"\n")],
+    );
+    let error = sheets.error("a.toml");
+    assert!(error.starts_with("b.toml: line 1: `extends = \"a.toml\"` leads back"), "{error}");
+    let lost = Sheets::new("lost", &[("a.toml", "\nextends = \"inck\"\n")]);
+    let error = lost.error("a.toml");
+    assert_eq!(error, "a.toml: line 2: there is no style `inck`; did you mean `ink`?");
+}
+
+#[test]
+fn errors_show_line_caret_and_the_nearest_key() {
+    for (text, wanted) in [
+        (
+            "# mine\n[lines]\ncrease_dg = 20\n",
+            "bad.toml: line 3: unknown key `crease_dg`; did you mean `crease_deg`?\n 3 | crease_dg = 20\n   | ^^^^^^^^^",
+        ),
+        (
+            "[pen.contour]\ncolor = \"#fff\"\n",
+            "bad.toml: line 2: unknown key `color`; did you mean `colour`?\n 2 | color = \"#fff\"\n   | ^^^^^",
+        ),
+        (
+            "lines.hidden = \"dased\"\n",
+            "bad.toml: line 1: unknown value `dased`; did you mean `dashed`?\n 1 | lines.hidden = \"dased\"\n   |                ^^^^^^^",
+        ),
+        (
+            "[pen]\nwidth = -1\n",
+            "bad.toml: line 2: `-1` is not a length; it must be finite and at least 0\n 2 | width = -1\n   |         ^^",
+        ),
+        (
+            "[pen.hidden]\ndash = [1, \"2 ells\"]\n",
+            "bad.toml: line 2: `2 ells` is not a length; write a number of px or a string with a unit, such as \"0.35mm\"\n 2 | dash = [1, \"2 ells\"]\n   |            ^^^^^^^^",
+        ),
+        (
+            "lines.crease_deg = 200\n",
+            "bad.toml: line 1: 200 is not the angle of a crease; write degrees from 0 to 180\n 1 | lines.crease_deg = 200\n   |                    ^^^",
+        ),
+        (
+            "[pen]\ncolour = { shde = 0.5 }\n",
+            "bad.toml: line 2: unknown key `shde`; did you mean `shade`?\n 2 | colour = { shde = 0.5 }\n   |            ^^^^",
+        ),
+        (
+            "[[rule]]\nwhen = { kinds = [\"creese\"] }\n",
+            "bad.toml: line 2: unknown value `creese`; did you mean `crease`?\n 2 | when = { kinds = [\"creese\"] }\n   |                   ^^^^^^^^",
+        ),
+        (
+            "chain.fit = \"yes\"\n",
+            "bad.toml: line 1: string \"yes\" does not fit here; write true or false\n 1 | chain.fit = \"yes\"\n   |             ^^^^^",
+        ),
+    ] {
+        let sheets = Sheets::new("errors", &[("bad.toml", text)]);
+        assert_eq!(sheets.error("bad.toml"), wanted);
+    }
+    let sheets = Sheets::new("errors", &[("bad.toml", "[lines\n")]);
+    let error = sheets.error("bad.toml");
+    assert!(error.starts_with("bad.toml: line 1: ") && error.contains("\n 1 | [lines\n"), "{error}");
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    for change in [
+        "pen.width=nan",
+        "pen.width=inf",
+        "pen.width=-0.1mm",
+        "pen.opacity=1.5",
+        "lines.crease_deg=-1",
+        "lines.crease_deg=nan",
+        "pen.colour={ shade = 2 }",
+        "pen.dash=[0, 0]",
+        "pen.swell.taper_to=1.5",
+        "pen.swell.lit=-1",
+        "pen.hand.passes=0",
+        "pen.hand.passes=9",
+        "pen.hand.tremor=-1",
+        "pen.brush={}",
+        "pen.brush=broom",
+        "pen.brush={ path = \"M0 0L1 1\", image = \"a.png\" }",
+        "pen.brush={ path = \"M0 0L9 0\" }",
+        "pen.brush={ path = \"hello\" }",
+        "chain.smooth=-1",
+        "seed=-1",
+        "chain.fit=2",
+        "lines.kinds=contour",
+        "page.grain=2",
+        "hatching.coverage=[0.2, 0.5]",
+        "hatching.coverage=[1.2, 0]",
+        "hatching.thresholds=[0.5, 0.4]",
+        "hatching.layer=[{ spacing = 0 }]",
+        "hatching.layer=[{ lpi = 0.5 }]",
+        "hatching.layer=[{ uneven = 2 }]",
+        "hatching.layer=[{ direction = 'north' }]",
+        "hatching.layer=[{ hatch = 1 }]",
+    ] {
+        assert!(set(&[change]).is_err(), "{change}");
+    }
+}
+
+#[test]
+fn errors_of_changes_name_the_change() {
+    let error = set(&["chain.fti=0"]).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "--set chain.fti=0: unknown key `fti`; did you mean `fit`?\n   --set chain.fti=0\n               ^^^"
+    );
+    let error = set(&["lines.hidden=dot"]).unwrap_err().to_string();
+    assert!(error.contains("unknown value `dot`; known values: none, dashed, solid"), "{error}");
+    for change in ["", "pen.width", "=1", "a b=1", "pen..width=1", "pen.width=1\nseed=2", "extends=ink"] {
+        let error = set(&[change]).unwrap_err().to_string();
+        assert!(error.starts_with("--set "), "{change}: {error}");
+    }
+    let error = set(&["watercolour.enabled=false"]).unwrap_err().to_string();
+    assert!(
+        error.contains("unknown key `watercolour`; known keys: extends, seed, page, lines, chain"),
+        "{error}"
+    );
+}
+
+#[test]
+fn layers_of_hatching_are_by_default_as_documented() {
+    let manual = include_str!("../../docs/styles.md");
+    let section = manual.split("### Layers of hatching").nth(1).expect("the section");
+    let mut keys = 0;
+    let mut sheet = String::from("[[hatching.layer]]\n");
+    for row in section.split("```").next().expect("the table").lines().filter(|row| row.starts_with("| `")) {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        keys += 1;
+        // What follows from other keys has a default in words.
+        if let [key, _, default] = cells[..]
+            && default.starts_with('`')
+            && default.ends_with('`')
+        {
+            sheet += &format!("{} = {}\n", key.trim_matches('`'), default.trim_matches('`'));
+        }
+    }
+    assert!(keys > 20, "{keys}");
+    let style = Style::from_toml(&sheet).unwrap_or_else(|error| panic!("{sheet}\n{error}"));
+    assert_eq!(style.hatch.layers, [ligne::hatch::HatchLayer::default()]);
+}
+
+#[test]
+fn a_missing_sheet_is_named() {
+    let error = Style::load("nowhere/my.toml", &[]).unwrap_err().to_string();
+    assert!(error.starts_with("nowhere/my.toml: cannot read the style sheet"), "{error}");
+    let error = Style::load("watercolour", &[]).unwrap_err().to_string();
+    assert!(error.contains("built-in styles: blueprint, comic, comic-flats"), "{error}");
+}
+
+#[test]
+fn the_sheets_of_the_documentation_load() {
+    let manual = include_str!("../../docs/styles.md");
+    let sheets: Vec<&str> =
+        manual.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert!(sheets.len() >= 3);
+    for (index, text) in sheets.iter().enumerate() {
+        let sheets = Sheets::new(&format!("manual-{index}"), &[("manual.toml", text)]);
+        if let Err(error) = Style::load(&sheets.path("manual.toml"), &[]) {
+            panic!("{error}");
+        }
+    }
+}
+
+#[test]
+fn the_defaults_of_the_documentation_are_those_of_the_code() {
+    let sheets = Sheets::new("defaults", &[("empty.toml", "")]);
+    let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
+    assert_eq!(style.stroke.pen, ligne::stroke::Pen::default());
+    assert_eq!(style.background, Some(Colour::WHITE));
+    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncontours = \"auto\"\ncrease_deg = 40\nhidden = \"none\"\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\nhalo = 0\nbrush = \"none\"\n[pen.swell]\ntaper = 0\ntaper_to = 0.2\nbend = 0\nbend_radius = 40\nlit = 0\nnear = 0\ngap = 0\n[pen.hand]\ntremor = 0\ntremor_length = 60\novershoot = 0\nbreaks = 0\nbreak_gap = 3\npasses = 1\nstray = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n[light]\nfrom_model = true\nsources = []\nambient = 0\nwrap = 0\nocclusion = 0\n[fills]\nenabled = false\nthresholds = [0.5]\nlit = 1\ncast_shadows = false\nseams = \"underlap\"\nunderlap = 0.6\ncrumb = 2\nfit_tolerance = 0.05\n[fills.highlight]\nenabled = false\nthresholds = [0.5]\nexponent = 40\ncolour = \"#ffffff\"\nstrength = 0.7\n[fills.gooch]\nenabled = false\ncool = \"#00008c\"\nwarm = \"#4d4d00\"\ncool_share = 0.25\nwarm_share = 0.5\n";
+    let sheets = Sheets::new("documented", &[("all.toml", documented)]);
+    assert_eq!(Style::load(&sheets.path("all.toml"), &[]).unwrap(), style);
+}

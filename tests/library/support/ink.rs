@@ -1,0 +1,100 @@
+//! Lines of a picture as a set of segments, and how far a place is from the nearest.
+
+use kurbo::Point;
+use ligne::chain::Chain;
+use rustc_hash::FxHashMap;
+
+/// Segments, sorted into square tiles.
+pub struct Ink {
+    segments: Vec<[Point; 2]>,
+    tiles: FxHashMap<(i64, i64), Vec<u32>>,
+    /// Distances are told up to here, px; the side of a tile.
+    reach: f64,
+}
+
+impl Ink {
+    pub fn new(segments: Vec<[Point; 2]>, reach: f64) -> Self {
+        let mut tiles: FxHashMap<(i64, i64), Vec<u32>> = FxHashMap::default();
+        for (i, [a, b]) in segments.iter().enumerate() {
+            // Long segments are put into tiles piece by piece.
+            let pieces = ((*b - *a).hypot() / reach).ceil().max(1.0) as usize;
+            for k in 0..pieces {
+                let [p, q] = [k, k + 1].map(|k| tile(a.lerp(*b, k as f64 / pieces as f64), reach));
+                for x in p.0.min(q.0)..=p.0.max(q.0) {
+                    for y in p.1.min(q.1)..=p.1.max(q.1) {
+                        let own = tiles.entry((x, y)).or_default();
+                        if own.last() != Some(&(i as u32)) {
+                            own.push(i as u32);
+                        }
+                    }
+                }
+            }
+        }
+        Self { segments, tiles, reach }
+    }
+
+    /// The segments that may be within reach of a place; some of them more than once.
+    pub fn near(&self, p: Point) -> impl Iterator<Item = (usize, [Point; 2])> + '_ {
+        let (x, y) = tile(p, self.reach);
+        let around = (x - 1..=x + 1).flat_map(move |x| (y - 1..=y + 1).map(move |y| (x, y)));
+        let ids = around.filter_map(|at| self.tiles.get(&at)).flatten();
+        ids.map(|i| (*i as usize, self.segments[*i as usize]))
+    }
+
+    /// The distance to the nearest segment; infinite beyond the reach.
+    pub fn distance(&self, p: Point) -> f64 {
+        let nearest = self.near(p).map(|(_, s)| distance(p, s)).fold(f64::INFINITY, f64::min);
+        if nearest <= self.reach { nearest } else { f64::INFINITY }
+    }
+}
+
+fn tile(p: Point, side: f64) -> (i64, i64) {
+    ((p.x / side).floor() as i64, (p.y / side).floor() as i64)
+}
+
+/// The distance from a place to a segment.
+pub fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
+    (p - a.lerp(b, nearest_on(p, [a, b]))).hypot()
+}
+
+/// Where on a segment the place nearest to `p` is, 0 to 1.
+pub fn nearest_on(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let way = b - a;
+    if way.hypot2() > 0.0 { ((p - a).dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// Places along segments, no more than `step` apart, each with the length it stands for.
+pub fn samples(segments: &[[Point; 2]], step: f64) -> Vec<(Point, f64)> {
+    let mut found = Vec::new();
+    for [a, b] in segments {
+        let length = (*b - *a).hypot();
+        let count = (length / step).ceil().max(1.0);
+        for k in 0..count as usize {
+            found.push((a.lerp(*b, (k as f64 + 0.5) / count), length / count));
+        }
+    }
+    found
+}
+
+/// The curves that chains are drawn as, as short segments no farther than a thousandth of a px from them.
+pub fn drawn(chains: &[Chain]) -> Vec<[Point; 2]> {
+    let mut segments = Vec::new();
+    for chain in chains.iter().filter(|c| c.invisibility == 0) {
+        let (mut at, mut start) = (Point::ZERO, Point::ZERO);
+        kurbo::flatten(&chain.path, 1e-3, |element| match element {
+            kurbo::PathEl::MoveTo(p) => (at, start) = (p, p),
+            kurbo::PathEl::LineTo(p) => {
+                segments.push([at, p]);
+                at = p;
+            }
+            _ => segments.push([at, start]),
+        });
+    }
+    segments
+}
+
+/// A share of the values is at most this; `values` are sorted.
+pub fn quantile(values: &[f64], share: f64) -> f64 {
+    let last = values.len().saturating_sub(1) as f64;
+    values.get((share * last).round() as usize).copied().unwrap_or(0.0)
+}

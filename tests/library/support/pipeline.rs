@@ -1,0 +1,96 @@
+//! Scenes from solids, cameras at a glance, and all stages up to the view map at once.
+
+use glam::{DAffine3, DVec3};
+use kurbo::Point;
+use ligne::lines::{self, Contours, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
+use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
+use ligne::view::View;
+use ligne::viewmap::{self, ViewEdge, ViewMap};
+
+use super::solids::Solid;
+
+/// What the stages up to the view map made.
+pub struct Stages {
+    pub mesh: Mesh,
+    pub view: View,
+    pub lines: FeatureLines,
+    pub map: ViewMap,
+}
+
+/// Contours along edges of the mesh and every crease by itself: the exact drawing of a polyhedron.
+pub fn exact() -> LineOptions {
+    LineOptions { contours: Contours::Mesh, ..LineOptions::default() }
+}
+
+/// The same, hidden lines kept and counted.
+pub fn counting() -> LineOptions {
+    LineOptions { hidden: HiddenLines::Dashed, ..exact() }
+}
+
+pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
+    let surface = Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera);
+    let view = View::new(&surface.mesh, camera);
+    let lines = lines::extract(&surface, &view, options);
+    let map = viewmap::build(&surface.mesh, &view, &lines, options);
+    Stages { mesh: surface.mesh, view, lines, map }
+}
+
+impl Stages {
+    /// Where a view edge starts and ends in the image.
+    pub fn ends(&self, edge: &ViewEdge) -> [Point; 2] {
+        [edge.start, edge.end].map(|v| self.map.vertices[v.index()].position)
+    }
+
+    /// The visible view edges as segments of the image.
+    pub fn visible(&self) -> Vec<[Point; 2]> {
+        self.map.edges.iter().filter(|e| e.invisibility == 0).map(|e| self.ends(e)).collect()
+    }
+
+    /// The visible view edges of one kind.
+    pub fn visible_of(&self, kind: LineKind) -> Vec<[Point; 2]> {
+        let of_kind = |e: &&ViewEdge| e.kind == kind && e.invisibility == 0;
+        self.map.edges.iter().filter(of_kind).map(|e| self.ends(e)).collect()
+    }
+
+    /// The hidden view edges.
+    pub fn hidden(&self) -> Vec<[Point; 2]> {
+        self.map.edges.iter().filter(|e| e.invisibility > 0).map(|e| self.ends(e)).collect()
+    }
+}
+
+/// A shape of its own.
+pub fn geometry(solid: Solid) -> Geometry {
+    Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() }
+}
+
+/// A scene with one part a geometry.
+pub fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
+    let part = |geometry: usize| Part {
+        name: format!("part {geometry}"),
+        geometry,
+        world_from_part: DAffine3::IDENTITY,
+    };
+    Scene { parts: (0..geometries.len()).map(part).collect(), geometries, ..Scene::default() }
+}
+
+/// A scene with one part a solid.
+pub fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
+    scene_of_geometries(solids.into_iter().map(geometry).collect())
+}
+
+/// A perspective camera with a frame of 1000 x 1000 px.
+pub fn perspective(eye: DVec3, target: DVec3, fov_y_deg: f64) -> Camera {
+    camera(eye, target, Projection::Perspective { fov_y_deg })
+}
+
+/// A parallel camera with a frame of 1000 x 1000 px.
+pub fn orthographic(eye: DVec3, target: DVec3, height: f64) -> Camera {
+    camera(eye, target, Projection::Orthographic { height })
+}
+
+fn camera(eye: DVec3, target: DVec3, projection: Projection) -> Camera {
+    let axis = (target - eye).normalize();
+    let up = if axis.cross(DVec3::Y).length() < 0.1 { DVec3::X } else { DVec3::Y };
+    Camera { eye, target, up, projection, width: 1000.0, height: 1000.0, near: None }
+}

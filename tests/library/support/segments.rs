@@ -1,0 +1,78 @@
+//! Sets of segments compared by what they cover, however they are cut.
+
+use kurbo::Point;
+
+/// Total length.
+pub fn length(segments: &[[Point; 2]]) -> f64 {
+    segments.iter().map(|[a, b]| distance(*a, *b)).sum()
+}
+
+pub fn distance(a: Point, b: Point) -> f64 {
+    (b - a).hypot2().sqrt()
+}
+
+/// The length of `segments` that no segment of `by` covers within `nearness`.
+pub fn uncovered(segments: &[[Point; 2]], by: &[[Point; 2]], nearness: f64) -> f64 {
+    let others: Vec<&[Point; 2]> = by.iter().collect();
+    segments.iter().map(|s| whole(*s) - covered(*s, &others, nearness)).sum()
+}
+
+/// The length that is drawn more than once.
+pub fn doubled(segments: &[[Point; 2]], nearness: f64) -> f64 {
+    (0..segments.len())
+        .map(|i| covered(segments[i], &segments[..i].iter().collect::<Vec<_>>(), nearness))
+        .sum()
+}
+
+/// Fails where one set covers more than the other by more than `slack` of length.
+pub fn cover_alike(
+    one: &[[Point; 2]],
+    other: &[[Point; 2]],
+    nearness: f64,
+    slack: f64,
+) -> Result<(), String> {
+    let (missing, extra) = (uncovered(one, other, nearness), uncovered(other, one, nearness));
+    if missing > slack || extra > slack {
+        return Err(format!(
+            "{missing} of {} is not covered, and {extra} of {} too much",
+            length(one),
+            length(other)
+        ));
+    }
+    Ok(())
+}
+
+fn whole([a, b]: [Point; 2]) -> f64 {
+    distance(a, b)
+}
+
+/// The length of a segment along which any of the others lies within `nearness`.
+fn covered([a, b]: [Point; 2], others: &[&[Point; 2]], nearness: f64) -> f64 {
+    let length = distance(a, b);
+    if length == 0.0 {
+        return 0.0;
+    }
+    let along = (b - a) / length;
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
+    for other in others {
+        let [mut p, mut q] = other.map(|p| (along.dot(p - a), along.cross(p - a)));
+        if p.0 > q.0 {
+            std::mem::swap(&mut p, &mut q);
+        }
+        let (from, to) = (p.0.max(0.0), q.0.min(length));
+        if from >= to {
+            continue;
+        }
+        let off = |s: f64| (p.1 + (q.1 - p.1) * (s - p.0) / (q.0 - p.0)).abs();
+        if off(from) <= nearness && off(to) <= nearness {
+            ranges.push((from, to));
+        }
+    }
+    ranges.sort_by(|p, q| p.0.total_cmp(&q.0));
+    let (mut sum, mut at) = (0.0, 0.0_f64);
+    for (from, to) in ranges {
+        sum += (to - from.max(at)).max(0.0);
+        at = at.max(to);
+    }
+    sum
+}

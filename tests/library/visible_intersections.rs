@@ -1,0 +1,147 @@
+//! Intersections sought from what is in sight show as much as those of the full search.
+
+use std::path::PathBuf;
+
+use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
+use glam::DVec3;
+use ligne::lines::intersections::{all_curves, visible_curves};
+use ligne::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, Role};
+use ligne::mesh::intersect::IntersectionCurves;
+use ligne::mesh::{Mesh, Origin, Soup};
+use ligne::scene::{Camera, Scene, UpAxis};
+use ligne::view::View;
+use ligne::viewmap;
+
+/// Directions to the eye: azimuth and elevation in degrees.
+const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0), (-60.0, -20.0)];
+
+/// Length of the curves that shows in a view, in thousandths of the longer side of the frame.
+fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 {
+    let first = mesh.positions.len() as u32;
+    let segment = |s: &ligne::mesh::intersect::IntersectionSegment| FeatureSegment {
+        ends: s.ends.map(|end| first + end),
+        hosts: s.faces,
+        kind: LineKind::Intersection,
+        both_seen: true,
+        smooth: false,
+        origin: Origin::default(),
+        role: Role::Line,
+        strength: 180.0,
+        part: mesh.face_part[s.faces[0] as usize],
+        material: mesh.face_material[s.faces[0] as usize],
+    };
+    let lines = FeatureLines {
+        points: curves.points.clone(),
+        segments: curves.segments.iter().map(segment).collect(),
+        ..FeatureLines::default()
+    };
+    let map = viewmap::build(mesh, view, &lines, &LineOptions::default());
+    let place = |vertex: viewmap::ViewVertexId| map.vertices[vertex.0 as usize].position;
+    let visible = map.edges.iter().filter(|edge| edge.invisibility == 0);
+    let length: f64 = visible.map(|edge| place(edge.start).distance(place(edge.end))).sum();
+    length * 1000.0 / view.frame.width.max(view.frame.height)
+}
+
+/// Compares both searches from several sides, and returns the greatest length that showed.
+fn compare(name: &str, mesh: &Mesh, fit: impl Fn(Camera) -> Camera, up: UpAxis) -> f64 {
+    let all = all_curves(mesh);
+    let mut greatest = 0.0_f64;
+    for (azimuth, elevation) in DIRECTIONS {
+        let camera = fit(Camera::azimuth_elevation(azimuth, elevation, up));
+        let view = View::new(mesh, &camera);
+        let visible = visible_curves(mesh, &view);
+        let pairs = |curves: &IntersectionCurves| curves.segments.iter().map(|s| s.faces).collect::<Vec<_>>();
+        let known = pairs(&all);
+        assert!(pairs(&visible).iter().all(|f| known.binary_search(f).is_ok()), "{name}: an unknown pair");
+        let (expected, found) = (visible_length(mesh, &view, &all), visible_length(mesh, &view, &visible));
+        assert!(
+            (expected - found).abs() <= (1e-3 * expected).max(1.0),
+            "{name} from {azimuth}°, {elevation}°: {found} px of {expected} px"
+        );
+        greatest = greatest.max(expected);
+    }
+    greatest
+}
+
+fn compare_solids(name: &str, solids: impl IntoIterator<Item = Solid>) -> f64 {
+    let mut all = Solid::default();
+    solids.into_iter().for_each(|solid| all.add(solid));
+    let mesh = mesh_of(&all);
+    let points = all.positions.clone();
+    compare(name, &mesh, |camera| camera.fit_points(&points, 0.05), UpAxis::Z)
+}
+
+fn mesh_of(solid: &Solid) -> Mesh {
+    Mesh::build(Soup {
+        positions: solid.positions.clone(),
+        triangles: solid.triangles.clone(),
+        ..Soup::default()
+    })
+}
+
+#[test]
+fn boxes_and_balls_show_all_their_seams() {
+    let tilted = |p: DVec3| DVec3::new(p.x, 0.8 * p.y - 0.6 * p.z, 0.6 * p.y + 0.8 * p.z);
+    let block = || cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
+    let beam = cuboid(DVec3::new(-3.0, -0.5, -0.25), DVec3::new(3.0, 0.5, 0.25)).moved(tilted);
+    assert!(compare_solids("beam", [block(), beam]) > 100.0);
+    assert!(compare_solids("ball", [block(), sphere(40, 1.2).moved(tilted)]) > 100.0);
+    assert!(compare_solids("tubes", [tube(60, 4, 0.5, 2.0), tube(60, 4, 0.4, 2.0).moved(tilted)]) > 100.0);
+}
+
+#[test]
+fn fine_triangles_show_all_their_seams() {
+    let upright = |p: DVec3| DVec3::new(p.x + 0.3, p.z, p.y);
+    let tori = [torus(400, 150, 1.0, 0.3), torus(300, 150, 1.0, 0.3).moved(upright)];
+    assert!(compare_solids("tori", tori) > 100.0);
+}
+
+#[test]
+fn a_field_of_sunken_boxes_shows_all_its_seams() {
+    let ground = cuboid(DVec3::new(-1.0, -1.0, -1.0), DVec3::new(31.0, 31.0, 0.0));
+    let house = |i: usize| {
+        let low = DVec3::new((i % 30) as f64, (i / 30) as f64, -0.01);
+        let turned = |p: DVec3| low + DVec3::new(0.8 * p.x - 0.3 * p.y, 0.3 * p.x + 0.8 * p.y, p.z);
+        cuboid(DVec3::ZERO, DVec3::new(0.9, 0.7, 0.3 + (i * 7 % 17) as f64 / 10.0)).moved(turned)
+    };
+    assert!(compare_solids("field", std::iter::once(ground).chain((0..900).map(house))) > 1000.0);
+}
+
+#[test]
+fn one_thread_equals_many() {
+    let mut both = sphere(60, 1.0);
+    both.add(tube(80, 30, 0.3, 2.0));
+    let mesh = mesh_of(&both);
+    let camera = Camera::azimuth_elevation(35.0, 22.0, UpAxis::Z).fit_points(&both.positions, 0.05);
+    let view = View::new(&mesh, &camera);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| visible_curves(&mesh, &view))
+    };
+    let one = with(1);
+    assert!(!one.segments.is_empty());
+    assert_eq!(one, with(3));
+}
+
+#[test]
+fn models_show_all_their_seams() {
+    let folder = std::env::var_os("LIGNE_MODELS").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models")),
+        PathBuf::from,
+    );
+    for name in [
+        "organic/teapot.obj",
+        "edge/self-intersecting.obj",
+        "scene/CesiumMilkTruck.glb",
+        "scene/retroufo.gltf",
+    ] {
+        let path = folder.join(name);
+        if !path.exists() {
+            println!("skipped: no model {}", path.display());
+            continue;
+        }
+        let scene = Scene::open(&path).expect("a model");
+        let mesh = Mesh::build(scene.to_soup());
+        compare(name, &mesh, |camera| camera.fit(&scene), scene.up);
+    }
+}
