@@ -2,13 +2,18 @@
 
 use std::io::Cursor;
 
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
+
 use super::colour::Colour;
 
 /// No picture that is read has more pixels on a side.
 pub const GREATEST_SIDE: u32 = 16_384;
 
 /// Memory that decoding a picture may take, bytes.
-const GREATEST_MEMORY: u64 = 1 << 30;
+const GREATEST_MEMORY: usize = 1 << 30;
 
 /// The pixels of a picture, row by row from the top, sRGB.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,28 +32,36 @@ impl Picture {
     /// # Errors
     /// Says in a few words what is wrong with the bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, String> {
-        let mut reader = image::ImageReader::new(Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|error| format!("is damaged ({error})"))?;
-        if !matches!(reader.format(), Some(image::ImageFormat::Png | image::ImageFormat::Jpeg)) {
+        let decoded = if bytes.starts_with(&PNG) {
+            decode_png(bytes)
+        } else if bytes.starts_with(&JPEG) {
+            decode_jpeg(bytes)
+        } else {
             return Err("is neither PNG nor JPEG".to_owned());
-        }
-        let mut limits = image::Limits::default();
-        limits.max_image_width = Some(GREATEST_SIDE);
-        limits.max_image_height = Some(GREATEST_SIDE);
-        limits.max_alloc = Some(GREATEST_MEMORY);
-        reader.limits(limits);
-        let image = reader.decode().map_err(|error| format!("cannot be read as a picture ({error})"))?;
-        let image = image.into_rgba8();
-        let (width, height) = (image.width() as usize, image.height() as usize);
-        if width == 0 || height == 0 {
+        };
+        let picture = decoded.map_err(|error| format!("cannot be read as a picture ({error})"))?;
+        if picture.width == 0 || picture.height == 0 {
             return Err("has no pixels".to_owned());
         }
-        let pixels = image.pixels().map(|pixel| {
-            let [r, g, b, a] = pixel.0;
-            Colour { r, g, b, a }
-        });
-        Ok(Self { width, height, pixels: pixels.collect() })
+        Ok(picture)
+    }
+
+    /// From samples of 8 bits, so many a pixel: grey, grey and alpha, RGB, or RGBA.
+    fn of_samples(width: usize, height: usize, samples: &[u8], channels: usize) -> Result<Self, String> {
+        let pixels: Vec<Colour> = samples
+            .chunks_exact(channels.max(1))
+            .map(|pixel| match *pixel {
+                [grey] => Colour { r: grey, g: grey, b: grey, a: 255 },
+                [grey, a] => Colour { r: grey, g: grey, b: grey, a },
+                [r, g, b, ref rest @ ..] => Colour { r, g, b, a: rest.first().copied().unwrap_or(255) },
+                [] => Colour::BLACK,
+            })
+            .take(width * height)
+            .collect();
+        if pixels.len() < width * height {
+            return Err("pixels are missing".to_owned());
+        }
+        Ok(Self { width, height, pixels })
     }
 
     /// The pixel of a column and a row; those beyond the border repeat the border.
@@ -64,6 +77,45 @@ impl Picture {
         let start = row.min(self.height - 1) * self.width;
         self.pixels.get(start..start + self.width).unwrap_or_default()
     }
+}
+
+/// How files begin.
+const PNG: [u8; 4] = *b"\x89PNG";
+const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
+
+fn is_too_large(width: usize, height: usize) -> bool {
+    let side = GREATEST_SIDE as usize;
+    width > side || height > side || width * height * 4 > GREATEST_MEMORY
+}
+
+fn decode_png(bytes: &[u8]) -> Result<Picture, String> {
+    let mut decoder =
+        png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: GREATEST_MEMORY });
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    let size = reader.output_buffer_size().filter(|_| !is_too_large(width, height));
+    let mut samples = vec![0; size.ok_or("it is too large")?];
+    let frame = reader.next_frame(&mut samples).map_err(|error| error.to_string())?;
+    Picture::of_samples(width, height, &samples[..frame.buffer_size()], frame.color_type.samples())
+}
+
+fn decode_jpeg(bytes: &[u8]) -> Result<Picture, String> {
+    let side = GREATEST_SIDE as usize;
+    let options = DecoderOptions::default().set_strict_mode(false).set_max_width(side).set_max_height(side);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    decoder.decode_headers().map_err(|error| error.to_string())?;
+    let (width, height) = decoder.dimensions().ok_or("it has no size")?;
+    if is_too_large(width, height) {
+        return Err("it is too large".to_owned());
+    }
+    let (space, channels) = match decoder.input_colorspace() {
+        Some(ColorSpace::Luma) => (ColorSpace::Luma, 1),
+        _ => (ColorSpace::RGB, 3),
+    };
+    decoder.set_options(decoder.options().jpeg_set_out_colorspace(space));
+    let samples = decoder.decode().map_err(|error| error.to_string())?;
+    Picture::of_samples(width, height, &samples, channels)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A cube of side 2 with a second, smaller one on top, each a part of its own.
 pub const CUBES: &str = "\
@@ -18,9 +19,11 @@ f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 11 12 16 15\nf 10 11 15 14\nf 12 9 
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// An empty folder; `name` is the test's.
+    /// An empty folder, no other test's; `name` tells whose it is.
     pub fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("ligne-test-{name}-{}", std::process::id()));
+        static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+        let folder = std::env::temp_dir().join(format!("ligne-test-{name}-{}-{number}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).expect("a folder for the test");
         Self(folder)

@@ -366,10 +366,13 @@ fn brushes_are_laid_along_lines() {
 fn pictures_of_strokes_are_brushes() {
     // 8 by 8 pixels: four columns dark over the whole height, four only in the upper half.
     let dark = |x: u32, y: u32| x < 4 || y < 4;
-    let pixels = image::GrayImage::from_fn(8, 8, |x, y| image::Luma([if dark(x, y) { 0 } else { 255 }]));
+    let pixels: Vec<u8> = (0..64).map(|k| if dark(k % 8, k / 8) { 0 } else { 255 }).collect();
     let folder = std::env::temp_dir().join(format!("ligne-brush-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    pixels.save(folder.join("strip.png")).unwrap();
+    let file = std::fs::File::create(folder.join("strip.png")).unwrap();
+    let mut encoder = png::Encoder::new(file, 8, 8);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
     std::fs::write(folder.join("sheet.toml"), "[pen]\nwidth = 8\nbrush = { image = \"strip.png\" }\n")
         .unwrap();
     let loaded = Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]);

@@ -1,10 +1,10 @@
 //! Intersections of triangles: known curves, contacts that are none, and a slow reference.
 
+use crate::support::dice::Dice;
 use crate::support::mesh_file;
 use crate::support::solids::{Solid, cuboid, sphere, tube};
 use glam::DVec3;
 use ligne::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections};
-use proptest::prelude::*;
 
 fn find(solid: &Solid) -> IntersectionCurves {
     intersections(&IntersectionInput {
@@ -132,52 +132,62 @@ fn agrees_with_brute_force(solid: &Solid, nearness: f64) -> Result<usize, String
     Ok(found.len())
 }
 
-fn soup(coordinate: impl Strategy<Value = f64> + Clone, most: usize) -> impl Strategy<Value = Solid> {
-    let corner = (coordinate.clone(), coordinate.clone(), coordinate).prop_map(DVec3::from);
-    prop::collection::vec([corner.clone(), corner.clone(), corner], 2..most).prop_map(|triangles| Solid {
-        positions: triangles.concat(),
-        triangles: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
-    })
+/// Triangles with corners of their own.
+fn soup(dice: &mut Dice, most: usize, mut corner: impl FnMut(&mut Dice) -> DVec3) -> Solid {
+    let count = 2 + dice.below(most - 2);
+    Solid {
+        positions: (0..3 * count).map(|_| corner(dice)).collect(),
+        triangles: (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+    }
 }
 
 /// A mesh that shares vertices at random.
-fn tangle() -> impl Strategy<Value = Solid> {
-    let corner = (-1.0..1.0, -1.0..1.0, -1.0..1.0).prop_map(DVec3::from);
-    let positions = prop::collection::vec(corner, 30);
-    let triangles = prop::collection::vec([0_u32..30, 0..30, 0..30], 4..80).prop_map(|mut triangles| {
-        triangles.retain(|[a, b, c]| a != b && b != c && c != a);
-        triangles
-    });
-    (positions, triangles).prop_map(|(positions, triangles)| Solid { positions, triangles })
+fn tangle(dice: &mut Dice) -> Solid {
+    let count = 4 + dice.below(76);
+    let mut triangles: Vec<[u32; 3]> = (0..count).map(|_| [0; 3].map(|_| dice.below(30) as u32)).collect();
+    triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+    Solid { positions: (0..30).map(|_| dice.point(1.0)).collect(), triangles }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
-
-    #[test]
-    fn soups_agree_with_brute_force(solid in soup(-1.0..1.0_f64, 60)) {
-        prop_assert_eq!(agrees_with_brute_force(&solid, 1e-7).map(|_| ()), Ok(()));
+/// Looks at 200 solids.
+fn all(mut solid: impl FnMut(&mut Dice) -> Solid, check: impl Fn(&Solid) -> Result<(), String>) {
+    for seed in 0..200 {
+        let solid = solid(&mut Dice::new(seed));
+        check(&solid).unwrap_or_else(|error| panic!("seed {seed}: {error}\n{solid:?}"));
     }
+}
 
-    #[test]
-    fn soups_full_of_contacts_agree_with_brute_force(solid in soup((0..4).prop_map(f64::from), 40)) {
-        prop_assert_eq!(agrees_with_brute_force(&solid, 1e-7).map(|_| ()), Ok(()));
-    }
+fn as_brute_force(solid: &Solid) -> Result<(), String> {
+    agrees_with_brute_force(solid, 1e-7).map(|_| ())
+}
 
-    #[test]
-    fn tangles_agree_with_brute_force(solid in tangle()) {
-        prop_assert_eq!(agrees_with_brute_force(&solid, 1e-7).map(|_| ()), Ok(()));
-    }
+#[test]
+fn soups_agree_with_brute_force() {
+    all(|dice| soup(dice, 60, |dice| dice.point(1.0)), as_brute_force);
+}
 
-    #[test]
-    fn order_of_faces_changes_no_curve(solid in soup(-1.0..1.0_f64, 40)) {
+#[test]
+fn soups_full_of_contacts_agree_with_brute_force() {
+    let corner = |dice: &mut Dice| DVec3::from([0; 3].map(|_| dice.below(4) as f64));
+    all(|dice| soup(dice, 40, corner), as_brute_force);
+}
+
+#[test]
+fn tangles_agree_with_brute_force() {
+    all(tangle, as_brute_force);
+}
+
+#[test]
+fn order_of_faces_changes_no_curve() {
+    let check = |solid: &Solid| {
         let mut reversed = solid.clone();
         reversed.triangles.reverse();
-        let (one, other) = (find(&solid), find(&reversed));
-        prop_assert_eq!(one.segments.len(), other.segments.len());
-        prop_assert_eq!(one.points.len(), other.points.len());
-        prop_assert!((length(&one) - length(&other)).abs() < 1e-9);
-    }
+        let (one, other) = (find(solid), find(&reversed));
+        let same = (one.segments.len(), one.points.len()) == (other.segments.len(), other.points.len());
+        let apart = (length(&one) - length(&other)).abs();
+        if same && apart < 1e-9 { Ok(()) } else { Err(format!("{apart} apart")) }
+    };
+    all(|dice| soup(dice, 40, |dice| dice.point(1.0)), check);
 }
 
 #[test]

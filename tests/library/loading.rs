@@ -143,30 +143,6 @@ fn broken_models_are_refused_or_mended() {
     assert!(error.message.contains("only points; nothing to draw"), "{error}");
 }
 
-/// tobj as a second opinion, on files of plain triangles.
-#[test]
-fn another_reader_sees_the_same() {
-    let Some(folder) = models() else { return };
-    for file in
-        ["organic/cow.obj", "organic/stanford-bunny.obj", "mechanical/fandisk.obj", "organic/spot.obj"]
-    {
-        let path = folder.join(file);
-        let (others, _) = tobj::load_obj(&path, &tobj::LoadOptions::default()).unwrap();
-        let scene = Scene::open(&path).unwrap();
-        let soup = scene.to_soup();
-        let ours: Vec<_> =
-            soup.triangles.as_flattened().iter().map(|&i| soup.positions[i as usize].as_vec3()).collect();
-        let theirs: Vec<_> = others
-            .iter()
-            .flat_map(|model| {
-                model.mesh.indices.iter().map(|&i| &model.mesh.positions[3 * i as usize..][..3])
-            })
-            .map(glam::Vec3::from_slice)
-            .collect();
-        assert!(ours == theirs, "{file}");
-    }
-}
-
 /// Runs every reader over some bytes: whatever they say, they must say it soon.
 fn read_with_all(bytes: &[u8]) {
     let start = Instant::now();
