@@ -7,6 +7,7 @@
 //! ```
 
 #[path = "../tests/library/support/models.rs"]
+#[expect(dead_code, reason = "tests ask it more")]
 mod models;
 #[path = "../tests/library/support/round_solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]

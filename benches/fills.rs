@@ -9,6 +9,7 @@
 //! 1024 pixels along each side. Ratios can be compared between machines, times cannot.
 
 #[path = "../tests/library/support/models.rs"]
+#[expect(dead_code, reason = "tests ask it more")]
 mod models;
 #[path = "../tests/library/support/solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]

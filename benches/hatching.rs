@@ -9,6 +9,7 @@
 //! compared between machines, times cannot.
 
 #[path = "../tests/library/support/models.rs"]
+#[expect(dead_code, reason = "tests ask it more")]
 mod models;
 
 use std::path::PathBuf;

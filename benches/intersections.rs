@@ -1,6 +1,7 @@
 //! How long the search for intersections takes, on generated solids and on scans.
 
 #[path = "../tests/library/support/models.rs"]
+#[expect(dead_code, reason = "tests ask it more")]
 mod models;
 #[path = "../tests/library/support/solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]

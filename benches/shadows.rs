@@ -5,6 +5,7 @@
 //! ```
 
 #[path = "../tests/library/support/models.rs"]
+#[expect(dead_code, reason = "tests ask it more")]
 mod models;
 
 use std::path::PathBuf;

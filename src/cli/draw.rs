@@ -1,6 +1,6 @@
 //! `ligne draw`: one drawing of one model, in one or several formats.
 
-use super::output::{Format, Staging, check_place};
+use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
@@ -30,7 +30,7 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     for output in request.outputs.iter().filter(|output| output.format != Format::SvgToStdout) {
         check_place(&output.path)?;
     }
-    if let Some(report) = &request.report {
+    if let Some(report) = request.report.as_ref().filter(|path| !is_stdout(path)) {
         check_place(report)?;
     }
     let mut drawn = pipeline::in_threads(request.threads, || draw(request, &mut watch))??;
@@ -134,13 +134,18 @@ fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Res
     }
     drawn.report.counts.bytes_out = drawn.encoded.iter().map(|bytes| bytes.len() as u64).sum();
     drawn.report.stages_ms.write = watch.lap_ms();
+    let mut printed = None;
     if let Some(path) = &request.report {
-        staging.add(path, drawn.report.to_json().as_bytes())?;
+        let json = drawn.report.to_json();
+        if is_stdout(path) { printed = Some(json) } else { staging.add(path, json.as_bytes())? }
     }
     for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
         if output.format == Format::SvgToStdout {
             print(bytes)?;
         }
+    }
+    if let Some(json) = printed {
+        print(json.as_bytes())?;
     }
     staging.commit()
 }

@@ -34,7 +34,7 @@ pub(super) struct DrawArgs {
     #[command(flatten)]
     pub(super) how: HowArgs,
 
-    /// Write what the drawing took and what it holds, as JSON
+    /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) report: Option<PathBuf>,
 

@@ -26,7 +26,7 @@ pub(super) struct Output {
 impl Output {
     /// Tells the format by the ending.
     pub(super) fn new(path: PathBuf) -> Result<Self, Error> {
-        if path.as_os_str() == "-" {
+        if is_stdout(&path) {
             return Ok(Self { path, format: Format::SvgToStdout });
         }
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
@@ -57,8 +57,16 @@ impl Output {
     }
 }
 
+/// Whether a path stands for standard output.
+pub(super) fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 /// Refuses a place that nothing can be written to, before any work is done.
 pub(super) fn check_place(path: &Path) -> Result<(), Error> {
+    if is_stdout(path) {
+        return Err(Error::new("this is not written to standard output").remedy("name a file"));
+    }
     if path.is_dir() {
         return Err(Error::new("this is a folder").in_file(path).remedy("name a file in it"));
     }

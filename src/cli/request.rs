@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::draw_args::{DrawArgs, GroupBy, HowArgs};
-use super::output::{Format, Output};
+use super::output::{Format, Output, is_stdout};
 use super::paper::{Extent, Measure};
 use super::viewpoint::{Lens, View};
 use crate::drawing::Unit;
@@ -121,7 +121,8 @@ fn beside_here(model: &Path) -> PathBuf {
 fn check_apart(model: &Path, outputs: &[Output], report: Option<&Path>) -> Result<(), Error> {
     let mut taken: Vec<PathBuf> = Vec::new();
     let files = outputs.iter().filter(|output| output.format != Format::SvgToStdout);
-    for path in files.map(|output| output.path.as_path()).chain(report) {
+    let report_file = report.filter(|path| !is_stdout(path));
+    for path in files.map(|output| output.path.as_path()).chain(report_file) {
         if same_file(path, model) {
             return Err(Error::new("the drawing would overwrite the model")
                 .in_file(path)
@@ -132,7 +133,8 @@ fn check_apart(model: &Path, outputs: &[Output], report: Option<&Path>) -> Resul
         }
         taken.push(path.to_path_buf());
     }
-    if outputs.len() - outputs.iter().filter(|output| output.format != Format::SvgToStdout).count() > 1 {
+    let printed = outputs.iter().filter(|output| output.format == Format::SvgToStdout).count();
+    if printed + usize::from(report.is_some_and(is_stdout)) > 1 {
         return Err(Error::new("standard output is given twice").remedy("leave one `-` out"));
     }
     Ok(())
@@ -199,6 +201,7 @@ mod tests {
             "m.stl a.svg -o a.svg",
             "m.stl - -o -",
             "m.stl a.svg --report a.svg",
+            "m.stl - --report -",
             "m.svg m.svg",
             "m.stl --view iso --azimuth 3",
             "m.stl --view sideways",

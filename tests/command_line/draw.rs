@@ -173,6 +173,16 @@ fn the_report_has_stages_and_counts() {
 }
 
 #[test]
+fn the_report_goes_to_standard_output() {
+    let folder = Folder::with_cubes("report-printed");
+    let run = folder.ligne("draw cubes.obj a.svg --report -");
+    let report: Value = serde_json::from_str(&run.done().out).expect("a report in JSON");
+    assert_eq!(report["counts"]["triangles"], 24);
+    assert_eq!(folder.names(), ["a.svg", "cubes.obj"]);
+    folder.ligne("draw cubes.obj - --report -").refused("standard output is given twice");
+}
+
+#[test]
 fn stages_can_be_drawn() {
     let folder = Folder::with_cubes("stage");
     for stage in ["lines", "viewmap", "chains"] {

@@ -18,13 +18,11 @@ use ligne::scene::{Camera, Scene};
 type Level = (&'static str, f64, f64);
 
 /// `examples/…` belongs to the project, the others are shared models.
-const QUICK: [Level; 3] = [
-    ("examples/models/knot.ply", 4.0, 98.2),
+const QUICK: [Level; 1] = [("examples/models/knot.ply", 4.0, 98.2)];
+
+const ALL: [Level; 7] = [
     ("organic/spot.obj", 8.0, 85.0),
     ("organic/suzanne.obj", 70.1, 71.7),
-];
-
-const ALL: [Level; 5] = [
     ("organic/cow.obj", 70.0, 80.0),
     ("organic/stanford-bunny.obj", 30.0, 84.0),
     ("organic/armadillo.obj", 60.0, 80.0),
@@ -69,7 +67,7 @@ fn contours_stop_where_something_explains_it() {
 }
 
 #[test]
-#[ignore = "takes minutes; for release builds"]
+#[ignore = "long: .ci/nightly"]
 fn contours_of_all_models_stop_where_something_explains_it() {
     hold(&ALL);
 }
@@ -104,7 +102,7 @@ fn smooth_contours_of_a_fine_model_lie_on_those_of_the_polyhedron() {
 }
 
 #[test]
-#[ignore = "takes a minute; for release builds"]
+#[ignore = "long: .ci/nightly"]
 fn smooth_contours_of_fine_models_lie_on_those_of_the_polyhedron() {
     let models = [
         ("organic/stanford-bunny.obj", 94.5),

@@ -1,21 +1,12 @@
 //! The glTF reader over the shared models: what it draws, what it refuses, and a second opinion.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
 use ligne::scene::{Scene, gltf};
 
-/// The folder of shared models, if this machine has it.
-fn models() -> Option<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models");
-    let folder = std::env::var_os("LIGNE_MODELS").map_or_else(beside, PathBuf::from);
-    if !folder.is_dir() {
-        println!("skipped: no models in {}", folder.display());
-        return None;
-    }
-    Some(folder)
-}
+use crate::support::models;
 
 /// Rows of facts.tsv about glTF files: column name to value.
 fn facts(folder: &Path) -> Vec<BTreeMap<String, String>> {
@@ -83,7 +74,7 @@ const POSED: [(&str, [f64; 3], [f64; 3]); 5] = [
 
 #[test]
 fn shared_models_have_the_triangles_and_bounds_they_should() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let mut wrong = Vec::new();
     for row in facts(&folder) {
         let file = &row["file"];
@@ -120,7 +111,7 @@ fn shared_models_have_the_triangles_and_bounds_they_should() {
 
 #[test]
 fn cad_models_have_their_parts() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     for (file, parts, geometries, count) in [
         ("bracket", 1, 1, 23_276),
         ("drive", 23, 13, 40_854),
@@ -139,7 +130,7 @@ fn cad_models_have_their_parts() {
 
 #[test]
 fn broken_files_are_refused_by_name_or_drawn_with_a_warning() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let refused = [
         ("empty.glb", "nothing to draw"),
         ("empty.gltf", "nothing to draw"),
@@ -194,7 +185,7 @@ fn broken_files_are_refused_by_name_or_drawn_with_a_warning() {
 
 #[test]
 fn compressed_models_equal_their_plain_twins() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let read = |file: &str| gltf::read(&folder.join(file)).unwrap();
     let (plain, packed) = (read("features/Duck-quantized.glb"), read("features/Duck-meshopt.glb"));
     let size = bounds(&plain).1 - bounds(&plain).0;
@@ -225,7 +216,7 @@ fn compressed_models_equal_their_plain_twins() {
 
 #[test]
 fn cameras_and_lights_stand_in_the_world() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let scene = gltf::read(&folder.join("edge/cameras-lights.gltf")).unwrap();
     let names: Vec<&str> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
     assert_eq!(names, ["perspective", "orthographic", "endless, no aspect"]);
@@ -314,7 +305,7 @@ fn mutated_files_never_panic() {
 
 #[test]
 fn mutated_draco_streams_never_panic() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let fetch = |_: &str, _: usize| Err(std::io::ErrorKind::NotFound.into());
     let bytes = std::fs::read(folder.join("features/Box_Draco.glb")).unwrap();
     let stream = bytes.len() - 152;

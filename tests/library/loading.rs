@@ -6,16 +6,7 @@ use std::time::{Duration, Instant};
 
 use ligne::scene::{Scene, obj, ply, stl};
 
-/// The shared models, if they are there.
-fn models() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models");
-    let folder = std::env::var_os("LIGNE_MODELS").map_or(beside, PathBuf::from);
-    if folder.join("facts.tsv").is_file() {
-        return Some(folder);
-    }
-    println!("skipped: no models in {}", folder.display());
-    None
-}
+use crate::support::models;
 
 fn is_ours(path: &str) -> bool {
     [".obj", ".stl", ".ply"].iter().any(|ending| path.ends_with(ending))
@@ -39,7 +30,7 @@ fn facts(folder: &Path) -> Vec<impl Fn(&str) -> String> {
 
 #[test]
 fn shared_models_are_as_their_facts_say() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let mut seen = 0;
     for fact in facts(&folder) {
         let file = fact("file");
@@ -71,7 +62,7 @@ fn shared_models_are_as_their_facts_say() {
 
 #[test]
 fn materials_and_parts_of_shared_models() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let open = |file: &str| Scene::open(folder.join(file)).unwrap_or_else(|e| panic!("{e}"));
     let variety = open("edge/syntax-variety.obj");
     assert_eq!(variety.parts[0].name, "first object");
@@ -92,7 +83,7 @@ fn materials_and_parts_of_shared_models() {
 
 #[test]
 fn concave_polygons_keep_their_area() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let scene = Scene::open(folder.join("edge/concave-ngons.obj")).unwrap();
     for (part, geometry) in scene.parts.iter().zip(&scene.geometries) {
         // The ring of corners is all positions in order; its area is what the triangles must cover.
@@ -112,7 +103,7 @@ fn concave_polygons_keep_their_area() {
 
 #[test]
 fn broken_models_are_refused_or_mended() {
-    let Some(folder) = models() else { return };
+    let Some(folder) = models::folder() else { return };
     let loads = ["latin1-and-bom.obj", "nan-and-inf.obj", "one-long-line.obj"];
     for entry in fs::read_dir(folder.join("bad")).unwrap() {
         let path = entry.unwrap().path();

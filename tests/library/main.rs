@@ -40,3 +40,4 @@ mod style_fills;
 mod testing;
 mod visibility;
 mod visible_intersections;
+mod without;

@@ -34,14 +34,6 @@ fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|e| ["obj", "gltf", "glb", "stl", "ply"].iter().any(|known| e == *known))
 }
 
-fn absent() -> bool {
-    let absent = !models::folder().is_dir();
-    if absent {
-        println!("skipped: no folder {}", models::folder().display());
-    }
-    absent
-}
-
 /// Draws a scene in ink; the drawing and its warnings, those of reading first.
 fn draw(scene: &Scene) -> (Drawing, Vec<String>) {
     let camera = Camera::three_quarter().fit(scene);
@@ -70,19 +62,17 @@ fn is_sound(drawing: &Drawing) -> bool {
 
 #[test]
 fn every_model_is_drawn() {
-    if absent() {
-        return;
-    }
+    let Some(folder) = models::folder() else { return };
     let all = !cfg!(debug_assertions) || std::env::var_os("LIGNE_ALL").is_some();
-    let bad = models::folder().join("bad");
+    let bad = folder.join("bad");
     let mut faults = Vec::new();
     let mut drawn = 0;
-    for path in files(&models::folder()).iter().filter(|p| is_model(p) && !p.starts_with(&bad)) {
+    for path in files(&folder).iter().filter(|p| is_model(p) && !p.starts_with(&bad)) {
         // Files of many megabytes take long to read at debug speed.
         if !all && std::fs::metadata(path).is_ok_and(|data| data.len() > 4_000_000) {
             continue;
         }
-        let name = path.strip_prefix(models::folder()).unwrap().display().to_string();
+        let name = path.strip_prefix(&folder).unwrap().display().to_string();
         let start = Instant::now();
         let scene = match Scene::open(path) {
             Ok(scene) => scene,
@@ -154,11 +144,9 @@ fn wanted(name: &str) -> Wanted {
 
 #[test]
 fn broken_files_are_refused_or_saved() {
-    if absent() {
-        return;
-    }
+    let Some(folder) = models::folder() else { return };
     let mut faults = Vec::new();
-    let broken: Vec<PathBuf> = files(&models::folder().join("bad"))
+    let broken: Vec<PathBuf> = files(&folder.join("bad"))
         .into_iter()
         .filter(|p| is_model(p) || p.extension().is_some_and(|e| e == "xyz"))
         .collect();

@@ -1,7 +1,6 @@
 //! Intersections sought from what is in sight show as much as those of the full search.
 
-use std::path::PathBuf;
-
+use crate::support::models;
 use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
 use ligne::lines::intersections::{all_curves, visible_curves};
@@ -125,21 +124,13 @@ fn one_thread_equals_many() {
 
 #[test]
 fn models_show_all_their_seams() {
-    let folder = std::env::var_os("LIGNE_MODELS").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models")),
-        PathBuf::from,
-    );
     for name in [
         "organic/teapot.obj",
         "edge/self-intersecting.obj",
         "scene/CesiumMilkTruck.glb",
         "scene/retroufo.gltf",
     ] {
-        let path = folder.join(name);
-        if !path.exists() {
-            println!("skipped: no model {}", path.display());
-            continue;
-        }
+        let Some(path) = models::find(name) else { continue };
         let scene = Scene::open(&path).expect("a model");
         let mesh = Mesh::build(scene.to_soup());
         compare(name, &mesh, |camera| camera.fit(&scene), scene.up);

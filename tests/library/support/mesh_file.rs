@@ -1,22 +1,15 @@
 //! A minimal reader of OBJ and little-endian PLY, welding equal positions, for tests only.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
 
 use glam::DVec3;
 
+use super::models;
 use super::solids::Solid;
 
 /// Reads a shared model by its name, or says that it is absent.
 pub fn read(name: &str) -> Option<Solid> {
-    let folder = std::env::var_os("LIGNE_MODELS").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models")),
-        PathBuf::from,
-    );
-    let Ok(bytes) = std::fs::read(folder.join(name)) else {
-        println!("skipped: no model {name} in {}", folder.display());
-        return None;
-    };
+    let bytes = std::fs::read(models::find(name)?).ok()?;
     let solid = if name.ends_with(".ply") { ply(&bytes) } else { obj(&bytes) };
     Some(welded(solid))
 }
