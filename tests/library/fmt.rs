@@ -205,19 +205,17 @@ fn other_ways_of_writing_come_back() {
         if drawing.layers.iter().any(|layer| layer.ordered) {
             continue;
         }
-        for group in [Grouping::Layer, Grouping::Part] {
-            for decimals in [2, 4] {
-                let options = SvgOptions { precision: Some(decimals), group, ..SvgOptions::default() };
-                let svg = drawing.to_svg(&options);
-                let other = otherwise(&svg, decimals.into());
-                changed += usize::from(other.lines().zip(svg.lines()).filter(|(a, b)| a != b).count() > 5);
-                // Numbers that end in zeros may have been all.
-                assert_text(&canonical_svg(&other, Some(decimals)).unwrap(), &svg, &name);
-                assert_same_picture(&other, &svg, &name);
-            }
+        for (group, decimals) in [(Grouping::Layer, 2), (Grouping::Part, 4)] {
+            let options = SvgOptions { precision: Some(decimals), group, ..SvgOptions::default() };
+            let svg = drawing.to_svg(&options);
+            let other = otherwise(&svg, decimals.into());
+            changed += usize::from(other.lines().zip(svg.lines()).filter(|(a, b)| a != b).count() > 5);
+            // Numbers that end in zeros may have been all.
+            assert_text(&canonical_svg(&other, Some(decimals)).unwrap(), &svg, &name);
+            assert_same_picture(&other, &svg, &name);
         }
     }
-    assert!(changed > 20, "{changed}");
+    assert!(changed > 10, "{changed}");
 }
 
 #[test]

@@ -215,8 +215,18 @@ fn page(camera: &Camera) -> Page {
 
 #[test]
 fn strokes_stay_inside_and_cross_no_contour() {
+    strokes_stay_inside(&["pen"]);
+}
+
+#[test]
+#[ignore = "long: .ci/nightly"]
+fn strokes_of_engravings_and_pencils_stay_inside() {
+    strokes_stay_inside(&["engraving", "pencil"]);
+}
+
+fn strokes_stay_inside(sheets: &[&str]) {
     for (name, scene) in scenes() {
-        for sheet in ["pen", "engraving", "pencil"] {
+        for sheet in sheets {
             let sets = ["lines.contours=mesh", "hatching.cast_shadows=false"];
             let style = style(sheet, &sets);
             let camera = camera(&scene);

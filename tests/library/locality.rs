@@ -168,12 +168,21 @@ fn check(model: &str, styles: &[&str], parts: &[&str], most: f64) {
 
 #[test]
 fn hiding_or_moving_a_part_of_a_castle_changes_little_elsewhere() {
-    check("castle.obj", &["ink"], &CASTLE, 0.0);
-    check("castle.obj", &["toon"], &CASTLE, 0.02);
+    check("castle.obj", &["ink"], &CASTLE[..3], 0.0);
+    check("castle.obj", &["toon"], &CASTLE[..2], 0.02);
 }
 
 #[test]
 fn hiding_or_moving_a_part_of_a_pump_changes_little_elsewhere() {
+    check("pump.glb", &["ink"], &PUMP[..3], 0.01);
+    check("pump.glb", &["toon"], &PUMP[..2], 0.01);
+}
+
+#[test]
+#[ignore = "long: .ci/nightly"]
+fn hiding_or_moving_any_part_changes_little_elsewhere() {
+    check("castle.obj", &["ink"], &CASTLE, 0.0);
+    check("castle.obj", &["toon"], &CASTLE, 0.02);
     check("pump.glb", &["ink", "toon"], &PUMP, 0.01);
 }
 
