@@ -25,21 +25,21 @@ impl Error {
         Self { file: None, place: None, message: message.into(), remedy: None }
     }
 
-    /// The same error, naming the file it is about.
+    /// Names the file the error is about.
     #[must_use]
     pub fn in_file(mut self, file: impl AsRef<Path>) -> Self {
         self.file = Some(file.as_ref().to_path_buf());
         self
     }
 
-    /// The same error, naming the place inside the file.
+    /// Names the place inside the file.
     #[must_use]
     pub fn at(mut self, place: impl Into<String>) -> Self {
         self.place = Some(place.into());
         self
     }
 
-    /// The same error, saying what to do.
+    /// Says what to do.
     #[must_use]
     pub fn remedy(mut self, remedy: impl Into<String>) -> Self {
         self.remedy = Some(remedy.into());

@@ -15,7 +15,7 @@ const DOT: f64 = 0.3;
 /// A contour of a scan that hangs on nothing must be this many times longer.
 const FLOATING: f64 = 6.0;
 
-/// The same for one that comes out from under something at one of its ends.
+/// A contour of a scan that comes out from under something at one of its ends must be this many times longer.
 const PARTLY_COVERED: f64 = 2.5;
 
 /// A line inside must be this many times longer than a crumb where it is as strong as can be; the

@@ -141,7 +141,7 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLin
     link_with(map, options, unit, hidden, &mut Bin::default())
 }
 
-/// The same chains, and what tidying left out, in the order in which it went.
+/// Chains as [`link`] makes them, and what tidying left out, in the order in which it went.
 #[must_use]
 pub fn link_and_keep(
     map: &ViewMap,

@@ -116,7 +116,7 @@ pub(super) fn encoded(request: &DrawRequest) -> Result<Vec<u8>, Error> {
     Ok(encoded_and_seen(request)?.0)
 }
 
-/// The same, and from where it was seen, so that another model can be seen likewise.
+/// The bytes of a request's first output, and from where it was seen, so that another model can be seen likewise.
 pub(super) fn encoded_and_seen(request: &DrawRequest) -> Result<(Vec<u8>, View), Error> {
     let drawn = draw(request, &mut Stopwatch::start())?;
     refuse_warnings(request, &drawn.report)?;

@@ -142,7 +142,7 @@ impl Info {
         }
     }
 
-    /// The same for people.
+    /// What is in the file, for people.
     fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.

@@ -49,7 +49,7 @@ impl File {
         parsed.map_err(|error| fault::in_sheet(&self.text, &error).in_file(&self.path))
     }
 
-    /// The same as plain values.
+    /// The keys as plain values.
     pub(super) fn values(&self) -> Result<Table, Error> {
         toml::from_str(&self.text).map_err(|error| fault::in_sheet(&self.text, &error).in_file(&self.path))
     }
@@ -82,7 +82,7 @@ impl File {
         self.fault(&value.span(), &format!("{found} does not fit here"), Some(&format!("write {wanted}")))
     }
 
-    /// The same error as another one, told of a place in this file.
+    /// An error told of a place in this file.
     pub(super) fn adopt(&self, error: &Error, span: &Range<usize>) -> Error {
         let message = match &error.file {
             Some(file) => format!("{}: {}", file.display(), error.message),

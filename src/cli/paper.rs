@@ -37,7 +37,7 @@ impl Extent {
         }
     }
 
-    /// The same sheet lying on its longer side.
+    /// The sheet lying on its longer side.
     pub(super) fn lying(self) -> Self {
         Self { width: self.width.max(self.height), height: self.width.min(self.height) }
     }

@@ -29,7 +29,7 @@ impl Chain {
         self.points.windows(2).map(|pair| (pair[0], pair[1]))
     }
 
-    /// The same in the form that does not depend on how it was written.
+    /// The chain in the form that does not depend on how it was written.
     fn in_order(mut self) -> Self {
         let less = |a: &Point, b: &Point| order(*a, *b).is_lt();
         if self.closed {

@@ -67,7 +67,7 @@ pub enum Stage {
     Bytes,
     /// Each mark has its equal, point for point; order, grouping and the look of numbers may differ.
     Structure,
-    /// The same ink lies on the same places, within tolerance.
+    /// Ink lies on the same places in both, within tolerance.
     Geometry,
 }
 

@@ -62,7 +62,7 @@ impl Tolerances {
         Ok(())
     }
 
-    /// The same tolerances, with those of `over` in their place where it has some.
+    /// These tolerances, with those of `over` in their place where it has some.
     #[must_use]
     pub fn with(mut self, over: Self) -> Self {
         self.all = over.all.or(self.all);

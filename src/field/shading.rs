@@ -83,7 +83,7 @@ impl Shading {
         Self { tones: tones_of_paints, lighting, channels, exponent }
     }
 
-    /// The same shading with bins for hatching; `paints` as they were given before.
+    /// This shading with bins for hatching; `paints` as they were given before.
     #[must_use]
     pub fn with_bins(mut self, scene: &Scene, paints: &[Paint], options: &ShadeOptions) -> Self {
         self.channels.push(Channel::Shade);

@@ -76,7 +76,7 @@ impl Tones {
         Self { levels: levels.collect(), colours, plain, table }
     }
 
-    /// The same tones with levels for one more channel.
+    /// Adds levels for one more channel to the tones.
     pub fn add_levels(&mut self, levels: Vec<f64>) {
         self.levels.push(levels);
     }

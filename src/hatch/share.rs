@@ -12,7 +12,7 @@ use crate::region::Ground;
 pub(super) struct Shares {
     /// The part of the paper that the layer covers.
     pub covered: Vec<f64>,
-    /// The same as a part of what it covers at most.
+    /// The covered part as a part of what the layer covers at most.
     pub density: Vec<f64>,
 }
 

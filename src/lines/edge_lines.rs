@@ -20,7 +20,7 @@ pub fn find(surface: &Surface, view: &View, options: &LineOptions) -> Vec<Featur
     finder.find(surface.mesh.edges.len(), |k| k)
 }
 
-/// The same among some edges of the mesh, given in ascending order.
+/// Feature lines among some edges of the mesh, given in ascending order.
 #[must_use]
 pub fn find_among(
     edges: &[u32],

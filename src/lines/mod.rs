@@ -44,7 +44,7 @@ pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> Feature
     extract_with(surface, None, view, options)
 }
 
-/// The same lines, found with the help of a search that was made once for all views of the surface;
+/// All feature lines of a view, found with the help of a search that was made once for all views of the surface;
 /// a search that does not fit its mesh is left alone.
 #[must_use]
 pub fn extract_with(

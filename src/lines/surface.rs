@@ -58,7 +58,8 @@ impl Surface {
         self.refined_for(camera).unwrap_or(self)
     }
 
-    /// The same where there is such a part; else none.
+    /// The surface with more triangles where a coarse rounded part would show its corners to the camera; none
+    /// if no part would.
     #[must_use]
     pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
         let frame = Frame::new(camera, self.mesh.origin);

@@ -37,7 +37,7 @@ pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_COSINE;
 /// A surface this near in depth (fraction of its part) touches a line rather than hiding it.
 pub const CONTACT_OF_PART: f64 = 5e-7;
 
-/// The same in px: nearer than this nothing is drawn apart.
+/// A surface this near in depth (px) touches a line: nearer than this nothing is drawn apart.
 pub const CONTACT_PX: f64 = 5e-4;
 
 /// A point this near to the projected border of a triangle (px) counts as inside, so that a line
@@ -60,7 +60,7 @@ pub const BESIDE_ROUNDED_PX: f64 = 1.0;
 /// (fraction of its part): below that lies rounding.
 pub const NEIGHBOUR_OF_PART: f64 = 1e-10;
 
-/// The same in px.
+/// How much nearer (px) a surface must be that shares a vertex with a line, to hide it.
 pub const NEIGHBOUR_PX: f64 = 1e-7;
 
 /// A triangle lower than this in the image (px) is seen edge-on and covers nothing.
@@ -155,7 +155,7 @@ pub const DOT_NUDGE: f64 = 1e-5;
 /// Widths of lines in two drawings that differ by no more than this (px) are one width, written twice.
 pub const WIDTH_PX: f64 = 2e-3;
 
-/// The same for lengths of dashes (px).
+/// Lengths of dashes that differ by less than this (px) are alike.
 pub const DASH_PX: f64 = 2e-3;
 
 /// Readers of SVG keep coordinates in single precision: two drawings cannot be compared more finely than this

@@ -16,7 +16,7 @@ use crate::math::function::cos;
 /// other fold ends there: 80 degrees, so that the zigzag of a regular triangulation is one chain.
 const BEND_COSINE: f64 = 0.17;
 
-/// The same where more than two folds meet: 53 degrees.
+/// Where more than two folds meet, two continue each other above this cosine: 53 degrees.
 const JUNCTION_COSINE: f64 = 0.6;
 
 /// A vertex where more folds meet is a tip, through which no line runs.

@@ -73,7 +73,7 @@ impl HardEdges {
         Self::default()
     }
 
-    /// The same edges in a mesh made of this one whose hard edges are the same.
+    /// These hard edges in a mesh made of this one, whose hard edges they are as well.
     #[must_use]
     pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {
         if self.is_empty() {

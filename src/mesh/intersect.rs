@@ -60,7 +60,7 @@ pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
     join(&find_pairs(input, low, high, |_| scale))
 }
 
-/// The same of triangles of several parts, each as large as `scale` says: the larger one counts.
+/// Intersections of triangles of several parts, each part as large as `scale` says: the larger one counts.
 #[must_use]
 pub fn intersections_of_parts(
     input: &IntersectionInput,

@@ -81,7 +81,7 @@ impl Planes {
         Some(self.of_face[face as usize]).filter(|flat| *flat != NONE)
     }
 
-    /// The same where it is no strip.
+    /// The flat that holds a face, unless it is a strip.
     #[inline]
     pub fn compact(&self, face: u32) -> Option<u32> {
         self.of(face).filter(|flat| self.compact[*flat as usize])

@@ -140,7 +140,7 @@ impl RayTree {
         self.is_blocked_again(point, direction, reach, &mut last)
     }
 
-    /// The same, trying first what blocked the ray before, which is kept for the next: rays that are
+    /// Whether a ray is blocked, trying first what blocked the ray before, which is kept for the next: rays that are
     /// near each other often meet the same face.
     pub(crate) fn is_blocked_again(
         &self,

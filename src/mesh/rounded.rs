@@ -20,8 +20,8 @@ const MACHINED: f64 = 0.1;
 /// It is as well with more than this share of flat edges: strips that bend one way are halves of flat
 /// quads.
 const FEW_FLAT: f64 = 0.15;
-/// The same where the file has normals: then armour and tools are shaded round over sharp edges, and
-/// their flats tell them from figures.
+/// The share of flat edges of machined pieces where the file has normals: then armour and tools are shaded
+/// round over sharp edges, and their flats tell them from figures.
 const FEW_FLAT_SHADED: f64 = 0.08;
 /// The cosine below which an edge counts as sharp: 60 degrees.
 const SHARP_COSINE: f32 = 0.5;

@@ -65,7 +65,7 @@ pub struct Probe<'a> {
     hits: Vec<Option<(u32, DVec3)>>,
     /// The normal there; zero where no surface is seen.
     normals: Vec<DVec3>,
-    /// The same, of the face itself where it stands for no rounded surface.
+    /// The normal of the face itself where it stands for no rounded surface.
     as_built: Vec<DVec3>,
 }
 

@@ -13,7 +13,7 @@ pub(super) type Segments = Vec<([GridPoint; 2], Border)>;
 
 const NONE: u32 = u32::MAX;
 
-/// The same lines with fewer points: none moves farther than the `tolerance` of its border (steps of the
+/// Lines with fewer points: none moves farther than the `tolerance` of its border (steps of the
 /// grid), and points where lines meet or end stay.
 pub(super) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) -> Segments {
     let lines = Lines::new(segments);

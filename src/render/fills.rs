@@ -198,7 +198,7 @@ impl<'a> Fills<'a> {
         self.shadows.shadowed(&self.surface.mesh, points)
     }
 
-    /// The same, as hatching has it: none where it knows no cast shadows.
+    /// Which lights do not reach each point, as hatching has it: none where it knows no cast shadows.
     pub fn shadowed_bins(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
         if self.darkened.bins { self.shadowed(points) } else { vec![0; points.len()] }
     }

@@ -60,14 +60,14 @@ impl Camera {
         [right, right.cross(forward), forward]
     }
 
-    /// The same camera looking through a frame of another size, in user units; the vertical field
+    /// This camera looking through a frame of another size, in user units; the vertical field
     /// of view (or height) stays.
     #[must_use]
     pub fn with_frame(self, width: f64, height: f64) -> Self {
         Self { width, height, ..self }
     }
 
-    /// The same camera with another projection.
+    /// This camera with another projection.
     #[must_use]
     pub fn with_projection(self, projection: Projection) -> Self {
         Self { projection, ..self }

@@ -21,7 +21,7 @@ impl Scene {
         self.flattened(None)
     }
 
-    /// The same with the paint of each triangle.
+    /// The triangles of all parts in world space, with the paint of each triangle.
     #[must_use]
     pub fn to_painted_soup(&self, paints: &Paints) -> Soup {
         self.flattened(Some(paints))

@@ -38,7 +38,7 @@ const BLOCK: usize = 1 << 8;
 const CENTRING_STEPS: usize = 32;
 
 impl Camera {
-    /// The same line of sight, moved so that the whole scene fills the frame, with a margin of
+    /// A camera with this line of sight, moved so that the whole scene fills the frame, with a margin of
     /// [`MARGIN`] on the sides that it touches, and centred.
     ///
     /// A scene without anything to draw leaves the camera as it was.
@@ -47,7 +47,7 @@ impl Camera {
         self.fit_points(&world_points(scene), MARGIN)
     }
 
-    /// The same line of sight, moved so that all `points` (world) lie in the frame, with a margin
+    /// A camera with this line of sight, moved so that all `points` (world) lie in the frame, with a margin
     /// of `margin` (0 to below 0.5) of the frame's shorter side on the sides that they touch, and
     /// centred. A parallel view changes its height, a perspective view its distance.
     ///

@@ -48,7 +48,7 @@ impl Axis {
         axis
     }
 
-    /// The same without points that crowd: none but corners and ends is nearer than a little less than a px
+    /// Without points that crowd: none but corners and ends is nearer than a little less than a px
     /// to the one before.
     pub fn evened(self, px: f64) -> Self {
         let least = CROWD * STEP_PX * px;
@@ -144,7 +144,7 @@ impl Axis {
         part
     }
 
-    /// The same with a point half-way, if it has no more than two: enough for an outline.
+    /// With a point half-way if the axis has no more than two: enough for an outline.
     pub fn subdivided(mut self) -> Self {
         if let (&[a, b], &[from, to], &[start, end]) = (&self.points[..], &self.arcs[..], &self.samples[..]) {
             self.points.insert(1, a.midpoint(b));

@@ -59,7 +59,7 @@ pub(super) fn stretches(axis: &Axis, chain: &Chain, pen: &Pen, context: &InkCont
     settled(stretches, LEAST_PX * context.px())
 }
 
-/// The same without those that are too short to be seen as such.
+/// Stretches without those that are too short to be seen as such.
 fn settled(mut stretches: Vec<Stretch>, least: f64) -> Vec<Stretch> {
     let long = |stretch: &Stretch| stretch.to - stretch.from;
     while stretches.len() > 1 {

@@ -76,7 +76,7 @@ pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2]
     pieces
 }
 
-/// The same piece with gaps of about a length that the hand leaves, on the mean so far from each other; how
+/// A piece with gaps of about a length that the hand leaves, on the mean so far from each other; how
 /// many there are does not depend on the seed.
 pub(super) fn broken(piece: Piece, mean: f64, gap: f64, seed: u64, px: f64) -> Vec<Piece> {
     let total = piece.axis.length();

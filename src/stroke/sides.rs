@@ -67,7 +67,7 @@ impl Side {
         if side.points.len() > 1 { side } else { cleaned(&raw, &vec![false; raw.len()], axis.closed, near) }
     }
 
-    /// The same, run through from its other end.
+    /// The side run through from its other end.
     pub fn reversed(mut self) -> Self {
         self.points.reverse();
         self.corners.reverse();

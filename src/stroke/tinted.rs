@@ -17,7 +17,7 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    /// The same so many times as thick.
+    /// This piece, so many times as thick.
     pub fn times(mut self, factor: f64) -> Self {
         self.thick.iter_mut().for_each(|width| *width *= factor);
         self

@@ -18,7 +18,7 @@ struct End {
     at: Point,
 }
 
-/// The same marks, each next one starting near the end of the one before, from the page's
+/// Marks in an order of travel: each next one starts near the end of the one before, from the page's
 /// top-left corner on. Paths may be turned round; dashes of turned paths still end well, since
 /// dash patterns are made symmetrical or are turned with them.
 #[must_use]

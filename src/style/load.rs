@@ -108,7 +108,7 @@ fn find(name: &str, folder: Option<&Path>) -> Result<Source, Error> {
     Ok(Source { identity, shown: path, folder, text })
 }
 
-/// The same error, told of the sheet that names what was not found.
+/// An error told of the sheet that names what was not found.
 fn name_in(error: Error, sheet: &Path, place: &str) -> Error {
     let message = match &error.file {
         Some(file) => format!("{}: {}", file.display(), error.message),

@@ -149,7 +149,7 @@ impl Frame {
         if self.perspective { depth_step * q * q } else { depth_step }
     }
 
-    /// The same at nearness `q`, of a difference that is as long as something across the line of sight that is
+    /// The difference in nearness at nearness `q` of a depth difference that is as long as something across the line of sight that is
     /// `length` user units long in the image.
     #[inline]
     #[must_use]

@@ -94,7 +94,7 @@ impl Grid {
         Self { columns: count(size.x), rows: count(size.y), cell, origin: low, per_cell: 1.0 / cell }
     }
 
-    /// The same grid with `across` finer tiles along each side of every tile.
+    /// This grid with `across` finer tiles along each side of every tile.
     #[must_use]
     pub fn refined(&self, across: u32) -> Self {
         let cell = self.cell / f64::from(across);

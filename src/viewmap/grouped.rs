@@ -23,7 +23,7 @@ impl<T: Copy> Grouped<T> {
         self.starts[segment] as usize..self.starts[segment + 1] as usize
     }
 
-    /// The same groups after `tidy` has ordered and joined each that is not empty.
+    /// These groups after `tidy` has ordered and joined each that is not empty.
     pub(crate) fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
         let mut tidied = Self {
             starts: Vec::with_capacity(self.starts.len()),

@@ -43,7 +43,7 @@ pub struct Limits {
     pub height: f64,
     /// Depth difference that counts as touching, as it would look across the line of sight, user units.
     pub contact: f64,
-    /// The same for triangles that share a vertex with the segment.
+    /// Depth difference that counts as touching for triangles that share a vertex with the segment, user units.
     pub neighbour: f64,
     /// Pieces shorter than this are rounding, user units.
     pub piece: f64,
@@ -88,7 +88,7 @@ impl Limits {
 pub struct Slack {
     /// What counts as touching.
     pub contact: f64,
-    /// The same for lines that share a vertex with the triangle.
+    /// What counts as touching for lines that share a vertex with the triangle.
     pub neighbour: f64,
 }
 

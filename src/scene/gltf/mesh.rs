@@ -268,8 +268,8 @@ fn append_or_take<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, filler:
     }
 }
 
-/// The same for arrays that are empty as long as nothing is known, and else must stay as long as
-/// there are triangles.
+/// Puts `more` behind what arrays should have by now, for arrays that are empty as long as nothing is known,
+/// and else must stay as long as there are triangles.
 fn pad_after<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, count: usize, filler: T) {
     append_or_take(all, start, more, filler);
     if !all.is_empty() {
