@@ -20,6 +20,7 @@ mod groups;
 pub mod hard_edges;
 pub mod ids;
 pub mod intersect;
+mod marking;
 pub mod needle;
 mod order;
 mod parting;

@@ -5,22 +5,12 @@
 //! agree and no crack opens. Faces are cut by the patterns of their cut sides.
 
 use glam::DVec3;
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::edge_set::EdgeSet;
+use super::marking::{Marks, marks};
 use super::smooth_normals::NO_NORMAL;
-use super::thickness;
-use super::{EdgeArc, EdgeFaces, EdgeMark, Edges, Mesh, SmoothNormals};
-
-/// Parts up to so many rounded faces are cut in no time.
-const SMALL: usize = 20_000;
-/// A larger part of which no more than one edge in so many is wanted is dense enough as it is: what is
-/// left are slivers, and building all of it anew would cost more than they show.
-const FEW: usize = 500;
-
-/// Only what stands out so many times as far as wanted is asked for its thickness: less is not seen.
-const SWOLLEN: f64 = 6.0;
+use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
@@ -50,8 +40,8 @@ pub struct Refined {
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
 /// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
 /// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
-/// than 1. Edges that part surfaces are never cut, nor those of large parts that are dense enough. The
-/// mesh loses its texture coordinates, and what was cut the file's normals.
+/// than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
+/// cut loses the file's normals.
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
@@ -62,35 +52,13 @@ pub fn refined(
     if smooth.is_empty() {
         return None;
     }
-    let marked: Vec<Vec<Marked>> = (0..mesh.edges.len().div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|k| {
-            let edges = k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len());
-            let bent = edges.filter(|edge| !smooth.straight.contains(*edge));
-            let long = bent.filter(|edge| {
-                let [a, b] = mesh.edges.vertices[*edge];
-                is_long(mesh.positions[a as usize], mesh.positions[b as usize])
-            });
-            let ends = long.filter_map(|edge| Some((edge, smooth.across(mesh, edge)?)));
-            ends.filter_map(|(edge, ends)| {
-                let position = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
-                let normal = |v: u32| smooth.normals[v as usize];
-                let wanted = want(ends.map(position), ends.map(normal));
-                (wanted > 1.0).then_some(Marked { edge, ends, wanted })
-            })
-            .collect()
-        })
-        .collect();
-    let marked = without_dense_parts(mesh, smooth, marked.concat());
-    if marked.is_empty() {
+    let Marks { cut, thin } = marks(mesh, smooth, &is_long, &want);
+    if cut.is_empty() && thin.is_empty() {
         return None;
     }
-    let swollen: Vec<(usize, [u32; 2])> =
-        marked.iter().filter(|m| m.wanted > SWOLLEN).map(|m| (m.edge, m.ends)).collect();
-    let thin = thickness::thin(mesh, smooth, &swollen);
     let mut work = Work::new(mesh, smooth);
-    for marked in marked.iter().filter(|marked| thin.binary_search(&marked.edge).is_err()) {
-        work.cut(marked.ends);
+    for ends in cut {
+        work.cut(ends);
     }
     let (kept, mut open) = work.affected(mesh, smooth);
     let mut done: Vec<Piece> = Vec::new();
@@ -113,40 +81,6 @@ pub fn refined(
     done.append(&mut open);
     let straight = smooth.straight.with(&thin, mesh.edges.len());
     Some(work.finish(mesh, smooth, &straight, &kept, &done))
-}
-
-/// An edge to cut.
-#[derive(Clone, Copy)]
-struct Marked {
-    edge: usize,
-    /// Its smooth vertices.
-    ends: [u32; 2],
-    /// How much it is wanted.
-    wanted: f64,
-}
-
-const CHUNK: usize = 1 << 14;
-
-/// The marked edges, but for those of parts that are dense enough.
-fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Marked>) -> Vec<Marked> {
-    if marked.is_empty() || mesh.triangles.len() <= SMALL {
-        return marked;
-    }
-    let part_of = |edge: usize| match mesh.edges.faces(edge) {
-        EdgeFaces::One(face) | EdgeFaces::Two { faces: [face, _], .. } => {
-            mesh.face_part[face as usize].index()
-        }
-        EdgeFaces::Many(faces) => mesh.face_part[faces[0] as usize].index(),
-    };
-    let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
-    let (mut faces, mut wanted) = (vec![0usize; parts], vec![0usize; parts]);
-    for (part, corners) in mesh.face_part.iter().zip(&smooth.corners) {
-        faces[part.index()] += usize::from(corners[0] != NO_NORMAL);
-    }
-    marked.iter().for_each(|marked| wanted[part_of(marked.edge)] += 1);
-    let is_dense = |part: usize| faces[part] > SMALL && wanted[part] <= faces[part] * 3 / 2 / FEW;
-    marked.retain(|marked| !is_dense(part_of(marked.edge)));
-    marked
 }
 
 struct Work {

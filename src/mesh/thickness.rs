@@ -60,10 +60,11 @@ fn swelling(mesh: &Mesh, smooth: &SmoothNormals, face: u32) -> f64 {
 mod tests {
     use super::*;
     use crate::mesh::Soup;
+    use crate::mesh::refine::refined;
     use glam::DVec3;
 
-    /// Two sheets between the same four corners of a strip: one with its middle at `top`, one at `bottom`, with the
-    /// normals of what they are parts of.
+    /// Two square sheets back to back, so far apart; each with normals by which it bends outward, or inward if
+    /// `bend` is below zero.
     fn strip(bend: [f64; 2], apart: f64) -> (Mesh, SmoothNormals) {
         let mut soup = Soup::default();
         for (sheet, bend) in bend.into_iter().enumerate() {
@@ -98,5 +99,25 @@ mod tests {
         assert_eq!(thin_edges([0.13, 0.13], 0.4), 6, "a blade");
         assert_eq!(thin_edges([0.13, 0.13], 0.6), 0, "a cushion");
         assert_eq!(thin_edges([0.13, -0.13], 0.4), 0, "a shell");
+    }
+
+    #[test]
+    fn blades_are_drawn_as_thick_as_they_are() {
+        let thickness = |bend: [f64; 2], apart: f64| {
+            let (mesh, smooth) = strip(bend, apart);
+            let want =
+                |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
+            let finer = refined(&mesh, &smooth, |_, _| true, want).expect("normals turn");
+            let (low, high) = finer
+                .mesh
+                .positions
+                .iter()
+                .fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.z), high.max(p.z)));
+            high - low
+        };
+        // Each sheet stands out by 0.25.
+        assert!((thickness([0.13, 0.13], 0.4) - 0.4).abs() < 1e-12, "a blade");
+        assert!((thickness([0.13, 0.13], 0.6) - 1.1).abs() < 0.05, "a cushion");
+        assert!((thickness([0.13, -0.13], 0.4) - 0.65).abs() < 0.05, "a shell");
     }
 }

@@ -1,0 +1,84 @@
+//! `marks`: which edges of rounded surfaces are cut for a view, and which are too thin to be.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::smooth_normals::NO_NORMAL;
+use super::thickness;
+use super::{Mesh, SmoothNormals};
+
+/// Parts up to so many rounded faces are cut in no time.
+const SMALL: usize = 20_000;
+/// A larger part of which no more than one edge in so many is wanted is dense enough as it is: what is
+/// left are slivers, and building all of it anew would cost more than they show.
+const FEW: usize = 500;
+
+/// Only what stands out so many times as far as wanted is asked for its thickness: less is not seen.
+const SWOLLEN: f64 = 6.0;
+
+/// Edges that one task looks at.
+const CHUNK: usize = 1 << 14;
+
+/// What becomes of the edges of a mesh.
+pub(super) struct Marks {
+    /// The smooth vertices at the ends of the edges to cut.
+    pub cut: Vec<[u32; 2]>,
+    /// Edges that stay straight, ascending.
+    pub thin: Vec<usize>,
+}
+
+/// An edge that may be cut.
+#[derive(Clone, Copy)]
+struct Marked {
+    edge: usize,
+    /// Its smooth vertices.
+    ends: [u32; 2],
+    /// How much it is wanted.
+    wanted: f64,
+}
+
+/// Marks the edges for which `want` says more than 1, as [`refined`](super::refine::refined) has it.
+pub(super) fn marks(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    is_long: &(impl Fn(DVec3, DVec3) -> bool + Sync),
+    want: &(impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync),
+) -> Marks {
+    let mark = |edge: usize| {
+        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+        if smooth.straight.contains(edge) || !is_long(a, b) {
+            return None;
+        }
+        let ends = smooth.across(mesh, edge)?;
+        let positions = ends.map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
+        let wanted = want(positions, ends.map(|v| smooth.normals[v as usize]));
+        (wanted > 1.0).then_some(Marked { edge, ends, wanted })
+    };
+    let marked: Vec<Vec<Marked>> = (0..mesh.edges.len().div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len())).filter_map(mark).collect())
+        .collect();
+    let marked = without_dense_parts(mesh, smooth, marked.concat());
+    let swollen: Vec<(usize, [u32; 2])> =
+        marked.iter().filter(|m| m.wanted > SWOLLEN).map(|m| (m.edge, m.ends)).collect();
+    let thin = thickness::thin(mesh, smooth, &swollen);
+    let is_cut = |marked: &&Marked| thin.binary_search(&marked.edge).is_err();
+    Marks { cut: marked.iter().filter(is_cut).map(|marked| marked.ends).collect(), thin }
+}
+
+/// The marked edges, but for those of parts that are dense enough.
+fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Marked>) -> Vec<Marked> {
+    if marked.is_empty() || mesh.triangles.len() <= SMALL {
+        return marked;
+    }
+    let part_of = |edge: usize| mesh.face_part[mesh.edges.faces(edge).list()[0] as usize].index();
+    let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
+    let (mut faces, mut wanted) = (vec![0usize; parts], vec![0usize; parts]);
+    for (part, corners) in mesh.face_part.iter().zip(&smooth.corners) {
+        faces[part.index()] += usize::from(corners[0] != NO_NORMAL);
+    }
+    marked.iter().for_each(|marked| wanted[part_of(marked.edge)] += 1);
+    let is_dense = |part: usize| faces[part] > SMALL && wanted[part] <= faces[part] * 3 / 2 / FEW;
+    marked.retain(|marked| !is_dense(part_of(marked.edge)));
+    marked
+}
