@@ -12,6 +12,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::space_curve::spread;
 /// Bits of a cell along one axis; the next bit is the spare one.
 const CELL_BITS: u32 = 20;
 /// Distance between the fields of a packed triple.
@@ -62,7 +63,7 @@ impl GridBox {
         let twice_centre = self.low + (self.high & CELLS);
         let axis = |n: u32| {
             let top = (twice_centre >> (n * FIELD_BITS + FIELD_BITS - 10)) as u32 & 0x3ff;
-            spread_bits(top) << n
+            (spread(u64::from(top)) as u32) << n
         };
         axis(0) | axis(1) | axis(2)
     }
@@ -85,16 +86,6 @@ fn greater(a: u64, b: u64) -> u64 {
 fn lesser(a: u64, b: u64) -> u64 {
     let mask = not_less_mask(a, b);
     (b & mask) | (a & !mask)
-}
-
-/// Ten bits, each followed by two zeros.
-#[inline]
-fn spread_bits(ten: u32) -> u32 {
-    let mut bits = ten;
-    bits = (bits | bits << 16) & 0x0300_00ff;
-    bits = (bits | bits << 8) & 0x0300_f00f;
-    bits = (bits | bits << 4) & 0x030c_30c3;
-    (bits | bits << 2) & 0x0924_9249
 }
 
 /// Boxes of some triangles of a mesh, in an eight-fold tree.

@@ -7,6 +7,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::space_curve::spread;
 use super::{FaceId, Mesh};
 use crate::math::tolerance;
 
@@ -244,16 +245,6 @@ fn morton(p: DVec3) -> u64 {
     axis(p.x) << 2 | axis(p.y) << 1 | axis(p.z)
 }
 
-/// Twenty-one bits, each followed by two zeros.
-fn spread(bits: u64) -> u64 {
-    let mut x = bits;
-    x = (x | x << 32) & 0x001f_0000_0000_ffff;
-    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
-    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
-    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
-    (x | x << 2) & 0x1249_2492_4924_9249
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -288,6 +279,14 @@ mod tests {
                         .any(|face| meets(&mesh.corners(FaceId(face)), start, direction, reach).is_some());
                     assert_eq!(tree.is_blocked(start, direction, reach), all, "{count} {n} {reach}");
                     blocked += u32::from(all);
+                    let odd = |face: u32| face % 2 == 1;
+                    let nearest = (0..mesh.triangles.len() as u32)
+                        .filter(|face| odd(*face))
+                        .filter_map(|face| {
+                            meets(&mesh.corners(FaceId(face)), start, direction, reach).map(|at| (face, at))
+                        })
+                        .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+                    assert_eq!(tree.first_met(start, direction, reach, odd), nearest, "{count} {n} {reach}");
                 }
             }
             assert!(count < 64 || blocked > 50, "{count}: {blocked}");
