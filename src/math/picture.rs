@@ -138,6 +138,65 @@ mod tests {
         assert_eq!(picture.at(7, 7), Colour::rgb(250, 0, 9));
     }
 
+    /// JPEG files in base 64: one pixel block of each colour, and a grey one.
+    const RED_AND_BLUE: &str = "\
+        /9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMU\
+        FRUVDA8XGBYUGBIUFRT/2wBDAQMEBAUEBQkFBQkUDQsNFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQU\
+        FBQUFBQUFBT/wAARCAAIABADAREAAhEBAxEB/8QAFAABAAAAAAAAAAAAAAAAAAAAB//EABQQAQAAAAAAAAAAAAAAAAAAAAD/xAAW\
+        AQEBAQAAAAAAAAAAAAAAAAAJBwj/xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oADAMBAAIRAxEAPwASSptgeEIGu//Z";
+    const GREY: &str = "\
+        /9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYn\
+        KSopGR8tMC0oMCUoKSj/wAALCAAIAAgBAREA/8QAFAABAAAAAAAAAAAAAAAAAAAAB//EABQQAQAAAAAAAAAAAAAAAAAAAAD/2gAI\
+        AQEAAD8AO3//2Q==";
+
+    fn bytes(base64: &str) -> Vec<u8> {
+        base64::Engine::decode(&base64::engine::general_purpose::STANDARD, base64).unwrap()
+    }
+
+    #[test]
+    fn pixels_of_jpegs() {
+        let is_near = |a: Colour, b: Colour| {
+            [(a.r, b.r), (a.g, b.g), (a.b, b.b)].iter().all(|(a, b)| a.abs_diff(*b) <= 3) && a.a == 255
+        };
+        let picture = Picture::decode(&bytes(RED_AND_BLUE)).unwrap();
+        assert_eq!((picture.width, picture.height), (16, 8));
+        assert!(picture.row(5)[..8].iter().all(|pixel| is_near(*pixel, Colour::rgb(200, 40, 30))));
+        assert!(picture.row(5)[8..].iter().all(|pixel| is_near(*pixel, Colour::rgb(20, 60, 180))));
+        let grey = Picture::decode(&bytes(GREY)).unwrap();
+        assert!(grey.pixels.len() == 64 && grey.pixels.iter().all(|p| is_near(*p, Colour::rgb(77, 77, 77))));
+        let whole = bytes(RED_AND_BLUE);
+        assert!(Picture::decode(&whole[..60]).unwrap_err().starts_with("cannot be read"));
+    }
+
+    #[test]
+    fn pngs_of_every_depth_have_eight_bits() {
+        let encoded = |colour: png::ColorType, depth: png::BitDepth, palette: &[u8], pixels: &[u8]| {
+            let mut bytes = Vec::new();
+            let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+            encoder.set_color(colour);
+            encoder.set_depth(depth);
+            if !palette.is_empty() {
+                encoder.set_palette(palette.to_vec());
+            }
+            encoder.write_header().unwrap().write_image_data(pixels).unwrap();
+            Picture::decode(&bytes).unwrap().pixels
+        };
+        let grey = |v: u8, a: u8| Colour { r: v, g: v, b: v, a };
+        use png::{BitDepth, ColorType};
+        assert_eq!(
+            encoded(ColorType::Grayscale, BitDepth::One, &[], &[0x40]),
+            [grey(0, 255), grey(255, 255)]
+        );
+        let sixteen = encoded(ColorType::Grayscale, BitDepth::Sixteen, &[], &[9, 0, 200, 0]);
+        assert_eq!(sixteen, [grey(9, 255), grey(200, 255)]);
+        let half = encoded(ColorType::GrayscaleAlpha, BitDepth::Eight, &[], &[9, 128, 200, 0]);
+        assert_eq!(half, [grey(9, 128), grey(200, 0)]);
+        let painted = encoded(ColorType::Indexed, BitDepth::Eight, &[1, 2, 3, 250, 0, 9], &[1, 0]);
+        assert_eq!(painted, [Colour::rgb(250, 0, 9), Colour::rgb(1, 2, 3)]);
+        let seen = encoded(ColorType::Rgba, BitDepth::Eight, &[], &[1, 2, 3, 4, 5, 6, 7, 8]);
+        assert_eq!(seen, [Colour { r: 1, g: 2, b: 3, a: 4 }, Colour { r: 5, g: 6, b: 7, a: 8 }]);
+    }
+
     #[test]
     fn what_is_no_picture_is_named() {
         assert_eq!(Picture::decode(b"hello").unwrap_err(), "is neither PNG nor JPEG");
