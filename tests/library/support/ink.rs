@@ -1,6 +1,6 @@
 //! Lines of a picture as a set of segments, and how far a place is from the nearest.
 
-use kurbo::Point;
+use kurbo::{BezPath, PathEl, Point};
 use ligne::chain::Chain;
 use rustc_hash::FxHashMap;
 
@@ -76,21 +76,24 @@ pub fn samples(segments: &[[Point; 2]], step: f64) -> Vec<(Point, f64)> {
     found
 }
 
+/// A path as short segments no farther than `tolerance` from it.
+pub fn flattened(path: &BezPath, tolerance: f64) -> Vec<[Point; 2]> {
+    let (mut segments, mut at, mut start) = (Vec::new(), Point::ZERO, Point::ZERO);
+    kurbo::flatten(path, tolerance, |element| match element {
+        PathEl::MoveTo(p) => (at, start) = (p, p),
+        PathEl::LineTo(p) => {
+            segments.push([at, p]);
+            at = p;
+        }
+        _ => segments.push([at, start]),
+    });
+    segments
+}
+
 /// The curves that chains are drawn as, as short segments no farther than a thousandth of a px from them.
 pub fn drawn(chains: &[Chain]) -> Vec<[Point; 2]> {
-    let mut segments = Vec::new();
-    for chain in chains.iter().filter(|c| c.invisibility == 0) {
-        let (mut at, mut start) = (Point::ZERO, Point::ZERO);
-        kurbo::flatten(&chain.path, 1e-3, |element| match element {
-            kurbo::PathEl::MoveTo(p) => (at, start) = (p, p),
-            kurbo::PathEl::LineTo(p) => {
-                segments.push([at, p]);
-                at = p;
-            }
-            _ => segments.push([at, start]),
-        });
-    }
-    segments
+    let visible = chains.iter().filter(|c| c.invisibility == 0);
+    visible.flat_map(|chain| flattened(&chain.path, 1e-3)).collect()
 }
 
 /// A share of the values is at most this; `values` are sorted.

@@ -7,7 +7,7 @@
 use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
 
-use super::ink::{Ink, samples};
+use super::ink::{Ink, flattened, samples};
 use super::polygon_lines::Kind;
 use super::truth::{Place, State, Truth};
 
@@ -46,16 +46,7 @@ pub fn ink_marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
 /// The line that a mark follows, in short segments.
 pub fn axis(mark: &Mark) -> Vec<[Point; 2]> {
     let path = if let Paint::Outline(outline) = &mark.paint { &outline.axis } else { &mark.path };
-    let (mut segments, mut at, mut start) = (Vec::new(), Point::ZERO, Point::ZERO);
-    kurbo::flatten(path, 0.01, |element| match element {
-        kurbo::PathEl::MoveTo(p) => (at, start) = (p, p),
-        kurbo::PathEl::LineTo(p) => {
-            segments.push([at, p]);
-            at = p;
-        }
-        _ => segments.push([at, start]),
-    });
-    segments
+    flattened(path, 0.01)
 }
 
 /// The verdict on a drawing, with ink counted within `tolerance` px.
