@@ -10,9 +10,10 @@
 use super::edge_set::EdgeSet;
 use super::groups::Groups;
 use super::planes::{Planes, area};
-use super::rounded::{LEAST_EDGES, Make, Origin, verdicts};
+use super::rounded::{LEAST_EDGES, Make, Origin, Verdict, verdicts};
+use super::smooth_normals::file_cosines;
 use super::{Dihedral, EdgeFaces, FaceId, HardEdges, Mesh};
-use crate::math::function::acos;
+use crate::math::function::{acos, cos};
 
 /// On round pieces a crease turns by so many times as much.
 const ROUND: f64 = 1.5;
@@ -67,7 +68,7 @@ impl Patches {
         let verdicts = verdicts(mesh, &planes, all);
         let believed = verdicts.iter().map(|verdict| verdict.believed).collect();
         let makes: Vec<Make> = verdicts.iter().map(|verdict| verdict.make).collect();
-        let hard = hard_edges(mesh, &makes, crease_deg);
+        let hard = hard_edges(mesh, &verdicts, crease_deg);
         let rims = rims(mesh, &planes, &makes);
         let mut rounded: Vec<bool> = makes.iter().map(|make| all || *make == Make::Round).collect();
         if !all && makes.contains(&Make::Machined) {
@@ -86,23 +87,29 @@ pub fn origins(mesh: &Mesh) -> Vec<Origin> {
     verdicts(mesh, &Planes::new(mesh), false).iter().map(|verdict| verdict.origin).collect()
 }
 
-/// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, only
-/// chains that turn by more and stand out from what is around them.
-fn hard_edges(mesh: &Mesh, makes: &[Make], crease_deg: f64) -> HardEdges {
-    let blunt = || HardEdges::above(mesh, crease_deg);
-    let sharp = || HardEdges::find(mesh, (ROUND * crease_deg).min(180.0));
-    let round = makes.iter().filter(|make| **make == Make::Round).count();
+/// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
+/// which the file's normals turn as well, and chains that turn by more and stand out from what is around them.
+fn hard_edges(mesh: &Mesh, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
+    let is_round = |face: u32| verdicts[face as usize].make == Make::Round;
+    let round = (0..verdicts.len() as u32).filter(|face| is_round(*face)).count();
     if round == 0 {
-        blunt()
-    } else if round == makes.len() {
-        sharp()
-    } else {
-        let is_round = |edge: usize| match mesh.edges.faces(edge) {
-            EdgeFaces::Two { faces, .. } => faces.iter().all(|f| makes[*f as usize] == Make::Round),
-            _ => false,
-        };
-        sharp().chosen_from(&blunt(), mesh, is_round)
+        return HardEdges::above(mesh, crease_deg);
     }
+    let sharp = HardEdges::find(mesh, (ROUND * crease_deg).min(180.0));
+    if round == verdicts.len() && mesh.corner_normals.is_empty() {
+        return sharp;
+    }
+    let least = cos(crease_deg.to_radians());
+    sharp.chosen_from(&HardEdges::above(mesh, crease_deg), mesh, |edge| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, .. } => {
+            let shaded_sharp = || {
+                faces.iter().all(|face| verdicts[*face as usize].believed)
+                    && file_cosines(mesh, edge, faces).is_some_and(|[a, b]| a.min(b) < least)
+            };
+            faces.iter().all(|face| is_round(*face)) && (sharp.is_hard(edge) || !shaded_sharp())
+        }
+        _ => false,
+    })
 }
 
 /// Where flats and wide faces end.
@@ -222,5 +229,66 @@ fn add_free_forms(
     }
     for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
         rounded[face as usize] = counts[patches.of(face) as usize].is_free_form();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+    use glam::DVec3;
+
+    /// A lens of two caps of a ball that turn into each other by an angle (degrees), with the normals of the
+    /// caps, or with one normal at each vertex of the rim.
+    fn lens(angle_deg: f64, split: bool) -> Mesh {
+        const AROUND: u32 = 24;
+        const RINGS: u32 = 12;
+        let half = ((180.0 - angle_deg) / 2.0).to_radians();
+        let mut soup = Soup::default();
+        for up in [1.0, -1.0] {
+            let first = soup.positions.len() as u32;
+            let centre = DVec3::new(0.0, 0.0, -up * half.cos());
+            for ring in 0..=RINGS {
+                for step in 0..AROUND {
+                    let (polar, turn) = (
+                        half * f64::from(ring) / f64::from(RINGS),
+                        std::f64::consts::TAU * (f64::from(step) + 0.5 * f64::from(ring)) / f64::from(AROUND),
+                    );
+                    let out =
+                        DVec3::new(polar.sin() * turn.cos(), polar.sin() * turn.sin(), up * polar.cos());
+                    let is_rim = ring == RINGS;
+                    let rim = DVec3::new(turn.cos(), turn.sin(), 0.0);
+                    let normal = if is_rim && !split { rim } else { out };
+                    soup.positions.push(if is_rim { rim * half.sin() } else { centre + out });
+                    soup.normals.push(normal.as_vec3().to_array());
+                }
+            }
+            for ring in 0..RINGS {
+                for step in 0..AROUND {
+                    let at = |ring: u32, step: u32| first + ring * AROUND + step % AROUND;
+                    let (a, b) = (at(ring, step), at(ring, step + 1));
+                    let (c, d) = (at(ring + 1, step), at(ring + 1, step + 1));
+                    for [a, b, c] in [[a, c, b], [b, c, d]] {
+                        soup.triangles.push(if up > 0.0 { [a, b, c] } else { [a, c, b] });
+                    }
+                }
+            }
+        }
+        soup.corner_normals = soup.triangles.clone();
+        Mesh::build(soup)
+    }
+
+    #[test]
+    fn a_crease_of_a_round_piece_is_where_its_file_shades_one() {
+        let hard = |angle_deg: f64, split: bool| {
+            let mesh = lens(angle_deg, split);
+            let patches = Patches::new(&mesh, 40.0, false);
+            assert!(patches.rounded.iter().all(|rounded| *rounded));
+            patches.hard.count()
+        };
+        assert_eq!(hard(52.0, true), 24, "shaded sharp");
+        assert_eq!(hard(52.0, false), 0, "shaded smooth");
+        assert_eq!(hard(36.0, true), 0, "below the angle of a crease");
+        assert_eq!(hard(70.0, false), 24, "sharp by its angle, however shaded");
     }
 }

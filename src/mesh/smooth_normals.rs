@@ -275,6 +275,19 @@ pub(super) fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
     })
 }
 
+/// The cosines between the normals that a file gives two faces at the ends of the edge they share, none where it
+/// gives one of them none.
+pub(super) fn file_cosines(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<[f64; 2]> {
+    let [first, second] =
+        faces.map(|face| (mesh.triangles[face as usize], file_normals(mesh, face as usize)));
+    let at = |(triangle, normals): &([u32; 3], [DVec3; 3]), vertex: u32| {
+        triangle.iter().position(|v| *v == vertex).map(|k| normals[k]).filter(|normal| *normal != DVec3::ZERO)
+    };
+    let [a, b] = mesh.edges.vertices[edge];
+    let cosine = |vertex: u32| Some(at(&first, vertex)?.dot(at(&second, vertex)?));
+    Some([cosine(a)?, cosine(b)?])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
