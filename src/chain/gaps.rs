@@ -5,7 +5,7 @@
 
 use super::link::{Class, Routes, Step};
 use crate::lines::LineKind;
-use crate::viewmap::ViewMap;
+use crate::viewmap::{Ahead, ViewMap, Way};
 
 /// A stretch of a route over which something stays the same.
 #[derive(Debug, Clone, Copy)]
@@ -17,33 +17,71 @@ struct Run {
 }
 
 /// Makes hidden stretches of smooth contours shorter than `gap` visible where the line is visible
-/// before and behind them. `routes` must join edges regardless of visibility.
-pub(super) fn bridge(map: &ViewMap, routes: &Routes, gap: f64, classes: &mut [Option<Class>]) {
-    for (steps, closed) in routes.iter() {
-        let runs = runs(map, steps, closed, |step| class(classes, step).is_none_or(|c| c.hidden));
-        let count = runs.len();
-        for (i, run) in runs.iter().enumerate() {
-            let inner = closed && count > 1 || (i > 0 && i + 1 < count);
-            let beside = |j: usize| runs[j % count].length;
-            if !run.value || !inner || run.length >= gap {
-                continue;
-            }
-            // Two crumbs do not make a line by what is between them.
-            if beside(i + count - 1).max(beside(i + 1)) < run.length {
-                continue;
-            }
-            let smooth = |step: &Step| {
-                let edge = &map.edges[step.edge as usize];
-                edge.kind == LineKind::Contour && edge.smooth
-            };
-            if (run.first..run.end).all(|k| smooth(&steps[k % steps.len()])) {
-                for k in run.first..run.end {
-                    if let Some(class) = &mut classes[steps[k % steps.len()].edge as usize] {
-                        class.hidden = false;
-                    }
-                }
+/// before and behind them, and nothing but their own surface hides them. `routes` must join edges
+/// regardless of visibility.
+pub(super) fn bridge(
+    map: &ViewMap,
+    routes: &Routes,
+    gap: f64,
+    ahead: Option<&Ahead>,
+    classes: &mut [Option<Class>],
+) {
+    let gaps: Vec<Gap> =
+        routes.iter().flat_map(|(steps, closed)| gaps(map, steps, closed, gap, classes)).collect();
+    let ways: Vec<Way> = gaps.iter().map(|gap| gap.way).collect();
+    let hidden = ahead.map_or_else(|| vec![false; ways.len()], |ahead| ahead.hides(&ways));
+    for (gap, _) in gaps.iter().zip(hidden).filter(|(_, hidden)| !hidden) {
+        for step in &gap.steps {
+            if let Some(class) = &mut classes[step.edge as usize] {
+                class.hidden = false;
             }
         }
+    }
+}
+
+/// A stretch that may be bridged.
+struct Gap {
+    steps: Vec<Step>,
+    way: Way,
+}
+
+/// The hidden stretches of a route shorter than `gap` that lie in visible ones of one smooth contour.
+fn gaps(map: &ViewMap, steps: &[Step], closed: bool, gap: f64, classes: &[Option<Class>]) -> Vec<Gap> {
+    let runs = runs(map, steps, closed, |step| class(classes, step).is_none_or(|c| c.hidden));
+    let count = runs.len();
+    let smooth = |step: &Step| {
+        let edge = &map.edges[step.edge as usize];
+        edge.kind == LineKind::Contour && edge.smooth
+    };
+    let mut gaps = Vec::new();
+    for (i, run) in runs.iter().enumerate() {
+        let inner = closed && count > 1 || (i > 0 && i + 1 < count);
+        let beside = |j: usize| runs[j % count].length;
+        if !run.value || !inner || run.length >= gap {
+            continue;
+        }
+        // Two crumbs do not make a line by what is between them.
+        if beside(i + count - 1).max(beside(i + 1)) < run.length {
+            continue;
+        }
+        let own: Vec<Step> = (run.first..run.end).map(|k| steps[k % steps.len()]).collect();
+        if own.iter().all(smooth) {
+            gaps.extend(Gap::new(map, own));
+        }
+    }
+    gaps
+}
+
+impl Gap {
+    fn new(map: &ViewMap, steps: Vec<Step>) -> Option<Self> {
+        let (first, last) = (*steps.first()?, *steps.last()?);
+        let ends = [first.from(map), last.to(map)].map(|v| map.vertices[v.index()]);
+        let way = Way {
+            ends: ends.map(|vertex| vertex.position),
+            depths: ends.map(|vertex| vertex.depth),
+            segments: [first, last].map(|step| map.edges[step.edge as usize].segment),
+        };
+        Some(Self { steps, way })
     }
 }
 

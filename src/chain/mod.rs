@@ -32,7 +32,7 @@ use crate::drawing::{Length, Unit};
 use crate::lines::{HiddenLines, LineKind};
 use crate::math::colour::Colour;
 use crate::mesh::{MaterialId, PartId};
-use crate::viewmap::ViewMap;
+use crate::viewmap::{Ahead, ViewMap};
 use finish::{Tolerances, finish};
 use line::Line;
 use raw::Raw;
@@ -138,19 +138,33 @@ const DIRECTION_PX: f64 = 3.0;
 /// with.
 #[must_use]
 pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
-    link_with(map, options, unit, hidden, &mut Bin::default())
+    link_with(map, options, unit, hidden, None, &mut Bin::default())
 }
 
-/// Chains as [`link`] makes them, and what tidying left out, in the order in which it went.
+/// Chains as [`link`] makes them, but that tidying draws no line across what hides it, however thin, if
+/// that is another surface than the line's own.
+#[must_use]
+pub fn link_behind(
+    ahead: &Ahead,
+    map: &ViewMap,
+    options: &ChainOptions,
+    unit: Unit,
+    hidden: HiddenLines,
+) -> Vec<Chain> {
+    link_with(map, options, unit, hidden, Some(ahead), &mut Bin::default())
+}
+
+/// Chains as [`link_behind`] makes them, and what tidying left out, in the order in which it went.
 #[must_use]
 pub fn link_and_keep(
+    ahead: Option<&Ahead>,
     map: &ViewMap,
     options: &ChainOptions,
     unit: Unit,
     hidden: HiddenLines,
 ) -> (Vec<Chain>, Vec<Removed>) {
     let mut bin = Bin::kept();
-    let chains = link_with(map, options, unit, hidden, &mut bin);
+    let chains = link_with(map, options, unit, hidden, ahead, &mut bin);
     (chains, bin.emptied())
 }
 
@@ -159,6 +173,7 @@ fn link_with(
     options: &ChainOptions,
     unit: Unit,
     hidden: HiddenLines,
+    ahead: Option<&Ahead>,
     bin: &mut Bin,
 ) -> Vec<Chain> {
     let px = Length::px(1.0).in_unit(unit);
@@ -169,7 +184,7 @@ fn link_with(
         tidy: options.tidy.in_unit(unit).max(0.0),
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
     };
-    let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, bin);
+    let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, ahead, bin);
     raws.into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
 }
 

@@ -11,6 +11,7 @@ use super::Sample;
 use super::line::{Line, distance2, length};
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
+use crate::viewmap::{Ahead, Way};
 
 /// Tidy lengths that a stitch may jump when nothing is trimmed, and when a stub is.
 const JUMP: f64 = 2.5;
@@ -48,6 +49,18 @@ struct Stitch {
     cut_b: Cut,
 }
 
+impl Stitch {
+    /// Where the thread is laid.
+    fn way(&self, raws: &[Raw]) -> Way {
+        let cuts = [self.cut_a, self.cut_b];
+        Way {
+            ends: cuts.map(|cut| cut.point),
+            depths: cuts.map(|cut| cut.sample.depth),
+            segments: [self.a, self.b].map(|end| raws[end / 2].segment),
+        }
+    }
+}
+
 /// What is left of a line at one end: it begins at `point` and goes on with point `next`, counted
 /// from that end.
 #[derive(Debug, Clone, Copy)]
@@ -59,8 +72,15 @@ struct Cut {
 }
 
 /// Sews what can be sewn; lines keep the order and sense of the first of those they are made of.
-pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
-    let stitches = choose(&raws, degrees, tidy);
+/// No thread is laid behind another surface than theirs.
+pub(super) fn stitch(
+    mut raws: Vec<Raw>,
+    degrees: &mut Degrees,
+    tidy: f64,
+    ahead: Option<&Ahead>,
+    bin: &mut Bin,
+) -> Vec<Raw> {
+    let stitches = choose(&raws, degrees, tidy, ahead);
     if stitches.is_empty() {
         return raws;
     }
@@ -130,7 +150,7 @@ pub(super) fn stitch(mut raws: Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: 
 }
 
 /// The cheapest stitches, each end in at most one.
-fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64) -> Vec<Stitch> {
+fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> Vec<Stitch> {
     let mut ends: Vec<(Point, usize)> = Vec::new();
     for (i, raw) in raws.iter().enumerate() {
         if raw.smooth && !raw.class.hidden && !raw.line.closed && raw.line.len() > 1 {
@@ -151,6 +171,11 @@ fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64) -> Vec<Stitch> {
                 found.extend(best(raws, *a, *b, tidy));
             }
         }
+    }
+    if let Some(ahead) = ahead {
+        let ways: Vec<Way> = found.iter().map(|stitch| stitch.way(raws)).collect();
+        let mut hidden = ahead.hides(&ways).into_iter();
+        found.retain(|_| !hidden.next().unwrap_or(false));
     }
     found.sort_by(|s, u| s.cost.total_cmp(&u.cost).then((s.a, s.b).cmp(&(u.a, u.b))));
     let mut taken = vec![false; 2 * raws.len()];

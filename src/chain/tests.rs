@@ -194,7 +194,7 @@ fn crumbs_and_spurs_go_and_the_outline_stays() {
     let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     assert!(chains[0].closed);
-    let (kept, removed) = link_and_keep(&map, &ChainOptions::default(), Unit::Px, HiddenLines::Solid);
+    let (kept, removed) = link_and_keep(None, &map, &ChainOptions::default(), Unit::Px, HiddenLines::Solid);
     assert_eq!(kept, chains);
     let reasons: Vec<_> = removed.iter().map(|r| (r.kind, r.reason)).collect();
     assert_eq!(reasons, [(LineKind::Contour, Reason::Spur), (LineKind::Crease, Reason::Crumb)]);
@@ -252,7 +252,7 @@ fn a_flake_beside_an_outline_goes_and_a_line_apart_stays() {
     assert_eq!((count(53.0, 100), count(62.0, 110)), (1, 2));
     let lines = [(outline.clone(), LineKind::Contour, true), (beside(53.0, 100), LineKind::Contour, true)];
     let map = map_of(&lines);
-    let (_, removed) = link_and_keep(&map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
+    let (_, removed) = link_and_keep(None, &map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
     assert_eq!(removed.iter().map(|r| r.reason).collect::<Vec<_>>(), [Reason::Double]);
 }
 

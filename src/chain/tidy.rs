@@ -16,7 +16,7 @@ use super::silhouette;
 use super::stitch::stitch;
 use crate::lines::HiddenLines;
 use crate::mesh::Origin;
-use crate::viewmap::ViewMap;
+use crate::viewmap::{Ahead, ViewMap};
 
 /// Hidden gaps are bridged up to this part of the tidy length.
 const GAP: f64 = 0.6;
@@ -36,12 +36,19 @@ const ROUNDS: usize = 3;
 
 /// The tidied lines of a view map. Hidden ones are left out where they are not drawn; what else is
 /// left out goes to the bin.
-pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64, bin: &mut Bin) -> Vec<Raw> {
+pub(super) fn tidied(
+    map: &ViewMap,
+    hidden: HiddenLines,
+    tidy: f64,
+    window: f64,
+    ahead: Option<&Ahead>,
+    bin: &mut Bin,
+) -> Vec<Raw> {
     let mut classes: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of(e))).collect();
     if tidy > 0.0 {
         if map.edges.iter().any(|e| e.invisibility > 0) {
             let sources: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of_source(e))).collect();
-            bridge(map, &routes(map, &sources, window), GAP * tidy, &mut classes);
+            bridge(map, &routes(map, &sources, window), GAP * tidy, ahead, &mut classes);
         }
         for class in classes.iter_mut().flatten() {
             class.silhouette = false;
@@ -62,7 +69,7 @@ pub(super) fn tidied(map: &ViewMap, hidden: HiddenLines, tidy: f64, window: f64,
     let mut degrees = Degrees::new(map, &classes);
     for _ in 0..ROUNDS {
         let count = raws.len();
-        raws = stitch(raws, &mut degrees, tidy, bin);
+        raws = stitch(raws, &mut degrees, tidy, ahead, bin);
         drop_doubles(&mut raws, &mut degrees, DOUBLE * tidy, bin);
         drop_crumbs(&mut raws, &mut degrees, tidy, bin);
         if raws.len() == count {

@@ -1,12 +1,11 @@
 //! [`Surface`]: a mesh with what its options make of it: which edges are hard, which faces round.
 
-use glam::Vec3;
-
 use super::LineOptions;
 use super::options::{Contours, Normals};
 use crate::field;
 use crate::mesh::patches;
 use crate::mesh::refine::Refined;
+use crate::mesh::smooth_normals::file_cosines;
 use crate::mesh::{EdgeFaces, HardEdges, Mesh, Origin, Patches, SmoothNormals};
 use crate::scene::Camera;
 use crate::view::Frame;
@@ -27,6 +26,8 @@ pub struct Surface {
     pub smooth: SmoothNormals,
     /// How the surface at each face came about.
     pub origins: Vec<Origin>,
+    /// Which connected piece each face is of; empty if there is but one, or nobody asked.
+    pub pieces: Vec<u32>,
     /// Whether faces were cut that the model does not have.
     pub refined: bool,
 }
@@ -40,15 +41,22 @@ impl Surface {
         }
         if options.contours == Contours::Mesh {
             let hard = HardEdges::above(&mesh, options.crease_deg);
-            let origins = patches::origins(&mesh);
-            return Self { mesh, hard, origins, ..Self::default() };
+            let (origins, pieces) = patches::origins_and_pieces(&mesh);
+            return Self { mesh, hard, origins, pieces, ..Self::default() };
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
             mesh.forget_normals(|face| !patches.believed[face as usize]);
         }
         let smooth = normals(&mesh, &patches);
-        Self { mesh, hard: patches.hard, smooth, origins: patches.origins, refined: false }
+        Self {
+            mesh,
+            hard: patches.hard,
+            smooth,
+            origins: patches.origins,
+            pieces: patches.pieces,
+            refined: false,
+        }
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the
@@ -65,7 +73,15 @@ impl Surface {
         let frame = Frame::new(camera, self.mesh.origin);
         let Refined { mesh, smooth, hosts } = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
         let origins = hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect();
-        Some(Self { hard: self.hard.carried(&self.mesh, &mesh), mesh, smooth, origins, refined: true })
+        let pieces = hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect();
+        Some(Self {
+            hard: self.hard.carried(&self.mesh, &mesh),
+            mesh,
+            smooth,
+            origins,
+            pieces,
+            refined: true,
+        })
     }
 }
 
@@ -89,20 +105,6 @@ fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
 
 /// Whether the file creases the surface at an edge; `None` where it has no normals.
 fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
-    if mesh.corner_normals.is_empty() {
-        return None;
-    }
-    let EdgeFaces::Two { faces: [first, second], .. } = mesh.edges.faces(edge) else { return None };
-    let normals = |face: u32| {
-        let triangle = mesh.triangles[face as usize];
-        let ids = mesh.corner_normals.get(face as usize)?;
-        let of = |v: u32| {
-            let k = triangle.iter().position(|t| *t == v)?;
-            mesh.normals.get(ids[k] as usize).map(|n| Vec3::from_array(*n))
-        };
-        let [a, b] = mesh.edges.vertices[edge];
-        Some([of(a)?, of(b)?])
-    };
-    let (n, m) = (normals(first)?, normals(second)?);
-    Some((0..2).any(|k| n[k].dot(m[k]) < SAME_NORMAL_COSINE))
+    let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
+    Some(file_cosines(mesh, edge, faces)?.iter().any(|cosine| *cosine < SAME_NORMAL_COSINE))
 }

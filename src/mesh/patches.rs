@@ -55,6 +55,8 @@ pub struct Patches {
     pub figure: Vec<bool>,
     /// How the surface at each face came about.
     pub origins: Vec<Origin>,
+    /// Which connected piece each face is of; empty if there is but one.
+    pub pieces: Vec<u32>,
     /// Whether the file's normals tell the shape of each face, if it has any.
     pub believed: Vec<bool>,
 }
@@ -75,16 +77,29 @@ impl Patches {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
             add_free_forms(mesh, &planes, &makes, parts, &mut rounded);
         }
-        let origins = verdicts.iter().map(|verdict| verdict.origin).collect();
+        let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
-        Self { hard, rims, rounded, figure, origins, believed }
+        Self { hard, rims, rounded, figure, origins, pieces, believed }
     }
 }
 
-/// How the surface at each face of a mesh came about.
+/// How the surface at each face of a mesh came about, and which connected piece it is of: empty if there is but
+/// one.
 #[must_use]
-pub fn origins(mesh: &Mesh) -> Vec<Origin> {
-    verdicts(mesh, &Planes::new(mesh), false).iter().map(|verdict| verdict.origin).collect()
+pub fn origins_and_pieces(mesh: &Mesh) -> (Vec<Origin>, Vec<u32>) {
+    let verdicts = verdicts(mesh, &Planes::new(mesh), false);
+    (origins_in(&verdicts), pieces_in(&verdicts))
+}
+
+fn origins_in(verdicts: &[Verdict]) -> Vec<Origin> {
+    verdicts.iter().map(|verdict| verdict.origin).collect()
+}
+
+fn pieces_in(verdicts: &[Verdict]) -> Vec<u32> {
+    if verdicts.iter().all(|verdict| verdict.piece == 0) {
+        return Vec::new();
+    }
+    verdicts.iter().map(|verdict| verdict.piece).collect()
 }
 
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
@@ -99,7 +114,7 @@ fn hard_edges(mesh: &Mesh, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
     if round == verdicts.len() && mesh.corner_normals.is_empty() {
         return sharp;
     }
-    let least = cos(crease_deg.to_radians());
+    let least = cos(crease_deg.to_radians()) as f32;
     sharp.chosen_from(&HardEdges::above(mesh, crease_deg), mesh, |edge| match mesh.edges.faces(edge) {
         EdgeFaces::Two { faces, .. } => {
             let shaded_sharp = || {

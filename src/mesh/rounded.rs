@@ -72,6 +72,8 @@ pub(super) struct Verdict {
     pub make: Make,
     pub origin: Origin,
     pub believed: bool,
+    /// Number of the piece, in the order of the pieces' first faces.
+    pub piece: u32,
 }
 
 /// What is counted of the faces of one piece.
@@ -123,7 +125,7 @@ impl Count {
             (Make::Round, true) => Origin::Modelled,
             _ => Origin::Constructed,
         };
-        Verdict { make, origin, believed }
+        Verdict { make, origin, believed, piece: 0 }
     }
 }
 
@@ -170,12 +172,13 @@ pub(super) fn verdicts(mesh: &Mesh, planes: &Planes, all: bool) -> Vec<Verdict> 
     let verdicts: Vec<Verdict> = counts.iter().map(|count| count.verdict(all)).collect();
     (0..faces)
         .map(|face| {
-            if is_small(number[face]) {
+            let verdict = if is_small(number[face]) {
                 let first = pieces.of(face as u32) as usize;
                 together.get(&key(first)).map(|count| count.verdict(all)).unwrap_or_default()
             } else {
                 verdicts[number[face] as usize]
-            }
+            };
+            Verdict { piece: number[face], ..verdict }
         })
         .collect()
 }

@@ -277,14 +277,18 @@ pub(super) fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
 
 /// The cosines between the normals that a file gives two faces at the ends of the edge they share, none where it
 /// gives one of them none.
-pub(super) fn file_cosines(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<[f64; 2]> {
-    let [first, second] =
-        faces.map(|face| (mesh.triangles[face as usize], file_normals(mesh, face as usize)));
-    let at = |(triangle, normals): &([u32; 3], [DVec3; 3]), vertex: u32| {
-        triangle.iter().position(|v| *v == vertex).map(|k| normals[k]).filter(|normal| *normal != DVec3::ZERO)
+#[must_use]
+pub fn file_cosines(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<[f32; 2]> {
+    if mesh.corner_normals.is_empty() {
+        return None;
+    }
+    let normal = |face: u32, vertex: u32| {
+        let corner = mesh.triangles[face as usize].iter().position(|v| *v == vertex)?;
+        let id = mesh.corner_normals.get(face as usize)?[corner];
+        mesh.normals.get(id as usize).map(|normal| Vec3::from_array(*normal))
     };
+    let cosine = |vertex: u32| Some(normal(faces[0], vertex)?.dot(normal(faces[1], vertex)?));
     let [a, b] = mesh.edges.vertices[edge];
-    let cosine = |vertex: u32| Some(at(&first, vertex)?.dot(at(&second, vertex)?));
     Some([cosine(a)?, cosine(b)?])
 }
 

@@ -29,7 +29,7 @@ use crate::scene::{Camera, Scene, paint::Paints};
 use crate::stroke::{self, InkContext, Parting};
 use crate::style::Style;
 use crate::view::View;
-use crate::viewmap::{self, ViewMap};
+use crate::viewmap::{self, Ahead, ViewMap};
 use beside::Beside;
 use fills::{Fills, Paintable};
 use hatching::Hatching;
@@ -194,7 +194,15 @@ impl<'a> Prepared<'a> {
         }
         centre_on_page(&mut map, camera, &page);
 
-        let mut chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
+        let ahead = Ahead {
+            mesh: &surface.mesh,
+            pieces: &surface.pieces,
+            view,
+            lines,
+            seen: &map.seen_contours,
+            moved: margin(camera, &page),
+        };
+        let mut chains = chain::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
         report.stages_ms.chains = watch.lap_ms();
 
         let margin = margin(camera, &page);
@@ -223,7 +231,8 @@ impl<'a> Prepared<'a> {
         match stage {
             None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
             Some(stage) => {
-                let made = Made { surface, view, lines, map: &map, chains: &chains, style, page: &page };
+                let made =
+                    Made { surface, view, lines, ahead, map: &map, chains: &chains, style, page: &page };
                 layers = stages::draw(stage, &made);
             }
         }

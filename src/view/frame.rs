@@ -142,6 +142,13 @@ impl Frame {
         if self.perspective { 1.0 / q } else { -q }
     }
 
+    /// Image-space nearness of a depth.
+    #[inline]
+    #[must_use]
+    pub fn nearness_of(&self, depth: f64) -> f64 {
+        if self.perspective { 1.0 / depth } else { -depth }
+    }
+
     /// The difference in nearness that a small difference in depth makes at nearness `q`.
     #[inline]
     #[must_use]

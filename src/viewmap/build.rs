@@ -71,6 +71,7 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     let mut map = builder.map;
     map.tests = seen.tests;
     map.contours = rounded.counts;
+    map.seen_contours = rounded.seen;
     doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
     map
 }

@@ -1,5 +1,6 @@
 //! The nodes and pieces of the view map.
 
+use glam::DVec2;
 use kurbo::Point;
 
 use crate::lines::LineKind;
@@ -91,6 +92,17 @@ pub struct ViewMap {
     pub tests: u64,
     /// What smooth contours and the polyhedron's have of each other.
     pub contours: ContourCounts,
+    /// What is seen of the contours that rounded surfaces have as polyhedra, drawn or not.
+    pub seen_contours: Vec<SeenContour>,
+}
+
+/// A piece of a contour of the polyhedron that nothing hides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeenContour {
+    /// Where it begins and ends in the camera's frame, user units.
+    pub ends: [DVec2; 2],
+    /// Its feature segment.
+    pub segment: u32,
 }
 
 /// What smooth contours and those of the polyhedron have of each other: places where the two do not

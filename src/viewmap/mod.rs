@@ -1,5 +1,6 @@
 //! [`ViewMap`]: the planar graph of the projected feature lines, cut where visibility changes.
 
+pub mod ahead;
 pub mod build;
 pub mod cover;
 pub mod doubles;
@@ -18,6 +19,7 @@ mod tile;
 pub mod visibility;
 mod witnesses;
 
+pub use ahead::{Ahead, Way};
 pub use build::build;
 pub use front::{Front, front_faces};
-pub use graph::{ContourCounts, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+pub use graph::{ContourCounts, SeenContour, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};

@@ -1,7 +1,7 @@
 //! What is drawn of rounded surfaces: of each smooth contour what its witnesses show, and of the
 //! witnesses what no smooth contour stands for.
 
-use super::graph::{ContourCounts, ViewVertexKind};
+use super::graph::{ContourCounts, SeenContour, ViewVertexKind};
 use super::layers::Layer;
 use super::occlude::{Interval, Limits};
 use super::project::ImageSegment;
@@ -29,6 +29,8 @@ pub(super) struct Rounded {
     /// Witnesses of which something is drawn, ascending.
     bare: Vec<u32>,
     pub counts: ContourCounts,
+    /// What is seen of the contours of the polyhedron.
+    pub seen: Vec<SeenContour>,
 }
 
 impl Rounded {
@@ -75,6 +77,7 @@ pub(super) fn decide(
     });
     let mut rounded = Rounded::default();
     rounded.counts.curves = runs.len() as u64;
+    rounded.seen = testimony.seen;
     let mut seen_of_run: Vec<Vec<Told>> = Vec::with_capacity(runs.len());
     let mut told = testimony.told.as_slice();
     for (r, run) in runs.iter().enumerate() {

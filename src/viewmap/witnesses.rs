@@ -9,7 +9,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::graph::ViewVertexKind;
+use super::graph::{SeenContour, ViewVertexKind};
 use super::grid::Grid;
 use super::grouped::{Grouped, bucket};
 use super::layers::Layer;
@@ -73,6 +73,8 @@ pub(super) struct Testimony {
     pub told: Vec<Told>,
     /// What has no curve, in the order of segments.
     pub bare: Vec<Bare>,
+    /// What is seen of witnesses, curve or not.
+    pub seen: Vec<SeenContour>,
 }
 
 /// What witnesses are compared with.
@@ -131,6 +133,7 @@ impl<'a> Court<'a> {
         let mut all = Testimony::default();
         for one in heard {
             all.told.extend(one.told);
+            all.seen.extend(one.seen);
             all.bare.extend(one.bare);
         }
         all
@@ -138,7 +141,8 @@ impl<'a> Court<'a> {
 
     /// `question` is the number of the segment in `seen`.
     fn hear_one(&self, id: u32, seen: &Visibility, question: usize, hidden: bool, out: &mut Testimony) {
-        let Role::Witness { convex, .. } = self.segments[id as usize].role else { return };
+        let segment = &self.segments[id as usize];
+        let Role::Witness { convex, .. } = segment.role else { return };
         let layers = seen.hidden(question);
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
@@ -162,6 +166,8 @@ impl<'a> Court<'a> {
                     silhouette: true,
                     count: 0,
                 };
+                let ends = [at, start].map(|t| segment.at(t).truncate());
+                out.seen.push(SeenContour { ends, segment: segment.source });
                 for piece in backed_pieces(&whole, seen.backed(question)) {
                     self.follow(id, convex, &piece, out);
                 }

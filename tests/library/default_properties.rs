@@ -322,3 +322,33 @@ fn a_rod_behind_a_wall_is_hidden_in_any_tessellation() {
         }
     }
 }
+
+/// The length of ink between two heights of the page.
+fn length_between(strokes: &[[Point; 2]], [low, high]: [f64; 2]) -> f64 {
+    let inside = |[a, b]: &[Point; 2]| {
+        let (from, to) = (a.y.min(b.y), a.y.max(b.y));
+        let part = (to.min(high) - from.max(low)).max(0.0);
+        let share =
+            if to > from { part / (to - from) } else { f64::from(u8::from(from > low && from < high)) };
+        share * (*b - *a).hypot()
+    };
+    strokes.iter().map(inside).sum()
+}
+
+#[test]
+fn outlines_do_not_go_on_across_a_thin_rod_before_them() {
+    const PX: f64 = 1.0 / 250.0;
+    let camera = orthographic(DVec3::new(0.0, 0.0, 12.0), DVec3::ZERO, 1000.0 * PX);
+    for contours in ALL {
+        for width in [2.0, 4.0, 6.0, 9.0] {
+            for height in [-0.3, 0.0, 0.45] {
+                let rod = cuboid(DVec3::new(-1.9, height, 1.5), DVec3::new(1.9, height + width * PX, 1.55));
+                let both = strokes(&draw(&scene([icosphere(3), rod]), &camera, contours));
+                let rows = [height + width * PX, height].map(|y| 500.0 - y / PX);
+                let across = length_between(&both, [rows[0] + 0.3, rows[1] - 0.3]);
+                let ends = 2.0 * (width - 0.6);
+                assert!(across <= ends + 1e-6, "{across} px across {width} px at {height}, {contours:?}");
+            }
+        }
+    }
+}

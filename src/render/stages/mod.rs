@@ -17,7 +17,7 @@ use crate::lines::{FeatureLines, LineKind, Surface};
 use crate::math::colour::Colour;
 use crate::style::Style;
 use crate::view::View;
-use crate::viewmap::ViewMap;
+use crate::viewmap::{Ahead, ViewMap};
 use ink::{HUES, line, polyline};
 
 /// All that the stages of one drawing made.
@@ -25,6 +25,7 @@ pub(super) struct Made<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
+    pub ahead: Ahead<'a>,
     /// In the middle of the page.
     pub map: &'a ViewMap,
     pub chains: &'a [Chain],

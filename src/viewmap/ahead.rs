@@ -1,0 +1,178 @@
+//! [`Ahead`]: whether a straight way between two lines leads behind another surface than theirs.
+
+use glam::{DVec2, DVec3};
+use kurbo::{Point, Vec2};
+use rayon::prelude::*;
+
+use super::graph::SeenContour;
+use super::grouped::bucket;
+use super::occlude::{Limits, hidden_interval};
+use super::occluders::{Occluder, Triangles};
+use super::project::ImageSegment;
+use super::tile::Item;
+use super::visibility::grid_over;
+use super::witnesses::REACH_PX;
+use crate::lines::{FeatureLines, NO_FACE, Role};
+use crate::mesh::Mesh;
+use crate::view::View;
+
+/// Tiles along the longer side of the grid that finds triangles: ways are few and short.
+const TILES: u32 = 128;
+/// The end of a way is no feature end.
+const NO_END: u32 = u32::MAX;
+
+/// What may lie before the lines of a view map.
+#[derive(Debug, Clone, Copy)]
+pub struct Ahead<'a> {
+    /// All surfaces.
+    pub mesh: &'a Mesh,
+    /// Which connected piece each face is of; empty if there is but one.
+    pub pieces: &'a [u32],
+    /// The view that the map is of.
+    pub view: &'a View,
+    /// The feature lines that the map is of.
+    pub lines: &'a FeatureLines,
+    /// What is seen of the contours of the polyhedron.
+    pub seen: &'a [SeenContour],
+    /// By how much the map has been moved on the page since it was made, user units.
+    pub moved: Vec2,
+}
+
+/// A straight way through the image between two points of lines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Way {
+    /// Where it begins and ends, user units on the page.
+    pub ends: [Point; 2],
+    /// Distances of these points from the eye along the optical axis, world units.
+    pub depths: [f64; 2],
+    /// Feature segments of the two lines.
+    pub segments: [u32; 2],
+}
+
+impl Ahead<'_> {
+    /// Of each way, whether it leads behind a surface that is of another piece than the lines that it leads
+    /// between, and that is seen there. What hides the way of the lines' own piece does not count, nor what
+    /// lies behind that, nor what the way touches; nor what lies before the way where the polyhedron's contour
+    /// is seen beside it.
+    #[must_use]
+    pub fn hides(&self, ways: &[Way]) -> Vec<bool> {
+        if self.pieces.is_empty() || ways.is_empty() {
+            return vec![false; ways.len()];
+        }
+        let Self { mesh, view, .. } = *self;
+        let limits = Limits::new(&view.frame);
+        let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
+        let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
+        let grid = grid_over(&segments, TILES);
+        let items = bucket(grid.len(), |put| {
+            for (i, s) in segments.iter().enumerate() {
+                grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));
+            }
+        });
+        let wanted: Vec<bool> = (0..grid.len()).map(|tile| !items.of(tile).is_empty()).collect();
+        let triangles = Triangles { mesh, view, grid: &grid, limits: &limits };
+        let open = vec![f64::NEG_INFINITY; grid.len()];
+        let occluders = triangles.fill(&triangles.tile_boxes(), &wanted, &open);
+        let reach = DVec2::splat(REACH_PX * limits.px);
+        let seen = bucket(grid.len(), |put| {
+            for seen in self.seen {
+                let [a, b] = seen.ends;
+                let tiles = grid.tile_box((a.min(b) - reach).extend(0.0), (a.max(b) + reach).extend(0.0));
+                if !tiles.is_empty() {
+                    grid.tiles_of(tiles)
+                        .filter(|(tile, _)| wanted[*tile])
+                        .for_each(|(tile, _)| put(tile, *seen));
+                }
+            }
+        });
+        let found: Vec<Vec<u32>> = (0..grid.len())
+            .into_par_iter()
+            .with_min_len(64)
+            .filter(|tile| wanted[*tile])
+            .map(|tile| {
+                let over: Vec<Occluder> =
+                    occluders.of(tile).iter().map(|id| triangles.occluder(*id)).collect();
+                let around = Around { ahead: self, limits: &limits, over: &over, seen: seen.of(tile) };
+                let is_behind = |item: &&Item| {
+                    let way = item.segment as usize;
+                    around.hides(&segments[way], (item.start, item.end), own[way])
+                };
+                items.of(tile).iter().filter(is_behind).map(|item| item.segment).collect()
+            })
+            .collect();
+        let mut hidden = vec![false; ways.len()];
+        found.iter().flatten().for_each(|way| hidden[*way as usize] = true);
+        hidden
+    }
+
+    fn piece(&self, segment: u32) -> u32 {
+        let hosts = self.lines.segments.get(segment as usize).map_or([NO_FACE; 2], |s| s.hosts);
+        self.pieces.get(hosts[0] as usize).copied().unwrap_or(u32::MAX)
+    }
+
+    fn image(&self, way: &Way) -> ImageSegment {
+        let point = |k: usize| {
+            let at = way.ends[k] - self.moved;
+            DVec3::new(at.x, at.y, self.view.frame.nearness_of(way.depths[k]))
+        };
+        ImageSegment {
+            a: point(0),
+            b: point(1),
+            ends: [NO_END; 2],
+            cut: [false; 2],
+            hosts: [NO_FACE; 2],
+            source: NO_END,
+            bounds: false,
+            role: Role::Line,
+        }
+    }
+}
+
+/// What is around a tile of the image.
+struct Around<'a> {
+    ahead: &'a Ahead<'a>,
+    limits: &'a Limits,
+    /// The triangles over the tile.
+    over: &'a [Occluder],
+    /// Contours of the polyhedron that are seen in it or beside it.
+    seen: &'a [SeenContour],
+}
+
+impl Around<'_> {
+    /// Whether something hides the part of a way in the tile that is of other pieces than its lines'.
+    fn hides(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
+        let Self { ahead, limits, over, .. } = *self;
+        let is_own = |occluder: &Occluder| own.contains(&ahead.pieces[occluder.face as usize]);
+        over.iter().filter(|occluder| !is_own(occluder)).any(|other| {
+            let hidden = hidden_interval(way, part, other, &ahead.view.frame, limits)
+                .filter(|hidden| (hidden.end - hidden.start) * way.length() > limits.piece);
+            let Some(hidden) = hidden else { return false };
+            let middle = way.at((hidden.start + hidden.end) / 2.0).truncate();
+            let seen = nearness(&other.corners, middle);
+            let is_covered = || over.iter().any(|own| is_own(own) && nearness(&own.corners, middle) > seen);
+            !is_covered() && !self.is_seen_beside(way, middle, own)
+        })
+    }
+
+    /// Whether a contour of the polyhedron is seen beside a point of a way: it crosses the line that is drawn
+    /// there at a right angle to the way, as far to either side as a curve may lie from its contour.
+    fn is_seen_beside(&self, way: &ImageSegment, at: DVec2, own: [u32; 2]) -> bool {
+        let along = (way.b - way.a).truncate();
+        let across = along.perp().normalize_or_zero();
+        self.seen.iter().any(|seen| {
+            let [from, to] = seen.ends.map(|end| end - at);
+            let (before, behind) = (from.dot(along), to.dot(along));
+            let crosses = before * behind <= 0.0 && before != behind;
+            let away = || from.lerp(to, before / (before - behind)).dot(across).abs();
+            crosses && away() <= REACH_PX * self.limits.px && own.contains(&self.ahead.piece(seen.segment))
+        })
+    }
+}
+
+/// Nearness of a triangle at a point of the image; none beside it.
+fn nearness([a, b, c]: &[DVec3; 3], point: DVec2) -> Option<f64> {
+    let (u, v, p) = ((*b - *a).truncate(), (*c - *a).truncate(), point - a.truncate());
+    let area = u.perp_dot(v);
+    let (s, t) = (p.perp_dot(v) / area, u.perp_dot(p) / area);
+    (s >= 0.0 && t >= 0.0 && s + t <= 1.0).then(|| a.z + s * (b.z - a.z) + t * (c.z - a.z))
+}
