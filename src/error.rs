@@ -1,14 +1,42 @@
-//! The one error of the crate: which file, which place in it, what is wrong, what to do.
+//! The one error of the crate: of which kind, which file, which place in it, what is wrong, what to do.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What sort of thing went wrong, for programs that act on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// What was given is not what it should be: a damaged file, a value out of range, an unknown key.
+    #[default]
+    Invalid,
+    /// A file could not be read or written.
+    Io,
+    /// What was given may well be sound, but ligne cannot read or write it, or was built without that.
+    Unsupported,
+    /// There is nothing to draw.
+    Empty,
+}
 
 /// Why an input was refused.
 ///
 /// Shown as `FILE: PLACE: MESSAGE; REMEDY`, leaving out what is not known. Defects of a model
 /// that can be drawn around are not errors: they are counted as [`crate::scene::Warnings`].
-#[derive(Debug, Clone, PartialEq, Eq)]
+///
+/// ```
+/// use ligne::{ErrorKind, Scene};
+///
+/// let error = Scene::open("lid.obj").unwrap_err();
+/// assert_eq!(error.kind, ErrorKind::Io);
+/// assert!(error.to_string().starts_with("lid.obj: cannot be read: "));
+/// assert!(std::error::Error::source(&error).is_some());
+/// ```
+#[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Error {
+    /// What sort of thing went wrong.
+    pub kind: ErrorKind,
     /// The file that is wrong, as the caller named it.
     pub file: Option<PathBuf>,
     /// The place in it: `line 12`, `byte 80`, `accessor 3`, `key lines.crease_deg`.
@@ -17,12 +45,28 @@ pub struct Error {
     pub message: String,
     /// What the reader can do about it.
     pub remedy: Option<String>,
+    /// What it comes from.
+    source: Option<Arc<dyn std::error::Error + Send + Sync>>,
 }
 
 impl Error {
     /// An error that knows only what is wrong.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { file: None, place: None, message: message.into(), remedy: None }
+        let kind = ErrorKind::Invalid;
+        Self { kind, file: None, place: None, message: message.into(), remedy: None, source: None }
+    }
+
+    /// A file that could not be read or written: what was tried, and why it failed.
+    pub fn io(tried: impl fmt::Display, error: std::io::Error) -> Self {
+        let message = format!("{tried}: {error}");
+        Self { kind: ErrorKind::Io, source: Some(Arc::new(error)), ..Self::new(message) }
+    }
+
+    /// Says of what kind it is.
+    #[must_use]
+    pub fn of_kind(mut self, kind: ErrorKind) -> Self {
+        self.kind = kind;
+        self
     }
 
     /// Names the file the error is about.
@@ -47,6 +91,14 @@ impl Error {
     }
 }
 
+/// Errors are equal if they say the same.
+impl PartialEq for Error {
+    fn eq(&self, other: &Self) -> bool {
+        let said = |e: &Self| (e.kind, e.file.clone(), e.place.clone(), e.message.clone(), e.remedy.clone());
+        said(self) == said(other)
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(file) = &self.file {
@@ -63,4 +115,8 @@ impl fmt::Display for Error {
     }
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.source.as_deref().map(|source| source as _)
+    }
+}

@@ -40,7 +40,9 @@
 #![warn(missing_docs, clippy::unwrap_used)]
 
 pub mod chain;
+#[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(feature = "diff")]
 pub mod diff;
 pub mod drawing;
 pub mod error;
@@ -57,18 +59,26 @@ pub mod scene;
 pub mod shadow;
 pub mod stroke;
 pub mod style;
+#[cfg(feature = "diff")]
 pub mod testing;
 pub mod view;
 pub mod viewmap;
 
 pub use drawing::Drawing;
-pub use error::Error;
-pub use export::{PngOptions, SvgOptions};
+pub use error::{Error, ErrorKind};
+#[cfg(feature = "png")]
+pub use export::PngOptions;
+pub use export::SvgOptions;
 pub use render::render;
 pub use scene::{Camera, Scene};
 pub use style::Style;
 
+/// Vectors and matrices of models, as they stand in this library's types.
+pub use glam;
+/// Curves of drawings, as they stand in this library's types.
+pub use kurbo;
+
 /// The README's code, compiled and run with the doc tests.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "cli"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -82,6 +82,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let encode = |format| match format {
         Format::Svg | Format::SvgToStdout => Ok(pipeline::svg(&drawing, &request.svg)),
         Format::Png => pipeline::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
+        #[cfg(feature = "pdf")]
         Format::Pdf => Ok(drawing.to_pdf()),
     };
     let encoded = request.outputs.iter().map(|output| {

@@ -74,9 +74,8 @@ fn is_stdout(path: &Path) -> bool {
 }
 
 fn read(file: &Path) -> Result<String, Error> {
-    let bytes = std::fs::read(file).map_err(|error| {
-        Error::new(format!("cannot be read: {error}")).in_file(file).remedy("check the path")
-    })?;
+    let bytes = std::fs::read(file)
+        .map_err(|error| Error::io("cannot be read", error).in_file(file).remedy("check the path"))?;
     String::from_utf8(bytes)
         .map_err(|_| Error::new("is not text in UTF-8").in_file(file).remedy("save it as SVG in UTF-8"))
 }

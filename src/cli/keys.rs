@@ -31,7 +31,7 @@ impl File {
     /// Reads a file; `what` is its name in errors.
     pub(super) fn read(path: &Path, what: &str) -> Result<Self, Error> {
         let bytes = std::fs::read(path).map_err(|error| {
-            Error::new(format!("cannot read {what}: {error}")).in_file(path).remedy("check the path")
+            Error::io(format!("cannot read {what}"), error).in_file(path).remedy("check the path")
         })?;
         let text = String::from_utf8(bytes).map_err(|error| {
             Error::new("is not UTF-8 text")

@@ -74,8 +74,7 @@ pub(super) fn run(args: &ManArgs) -> Result<(), Error> {
             Error::new(format!("there is no command `{name}`")).remedy(remedy)
         })?,
     };
-    let page =
-        page(&program, command).map_err(|error| Error::new(format!("cannot write the page: {error}")))?;
+    let page = page(&program, command).map_err(|error| Error::io("cannot write the page", error))?;
     super::print(&page)
 }
 

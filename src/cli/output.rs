@@ -11,6 +11,7 @@ use crate::error::Error;
 pub(super) enum Format {
     Svg,
     Png,
+    #[cfg(feature = "pdf")]
     Pdf,
     SvgToStdout,
 }
@@ -33,7 +34,15 @@ impl Output {
         let format = match ending.as_deref() {
             Some("svg") => Format::Svg,
             Some("png") => Format::Png,
+            #[cfg(feature = "pdf")]
             Some("pdf") => Format::Pdf,
+            #[cfg(not(feature = "pdf"))]
+            Some("pdf") => {
+                return Err(Error::new("this program was built without PDF")
+                    .of_kind(crate::error::ErrorKind::Unsupported)
+                    .in_file(path)
+                    .remedy("build it with the feature `pdf`, or write .svg"));
+            }
             Some(other) => {
                 return Err(Error::new(format!("drawings are not written as .{other}"))
                     .in_file(path)
@@ -52,7 +61,7 @@ impl Output {
     pub(super) fn name(&self) -> String {
         match self.format {
             Format::SvgToStdout => "standard output".to_owned(),
-            Format::Svg | Format::Png | Format::Pdf => self.path.display().to_string(),
+            _ => self.path.display().to_string(),
         }
     }
 }
@@ -111,15 +120,15 @@ impl Staging {
             }
             if !existing.is_file() {
                 let file = fs::OpenOptions::new().write(true).open(&place);
-                return file.and_then(|mut file| file.write_all(bytes)).map_err(|e| cannot_write(path, &e));
+                return file.and_then(|mut file| file.write_all(bytes)).map_err(|e| cannot_write(path, e));
             }
         }
-        let (written, mut file) = create_beside(&place).map_err(|error| cannot_write(path, &error))?;
+        let (written, mut file) = create_beside(&place).map_err(|error| cannot_write(path, error))?;
         // Listed before it is filled, so that a full disc leaves nothing behind.
         self.files.push(Staged { typed: path.to_path_buf(), place, written: written.clone() });
-        file.write_all(bytes).map_err(|error| cannot_write(path, &error))?;
+        file.write_all(bytes).map_err(|error| cannot_write(path, error))?;
         if let Some(existing) = existing {
-            fs::set_permissions(&written, existing.permissions()).map_err(|e| cannot_write(path, &e))?;
+            fs::set_permissions(&written, existing.permissions()).map_err(|e| cannot_write(path, e))?;
         }
         Ok(())
     }
@@ -127,7 +136,7 @@ impl Staging {
     /// Puts all files in their places.
     pub(super) fn commit(mut self) -> Result<(), Error> {
         while let Some(file) = self.files.first() {
-            fs::rename(&file.written, &file.place).map_err(|error| cannot_write(&file.typed, &error))?;
+            fs::rename(&file.written, &file.place).map_err(|error| cannot_write(&file.typed, error))?;
             self.files.remove(0);
         }
         Ok(())
@@ -156,14 +165,14 @@ fn create_beside(place: &Path) -> std::io::Result<(PathBuf, fs::File)> {
     Err(ErrorKind::AlreadyExists.into())
 }
 
-fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
+fn cannot_write(path: &Path, error: std::io::Error) -> Error {
     let remedy = match error.kind() {
         ErrorKind::NotFound => "create the folder first",
         ErrorKind::PermissionDenied => "write to a folder of your own",
         ErrorKind::StorageFull => "free some space",
         _ => "check the path",
     };
-    Error::new(format!("cannot write: {error}")).in_file(path).remedy(remedy)
+    Error::io("cannot write", error).in_file(path).remedy(remedy)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! From SVG to a [`Picture`], by way of usvg: transforms, units and styles resolved.
 
+use std::panic::catch_unwind;
 use std::sync::Arc;
 
 use kurbo::{Affine, BezPath, Point};
@@ -21,14 +22,10 @@ const STACK_BYTES: usize = 64 << 20;
 
 /// Reads a file.
 pub(super) fn picture(svg: &str) -> Result<Picture, Error> {
-    let reading = std::thread::Builder::new().stack_size(STACK_BYTES);
-    std::thread::scope(|scope| {
-        let thread = reading.spawn_scoped(scope, || read(svg));
-        let thread = thread.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
-        thread
-            .join()
-            .unwrap_or_else(|_| Err(Error::new("the reader of SVG gave up").remedy("save it as plain SVG")))
-    })
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).stack_size(STACK_BYTES).build();
+    let pool = pool.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
+    let gave_up = |_| Error::new("the reader of SVG gave up").remedy("save it as plain SVG");
+    pool.install(|| catch_unwind(|| read(svg))).map_err(gave_up)?
 }
 
 fn read(svg: &str) -> Result<Picture, Error> {

@@ -127,6 +127,7 @@ impl Canonical {
     }
 
     /// Whether points of the last path were left out, where markers might have stood.
+    #[cfg(feature = "diff")]
     pub fn has_lost_points(&self) -> bool {
         self.lost
     }

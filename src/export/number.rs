@@ -24,6 +24,7 @@ impl Decimals {
     }
 
     /// Steps of the grid in 1.
+    #[cfg(feature = "diff")]
     pub fn scale(self) -> f64 {
         self.scale
     }

@@ -31,6 +31,7 @@ pub(crate) fn escape(out: &mut Vec<u8>, text: &str) {
 }
 
 /// Text with markup escaped, see [`escape`].
+#[cfg(feature = "cli")]
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = Vec::with_capacity(text.len());
     escape(&mut out, text);

@@ -1,7 +1,5 @@
 //! [`Report`]: what a drawing took and what it holds, as JSON for other programs.
 
-use std::time::Instant;
-
 use serde::Serialize;
 
 /// How long each stage took, in milliseconds; 0 for stages that did not run.
@@ -84,33 +82,66 @@ impl Report {
     }
 }
 
-/// Measures stages: the only place that reads a clock, and no drawing depends on it.
+/// Measures stages: the only place that reads a clock, and no drawing depends on it. Where there is no clock,
+/// as in a browser's bare WebAssembly, all stages take no time.
 #[derive(Debug, Clone, Copy)]
 pub struct Stopwatch {
-    started: Instant,
-    lap: Instant,
+    started: Moment,
+    lap: Moment,
 }
 
 impl Stopwatch {
     /// A stopwatch that runs from now.
     #[must_use]
     pub fn start() -> Self {
-        let now = Instant::now();
+        let now = Moment::now();
         Self { started: now, lap: now }
     }
 
     /// Milliseconds since the last lap (or the start), and the start of the next.
     pub fn lap_ms(&mut self) -> f64 {
-        let now = Instant::now();
-        let lap = now.duration_since(self.lap);
+        let now = Moment::now();
+        let lap = now.seconds_since(self.lap);
         self.lap = now;
-        (lap.as_secs_f64() * 1e6).round() / 1e3
+        (lap * 1e6).round() / 1e3
     }
 
     /// Seconds since the start.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        self.started.elapsed().as_secs_f64()
+        Moment::now().seconds_since(self.started)
+    }
+}
+
+/// What a clock shows.
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+#[derive(Debug, Clone, Copy)]
+struct Moment(std::time::Instant);
+
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+impl Moment {
+    fn now() -> Self {
+        Self(std::time::Instant::now())
+    }
+
+    fn seconds_since(self, earlier: Self) -> f64 {
+        self.0.duration_since(earlier.0).as_secs_f64()
+    }
+}
+
+/// What a clock would show.
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+#[derive(Debug, Clone, Copy)]
+struct Moment;
+
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+impl Moment {
+    fn now() -> Self {
+        Self
+    }
+
+    fn seconds_since(self, _: Self) -> f64 {
+        0.0
     }
 }
 

@@ -70,7 +70,7 @@ impl Camera {
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let text = std::fs::read_to_string(path).map_err(|error| {
-            Error::new(format!("cannot read the camera record: {error}"))
+            Error::io("cannot read the camera record", error)
                 .in_file(path)
                 .remedy("check the path; the file is JSON in UTF-8")
         })?;

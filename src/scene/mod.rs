@@ -24,10 +24,13 @@ pub mod warnings;
 
 use std::path::{Path, PathBuf};
 
+use glam::{DAffine3, DVec3};
+
 pub use camera::{Camera, Projection};
 pub use geometry::{Geometry, Part};
 pub use light::{Light, LightKind};
 pub use material::Material;
+pub use open::ModelFormat;
 pub use paint::{Paint, Paints};
 pub use views::NamedView;
 pub use warnings::Warnings;
@@ -86,5 +89,96 @@ impl Scene {
     /// if its format is not one of OBJ, glTF, GLB, STL and PLY.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         open::open(path.as_ref())
+    }
+
+    /// Reads a model that is in memory, with no files beside it: libraries of materials and textures that it
+    /// names are left out and told in [`Scene::warnings`]; buffers of glTF must be inside, as those of GLB are.
+    ///
+    /// ```
+    /// use ligne::Scene;
+    /// use ligne::scene::ModelFormat;
+    ///
+    /// let scene = Scene::from_bytes(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ModelFormat::Obj)?;
+    /// assert_eq!(scene.geometries[0].triangles, [[0, 1, 2]]);
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the place in the bytes and the remedy if they are broken, or if nothing can be drawn.
+    pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
+        open::read_bytes(bytes, format)
+    }
+
+    /// A scene of one part that a program made: positions, and the corners of each triangle as indices of
+    /// them, counter-clockwise seen from outside. Its y axis points up; set [`Scene::up`] if another does.
+    ///
+    /// ```
+    /// use ligne::{Camera, Scene, Style, render};
+    ///
+    /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let scene = Scene::from_triangles(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
+    /// let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default());
+    /// assert!(drawing.to_svg(&Default::default()).contains("contour"));
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the first triangle with an index that points nowhere, or the first position that is not finite;
+    /// and says if there is nothing to draw.
+    pub fn from_triangles(
+        positions: impl IntoIterator<Item = impl Into<DVec3>>,
+        triangles: impl IntoIterator<Item = [u32; 3]>,
+    ) -> Result<Self, Error> {
+        let positions: Vec<DVec3> = positions.into_iter().map(Into::into).collect();
+        let triangles: Vec<[u32; 3]> = triangles.into_iter().collect();
+        if let Some(k) = positions.iter().position(|p| !p.is_finite()) {
+            return Err(Error::new(format!("{} is no place", positions[k]))
+                .at(format!("position {k}"))
+                .remedy("give finite numbers"));
+        }
+        let count = positions.len();
+        if let Some(k) = triangles.iter().position(|t| t.iter().any(|v| *v as usize >= count)) {
+            return Err(Error::new(format!("{:?} points beyond the {count} positions", triangles[k]))
+                .at(format!("triangle {k}"))
+                .remedy("indices count from 0"));
+        }
+        let part = Part { name: "model".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+        let geometry = Geometry { positions, triangles, ..Geometry::default() };
+        open::drawable(Self { geometries: vec![geometry], parts: vec![part], ..Self::default() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::ErrorKind;
+
+    #[test]
+    fn models_made_by_programs_are_checked() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(Scene::from_triangles(corners, [[0, 1, 2]]).unwrap().parts.len(), 1);
+        let error = Scene::from_triangles(corners, [[0, 1, 2], [0, 1, 3]]).unwrap_err();
+        assert_eq!(error.place.as_deref(), Some("triangle 1"), "{error}");
+        let error = Scene::from_triangles([[0.0, f64::NAN, 0.0]], [[0, 0, 0]]).unwrap_err();
+        assert_eq!(error.place.as_deref(), Some("position 0"), "{error}");
+        assert_eq!(Scene::from_triangles(corners, []).unwrap_err().kind, ErrorKind::Empty);
+    }
+
+    #[test]
+    fn bytes_are_read_as_files_are() {
+        use ModelFormat::{Gltf, Obj, Ply, Stl};
+        let names = [("gear.obj", Obj), ("bracket.stl", Stl), ("knot.ply", Ply), ("pump.glb", Gltf)];
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
+        for (name, format) in names {
+            let path = folder.join(name);
+            let bytes = std::fs::read(&path).unwrap();
+            let (read, opened) = (Scene::from_bytes(&bytes, format).unwrap(), Scene::open(&path).unwrap());
+            assert_eq!(read.geometries[0].triangles, opened.geometries[0].triangles);
+        }
+        let error = Scene::from_bytes(b"", ModelFormat::Stl).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Empty);
+        let json = br#"{"asset":{"version":"2.0"},"buffers":[{"uri":"far.bin","byteLength":12}]}"#;
+        let error = Scene::from_bytes(json, ModelFormat::Gltf).unwrap_err();
+        assert!(error.to_string().contains("far.bin"), "{error}");
     }
 }

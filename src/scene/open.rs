@@ -1,30 +1,71 @@
 //! Opening model files: which reader, and what all readers share.
 
 use std::fs;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use super::text::decode;
-use super::{Scene, obj, ply, stl};
-use crate::error::Error;
+use super::{Scene, gltf, obj, ply, stl};
+use crate::error::{self, Error};
 
 const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
+
+/// A format of model files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ModelFormat {
+    /// Wavefront OBJ, text.
+    Obj,
+    /// glTF 2.0 as JSON or as one binary file (GLB): the bytes tell which.
+    Gltf,
+    /// STL, text or binary.
+    Stl,
+    /// PLY, text or binary.
+    Ply,
+}
+
+impl ModelFormat {
+    /// The format that goes by an ending (without its dot), whatever its case.
+    #[must_use]
+    pub fn of_ending(ending: &str) -> Option<Self> {
+        match ending.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "gltf" | "glb" => Some(Self::Gltf),
+            "stl" => Some(Self::Stl),
+            "ply" => Some(Self::Ply),
+            _ => None,
+        }
+    }
+}
 
 /// Reads a model with the reader for its ending, whatever its case.
 pub(super) fn open(path: &Path) -> Result<Scene, Error> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    let scene = refuse_strangers(path).and_then(|()| match ending.as_str() {
-        "obj" => obj::read(path),
-        "stl" => stl::read(path),
-        "ply" => ply::read(path),
-
-        // One arm for both kinds of glTF.
-        "gltf" | "glb" => super::gltf::read(path),
-
-        "" => Err(Error::new("the file has no ending that tells its format").remedy(FORMATS)),
-        _ => Err(Error::new(format!("the format .{ending} is not known")).remedy(FORMATS)),
+    let scene = refuse_strangers(path).and_then(|()| match ModelFormat::of_ending(&ending) {
+        Some(ModelFormat::Obj) => obj::read(path),
+        Some(ModelFormat::Gltf) => gltf::read(path),
+        Some(ModelFormat::Stl) => stl::read(path),
+        Some(ModelFormat::Ply) => ply::read(path),
+        None if ending.is_empty() => Err(unknown("the file has no ending that tells its format")),
+        None => Err(unknown(format!("the format .{ending} is not known"))),
     });
     scene.map_err(|error| if error.file.is_none() { error.in_file(path) } else { error })
+}
+
+/// Reads a model that has no files beside it.
+pub(super) fn read_bytes(bytes: &[u8], format: ModelFormat) -> Result<Scene, Error> {
+    const STEM: &str = "model";
+    refuse_strange_bytes(bytes)?;
+    match format {
+        ModelFormat::Obj => obj::read_bytes(bytes, STEM, |_| None),
+        ModelFormat::Gltf => gltf::read_bytes(bytes, &|_, _| Err(ErrorKind::NotFound.into())),
+        ModelFormat::Stl => stl::read_bytes(bytes, STEM),
+        ModelFormat::Ply => ply::read_bytes(bytes, STEM),
+    }
+}
+
+fn unknown(message: impl Into<String>) -> Error {
+    Error::new(message).of_kind(error::ErrorKind::Unsupported).remedy(FORMATS)
 }
 
 /// Reads a file and hands its bytes and the stem of its name to a reader.
@@ -32,22 +73,22 @@ pub(super) fn read_with(
     path: &Path,
     reader: impl FnOnce(&[u8], &str) -> Result<Scene, Error>,
 ) -> Result<Scene, Error> {
-    let bytes = fs::read(path).map_err(|e| cannot_be_read(&e).in_file(path))?;
+    let bytes = fs::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut scene = reader(&bytes, &stem).map_err(|error| error.in_file(path))?;
     scene.file = Some(path.to_path_buf());
     Ok(scene)
 }
 
-fn cannot_be_read(error: &std::io::Error) -> Error {
-    Error::new(format!("cannot be read: {error}"))
+fn cannot_be_read(error: std::io::Error) -> Error {
+    Error::io("cannot be read", error)
 }
 
 /// Refuses a file that surely is no model, by its beginning.
 fn refuse_strangers(path: &Path) -> Result<(), Error> {
     let mut head = Vec::new();
-    let file = fs::File::open(path).map_err(|e| cannot_be_read(&e))?;
-    file.take(256).read_to_end(&mut head).map_err(|e| cannot_be_read(&e))?;
+    let file = fs::File::open(path).map_err(|e| cannot_be_read(e))?;
+    file.take(256).read_to_end(&mut head).map_err(|e| cannot_be_read(e))?;
     refuse_strange_bytes(&head)
 }
 
@@ -58,7 +99,7 @@ fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
     let begins =
         |what: &str| start.get(..what.len()).is_some_and(|b| b.eq_ignore_ascii_case(what.as_bytes()));
     if bytes.is_empty() {
-        return Err(Error::new("the file is empty; nothing to draw"));
+        return Err(Error::new("the file is empty; nothing to draw").of_kind(error::ErrorKind::Empty));
     }
     if begins("version https://git-lfs") {
         return Err(Error::new("this is a git-lfs pointer, not the model itself")
@@ -82,7 +123,7 @@ pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
     if !path.is_file() {
         return Err(Error::new(format!("{name} is missing")).in_file(model));
     }
-    fs::read(&path).map_err(|e| Error::new(format!("cannot be read: {e}")).in_file(path))
+    fs::read(&path).map_err(|e| Error::io("cannot be read", e).in_file(path))
 }
 
 /// Whether a relative path, written with slashes, stays inside the folder it starts from.
@@ -114,11 +155,12 @@ pub fn drawable(scene: Scene) -> Result<Scene, Error> {
     let points: usize = scene.geometries.iter().map(|g| g.positions.len()).sum();
     let lines = scene.warnings.lines();
     let left_out = lines.iter().find(|line| line.contains("left out"));
-    Err(match (left_out, points) {
-        (Some(line), _) => Error::new(format!("{line}; nothing to draw")),
-        (None, 0) => Error::new("no faces and no lines; nothing to draw"),
-        (None, _) => Error::new("only points; nothing to draw"),
-    })
+    let message = match (left_out, points) {
+        (Some(line), _) => format!("{line}; nothing to draw"),
+        (None, 0) => "no faces and no lines; nothing to draw".to_owned(),
+        (None, _) => "only points; nothing to draw".to_owned(),
+    };
+    Err(Error::new(message).of_kind(error::ErrorKind::Empty))
 }
 
 /// How a place in the text is called in errors, with the word found there.

@@ -46,7 +46,7 @@ pub(super) fn place_brushes(sheet: &mut toml::Table, folder: &Path) {
 fn read(source: &BrushSource) -> Result<Brush, Error> {
     let path = &source.file;
     let unread = |error: std::io::Error| {
-        Error::new(format!("cannot read the brush: {error}")).in_file(path).remedy("check the path")
+        Error::io("cannot read the brush", error).in_file(path).remedy("check the path")
     };
     if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
         return Err(unfit(path, "is too large"));
@@ -61,6 +61,13 @@ fn read(source: &BrushSource) -> Result<Brush, Error> {
 }
 
 /// The paths of an SVG file as one.
+#[cfg(not(feature = "png"))]
+fn outlines(_: &[u8]) -> Result<BezPath, String> {
+    Err("is SVG, which this program was built without (feature `png`)".to_owned())
+}
+
+/// The paths of an SVG file as one.
+#[cfg(feature = "png")]
 fn outlines(bytes: &[u8]) -> Result<BezPath, String> {
     fn gather(group: &usvg::Group, all: &mut BezPath) {
         use usvg::tiny_skia_path::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};

@@ -95,7 +95,7 @@ fn find(name: &str, folder: Option<&Path>) -> Result<Source, Error> {
         return Err(Error::new(format!("there is no style `{name}`")).remedy(remedy));
     }
     let bytes = std::fs::read(&path).map_err(|error| {
-        Error::new(format!("cannot read the style sheet: {error}")).in_file(&path).remedy("check the path")
+        Error::io("cannot read the style sheet", error).in_file(&path).remedy("check the path")
     })?;
     let text = String::from_utf8(bytes).map_err(|error| {
         Error::new("is not UTF-8 text")
@@ -109,12 +109,11 @@ fn find(name: &str, folder: Option<&Path>) -> Result<Source, Error> {
 }
 
 /// An error told of the sheet that names what was not found.
-fn name_in(error: Error, sheet: &Path, place: &str) -> Error {
-    let message = match &error.file {
-        Some(file) => format!("{}: {}", file.display(), error.message),
-        None => error.message,
-    };
-    Error { message, ..error }.in_file(sheet).at(place)
+fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
+    if let Some(file) = &error.file {
+        error.message = format!("{}: {}", file.display(), error.message);
+    }
+    error.in_file(sheet).at(place)
 }
 
 /// A sheet as options, to find its errors, and as a table, to merge it.
@@ -124,6 +123,7 @@ fn read(text: &str) -> Result<(Sheet, Table), toml::de::Error> {
 
 /// A change, checked, with the paths of pictures and brushes in it relative to what `folder` is
 /// relative to.
+#[cfg(feature = "cli")]
 pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
     let mut table = change(set)?;
     place_pictures(&mut table, folder);

@@ -8,6 +8,7 @@ mod load;
 mod ramp_source;
 mod sheet;
 
+#[cfg(feature = "cli")]
 pub(crate) use load::placed_change;
 
 use crate::chain::ChainOptions;

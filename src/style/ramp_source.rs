@@ -90,9 +90,7 @@ pub(super) fn place_pictures(sheet: &mut toml::Table, folder: &Path) {
 
 fn picture(path: &Path) -> Result<Picture, Error> {
     let unread = |error: std::io::Error| {
-        Error::new(format!("cannot read the picture of tones: {error}"))
-            .in_file(path)
-            .remedy("check the path")
+        Error::io("cannot read the picture of tones", error).in_file(path).remedy("check the path")
     };
     if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
         return Err(unfit(path, "is too large"));

@@ -14,7 +14,7 @@ pub(super) fn drawings(folder: &Path) -> Result<Vec<(String, PathBuf)>, Error> {
     let mut open = vec![(folder.to_path_buf(), 0)];
     while let Some((inner, depth)) = open.pop() {
         let unread = |error: std::io::Error| {
-            Error::new(format!("cannot read the folder: {error}")).in_file(&inner).remedy("check the path")
+            Error::io("cannot read the folder", error).in_file(&inner).remedy("check the path")
         };
         for entry in std::fs::read_dir(&inner).map_err(unread)? {
             let path = entry.map_err(unread)?.path();

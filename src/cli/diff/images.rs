@@ -34,7 +34,7 @@ impl Images {
         let output = Output::new(path.to_path_buf())?;
         match output.format {
             Format::Svg | Format::Png => Ok(Self::File(output)),
-            Format::Pdf | Format::SvgToStdout => Err(Error::new("differences are drawn as SVG or PNG")
+            _ => Err(Error::new("differences are drawn as SVG or PNG")
                 .in_file(path)
                 .remedy("end the name with .svg or .png")),
         }
@@ -68,8 +68,6 @@ fn bytes(diff: &Diff, view: View, format: Format) -> Result<Vec<u8>, Error> {
     let drawing = diff.picture(view);
     match format {
         Format::Png => pipeline::png(&drawing, DPI),
-        Format::Svg | Format::Pdf | Format::SvgToStdout => {
-            Ok(drawing.to_svg(&SvgOptions::default()).into_bytes())
-        }
+        _ => Ok(drawing.to_svg(&SvgOptions::default()).into_bytes()),
     }
 }

@@ -93,7 +93,7 @@ fn is_model(path: &Path) -> bool {
 /// The text of a drawing.
 fn text(path: &Path) -> Result<String, Error> {
     let unread = |error: std::io::Error| {
-        Error::new(format!("cannot read the drawing: {error}")).in_file(path).remedy("check the path")
+        Error::io("cannot read the drawing", error).in_file(path).remedy("check the path")
     };
     let size = std::fs::metadata(path).map_err(unread)?.len();
     if size > MOST_BYTES {

@@ -86,7 +86,7 @@ impl Found {
     /// passed over, and so is the file of the project.
     fn search(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
         let unread = |error: std::io::Error| {
-            Error::new(format!("cannot read the folder: {error}")).in_file(folder).remedy("check the path")
+            Error::io("cannot read the folder", error).in_file(folder).remedy("check the path")
         };
         for entry in fs::read_dir(folder).map_err(unread)? {
             let path = entry.map_err(unread)?.path();

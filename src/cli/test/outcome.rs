@@ -65,7 +65,7 @@ impl<'a> Outcome<'a> {
             Ok(bytes) => self.before.insert(String::from_utf8_lossy(&bytes).into_owned()),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Verdict::New),
             Err(error) => {
-                return Err(Error::new(format!("cannot read the approved drawing: {error}")).in_file(drawing));
+                return Err(Error::io("cannot read the approved drawing", error).in_file(drawing));
             }
         };
         if before == after {

@@ -81,6 +81,7 @@ impl Buffers<'_> {
     }
 
     /// How many elements an accessor announces, unchecked.
+    #[cfg(feature = "draco")]
     pub fn announced(&self, index: usize) -> Option<usize> {
         self.root.accessors.get(index).map(|accessor| accessor.count)
     }

@@ -104,6 +104,6 @@ fn external(text: &str, length: usize, fetch: &Fetch) -> Result<Vec<u8>, Error> 
         Error::new(message).remedy("put the file beside the model and name it by a relative path")
     })?;
     fetch(&path, length).map_err(|error| {
-        Error::new(format!("`{path}` cannot be read ({error})")).remedy("keep it beside the model")
+        Error::io(format!("`{path}` cannot be read"), error).remedy("keep it beside the model")
     })
 }

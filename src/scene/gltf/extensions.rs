@@ -1,6 +1,6 @@
 //! Which extensions a file may require.
 
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 
 /// Extensions that are read.
 const READ: [&str; 11] = [
@@ -46,6 +46,7 @@ pub fn check(required: &[String]) -> Result<(), Error> {
     match required.iter().find(|name| !READ.contains(&name.as_str()) && !harmless(name)) {
         Some(name) => {
             Err(Error::new(format!("the file requires the extension {name}, which ligne cannot read"))
+                .of_kind(ErrorKind::Unsupported)
                 .at("extensionsRequired")
                 .remedy("export the model again without it"))
         }

@@ -149,6 +149,10 @@ pub struct PrimitiveExtensions {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
+#[cfg_attr(
+    not(feature = "draco"),
+    expect(dead_code, reason = "what cannot be decoded is told apart all the same")
+)]
 pub struct Draco {
     pub buffer_view: usize,
     pub attributes: BTreeMap<String, u32>,

@@ -5,6 +5,10 @@
 mod accessor;
 mod buffers;
 mod container;
+#[cfg(feature = "draco")]
+mod draco;
+#[cfg(not(feature = "draco"))]
+#[path = "no_draco.rs"]
 mod draco;
 mod edges;
 mod extensions;
@@ -36,8 +40,7 @@ use crate::error::Error;
 /// # Errors
 /// Names the file, the place in it (chunk, accessor, mesh, node ...) and what is wrong.
 pub fn read(path: &Path) -> Result<Scene, Error> {
-    let bytes =
-        fs::read(path).map_err(|error| Error::new(format!("it cannot be read ({error})")).in_file(path))?;
+    let bytes = fs::read(path).map_err(|error| Error::io("cannot be read", error).in_file(path))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let fetch = |name: &str, most: usize| head_of(&folder.join(name), most);
     let mut scene = read_bytes(&bytes, &fetch).map_err(|error| error.in_file(path))?;
