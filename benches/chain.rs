@@ -6,7 +6,8 @@ use ligne::chain::{ChainOptions, link};
 use ligne::drawing::Unit;
 use ligne::lines::{HiddenLines, LineKind};
 use ligne::math::function::{cos, sin};
-use ligne::mesh::{MaterialId, Origin, PartId};
+use ligne::mesh::{MaterialId, PartId};
+use ligne::shape::Origin;
 use ligne::viewmap::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 
 fn main() {

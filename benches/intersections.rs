@@ -11,7 +11,7 @@ use divan::Bencher;
 use glam::DVec3;
 use ligne::Scene;
 use ligne::mesh::Mesh;
-use ligne::mesh::intersect::{IntersectionInput, intersections};
+use ligne::trees::intersect::{IntersectionInput, intersections};
 use solids::Solid;
 
 fn main() {

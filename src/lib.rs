@@ -57,10 +57,12 @@ pub mod region;
 pub mod render;
 pub mod scene;
 pub mod shadow;
+pub mod shape;
 pub mod stroke;
 pub mod style;
 #[cfg(feature = "diff")]
 pub mod testing;
+pub mod trees;
 pub mod view;
 pub mod viewmap;
 

@@ -3,7 +3,7 @@
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
-use crate::mesh::Origin;
+use crate::shape::Origin;
 
 /// A crease of a scan must be this many times longer than a crumb if it turns by a right angle; the
 /// fainter, the longer.

@@ -8,7 +8,7 @@ use super::line::{Line, distance2, length};
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
-use crate::mesh::Origin;
+use crate::shape::Origin;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
 const PARALLEL_COSINE: f64 = 0.82;

@@ -8,7 +8,8 @@ use kurbo::Vec2;
 
 use super::line::length;
 use crate::lines::LineKind;
-use crate::mesh::{MaterialId, Origin, PartId};
+use crate::mesh::{MaterialId, PartId};
+use crate::shape::Origin;
 use crate::viewmap::{ViewEdge, ViewMap, ViewVertexId};
 
 /// Edges of equal class may join into one chain.

@@ -3,7 +3,7 @@
 use super::line::{Line, length};
 use super::link::{Class, Routes};
 use crate::lines::LineKind;
-use crate::mesh::Origin;
+use crate::shape::Origin;
 use crate::viewmap::{ViewEdge, ViewMap, ViewVertexId, ViewVertexKind};
 
 /// Degrees of a dihedral angle that on a scan may well be noise.

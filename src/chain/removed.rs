@@ -4,7 +4,7 @@ use kurbo::Point;
 
 use super::raw::{Degrees, Raw};
 use crate::lines::LineKind;
-use crate::mesh::Origin;
+use crate::shape::Origin;
 
 /// Why a line was left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

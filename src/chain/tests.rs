@@ -5,7 +5,7 @@ use kurbo::{ParamCurve, PathEl, PathSeg};
 use super::*;
 use crate::math::function::{cos, sin};
 use crate::math::noise::hash;
-use crate::mesh::Origin;
+use crate::shape::Origin;
 use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
 /// Points, what line they make, and whether it lies on a smooth surface.

@@ -15,7 +15,7 @@ use super::removed::{Bin, Reason};
 use super::silhouette;
 use super::stitch::stitch;
 use crate::lines::HiddenLines;
-use crate::mesh::Origin;
+use crate::shape::Origin;
 use crate::viewmap::{Ahead, ViewMap};
 
 /// Hidden gaps are bridged up to this part of the tidy length.

@@ -17,7 +17,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::math::tolerance;
-use crate::mesh::{EdgeArc, Mesh, SmoothNormals};
+use crate::mesh::Mesh;
+use crate::shape::{EdgeArc, SmoothNormals};
 
 /// Faces that one task cuts. Fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 1 << 13;

@@ -5,7 +5,8 @@
 
 use rayon::prelude::*;
 
-use crate::mesh::{Mesh, SmoothNormals};
+use crate::mesh::Mesh;
+use crate::shape::SmoothNormals;
 use crate::view::Frame;
 
 /// The cosine between the normal and the direction to the eye, −1 to 1, positive where the surface

@@ -6,8 +6,9 @@
 use glam::DVec3;
 
 use crate::math::tolerance;
-use crate::mesh::refine::{self, Refined};
-use crate::mesh::{EdgeArc, Mesh, SmoothNormals};
+use crate::mesh::Mesh;
+use crate::shape::refine::{self, Refined};
+use crate::shape::{EdgeArc, SmoothNormals};
 use crate::view::Frame;
 
 /// To vanish in between two values of one sign, the field has to fall from both: half of what the

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use crate::math::function::{cos, sin};
 use crate::math::tolerance;
-use crate::mesh::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};
+use crate::trees::ray_tree::RayTree;
 
 /// Directions over the whole sphere; a vertex looks into nearly half of them.
 const DIRECTIONS: usize = 256;

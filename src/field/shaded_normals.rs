@@ -6,7 +6,8 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::mesh::{FaceId, HardEdges, Mesh, SmoothNormals};
+use crate::mesh::{FaceId, Mesh};
+use crate::shape::{HardEdges, SmoothNormals};
 
 /// The normals by which light falls on a mesh. Inside a face they are interpolated and made unit
 /// length again.

@@ -6,7 +6,8 @@
 
 use rayon::prelude::*;
 
-use crate::mesh::{FaceId, Mesh, PartId, SmoothNormals};
+use crate::mesh::{FaceId, Mesh, PartId};
+use crate::shape::SmoothNormals;
 use crate::view::Frame;
 
 /// Radius (standard deviation) over which a field is averaged, px.

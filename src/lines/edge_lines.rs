@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::mesh::dihedral::{mark, runs_up};
 use crate::mesh::needle::{Beyond, beyond};
-use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, HardEdges, Mesh, Origin, SmoothNormals};
+use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, Mesh};
+use crate::shape::{HardEdges, Origin, SmoothNormals};
 use crate::view::View;
 
 /// All edges of the mesh that are feature lines of the kinds asked for, in edge order. Of rounded

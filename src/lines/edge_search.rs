@@ -7,7 +7,8 @@
 //! are drawn. It only proposes edges, and finds the same lines as asking every edge.
 
 use super::Surface;
-use crate::mesh::{DualFound, DualTree, EdgeFaces, Mesh};
+use crate::mesh::{EdgeFaces, Mesh};
+use crate::trees::{DualFound, DualTree};
 use crate::view::Frame;
 
 /// The edges of a surface, ready for many views.

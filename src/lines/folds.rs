@@ -7,7 +7,8 @@
 use rayon::prelude::*;
 
 use super::{FeatureSegment, Role};
-use crate::mesh::{EdgeFaces, Mesh, SmoothNormals};
+use crate::mesh::{EdgeFaces, Mesh};
+use crate::shape::SmoothNormals;
 use crate::view::View;
 
 /// Faces walked through; what turns away for more is no ripple.

@@ -7,10 +7,11 @@
 //! lines, get the full search.
 
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
-use crate::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
-use crate::mesh::trace::Tracer;
-use crate::mesh::{FaceId, Mesh, Origin};
+use crate::mesh::{FaceId, Mesh};
 use crate::raster::{FaceBuffer, Screen, strangers};
+use crate::shape::Origin;
+use crate::trees::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
+use crate::trees::trace::Tracer;
 use crate::view::View;
 
 /// Meshes with at most this many triangles are searched in full, which takes no longer.

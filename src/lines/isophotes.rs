@@ -13,7 +13,8 @@ use rustc_hash::FxHashMap;
 use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE, Role};
 use crate::field::SurfacePoint;
 use crate::math::tolerance;
-use crate::mesh::{FaceId, Mesh, Origin, PaintId};
+use crate::mesh::{FaceId, Mesh, PaintId};
+use crate::shape::Origin;
 
 /// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow.
 pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {

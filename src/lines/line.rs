@@ -5,7 +5,8 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::LineKind;
-use crate::mesh::{MaterialId, Mesh, Origin, PartId, Wire};
+use crate::mesh::{MaterialId, Mesh, PartId, Wire};
+use crate::shape::Origin;
 
 /// In [`FeatureSegment::hosts`]: no face.
 pub const NO_FACE: u32 = u32::MAX;

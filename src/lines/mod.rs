@@ -26,7 +26,7 @@ pub use surface::Surface;
 use rayon::prelude::*;
 
 use crate::field;
-use crate::mesh::{Origin, Patches};
+use crate::shape::{Origin, Patches};
 use crate::view::View;
 
 /// n·v as contours are traced from it, one per smooth vertex: averaged where it is near zero.

@@ -14,7 +14,8 @@ use rustc_hash::FxHashMap;
 use super::folds;
 use super::zero_set::{self, EdgePoint, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
-use crate::mesh::{EdgeArc, Mesh, Origin, SmoothNormals};
+use crate::mesh::Mesh;
+use crate::shape::{EdgeArc, Origin, SmoothNormals};
 use crate::view::View;
 
 const NONE: u32 = u32::MAX;

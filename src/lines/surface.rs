@@ -3,11 +3,12 @@
 use super::LineOptions;
 use super::options::{Contours, Normals};
 use crate::field;
-use crate::mesh::patches;
-use crate::mesh::refine::Refined;
-use crate::mesh::smooth_normals::file_cosines;
-use crate::mesh::{EdgeFaces, HardEdges, Mesh, Origin, Patches, SmoothNormals};
+use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
+use crate::shape::patches;
+use crate::shape::refine::Refined;
+use crate::shape::smooth_normals::file_cosines;
+use crate::shape::{HardEdges, Origin, Patches, SmoothNormals};
 use crate::view::Frame;
 
 /// Normals of one surface on both sides of an edge differ by no more than this cosine (20 degrees)

@@ -12,8 +12,9 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::math::tolerance;
-use crate::mesh::smooth_normals::NO_NORMAL;
-use crate::mesh::{Mesh, SmoothNormals};
+use crate::mesh::Mesh;
+use crate::shape::SmoothNormals;
+use crate::shape::smooth_normals::NO_NORMAL;
 
 /// Faces that one task looks at. Fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 1 << 14;

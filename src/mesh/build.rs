@@ -122,7 +122,7 @@ fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, 
 }
 
 /// Unit normals; zero where the triangle is lower than rounding, by the scale of its part.
-pub(super) fn face_normals(
+pub(crate) fn face_normals(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     scale: impl Fn(usize) -> f64 + Sync,

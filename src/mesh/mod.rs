@@ -1,62 +1,30 @@
 //! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
-pub mod boxes;
 pub mod build;
 pub mod clean;
-mod crease_chains;
-pub mod curvature;
-mod curvature_derivative;
-mod diffusion;
 pub mod dihedral;
-mod dual_boxes;
-pub mod dual_tree;
-pub mod edge_arc;
 pub mod edge_set;
 pub mod edges;
 pub mod extents;
-pub mod fans;
-pub mod feature_size;
-mod groups;
-pub mod hard_edges;
+pub(crate) mod groups;
 pub mod ids;
-pub mod intersect;
-mod marking;
 pub mod needle;
 mod order;
-mod parting;
-pub mod patches;
-mod planes;
-pub mod ray_tree;
-pub mod refine;
-mod roughness;
-mod rounded;
 mod sheets;
-pub mod smooth_normals;
 pub mod solid;
 pub mod soup;
-mod space_curve;
-mod thickness;
-pub mod trace;
-pub mod triangle_pair;
+pub(crate) mod space_curve;
 pub mod weld;
 
 use glam::DVec3;
 
 pub use clean::Cleaning;
-pub use curvature::{Curvature, Principal};
 pub use dihedral::Dihedral;
-pub use dual_boxes::DualFound;
-pub use dual_tree::{DualTree, ToneTree};
-pub use edge_arc::EdgeArc;
 pub use edge_set::EdgeSet;
 pub use edges::{EdgeFaces, Edges};
 pub use extents::{Extent, Extents};
 pub use groups::Groups;
-pub use hard_edges::HardEdges;
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
-pub use patches::Patches;
-pub use rounded::Origin;
-pub use smooth_normals::SmoothNormals;
 pub use soup::{EdgeMark, Soup, Wire};
 
 /// A welded triangle mesh.

@@ -67,7 +67,7 @@ fn parting_level(p: f64, q: f64) -> i64 {
 }
 
 /// Moves the 21 lowest bits apart, so that there are two free ones after each.
-pub(super) fn spread(mut bits: u64) -> u64 {
+pub(crate) fn spread(mut bits: u64) -> u64 {
     bits = (bits | bits << 32) & 0x001f_0000_0000_ffff;
     bits = (bits | bits << 16) & 0x001f_0000_ff00_00ff;
     bits = (bits | bits << 8) & 0x100f_00f0_0f00_f00f;

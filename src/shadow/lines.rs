@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::join::Joined;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
-use crate::mesh::{Mesh, Origin};
+use crate::mesh::Mesh;
+use crate::shape::Origin;
 
 /// A straight piece of the border of a shadow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

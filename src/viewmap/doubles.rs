@@ -233,7 +233,8 @@ fn cut(
 mod tests {
     use super::*;
     use crate::lines::LineKind;
-    use crate::mesh::{MaterialId, Origin, PartId};
+    use crate::mesh::{MaterialId, PartId};
+    use crate::shape::Origin;
 
     type Drawn = ((f64, f64), (f64, f64), LineKind);
 

@@ -4,7 +4,8 @@ use glam::DVec2;
 use kurbo::Point;
 
 use crate::lines::LineKind;
-use crate::mesh::{MaterialId, Origin, PartId};
+use crate::mesh::{MaterialId, PartId};
+use crate::shape::Origin;
 
 /// A node of the view map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

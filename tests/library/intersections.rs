@@ -4,7 +4,7 @@ use crate::support::dice::Dice;
 use crate::support::mesh_file;
 use crate::support::solids::{Solid, cuboid, sphere, tube};
 use glam::DVec3;
-use ligne::mesh::intersect::{IntersectionCurves, IntersectionInput, intersections};
+use ligne::trees::intersect::{IntersectionCurves, IntersectionInput, intersections};
 
 fn find(solid: &Solid) -> IntersectionCurves {
     intersections(&IntersectionInput {
@@ -330,8 +330,9 @@ fn scale_and_distance_change_nothing() {
     assert!(!segments.is_empty());
     for (scale, offset) in [(1e-9, 0.0), (1e9, 0.0), (1.0, 4096.0)] {
         let moved = both.clone().moved(|p| p * scale + DVec3::splat(offset));
-        let faces =
-            |s: &[ligne::mesh::intersect::IntersectionSegment]| s.iter().map(|s| s.faces).collect::<Vec<_>>();
+        let faces = |s: &[ligne::trees::intersect::IntersectionSegment]| {
+            s.iter().map(|s| s.faces).collect::<Vec<_>>()
+        };
         assert_eq!(faces(&find(&moved).segments), faces(&segments), "scale {scale}, offset {offset}");
     }
 }

@@ -8,8 +8,9 @@ use glam::DVec3;
 use ligne::drawing::{Mark, Paint};
 use ligne::lines::{FeatureLines, InsideOptions, LineKind, LineOptions, inside};
 use ligne::math::function::{atan2, pow};
-use ligne::mesh::{Curvature, Mesh, SmoothNormals, Soup};
+use ligne::mesh::{Mesh, Soup};
 use ligne::scene::{Camera, Scene};
+use ligne::shape::{Curvature, SmoothNormals};
 use ligne::style::Style;
 use ligne::view::View;
 

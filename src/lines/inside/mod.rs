@@ -20,8 +20,9 @@ pub use options::InsideOptions;
 use super::zero_set::{EdgePoint, ZeroSet};
 use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::math::tolerance;
-use crate::mesh::feature_size::MOST_OF_PART;
-use crate::mesh::{Curvature, Mesh, Origin, SmoothNormals};
+use crate::mesh::Mesh;
+use crate::shape::feature_size::MOST_OF_PART;
+use crate::shape::{Curvature, Origin, SmoothNormals};
 use crate::view::View;
 
 /// The measure from which on a line is as strong as can be.

@@ -9,7 +9,8 @@
 
 use glam::DVec3;
 
-use super::{Mesh, SmoothNormals};
+use super::SmoothNormals;
+use crate::mesh::Mesh;
 
 /// The largest sine of the angle at which a curve leaves its edge, so that none stands out from it by
 /// more than 15 % of its length: the arcs over a hexagon need 13.4 %, and steeper ones come from

@@ -6,10 +6,10 @@
 //! edges of three, and its diagonals are flat: there the quartile is 0. The geometric mean of both
 //! is taken.
 
-use super::Mesh;
 use super::crease_chains::Chain;
-use super::dihedral::Dihedral;
 use crate::math::function::{acos, cos};
+use crate::mesh::Mesh;
+use crate::mesh::dihedral::Dihedral;
 
 /// The standard deviation of a normal distribution is this many times the median of its absolute
 /// values.

@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::groups::Groups;
 use super::planes::{Planes, area};
-use super::{Dihedral, EdgeFaces, Mesh};
+use crate::mesh::groups::Groups;
+use crate::mesh::{Dihedral, EdgeFaces, Mesh};
 
 /// A piece is machined if flats hold this part of its surface. Of 60 models looked at scans and figures
 /// have 0 to 4 %, machined parts 14 % and more.

@@ -7,10 +7,11 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::edge_set::EdgeSet;
 use super::marking::{Marks, marks};
 use super::smooth_normals::NO_NORMAL;
-use super::{EdgeArc, EdgeMark, Edges, Mesh, SmoothNormals};
+use super::{EdgeArc, SmoothNormals};
+use crate::mesh::edge_set::EdgeSet;
+use crate::mesh::{EdgeMark, Edges, Mesh};
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
@@ -231,7 +232,7 @@ impl Work {
             };
             corner_uvs.push(piece.corners.map(|v| {
                 let at = self.positions[self.vertices[v as usize] as usize];
-                let weights = mesh.weights(super::FaceId(piece.face), at);
+                let weights = mesh.weights(crate::mesh::FaceId(piece.face), at);
                 let sum = |k: usize| {
                     let exact: f64 = [a, b, c].iter().zip(weights).map(|(uv, w)| f64::from(uv[k]) * w).sum();
                     // Neighbours that see the same point from their own planes are to agree.
@@ -286,8 +287,8 @@ impl Work {
             corner_normals,
             origin: mesh.origin,
             extents: mesh.extents.clone(),
-            face_normals: super::build::face_normals(&self.positions, &triangles, |f| {
-                mesh.extent(super::FaceId(hosts[f])).scale
+            face_normals: crate::mesh::build::face_normals(&self.positions, &triangles, |f| {
+                mesh.extent(crate::mesh::FaceId(hosts[f])).scale
             }),
             face_part: faces().map(|f| mesh.face_part[f as usize]).collect(),
             face_material: faces().map(|f| mesh.face_material[f as usize]).collect(),

@@ -7,8 +7,9 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::edge_set::EdgeSet;
-use super::{EdgeFaces, Mesh, parting};
+use super::parting;
+use crate::mesh::edge_set::EdgeSet;
+use crate::mesh::{EdgeFaces, Mesh};
 
 /// In [`SmoothNormals::corners`]: the face is flat.
 pub const NO_NORMAL: u32 = u32::MAX;

@@ -7,9 +7,9 @@
 use rayon::prelude::*;
 
 use super::crease_chains::{Chain, Folds, folds};
-use super::dihedral::{Dihedral, mark};
 use super::roughness::Roughness;
-use super::{EdgeMark, Mesh};
+use crate::mesh::dihedral::{Dihedral, mark};
+use crate::mesh::{EdgeMark, Mesh};
 
 /// The low threshold as a share of the high one: a crease goes on where it turns by more.
 pub const LOW_OF_HIGH: f64 = 0.5;

@@ -8,8 +8,9 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::ray_tree::RayTree;
-use super::{EdgeArc, FaceId, Mesh, SmoothNormals};
+use super::{EdgeArc, SmoothNormals};
+use crate::mesh::{FaceId, Mesh};
+use crate::trees::ray_tree::RayTree;
 
 /// An arc stands out by no more than this part of the thickness, and changes that by no more.
 const HALF: f64 = 0.5;
@@ -60,7 +61,7 @@ fn swelling(mesh: &Mesh, smooth: &SmoothNormals, face: u32) -> f64 {
 mod tests {
     use super::*;
     use crate::mesh::Soup;
-    use crate::mesh::refine::refined;
+    use crate::shape::refine::refined;
     use glam::DVec3;
 
     /// Two square sheets back to back, so far apart; each with normals by which it bends outward, or inward if

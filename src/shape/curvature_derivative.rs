@@ -6,10 +6,11 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::SmoothNormals;
 use super::curvature::{Principal, in_axes, turned};
 use super::fans::{Fans, GRAIN, sides};
-use super::{FaceId, Mesh, SmoothNormals};
 use crate::math::linear::solve;
+use crate::mesh::{FaceId, Mesh};
 
 /// The derivatives along the principal directions, entries 111, 112, 122, 222.
 pub(super) fn derivative(

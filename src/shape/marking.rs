@@ -3,9 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::SmoothNormals;
 use super::smooth_normals::NO_NORMAL;
 use super::thickness;
-use super::{Mesh, SmoothNormals};
+use crate::mesh::Mesh;
 
 /// Parts up to so many rounded faces are cut in no time.
 const SMALL: usize = 20_000;

@@ -3,8 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::SmoothNormals;
 use super::smooth_normals::NO_NORMAL;
-use super::{FaceId, Mesh, PartId, SmoothNormals};
+use crate::mesh::{FaceId, Mesh, PartId};
 
 /// The smallest piece of work for a thread, in vertices or faces.
 pub(super) const GRAIN: usize = 1 << 12;

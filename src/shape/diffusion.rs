@@ -10,8 +10,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::SmoothNormals;
 use super::fans::{Fans, GRAIN};
-use super::{PartId, SmoothNormals};
+use crate::mesh::PartId;
 
 /// Terms that add less than this to the sum are left out.
 const LEAST_TERM: f64 = 2e-3;

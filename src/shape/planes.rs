@@ -5,9 +5,9 @@
 
 use glam::Vec3;
 
-use super::edge_set::EdgeSet;
-use super::groups::Groups;
-use super::{EdgeFaces, FaceId, Mesh};
+use crate::mesh::edge_set::EdgeSet;
+use crate::mesh::groups::Groups;
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// The cosine above which an edge counts as flat: a tenth of a degree.
 const FLAT_COSINE: f32 = 0.999_998_5;

@@ -8,9 +8,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::dihedral::Dihedral;
-use super::{FaceId, Mesh};
 use crate::math::function::cos;
+use crate::mesh::dihedral::Dihedral;
+use crate::mesh::{FaceId, Mesh};
 
 /// Two folds whose directions make less than this cosine do not continue each other, even where no
 /// other fold ends there: 80 degrees, so that the zigzag of a regular triangulation is one chain.

@@ -8,12 +8,13 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::SmoothNormals;
 use super::curvature_derivative;
 use super::diffusion::diffuse;
 use super::fans::{Fans, GRAIN, sides};
 use super::feature_size;
-use super::{FaceId, Mesh, PartId, SmoothNormals};
 use crate::math::linear::solve;
+use crate::mesh::{FaceId, Mesh, PartId};
 
 /// The principal curvatures at a point of a surface, and their directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::curvature::Principal;
 use super::fans::{Fans, GRAIN};
-use super::{Mesh, PartId};
+use crate::mesh::{Mesh, PartId};
 
 /// The part of the surface that may be flatter than the measured curvature.
 const FLATTER: f64 = 0.1;

@@ -7,13 +7,14 @@
 //! Source for curvature by angles: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry
 //! operators for triangulated 2-manifolds", 2002, section 4.
 
-use super::edge_set::EdgeSet;
-use super::groups::Groups;
+use super::HardEdges;
 use super::planes::{Planes, area};
 use super::rounded::{LEAST_EDGES, Make, Origin, Verdict, verdicts};
 use super::smooth_normals::file_cosines;
-use super::{Dihedral, EdgeFaces, FaceId, HardEdges, Mesh};
 use crate::math::function::{acos, cos};
+use crate::mesh::edge_set::EdgeSet;
+use crate::mesh::groups::Groups;
+use crate::mesh::{Dihedral, EdgeFaces, FaceId, Mesh};
 
 /// On round pieces a crease turns by so many times as much.
 const ROUND: f64 = 1.5;

@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::intersect::{IntersectionCurves, IntersectionInput, Pair, find_pairs, join};
 use super::triangle_pair::{Common, End, Feature, PairTolerance, Triangle, cross};
-use super::{EdgeFaces, FaceId, Mesh};
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Follows the intersection curves of a mesh.
 #[derive(Debug, Clone, Copy)]

@@ -7,9 +7,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::space_curve::spread;
-use super::{FaceId, Mesh};
 use crate::math::tolerance;
+use crate::mesh::space_curve::spread;
+use crate::mesh::{FaceId, Mesh};
 
 /// Children of a node.
 const WIDTH: usize = 8;

@@ -12,7 +12,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::space_curve::spread;
+use crate::mesh::space_curve::spread;
 /// Bits of a cell along one axis; the next bit is the spare one.
 const CELL_BITS: u32 = 20;
 /// Distance between the fields of a packed triple.

@@ -10,8 +10,8 @@ use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
 use super::dual_boxes::{DualBoxes, DualFound, Item};
-use super::{EdgeFaces, FaceId, Mesh};
 use crate::math::tolerance;
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Squares of areas beyond this, or below its inverse, have lost digits or will: such faces are
 /// always asked.

@@ -1,0 +1,27 @@
+//! The surface a mesh stands for: where it is creased and where it is round, its normals, how it bends, and
+//! finer faces where it does.
+
+mod crease_chains;
+pub mod curvature;
+mod curvature_derivative;
+mod diffusion;
+pub mod edge_arc;
+pub mod fans;
+pub mod feature_size;
+pub mod hard_edges;
+mod marking;
+mod parting;
+pub mod patches;
+mod planes;
+pub mod refine;
+mod roughness;
+mod rounded;
+pub mod smooth_normals;
+mod thickness;
+
+pub use curvature::{Curvature, Principal};
+pub use edge_arc::EdgeArc;
+pub use hard_edges::HardEdges;
+pub use patches::Patches;
+pub use rounded::Origin;
+pub use smooth_normals::SmoothNormals;

@@ -1,0 +1,13 @@
+//! What is near, and what meets: trees of boxes over faces, their rays, the dual space of views, and where
+//! triangles intersect.
+
+pub mod boxes;
+mod dual_boxes;
+pub mod dual_tree;
+pub mod intersect;
+pub mod ray_tree;
+pub mod trace;
+pub mod triangle_pair;
+
+pub use dual_boxes::DualFound;
+pub use dual_tree::{DualTree, ToneTree};
