@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use divan::{Bencher, black_box};
-use ligne::scene::{Scene, obj, ply, stl};
+use ligne::load::{obj, ply, stl};
+use ligne::scene::Scene;
 
 /// Sides of the wavy grid: 708 x 708 quads are 1,002,528 triangles.
 const SIDE: usize = 708;

@@ -50,6 +50,7 @@ pub mod export;
 pub mod field;
 pub mod hatch;
 pub mod lines;
+pub mod load;
 pub mod math;
 pub mod mesh;
 pub mod raster;

@@ -1,28 +1,22 @@
 //! [`Scene`]: what a model file holds, whatever its format.
 
+pub(crate) mod beside;
 pub mod camera;
 pub mod camera_record;
 pub mod coordinate;
 pub mod flatten;
 pub mod framing;
 pub mod geometry;
-pub mod gltf;
 pub mod light;
 pub mod material;
-pub mod obj;
-pub mod open;
 pub mod paint;
-pub mod ply;
-pub mod polygon;
 pub mod select;
-pub mod stl;
 mod swatches;
-mod text;
 mod texture;
 pub mod views;
 pub mod warnings;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use glam::{DAffine3, DVec3};
 
@@ -30,12 +24,11 @@ pub use camera::{Camera, Projection};
 pub use geometry::{Geometry, Part};
 pub use light::{Light, LightKind};
 pub use material::Material;
-pub use open::ModelFormat;
 pub use paint::{Paint, Paints};
 pub use views::NamedView;
 pub use warnings::Warnings;
 
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 
 /// Which axis of the file points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -82,33 +75,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads a model file; the format is told by its ending.
-    ///
-    /// # Errors
-    /// Names the file, the place in it and the remedy if it cannot be read, if it is broken, or
-    /// if its format is not one of OBJ, glTF, GLB, STL and PLY.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
-        open::open(path.as_ref())
-    }
-
-    /// Reads a model that is in memory, with no files beside it: libraries of materials and textures that it
-    /// names are left out and told in [`Scene::warnings`]; buffers of glTF must be inside, as those of GLB are.
-    ///
-    /// ```
-    /// use ligne::Scene;
-    /// use ligne::scene::ModelFormat;
-    ///
-    /// let scene = Scene::from_bytes(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ModelFormat::Obj)?;
-    /// assert_eq!(scene.geometries[0].triangles, [[0, 1, 2]]);
-    /// # Ok::<(), ligne::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Names the place in the bytes and the remedy if they are broken, or if nothing can be drawn.
-    pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
-        open::read_bytes(bytes, format)
-    }
-
     /// A scene of one part that a program made: positions, and the corners of each triangle as indices of
     /// them, counter-clockwise seen from outside. Its y axis points up; set [`Scene::up`] if another does.
     ///
@@ -144,14 +110,32 @@ impl Scene {
         }
         let part = Part { name: "model".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
         let geometry = Geometry { positions, triangles, ..Geometry::default() };
-        open::drawable(Self { geometries: vec![geometry], parts: vec![part], ..Self::default() })
+        drawable(Self { geometries: vec![geometry], parts: vec![part], ..Self::default() })
     }
+}
+
+/// The scene, unless there is nothing in it to draw.
+///
+/// # Errors
+/// If it has neither triangles nor wires.
+pub(crate) fn drawable(scene: Scene) -> Result<Scene, Error> {
+    if scene.geometries.iter().any(|g| !g.triangles.is_empty() || !g.wires.is_empty()) {
+        return Ok(scene);
+    }
+    let points: usize = scene.geometries.iter().map(|g| g.positions.len()).sum();
+    let lines = scene.warnings.lines();
+    let left_out = lines.iter().find(|line| line.contains("left out"));
+    let message = match (left_out, points) {
+        (Some(line), _) => format!("{line}; nothing to draw"),
+        (None, 0) => "no faces and no lines; nothing to draw".to_owned(),
+        (None, _) => "only points; nothing to draw".to_owned(),
+    };
+    Err(Error::new(message).of_kind(ErrorKind::Empty))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::ErrorKind;
 
     #[test]
     fn models_made_by_programs_are_checked() {
@@ -162,23 +146,5 @@ mod tests {
         let error = Scene::from_triangles([[0.0, f64::NAN, 0.0]], [[0, 0, 0]]).unwrap_err();
         assert_eq!(error.place.as_deref(), Some("position 0"), "{error}");
         assert_eq!(Scene::from_triangles(corners, []).unwrap_err().kind, ErrorKind::Empty);
-    }
-
-    #[test]
-    fn bytes_are_read_as_files_are() {
-        use ModelFormat::{Gltf, Obj, Ply, Stl};
-        let names = [("gear.obj", Obj), ("bracket.stl", Stl), ("knot.ply", Ply), ("pump.glb", Gltf)];
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
-        for (name, format) in names {
-            let path = folder.join(name);
-            let bytes = std::fs::read(&path).unwrap();
-            let (read, opened) = (Scene::from_bytes(&bytes, format).unwrap(), Scene::open(&path).unwrap());
-            assert_eq!(read.geometries[0].triangles, opened.geometries[0].triangles);
-        }
-        let error = Scene::from_bytes(b"", ModelFormat::Stl).unwrap_err();
-        assert_eq!(error.kind, ErrorKind::Empty);
-        let json = br#"{"asset":{"version":"2.0"},"buffers":[{"uri":"far.bin","byteLength":12}]}"#;
-        let error = Scene::from_bytes(json, ModelFormat::Gltf).unwrap_err();
-        assert!(error.to_string().contains("far.bin"), "{error}");
     }
 }

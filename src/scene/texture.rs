@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::open::read_beside;
+use super::beside::read_beside;
 use super::swatches::ALIKE;
 use super::{Material, Scene};
 use crate::math::colour::Colour;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::DVec3;
-use ligne::scene::{Scene, gltf};
+use ligne::load::gltf;
+use ligne::scene::Scene;
 
 use crate::support::models;
 

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use ligne::scene::{Scene, obj, ply, stl};
+use ligne::load::{obj, ply, stl};
+use ligne::scene::Scene;
 
 use crate::support::models;
 

@@ -203,7 +203,7 @@ fn lines_of_an_obj_file_may_stand_in_any_order() {
         let text = std::fs::read_to_string(example(name)).unwrap();
         let other = mixed_obj(&text, &mut Dice::new(32));
         assert_ne!(text, other);
-        let read = |text: &str| ligne::scene::obj::read_bytes(text.as_bytes(), "model", |_| None).unwrap();
+        let read = |text: &str| ligne::load::obj::read_bytes(text.as_bytes(), "model", |_| None).unwrap();
         let (scene, other) = (read(&text), read(&other));
         for style in styles {
             let style_sheet = Style::preset(style).unwrap();

@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(scene) = ligne::scene::gltf::read_bytes(bytes, &|_, _| Err(std::io::ErrorKind::NotFound.into())) {
+    if let Ok(scene) = ligne::load::gltf::read_bytes(bytes, &|_, _| Err(std::io::ErrorKind::NotFound.into())) {
         let soup = scene.to_soup();
         let count = soup.positions.len() as u32;
         assert!(soup.triangles.as_flattened().iter().all(|&i| i < count));

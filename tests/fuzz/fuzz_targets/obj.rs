@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(scene) = ligne::scene::obj::read_bytes(bytes, "stem", |_| Some(bytes.to_vec())) {
+    if let Ok(scene) = ligne::load::obj::read_bytes(bytes, "stem", |_| Some(bytes.to_vec())) {
         let soup = scene.to_soup();
         let count = soup.positions.len() as u32;
         assert!(soup.triangles.as_flattened().iter().all(|&i| i < count));

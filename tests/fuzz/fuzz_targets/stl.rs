@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(scene) = ligne::scene::stl::read_bytes(bytes, "stem") {
+    if let Ok(scene) = ligne::load::stl::read_bytes(bytes, "stem") {
         let soup = scene.to_soup();
         let count = soup.positions.len() as u32;
         assert!(soup.triangles.as_flattened().iter().all(|&i| i < count));

@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::{Corner, NONE, Parser, Stop};
 use crate::error::Error;
+use crate::load::polygon::{self, Cut};
+use crate::load::text::{Cursor, plain_index};
 use crate::scene::coordinate::is_drawable;
-use crate::scene::polygon::{self, Cut};
-use crate::scene::text::{Cursor, plain_index};
 
 impl Parser<'_> {
     /// The next corner of a face or line; none at the end of the line.

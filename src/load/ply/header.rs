@@ -1,8 +1,8 @@
 //! The header of a PLY file: its encoding and what its body holds.
 
 use crate::error::Error;
-use crate::scene::open::shown;
-use crate::scene::text::{Cursor, decode};
+use crate::load::shown;
+use crate::load::text::{Cursor, decode};
 
 /// How the body is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! MTL libraries: materials by name.
 
+use crate::load::text::{Cursor, decode};
 use crate::math::colour::Colour;
 use crate::scene::Material;
-use crate::scene::open::stays_inside;
-use crate::scene::text::{Cursor, decode};
+use crate::scene::beside::stays_inside;
 use crate::scene::warnings::Warnings;
 
 /// Adds the materials of a library; `folder` is where it lies as seen from the model, empty or

@@ -14,10 +14,12 @@ use glam::DAffine3;
 use self::body::Body;
 use self::faces::Faces;
 use self::header::Header;
-use super::coordinate::{NOT_DRAWABLE, is_drawable};
+use super::read_with;
 use super::text::Cursor;
-use super::{Geometry, Part, Scene, UpAxis, open};
 use crate::error::Error;
+use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
+use crate::scene::drawable;
+use crate::scene::{Geometry, Part, Scene, UpAxis};
 
 /// Reads a PLY file.
 ///
@@ -25,7 +27,7 @@ use crate::error::Error;
 /// Names the file and the place if the header is wrong, rows are missing, an index points
 /// nowhere, or nothing can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
-    open::read_with(path, read_bytes)
+    read_with(path, read_bytes)
 }
 
 /// Reads the bytes of a PLY file; `stem` names its only part.
@@ -83,7 +85,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     }
     scene.geometries.push(geometry);
     scene.parts.push(Part { name: stem.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY });
-    open::drawable(scene)
+    drawable(scene)
 }
 
 #[cfg(test)]

@@ -8,10 +8,12 @@ use std::path::Path;
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::coordinate::{NOT_DRAWABLE, is_drawable};
+use super::read_with;
 use super::text::{Cursor, decode};
-use super::{Geometry, Part, Scene, UpAxis, open};
 use crate::error::Error;
+use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
+use crate::scene::drawable;
+use crate::scene::{Geometry, Part, Scene, UpAxis};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -21,7 +23,7 @@ const RECORD: usize = 50;
 /// # Errors
 /// Names the file and the place if it is cut off or nothing can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
-    open::read_with(path, read_bytes)
+    read_with(path, read_bytes)
 }
 
 /// Reads the bytes of an STL file; `stem` names solids without a name.
@@ -35,7 +37,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     } else {
         read_binary(bytes, stem, &mut scene)?
     }
-    open::drawable(scene)
+    drawable(scene)
 }
 
 /// How many triangles a binary file says it has.
@@ -198,7 +200,7 @@ impl<'a> Text<'a> {
                 .at(place)
                 .remedy("it is cut off");
         }
-        Error::new(format!("`{}` stands where {wanted} should", open::shown(found))).at(place)
+        Error::new(format!("`{}` stands where {wanted} should", super::shown(found))).at(place)
     }
 
     /// The facets up to `endsolid`.

@@ -7,9 +7,9 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::load::shown;
+use crate::load::text::{Cursor, plain_number};
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
-use crate::scene::open::shown;
-use crate::scene::text::{Cursor, plain_number};
 use crate::scene::warnings::Warnings;
 
 /// No index.

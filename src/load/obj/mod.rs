@@ -12,8 +12,8 @@ mod statements;
 
 use std::path::Path;
 
-use super::Scene;
 use crate::error::Error;
+use crate::scene::Scene;
 
 /// Reads an OBJ file and the libraries beside it.
 ///
@@ -21,8 +21,8 @@ use crate::error::Error;
 /// Names the file and the line if something is not a number, an index points nowhere, or nothing
 /// can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
-    super::open::read_with(path, |bytes, stem| {
-        read_bytes(bytes, stem, |name| super::open::read_beside(path, name).ok())
+    super::read_with(path, |bytes, stem| {
+        read_bytes(bytes, stem, |name| crate::scene::beside::read_beside(path, name).ok())
     })
 }
 
@@ -39,11 +39,11 @@ pub fn read_bytes(
     let statements = statements::Statements::parse(bytes)?;
     let scene = assemble::scene(statements, stem, library);
     if bytes.contains(&0) {
-        return super::open::drawable(scene).map_err(|_| {
+        return crate::scene::drawable(scene).map_err(|_| {
             Error::new("this is binary data, not OBJ text; nothing to draw").remedy("check the file's ending")
         });
     }
-    super::open::drawable(scene)
+    crate::scene::drawable(scene)
 }
 
 #[cfg(test)]

@@ -5,9 +5,9 @@ use rustc_hash::FxHashMap;
 
 use super::library;
 use super::statements::{NONE, Object, Run, Statements};
+use crate::load::text::decode;
 use crate::math::colour::linear;
-use crate::scene::open::stays_inside;
-use crate::scene::text::decode;
+use crate::scene::beside::stays_inside;
 use crate::scene::{Geometry, Material, Part, Scene, UpAxis, Warnings};
 
 /// One geometry a part, each with just the vertices it uses.

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::body::{Body, Row, place};
 use super::header::{Element, Encoding, Scalar};
 use crate::error::Error;
+use crate::load::polygon::{self, Cut};
 use crate::scene::coordinate::is_drawable;
-use crate::scene::polygon::{self, Cut};
 use crate::scene::warnings::Warnings;
 
 const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];

@@ -2,8 +2,8 @@
 
 use super::header::{Element, Encoding};
 use crate::error::Error;
-use crate::scene::open::shown;
-use crate::scene::text::Cursor;
+use crate::load::shown;
+use crate::load::text::Cursor;
 
 /// The values of one row, property after property.
 #[derive(Default)]

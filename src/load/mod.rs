@@ -1,12 +1,19 @@
-//! Opening model files: which reader, and what all readers share.
+//! Opening models: a reader for each format, and what all readers share.
+
+pub mod gltf;
+pub mod obj;
+pub mod ply;
+mod polygon;
+pub mod stl;
+mod text;
 
 use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use super::text::decode;
-use super::{Scene, gltf, obj, ply, stl};
+use self::text::decode;
 use crate::error::{self, Error};
+use crate::scene::Scene;
 
 const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
 
@@ -38,8 +45,37 @@ impl ModelFormat {
     }
 }
 
+impl Scene {
+    /// Reads a model file; the format is told by its ending.
+    ///
+    /// # Errors
+    /// Names the file, the place in it and the remedy if it cannot be read, if it is broken, or
+    /// if its format is not one of OBJ, glTF, GLB, STL and PLY.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        open(path.as_ref())
+    }
+
+    /// Reads a model that is in memory, with no files beside it: libraries of materials and textures that it
+    /// names are left out and told in [`Scene::warnings`]; buffers of glTF must be inside, as those of GLB are.
+    ///
+    /// ```
+    /// use ligne::Scene;
+    /// use ligne::load::ModelFormat;
+    ///
+    /// let scene = Scene::from_bytes(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ModelFormat::Obj)?;
+    /// assert_eq!(scene.geometries[0].triangles, [[0, 1, 2]]);
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the place in the bytes and the remedy if they are broken, or if nothing can be drawn.
+    pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
+        read_bytes(bytes, format)
+    }
+}
+
 /// Reads a model with the reader for its ending, whatever its case.
-pub(super) fn open(path: &Path) -> Result<Scene, Error> {
+fn open(path: &Path) -> Result<Scene, Error> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     let scene = refuse_strangers(path).and_then(|()| match ModelFormat::of_ending(&ending) {
         Some(ModelFormat::Obj) => obj::read(path),
@@ -53,7 +89,7 @@ pub(super) fn open(path: &Path) -> Result<Scene, Error> {
 }
 
 /// Reads a model that has no files beside it.
-pub(super) fn read_bytes(bytes: &[u8], format: ModelFormat) -> Result<Scene, Error> {
+fn read_bytes(bytes: &[u8], format: ModelFormat) -> Result<Scene, Error> {
     const STEM: &str = "model";
     refuse_strange_bytes(bytes)?;
     match format {
@@ -111,58 +147,6 @@ fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The bytes of a file beside the model, by the name the model calls it.
-///
-/// # Errors
-/// If the name leads outside the model's folder, or the file cannot be read.
-pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
-    if !stays_inside(name) {
-        return Err(Error::new(format!("{name} lies outside the model's folder")).in_file(model));
-    }
-    let path = model.parent().unwrap_or(Path::new("")).join(name);
-    if !path.is_file() {
-        return Err(Error::new(format!("{name} is missing")).in_file(model));
-    }
-    fs::read(&path).map_err(|e| Error::io("cannot be read", e).in_file(path))
-}
-
-/// Whether a relative path, written with slashes, stays inside the folder it starts from.
-#[must_use]
-pub fn stays_inside(path: &str) -> bool {
-    let mut depth = 0_i32;
-    for step in path.split(['/', '\\']) {
-        match step {
-            "" | "." => {}
-            ".." => depth -= 1,
-            _ => depth += 1,
-        }
-        if depth < 0 {
-            return false;
-        }
-    }
-    // A colon is a drive or a protocol.
-    !path.starts_with(['/', '\\']) && !path.contains([':', '\0'])
-}
-
-/// The scene, unless there is nothing in it to draw.
-///
-/// # Errors
-/// If it has neither triangles nor wires.
-pub fn drawable(scene: Scene) -> Result<Scene, Error> {
-    if scene.geometries.iter().any(|g| !g.triangles.is_empty() || !g.wires.is_empty()) {
-        return Ok(scene);
-    }
-    let points: usize = scene.geometries.iter().map(|g| g.positions.len()).sum();
-    let lines = scene.warnings.lines();
-    let left_out = lines.iter().find(|line| line.contains("left out"));
-    let message = match (left_out, points) {
-        (Some(line), _) => format!("{line}; nothing to draw"),
-        (None, 0) => "no faces and no lines; nothing to draw".to_owned(),
-        (None, _) => "only points; nothing to draw".to_owned(),
-    };
-    Err(Error::new(message).of_kind(error::ErrorKind::Empty))
-}
-
 /// How a place in the text is called in errors, with the word found there.
 pub(super) fn shown(word: &[u8]) -> String {
     let start: Vec<u8> = word.iter().copied().take(20).collect();
@@ -172,6 +156,24 @@ pub(super) fn shown(word: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bytes_are_read_as_files_are() {
+        use ModelFormat::{Gltf, Obj, Ply, Stl};
+        let names = [("gear.obj", Obj), ("bracket.stl", Stl), ("knot.ply", Ply), ("pump.glb", Gltf)];
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
+        for (name, format) in names {
+            let path = folder.join(name);
+            let bytes = std::fs::read(&path).unwrap();
+            let (read, opened) = (Scene::from_bytes(&bytes, format).unwrap(), Scene::open(&path).unwrap());
+            assert_eq!(read.geometries[0].triangles, opened.geometries[0].triangles);
+        }
+        let error = Scene::from_bytes(b"", ModelFormat::Stl).unwrap_err();
+        assert_eq!(error.kind, error::ErrorKind::Empty);
+        let json = br#"{"asset":{"version":"2.0"},"buffers":[{"uri":"far.bin","byteLength":12}]}"#;
+        let error = Scene::from_bytes(json, ModelFormat::Gltf).unwrap_err();
+        assert!(error.to_string().contains("far.bin"), "{error}");
+    }
 
     #[test]
     fn strangers_are_told() {
@@ -196,15 +198,5 @@ mod tests {
         }
         let error = open(Path::new("missing.OBJ")).unwrap_err().to_string();
         assert!(error.starts_with("missing.OBJ: cannot be read"), "{error}");
-    }
-
-    #[test]
-    fn paths_stay_inside() {
-        for good in ["a.mtl", "a/b.mtl", "a/../b.mtl", "./a b.mtl", ".a"] {
-            assert!(stays_inside(good), "{good}");
-        }
-        for bad in ["../a", "a/../../b", "/a", "\\a", "C:\\a", "http://a/b", "a\\..\\..\\b", "a\0"] {
-            assert!(!stays_inside(bad), "{bad}");
-        }
     }
 }

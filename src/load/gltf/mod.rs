@@ -32,8 +32,8 @@ use std::path::Path;
 
 use self::buffers::{Buffers, Fetch};
 use self::json::Root;
-use super::{Scene, UpAxis, Warnings};
 use crate::error::Error;
+use crate::scene::{Scene, UpAxis, Warnings};
 
 /// Reads a `.gltf` or `.glb` file; buffers beside it are read too, if they lie in its folder.
 ///
