@@ -21,11 +21,11 @@ use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
 
-use ligne::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface, edge_lines};
-use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
-use ligne::trees::ToneTree;
-use ligne::view::View;
+use ligne::stages::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface, edge_lines};
+use ligne::stages::mesh::Mesh;
+use ligne::stages::trees::ToneTree;
+use ligne::stages::view::View;
 use rayon::prelude::*;
 use solids::Solid;
 

@@ -4,14 +4,14 @@ use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
-use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
-use ligne::mesh::{Edges, Extents, Mesh};
 use ligne::render;
 use ligne::scene::{Camera, Geometry, Part, Scene};
-use ligne::shape::{HardEdges, SmoothNormals};
+use ligne::stages::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
+use ligne::stages::mesh::{Edges, Extents, Mesh};
+use ligne::stages::shape::{HardEdges, SmoothNormals};
+use ligne::stages::view::View;
+use ligne::stages::viewmap::{self, ViewMap, doubles};
 use ligne::style::Style;
-use ligne::view::View;
-use ligne::viewmap::{self, ViewMap, doubles};
 
 #[allow(dead_code)]
 #[path = "../examples/make_stress/scenes.rs"]

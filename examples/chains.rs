@@ -4,12 +4,13 @@
 //! cargo run --example chains [-- MODEL]
 //! ```
 
-use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{self, HiddenLines, LineOptions, Surface};
-use ligne::mesh::Mesh;
-use ligne::view::View;
-use ligne::{Camera, Error, Scene, viewmap};
+use ligne::stages::chain::{self, ChainOptions};
+use ligne::stages::lines::{self, HiddenLines, LineOptions, Surface};
+use ligne::stages::mesh::Mesh;
+use ligne::stages::view::View;
+use ligne::stages::viewmap;
+use ligne::{Camera, Error, Scene};
 
 fn main() -> Result<(), Error> {
     let teapot = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/teapot.obj");

@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 
 use ligne::drawing::{Page, Unit};
-use ligne::hatch::clip::length;
 use ligne::render::Prepared;
+use ligne::stages::hatch::clip::length;
 use ligne::{Camera, Scene, Style};
 
 fn main() -> Result<(), ligne::Error> {

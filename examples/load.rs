@@ -4,8 +4,8 @@
 //! cargo run --example load [-- MODEL]
 //! ```
 
-use ligne::mesh::Mesh;
 use ligne::render::defects;
+use ligne::stages::mesh::Mesh;
 use ligne::{Error, Scene};
 
 fn main() -> Result<(), Error> {

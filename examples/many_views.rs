@@ -8,12 +8,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ligne::drawing::{Drawing, Page, Unit};
-use ligne::lines::{EdgeSearch, Surface};
-use ligne::mesh::Mesh;
 use ligne::scene::NamedView;
-use ligne::stroke::{self, InkContext};
-use ligne::view::View;
-use ligne::{Camera, Scene, Style, SvgOptions, chain, lines, viewmap};
+use ligne::stages::lines::{EdgeSearch, Surface};
+use ligne::stages::mesh::Mesh;
+use ligne::stages::stroke::{self, InkContext};
+use ligne::stages::view::View;
+use ligne::stages::{chain, lines, viewmap};
+use ligne::{Camera, Scene, Style, SvgOptions};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).map_or_else(std::env::temp_dir, PathBuf::from);

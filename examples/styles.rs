@@ -7,8 +7,8 @@
 use std::path::PathBuf;
 
 use ligne::drawing::Length;
-use ligne::lines::{HiddenLines, LineKind};
 use ligne::math::colour::Colour;
+use ligne::stages::lines::{HiddenLines, LineKind};
 use ligne::{Camera, Scene, Style, SvgOptions, render};
 
 const BLUEPRINT: &str = r##"

@@ -6,10 +6,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ligne::lines::{self, HiddenLines, LineOptions, Surface};
-use ligne::mesh::Mesh;
-use ligne::view::View;
-use ligne::viewmap::{self, ViewVertexKind};
+use ligne::stages::lines::{self, HiddenLines, LineOptions, Surface};
+use ligne::stages::mesh::Mesh;
+use ligne::stages::view::View;
+use ligne::stages::viewmap::{self, ViewVertexKind};
 use ligne::{Camera, Error, Scene};
 
 fn main() -> Result<(), Error> {

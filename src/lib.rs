@@ -39,33 +39,26 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::unwrap_used)]
 
-pub mod chain;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "diff")]
 pub mod diff;
 pub mod drawing;
-pub mod error;
+mod error;
 pub mod export;
-pub mod field;
-pub mod hatch;
-pub mod lines;
 pub mod load;
+#[doc(hidden)]
 pub mod math;
-pub mod mesh;
-pub mod raster;
-pub mod region;
 pub mod render;
 pub mod scene;
-pub mod shadow;
-pub mod shape;
-pub mod stroke;
+pub mod stages;
 pub mod style;
 #[cfg(feature = "diff")]
 pub mod testing;
-pub mod trees;
-pub mod view;
-pub mod viewmap;
+
+// Inside, each stage goes by its own name.
+use stages::{chain, field, hatch, lines, mesh, raster, region, shadow, shape, stroke, trees, view, viewmap};
 
 pub use drawing::Drawing;
 pub use error::{Error, ErrorKind};

@@ -8,12 +8,12 @@ use crate::support::segments::{cover_alike, distance, doubled, length};
 use crate::support::solids::{Solid, cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::Point;
-use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{HiddenLines, LineKind};
-use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
-use ligne::viewmap::ViewVertexKind;
+use ligne::stages::chain::{self, ChainOptions};
+use ligne::stages::lines::{HiddenLines, LineKind};
+use ligne::stages::mesh::EdgeMark;
+use ligne::stages::viewmap::ViewVertexKind;
 
 /// How near a computed end is to the known one, px.
 const EXACT_PX: f64 = 1e-6;

@@ -10,10 +10,10 @@ use std::path::Path;
 use crate::support::judge::{COARSE, EXACT, Limits, MIXED, ROUND, judge, judge_ink};
 use crate::support::truth::{State, Truth};
 use glam::DVec3;
-use ligne::lines::Contours;
 use ligne::math::function::{cos, sin};
 use ligne::render::render;
 use ligne::scene::{Camera, Projection, Scene, UpAxis};
+use ligne::stages::lines::Contours;
 use ligne::style::Style;
 use rayon::prelude::*;
 

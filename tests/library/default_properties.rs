@@ -23,9 +23,9 @@ use crate::support::truth::{State, Truth};
 use glam::{DMat3, DVec3};
 use kurbo::Point;
 use ligne::drawing::Drawing;
-use ligne::lines::{Contours, LineOptions};
 use ligne::render::render;
 use ligne::scene::{Camera, Projection, Scene};
+use ligne::stages::lines::{Contours, LineOptions};
 use ligne::style::Style;
 use rayon::prelude::*;
 

@@ -7,11 +7,11 @@ use crate::support::round_solids;
 use crate::support::scenes::{CAMERAS, SCENES, random_camera, random_scene};
 use crate::support::solids::{Solid, cuboid, sphere};
 use glam::DVec3;
-use ligne::lines::{self, Contours, EdgeSearch, LineKind, LineOptions, Surface};
-use ligne::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
 use ligne::scene::{Camera, Projection, Scene};
-use ligne::trees::ToneTree;
-use ligne::view::View;
+use ligne::stages::lines::{self, Contours, EdgeSearch, LineKind, LineOptions, Surface};
+use ligne::stages::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
+use ligne::stages::trees::ToneTree;
+use ligne::stages::view::View;
 use rayon::prelude::*;
 
 /// Checks that both ways find the same lines and that no pair was left out that the eye parts;
@@ -177,7 +177,7 @@ fn edges_that_are_left_out_are_no_contours() {
     let mut dice = Dice::new(77);
     let scene = random_scene("mixture", &mut dice);
     let mesh = Mesh::build(scene.to_soup());
-    let tree = ligne::trees::DualTree::new(&mesh, |_| true);
+    let tree = ligne::stages::trees::DualTree::new(&mesh, |_| true);
     assert_eq!(tree.len(), mesh.edges.len());
     for camera in views(2.5) {
         let view = View::new(&mesh, &camera);

@@ -5,9 +5,9 @@ use crate::support::models;
 use crate::support::solids::{Solid, cuboid, tube};
 use glam::DVec3;
 use ligne::math::function::tan;
-use ligne::mesh::{EdgeMark, Mesh, Soup};
 use ligne::scene::Scene;
-use ligne::shape::HardEdges;
+use ligne::stages::mesh::{EdgeMark, Mesh, Soup};
+use ligne::stages::shape::HardEdges;
 
 const CREASE_DEG: f64 = 40.0;
 

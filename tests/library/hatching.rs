@@ -11,14 +11,14 @@ use kurbo::{Point, Vec2};
 use ligne::drawing::{LayerKind, Page, Paint, Unit};
 use ligne::export::PngOptions;
 use ligne::export::png::Resolution;
-use ligne::hatch::{self, HatchContext, HatchOptions, HatchStroke, Tone};
 use ligne::math::colour::Colour;
-use ligne::mesh::{FaceId, MaterialId, Mesh, PaintId, PartId};
-use ligne::region::ground::{Cell, Piece};
-use ligne::region::{Ground, Look};
 use ligne::render::Prepared;
 use ligne::scene::{Camera, Geometry, NamedView, Scene};
-use ligne::stroke::Ink;
+use ligne::stages::hatch::{self, HatchContext, HatchOptions, HatchStroke, Tone};
+use ligne::stages::mesh::{FaceId, MaterialId, Mesh, PaintId, PartId};
+use ligne::stages::region::ground::{Cell, Piece};
+use ligne::stages::region::{Ground, Look};
+use ligne::stages::stroke::Ink;
 use ligne::{Drawing, Style, SvgOptions, render};
 
 /// Side of a flat patch, px.
@@ -233,7 +233,7 @@ fn strokes_stay_inside(sheets: &[&str]) {
             let prepared = Prepared::new(&scene, &style);
             let (ground, layers) = prepared.hatch_strokes(&camera, page(&camera)).expect("a hatching");
             let mesh = Mesh::build(scene.to_soup());
-            let view = ligne::view::View::new(&mesh, &camera);
+            let view = ligne::stages::view::View::new(&mesh, &camera);
             let mut asked = 0;
             for stroke in layers.iter().flat_map(|layer| &layer.strokes) {
                 let facet = ground.cells[stroke.cell as usize].facet;
@@ -258,7 +258,7 @@ fn strokes_stay_inside(sheets: &[&str]) {
 }
 
 /// The depth of the surface at a page point by brute force, for some points; infinite on paper.
-fn depth(mesh: &Mesh, view: &ligne::view::View, p: Point, is_asked: bool) -> Option<f64> {
+fn depth(mesh: &Mesh, view: &ligne::stages::view::View, p: Point, is_asked: bool) -> Option<f64> {
     if !is_asked {
         return None;
     }

@@ -7,16 +7,16 @@ use crate::support::pipeline::{orthographic, scene};
 use crate::support::solids::{cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Shape};
-use ligne::chain::{Chain, Sample};
 use ligne::drawing::{Drawing, LayerKind, Mark, OutlinePaint, Paint, Unit};
 use ligne::export::SvgOptions;
-use ligne::lines::LineKind;
 use ligne::math::colour::Colour;
 use ligne::math::function::{cos, sin};
-use ligne::mesh::{MaterialId, PartId};
 use ligne::render::render;
 use ligne::scene::{Camera, Scene};
-use ligne::stroke::{InkContext, ink};
+use ligne::stages::chain::{Chain, Sample};
+use ligne::stages::lines::LineKind;
+use ligne::stages::mesh::{MaterialId, PartId};
+use ligne::stages::stroke::{InkContext, ink};
 use ligne::style::Style;
 
 /// A style that extends plain pens with some changes.

@@ -4,7 +4,7 @@ use crate::support::dice::Dice;
 use crate::support::mesh_file;
 use crate::support::solids::{Solid, cuboid, sphere, tube};
 use glam::DVec3;
-use ligne::trees::intersect::{IntersectionCurves, IntersectionInput, intersections};
+use ligne::stages::trees::intersect::{IntersectionCurves, IntersectionInput, intersections};
 
 fn find(solid: &Solid) -> IntersectionCurves {
     intersections(&IntersectionInput {
@@ -330,7 +330,7 @@ fn scale_and_distance_change_nothing() {
     assert!(!segments.is_empty());
     for (scale, offset) in [(1e-9, 0.0), (1e9, 0.0), (1.0, 4096.0)] {
         let moved = both.clone().moved(|p| p * scale + DVec3::splat(offset));
-        let faces = |s: &[ligne::trees::intersect::IntersectionSegment]| {
+        let faces = |s: &[ligne::stages::trees::intersect::IntersectionSegment]| {
             s.iter().map(|s| s.faces).collect::<Vec<_>>()
         };
         assert_eq!(faces(&find(&moved).segments), faces(&segments), "scale {scale}, offset {offset}");

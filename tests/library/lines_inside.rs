@@ -6,13 +6,13 @@ use crate::support::pipeline::orthographic;
 use crate::support::solids::{Solid, torus, tube};
 use glam::DVec3;
 use ligne::drawing::{Mark, Paint};
-use ligne::lines::{FeatureLines, InsideOptions, LineKind, LineOptions, inside};
 use ligne::math::function::{atan2, pow};
-use ligne::mesh::{Mesh, Soup};
 use ligne::scene::{Camera, Scene};
-use ligne::shape::{Curvature, SmoothNormals};
+use ligne::stages::lines::{FeatureLines, InsideOptions, LineKind, LineOptions, inside};
+use ligne::stages::mesh::{Mesh, Soup};
+use ligne::stages::shape::{Curvature, SmoothNormals};
+use ligne::stages::view::View;
 use ligne::style::Style;
-use ligne::view::View;
 
 fn mesh_of(solid: &Solid) -> Mesh {
     let (positions, triangles) = (solid.positions.clone(), solid.triangles.clone());
@@ -86,7 +86,7 @@ fn points(mesh: &Mesh, lines: &FeatureLines, kind: LineKind) -> Vec<DVec3> {
 }
 
 fn length(mesh: &Mesh, lines: &FeatureLines) -> f64 {
-    let ends = |s: &ligne::lines::FeatureSegment| s.ends.map(|end| lines.position(mesh, end));
+    let ends = |s: &ligne::stages::lines::FeatureSegment| s.ends.map(|end| lines.position(mesh, end));
     lines.segments.iter().map(ends).map(|[a, b]| a.distance(b)).sum()
 }
 
@@ -293,7 +293,7 @@ fn strengths_lie_between_none_and_full_and_lines_end_weak() {
         let at = lines.points[point];
         let beside =
             lines.segments.iter().find(|s| s.ends.contains(&((mesh.positions.len() + point) as u32)));
-        let face = mesh.corners(ligne::mesh::FaceId(beside.unwrap().hosts[0]));
+        let face = mesh.corners(ligne::stages::mesh::FaceId(beside.unwrap().hosts[0]));
         let normal = (face[1] - face[0]).cross(face[2] - face[0]).normalize();
         let towards = normal.dot(-view.frame.forward);
         assert!(lines.strengths[point] < 0.01 || towards < 0.2, "{degree} {at} {towards}");

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use crate::support::dice::Dice;
 use ligne::export::SvgOptions;
-use ligne::mesh::EdgeMark;
 use ligne::render::render;
 use ligne::scene::{Camera, Geometry, Scene};
+use ligne::stages::mesh::EdgeMark;
 use ligne::style::Style;
 
 const STYLES: [&str; 9] =

@@ -8,10 +8,10 @@ use crate::support::segments::{cover_alike, doubled, length, uncovered};
 use crate::support::solids::cuboid;
 use glam::{DMat3, DVec3};
 use kurbo::Point;
-use ligne::chain::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::HiddenLines;
 use ligne::scene::{Camera, Projection, Scene};
+use ligne::stages::chain::{self, ChainOptions};
+use ligne::stages::lines::HiddenLines;
 
 const KINDS: [&str; 5] = ["boxes", "tori", "soup", "interpenetrating", "mixture"];
 const CAMERAS: [&str; 3] = ["perspective", "orthographic", "cutting"];

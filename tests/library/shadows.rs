@@ -7,10 +7,10 @@ use crate::support::round_solids;
 use crate::support::scenes;
 use crate::support::solids::{Solid, cuboid, torus};
 use glam::DVec3;
-use ligne::lines::{FeatureLines, LineKind, NO_FACE};
-use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::Scene;
-use ligne::shadow::{Caster, Shadows};
+use ligne::stages::lines::{FeatureLines, LineKind, NO_FACE};
+use ligne::stages::mesh::{FaceId, Mesh};
+use ligne::stages::shadow::{Caster, Shadows};
 
 fn mesh(solids: impl IntoIterator<Item = Solid>) -> Mesh {
     Mesh::build(scene(solids).to_soup())

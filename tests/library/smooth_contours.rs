@@ -13,12 +13,12 @@ use crate::support::solids::{Solid, torus};
 use crate::support::torus_truth::{Piece, visible_pieces};
 use glam::DVec3;
 use kurbo::Point;
-use ligne::chain::{self, Chain, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::lines::{Contours, HiddenLines, LineKind, LineOptions};
 use ligne::math::function::{cos, sin};
 use ligne::scene::{Camera, Projection};
-use ligne::viewmap::ViewVertexKind;
+use ligne::stages::chain::{self, Chain, ChainOptions};
+use ligne::stages::lines::{Contours, HiddenLines, LineKind, LineOptions};
+use ligne::stages::viewmap::ViewVertexKind;
 
 fn with(contours: Contours) -> LineOptions {
     LineOptions { contours, ..LineOptions::default() }

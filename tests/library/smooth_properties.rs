@@ -9,9 +9,9 @@ use crate::support::solids::{Solid, cuboid, torus, tube};
 use glam::{DMat3, DVec3};
 use kurbo::Point;
 use ligne::export::SvgOptions;
-use ligne::lines::{Contours, LineOptions};
 use ligne::render::render;
 use ligne::scene::{Camera, Projection, Scene};
+use ligne::stages::lines::{Contours, LineOptions};
 use ligne::style::Style;
 
 fn solids() -> Vec<(&'static str, Solid)> {

@@ -4,11 +4,12 @@
 use std::path::{Path, PathBuf};
 
 use ligne::drawing::{Mark, Page, Unit};
-use ligne::lines;
-use ligne::mesh::Mesh;
 use ligne::render::{Stage, render_reported};
-use ligne::view::View;
-use ligne::{Camera, Drawing, Scene, Style, SvgOptions, field};
+use ligne::stages::field;
+use ligne::stages::lines;
+use ligne::stages::mesh::Mesh;
+use ligne::stages::view::View;
+use ligne::{Camera, Drawing, Scene, Style, SvgOptions};
 
 const MODELS: [&str; 7] =
     ["bear.ply", "bracket.stl", "castle.obj", "gear.obj", "knot.ply", "pump.glb", "teapot.obj"];

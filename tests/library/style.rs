@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use ligne::drawing::Length;
-use ligne::lines::HiddenLines;
 use ligne::math::colour::Colour;
-use ligne::stroke::{Ink, LayersBy, Order};
+use ligne::stages::lines::HiddenLines;
+use ligne::stages::stroke::{Ink, LayersBy, Order};
 use ligne::style::Style;
 
 /// A folder of sheets that is removed at the end of the test.
@@ -292,7 +292,7 @@ fn layers_of_hatching_are_by_default_as_documented() {
     }
     assert!(keys > 20, "{keys}");
     let style = Style::from_toml(&sheet).unwrap_or_else(|error| panic!("{sheet}\n{error}"));
-    assert_eq!(style.hatch.layers, [ligne::hatch::HatchLayer::default()]);
+    assert_eq!(style.hatch.layers, [ligne::stages::hatch::HatchLayer::default()]);
 }
 
 #[test]
@@ -321,7 +321,7 @@ fn the_sheets_of_the_documentation_load() {
 fn the_defaults_of_the_documentation_are_those_of_the_code() {
     let sheets = Sheets::new("defaults", &[("empty.toml", "")]);
     let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
-    assert_eq!(style.stroke.pen, ligne::stroke::Pen::default());
+    assert_eq!(style.stroke.pen, ligne::stages::stroke::Pen::default());
     assert_eq!(style.background, Some(Colour::WHITE));
     let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncontours = \"auto\"\ncrease_deg = 40\nhidden = \"none\"\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\nhalo = 0\nbrush = \"none\"\n[pen.swell]\ntaper = 0\ntaper_to = 0.2\nbend = 0\nbend_radius = 40\nlit = 0\nnear = 0\ngap = 0\n[pen.hand]\ntremor = 0\ntremor_length = 60\novershoot = 0\nbreaks = 0\nbreak_gap = 3\npasses = 1\nstray = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n[light]\nfrom_model = true\nsources = []\nambient = 0\nwrap = 0\nocclusion = 0\n[fills]\nenabled = false\nthresholds = [0.5]\nlit = 1\ncast_shadows = false\nseams = \"underlap\"\nunderlap = 0.6\ncrumb = 2\nfit_tolerance = 0.05\n[fills.highlight]\nenabled = false\nthresholds = [0.5]\nexponent = 40\ncolour = \"#ffffff\"\nstrength = 0.7\n[fills.gooch]\nenabled = false\ncool = \"#00008c\"\nwarm = \"#4d4d00\"\ncool_share = 0.25\nwarm_share = 0.5\n";
     let sheets = Sheets::new("documented", &[("all.toml", documented)]);

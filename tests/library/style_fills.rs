@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use ligne::drawing::Length;
-use ligne::field::tone_options::{Colours, Scale};
-use ligne::field::{SourceKind, Space};
 use ligne::math::colour::Colour;
 use ligne::math::factor::Factor;
-use ligne::region::Seams;
+use ligne::stages::field::tone_options::{Colours, Scale};
+use ligne::stages::field::{SourceKind, Space};
+use ligne::stages::region::Seams;
 use ligne::style::Style;
 
 /// A folder that is removed at the end of the test.

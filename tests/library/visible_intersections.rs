@@ -3,14 +3,14 @@
 use crate::support::models;
 use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
-use ligne::lines::intersections::{all_curves, visible_curves};
-use ligne::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, Role};
-use ligne::mesh::{Mesh, Soup};
 use ligne::scene::{Camera, Scene, UpAxis};
-use ligne::shape::Origin;
-use ligne::trees::intersect::IntersectionCurves;
-use ligne::view::View;
-use ligne::viewmap;
+use ligne::stages::lines::intersections::{all_curves, visible_curves};
+use ligne::stages::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, Role};
+use ligne::stages::mesh::{Mesh, Soup};
+use ligne::stages::shape::Origin;
+use ligne::stages::trees::intersect::IntersectionCurves;
+use ligne::stages::view::View;
+use ligne::stages::viewmap;
 
 /// Directions to the eye: azimuth and elevation in degrees.
 const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0), (-60.0, -20.0)];
@@ -18,7 +18,7 @@ const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0),
 /// Length of the curves that shows in a view, in thousandths of the longer side of the frame.
 fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 {
     let first = mesh.positions.len() as u32;
-    let segment = |s: &ligne::trees::intersect::IntersectionSegment| FeatureSegment {
+    let segment = |s: &ligne::stages::trees::intersect::IntersectionSegment| FeatureSegment {
         ends: s.ends.map(|end| first + end),
         hosts: s.faces,
         kind: LineKind::Intersection,

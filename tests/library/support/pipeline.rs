@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
-use ligne::lines::{self, Contours, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
-use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
-use ligne::view::View;
-use ligne::viewmap::{self, ViewEdge, ViewMap};
+use ligne::stages::lines::{self, Contours, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
+use ligne::stages::mesh::Mesh;
+use ligne::stages::view::View;
+use ligne::stages::viewmap::{self, ViewEdge, ViewMap};
 
 use super::solids::Solid;
 

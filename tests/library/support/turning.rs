@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
-use ligne::chain::{self, Chain, ChainOptions};
 use ligne::drawing::Unit;
-use ligne::lines::{HiddenLines, LineKind, LineOptions, Surface};
-use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene, UpAxis};
+use ligne::stages::chain::{self, Chain, ChainOptions};
+use ligne::stages::lines::{HiddenLines, LineKind, LineOptions, Surface};
+use ligne::stages::mesh::Mesh;
 
 use super::eye::Eye;
 use super::ink::Ink;

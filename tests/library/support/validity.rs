@@ -4,10 +4,10 @@
 
 use glam::DVec3;
 use kurbo::Point;
-use ligne::lines::{self, LineKind, LineOptions, Surface};
 use ligne::scene::{Camera, Projection, Scene, UpAxis};
-use ligne::view::View;
-use ligne::viewmap::{self, ViewMap, ViewVertexKind};
+use ligne::stages::lines::{self, LineKind, LineOptions, Surface};
+use ligne::stages::view::View;
+use ligne::stages::viewmap::{self, ViewMap, ViewVertexKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::ink::{Ink, nearest_on};
