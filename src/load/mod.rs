@@ -123,8 +123,8 @@ fn cannot_be_read(error: std::io::Error) -> Error {
 /// Refuses a file that surely is no model, by its beginning.
 fn refuse_strangers(path: &Path) -> Result<(), Error> {
     let mut head = Vec::new();
-    let file = fs::File::open(path).map_err(|e| cannot_be_read(e))?;
-    file.take(256).read_to_end(&mut head).map_err(|e| cannot_be_read(e))?;
+    let file = fs::File::open(path).map_err(cannot_be_read)?;
+    file.take(256).read_to_end(&mut head).map_err(cannot_be_read)?;
     refuse_strange_bytes(&head)
 }
 

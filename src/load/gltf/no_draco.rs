@@ -10,5 +10,6 @@ pub fn decode(_: &Buffers, _: &Primitive, _: &Draco, _: &str) -> Result<Streams,
     Err(Error::new(
         "the model is compressed by Draco, which this program was built without (feature `draco`)",
     )
+    .of_kind(ErrorKind::Unsupported)
     .remedy("export the model again without Draco compression"))
 }

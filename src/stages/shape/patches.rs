@@ -251,6 +251,7 @@ fn add_free_forms(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::function::sin;
     use crate::mesh::Soup;
     use glam::DVec3;
 
@@ -263,19 +264,18 @@ mod tests {
         let mut soup = Soup::default();
         for up in [1.0, -1.0] {
             let first = soup.positions.len() as u32;
-            let centre = DVec3::new(0.0, 0.0, -up * half.cos());
+            let centre = DVec3::new(0.0, 0.0, -up * cos(half));
             for ring in 0..=RINGS {
                 for step in 0..AROUND {
                     let (polar, turn) = (
                         half * f64::from(ring) / f64::from(RINGS),
                         std::f64::consts::TAU * (f64::from(step) + 0.5 * f64::from(ring)) / f64::from(AROUND),
                     );
-                    let out =
-                        DVec3::new(polar.sin() * turn.cos(), polar.sin() * turn.sin(), up * polar.cos());
+                    let out = DVec3::new(sin(polar) * cos(turn), sin(polar) * sin(turn), up * cos(polar));
                     let is_rim = ring == RINGS;
-                    let rim = DVec3::new(turn.cos(), turn.sin(), 0.0);
+                    let rim = DVec3::new(cos(turn), sin(turn), 0.0);
                     let normal = if is_rim && !split { rim } else { out };
-                    soup.positions.push(if is_rim { rim * half.sin() } else { centre + out });
+                    soup.positions.push(if is_rim { rim * sin(half) } else { centre + out });
                     soup.normals.push(normal.as_vec3().to_array());
                 }
             }

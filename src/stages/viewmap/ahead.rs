@@ -174,5 +174,5 @@ fn nearness([a, b, c]: &[DVec3; 3], point: DVec2) -> Option<f64> {
     let (u, v, p) = ((*b - *a).truncate(), (*c - *a).truncate(), point - a.truncate());
     let area = u.perp_dot(v);
     let (s, t) = (p.perp_dot(v) / area, u.perp_dot(p) / area);
-    (s >= 0.0 && t >= 0.0 && s + t <= 1.0).then(|| a.z + s * (b.z - a.z) + t * (c.z - a.z))
+    (s >= 0.0 && t >= 0.0 && s + t <= 1.0).then_some(a.z + s * (b.z - a.z) + t * (c.z - a.z))
 }
