@@ -24,10 +24,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
 
     let plain = SvgOptions::default();
-    let small = SvgOptions { precision: Some(0), ..SvgOptions::default() };
+    let small = SvgOptions::default().with_precision(0);
     // A prefix keeps ids apart where several drawings are inlined in one page, and a group for each
     // part makes hot-spots.
-    let spots = SvgOptions { id_prefix: "pump-".to_owned(), group: Grouping::Part, ..SvgOptions::default() };
+    let spots = SvgOptions::default().with_id_prefix("pump-").grouped_by(Grouping::Part);
     for (name, options) in [("plain", plain), ("small", small), ("spots", spots)] {
         let file = folder.join(format!("export-{name}.svg"));
         let svg = drawing.to_svg(&options);
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // PNG is rasterised from the same SVG, at any resolution.
     let file = folder.join("export.png");
-    let png = drawing.to_png(&PngOptions { resolution: Resolution::Width(1600) })?;
+    let png = drawing.to_png(&PngOptions::of_resolution(Resolution::Width(1600)))?;
     println!("{}: {} bytes", file.display(), png.len());
     std::fs::write(file, png)?;
     Ok(())

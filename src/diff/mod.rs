@@ -55,11 +55,26 @@ pub use totals::{Measure, Totals};
 
 /// How two drawings are compared.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct DiffOptions {
     /// How far ink may lie from where it lay. Default: twice the written precision.
     pub tolerances: Tolerances,
     /// Whether the drawings are rasterised and compared pixel by pixel as well. Default: no.
     pub pixels: bool,
+}
+
+impl DiffOptions {
+    /// With these tolerances.
+    #[must_use]
+    pub fn within(self, tolerances: Tolerances) -> Self {
+        Self { tolerances, ..self }
+    }
+
+    /// With a comparison of pixels as well.
+    #[must_use]
+    pub fn with_pixels(self) -> Self {
+        Self { pixels: true, ..self }
+    }
 }
 
 /// Compares two drawings.

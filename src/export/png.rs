@@ -17,6 +17,7 @@ const LONGEST_SIDE: f64 = 65_535.0;
 
 /// How many pixels there are.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub enum Resolution {
     /// One to a px of the drawing, or 300 an inch of a drawing in millimetres.
     #[default]
@@ -29,9 +30,18 @@ pub enum Resolution {
 
 /// How PNG is written.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct PngOptions {
     /// How many pixels there are. Default: natural.
     pub resolution: Resolution,
+}
+
+impl PngOptions {
+    /// With so many pixels.
+    #[must_use]
+    pub const fn of_resolution(resolution: Resolution) -> Self {
+        Self { resolution }
+    }
 }
 
 impl Drawing {

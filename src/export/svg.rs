@@ -16,6 +16,7 @@ const DASH_DECIMALS: u8 = 3;
 
 /// What the groups of the document are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Grouping {
     /// Layers, back to front.
     #[default]
@@ -25,7 +26,15 @@ pub enum Grouping {
 }
 
 /// How SVG is written.
+///
+/// ```
+/// use ligne::export::{Grouping, SvgOptions};
+///
+/// let options = SvgOptions::default().with_precision(1).with_id_prefix("fig-1-").grouped_by(Grouping::Part);
+/// assert_eq!(options.precision, Some(1));
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct SvgOptions {
     /// Decimals of coordinates, at most 8. Default: 2 for pixels, 3 for millimetres.
     pub precision: Option<u8>,
@@ -36,6 +45,24 @@ pub struct SvgOptions {
 }
 
 impl SvgOptions {
+    /// With so many decimals of coordinates, at most 8.
+    #[must_use]
+    pub fn with_precision(self, decimals: u8) -> Self {
+        Self { precision: Some(decimals), ..self }
+    }
+
+    /// With this before every id.
+    #[must_use]
+    pub fn with_id_prefix(self, prefix: impl Into<String>) -> Self {
+        Self { id_prefix: prefix.into(), ..self }
+    }
+
+    /// With these groups.
+    #[must_use]
+    pub fn grouped_by(self, group: Grouping) -> Self {
+        Self { group, ..self }
+    }
+
     /// Decimals of the coordinates of a drawing in this unit.
     #[must_use]
     pub fn decimals(&self, unit: Unit) -> u8 {

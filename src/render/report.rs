@@ -29,6 +29,7 @@ pub struct StagesMs {
 
 /// How much of everything there was.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[non_exhaustive]
 pub struct Counts {
     /// Triangles of the model, instances counted each.
     pub triangles: u64,
@@ -62,6 +63,7 @@ pub struct Counts {
 
 /// What a drawing took and what it holds.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[non_exhaustive]
 pub struct Report {
     /// Milliseconds by stage.
     pub stages_ms: StagesMs,

@@ -2,6 +2,7 @@
 
 /// A stage whose result can be drawn, for looking into the pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Stage {
     /// n·v on the faces in front, in bands of colour parted by its zero set.
     Field,

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 /// What a light is like.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum LightKind {
     /// Parallel light; `direction` is the way it travels, unit length.
     Directional {

@@ -21,6 +21,7 @@ const STEEP_DEG: f64 = 89.0;
 
 /// A view with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum NamedView {
     /// From the front.
     Front,

@@ -278,7 +278,7 @@ fn tolerances_are_by_class_and_layer() {
         .replace(CREASE, r#"d="M20.25 20.6l60 1.25""#)
         .replace("M120 30h30v30h-30z", "M120.1 30h30v30h-30z");
     let with = |text: &str| {
-        let options = DiffOptions { tolerances: Tolerances::parse(text).unwrap(), ..DiffOptions::default() };
+        let options = DiffOptions::default().within(Tolerances::parse(text).unwrap());
         told(&compare_with(BASE, &after, &options))
     };
     assert_eq!(with("0.2px"), "");
@@ -286,8 +286,7 @@ fn tolerances_are_by_class_and_layer() {
     assert_eq!(with("fills=0.2px"), "moved crease of plate");
     assert_eq!(with("crease=0.2px"), "moved fills of bolt");
     assert_eq!(with("tone-0=0.2px, crease=0.2px"), "");
-    let options =
-        DiffOptions { tolerances: Tolerances::parse("ceases=1px").unwrap(), ..DiffOptions::default() };
+    let options = DiffOptions::default().within(Tolerances::parse("ceases=1px").unwrap());
     assert_eq!(compare_with(BASE, &after, &options).unused_tolerances, ["ceases"]);
 }
 
@@ -319,7 +318,7 @@ fn what_lies_over_what_is_told() {
 #[test]
 fn pixels_are_compared_on_demand() {
     let (over, swapped) = stacked();
-    let options = DiffOptions { pixels: true, ..DiffOptions::default() };
+    let options = DiffOptions::default().with_pixels();
     let diff = compare_with(&over, &swapped, &options);
     assert!(!diff.is_same() && diff.pixels.unwrap().differing > 500, "{:?}", diff.pixels);
     assert!(compare_with(&over, &format!("{over} "), &options).is_same());

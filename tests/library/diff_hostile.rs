@@ -81,7 +81,7 @@ fn what_is_merely_odd_is_compared() {
         ("an axis that is none", "<path data-axis=\"nonsense\" data-width=\"wide\" d=\"M0 0H5V5z\"/>".to_owned()),
     ];
     let plain = Picture::from_svg(&inside("<path stroke=\"#000\" d=\"M0 0L9 9\"/>")).unwrap();
-    let options = DiffOptions { pixels: true, ..DiffOptions::default() };
+    let options = DiffOptions::default().with_pixels();
     for (what, text) in cases {
         let picture = Picture::from_svg(&inside(&text)).unwrap_or_else(|error| panic!("{what}: {error}"));
         assert!(diff::compare(&picture, &picture, &options).is_same(), "{what}");

@@ -125,7 +125,7 @@ fn paths_read_back_within_half_the_written_precision() {
     // Paths are to run as they do, to be compared piece by piece.
     drawing.layers[0].ordered = true;
     for precision in [0, 1, 2, 3, 5] {
-        let svg = drawing.to_svg(&SvgOptions { precision: Some(precision), ..SvgOptions::default() });
+        let svg = drawing.to_svg(&SvgOptions::default().with_precision(precision));
         let written = path_data(&svg);
         assert_eq!(written.len(), paths.len());
         let step = 10f64.powi(-i32::from(precision));
@@ -242,7 +242,7 @@ fn a_document_to_the_byte() {
 </svg>\n";
     assert_eq!(drawing.to_svg(&SvgOptions::default()), wanted);
 
-    let options = SvgOptions { group: Grouping::Part, id_prefix: "fig 1.".into(), precision: Some(1) };
+    let options = SvgOptions::default().grouped_by(Grouping::Part).with_id_prefix("fig 1.").with_precision(1);
     let parts = drawing.to_svg(&options);
     assert!(parts.contains("<g id=\"fig-1-paper\""), "{parts}");
     assert!(parts.contains("<g id=\"fig-1-part-a-b\" fill=\"none\""), "{parts}");
@@ -255,7 +255,7 @@ fn a_document_to_the_byte() {
 fn names_that_look_alike_get_different_ids() {
     let marks = ["a b", "a-b", "a\u{1}b", "ä", "ö"]
         .map(|part| mark("M0 0L1 1", stroke(1.0, Colour::BLACK), &["crease"], Some(part)));
-    let svg = drawing(marks.to_vec()).to_svg(&SvgOptions { group: Grouping::Part, ..SvgOptions::default() });
+    let svg = drawing(marks.to_vec()).to_svg(&SvgOptions::default().grouped_by(Grouping::Part));
     for id in ["part-a-b\"", "part-a-b-2\"", "part-a-b-3\"", "part--\"", "part---2\""] {
         assert!(svg.contains(&format!("id=\"{id}")), "{id} {svg}");
     }
@@ -316,14 +316,14 @@ fn png_has_the_size_and_the_ink_of_the_drawing() {
     assert_eq!(at(50, 60), [0, 0, 0, 0]);
 
     drawing.page.background = Some(Colour::WHITE);
-    let twice = PngOptions { resolution: Resolution::Width(200) };
+    let twice = PngOptions::of_resolution(Resolution::Width(200));
     let (info, pixels) = decode(&drawing.to_png(&twice).unwrap());
     assert_eq!((info.width, info.height, info.color_type), (200, 160, png::ColorType::Rgb));
     assert_eq!(pixels[(80 * 200 + 100) * 3..][..3], [200, 0, 0]);
     assert_eq!(pixels[..3], [255, 255, 255]);
 
     drawing.page.unit = Unit::Mm;
-    let (info, _) = decode(&drawing.to_png(&PngOptions { resolution: Resolution::Dpi(127.0) }).unwrap());
+    let (info, _) = decode(&drawing.to_png(&PngOptions::of_resolution(Resolution::Dpi(127.0))).unwrap());
     assert_eq!((info.width, info.height), (500, 400));
 }
 
@@ -337,7 +337,7 @@ fn pictures_without_pixels_or_with_too_many_are_refused() {
         Resolution::Width(0),
         Resolution::Width(100_000),
     ] {
-        assert!(drawing.to_png(&PngOptions { resolution }).is_err(), "{resolution:?}");
+        assert!(drawing.to_png(&PngOptions::of_resolution(resolution)).is_err(), "{resolution:?}");
     }
 }
 

@@ -65,7 +65,7 @@ fn assert_text(found: &str, wanted: &str, name: &str) {
 #[track_caller]
 fn assert_same_picture(a: &str, b: &str, name: &str) {
     let [a, b] = [a, b].map(|svg| Picture::from_svg(svg).unwrap_or_else(|error| panic!("{name}: {error}")));
-    let diff = compare(&a, &b, &DiffOptions { pixels: true, ..DiffOptions::default() });
+    let diff = compare(&a, &b, &DiffOptions::default().with_pixels());
     // Where outlines of several rings begin elsewhere, their widths are told apart; pixels tell whether they are.
     let wide = |finding: &Finding| finding.changes.iter().all(|change| change.what == "width along the line");
     let finding = diff.findings.iter().find(|finding| finding.changes.is_empty() || !wide(finding));
@@ -82,7 +82,8 @@ fn what_is_drawn_is_in_the_form() {
     for (name, drawing) in drawings() {
         for precision in (0..=8).map(Some).chain([None]) {
             for group in [Grouping::Layer, Grouping::Part] {
-                let options = SvgOptions { precision, group, ..SvgOptions::default() };
+                let options = SvgOptions::default().grouped_by(group);
+                let options = precision.map_or(options.clone(), |decimals| options.with_precision(decimals));
                 let svg = drawing.to_svg(&options);
                 assert_text(&form(&svg), &svg, &format!("{name}, {options:?}"));
                 if let Some(precision) = precision {
@@ -206,7 +207,7 @@ fn other_ways_of_writing_come_back() {
             continue;
         }
         for (group, decimals) in [(Grouping::Layer, 2), (Grouping::Part, 4)] {
-            let options = SvgOptions { precision: Some(decimals), group, ..SvgOptions::default() };
+            let options = SvgOptions::default().with_precision(decimals).grouped_by(group);
             let svg = drawing.to_svg(&options);
             let other = otherwise(&svg, decimals.into());
             changed += usize::from(other.lines().zip(svg.lines()).filter(|(a, b)| a != b).count() > 5);

@@ -70,7 +70,7 @@ fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
     let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: Some(Colour::WHITE) };
     let drawing = Drawing { title: String::new(), page, layers: layer.into_iter().collect() };
     let width = SIDE as u32 * SCALE;
-    let png = drawing.to_png(&PngOptions { resolution: Resolution::Width(width) }).expect("a picture");
+    let png = drawing.to_png(&PngOptions::of_resolution(Resolution::Width(width))).expect("a picture");
     let picture = tiny_skia::Pixmap::decode_png(&png).expect("a picture");
     let margin = 20 * SCALE;
     let inner = margin..width - margin;

@@ -18,7 +18,7 @@ const STYLES: [&str; 9] =
 fn svg(scene: &Scene, style: &Style) -> String {
     let mut camera = Camera::three_quarter_of(scene.up);
     (camera.width, camera.height) = (300.0, 300.0);
-    let options = SvgOptions { precision: Some(8), ..SvgOptions::default() };
+    let options = SvgOptions::default().with_precision(8);
     render(scene, &camera.fit(scene), style).to_svg(&options)
 }
 

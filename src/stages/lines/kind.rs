@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 /// one is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum LineKind {
     /// The surface turns from facing to averted.
     Contour,
