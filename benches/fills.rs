@@ -106,7 +106,7 @@ fn rows(name: &str, scene: &Scene, styles: &[(&str, Style)], pools: &[ThreadPool
         print!("{name:<20} {:>8} {threads:>4} {floor:>8.2}", mesh.triangles.len());
         for (_, style) in styles {
             let prepared = Prepared::new(scene, style);
-            let redraw = pool.install(|| least_ms(|| prepared.draw(&camera, page, None)));
+            let redraw = pool.install(|| least_ms(|| prepared.draw(&camera, page, None).unwrap()));
             print!("  {redraw:>8.1} {:>7.1}", redraw / floor);
         }
         println!();

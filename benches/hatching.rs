@@ -66,7 +66,7 @@ fn least(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> (f64, Rep
     let mut best: Option<(f64, Report)> = None;
     for _ in 0..ROUNDS {
         let start = Instant::now();
-        let (_, report) = render_reported(scene, camera, style, page, None);
+        let (_, report) = render_reported(scene, camera, style, page, None).unwrap();
         let time = start.elapsed().as_secs_f64() * 1e3;
         if best.as_ref().is_none_or(|(least, _)| time < *least) {
             best = Some((time, report));

@@ -65,7 +65,7 @@ impl Made {
     }
 
     fn drawing(&self) -> Drawing {
-        render::render(&self.scene, &self.camera, &self.style)
+        render::render(&self.scene, &self.camera, &self.style).unwrap()
     }
 }
 

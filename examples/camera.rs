@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     near.validate()?;
 
     for (name, camera) in [("isometric", isometric), ("low", low), ("wide", wide), ("near", near)] {
-        let drawing = render(&scene, &camera, &style);
+        let drawing = render(&scene, &camera, &style)?;
         let picture = folder.join(format!("camera-{name}.svg"));
         std::fs::write(&picture, drawing.to_svg(&SvgOptions::default()))?;
 

@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).map_or_else(std::env::temp_dir, PathBuf::from);
     let scene = Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb"))?;
     let camera = Camera::three_quarter_of(scene.up).with_frame(800.0, 600.0).fit(&scene);
-    let drawing = render(&scene, &camera, &Style::default());
+    let drawing = render(&scene, &camera, &Style::default())?;
 
     // A drawing is a plain 2-D document: its marks remember what they are, nothing else.
     for layer in &drawing.layers {

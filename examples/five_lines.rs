@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::open(model)?;
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let style = Style::load("ink", &[])?;
-    let drawing = render(&scene, &camera, &style);
+    let drawing = render(&scene, &camera, &style)?;
     std::fs::write(&out, drawing.to_svg(&SvgOptions::default()))?;
 
     println!("{}: {} layers", out.display(), drawing.layers.len());

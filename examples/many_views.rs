@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
         let layers = stroke::ink(&chains, &context, &style.stroke);
 
-        let drawing = Drawing { title: format!("pump, {}", named.name()), page, layers };
+        let drawing = Drawing::new(format!("pump, {}", named.name()), page, layers);
         let file = folder.join(format!("pump-{}.svg", named.name()));
         std::fs::write(&file, drawing.to_svg(&SvgOptions::default()))?;
         println!("{}: {} chains", file.display(), chains.len());

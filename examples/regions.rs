@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     // Regions end exactly at their borders, so that their areas add up.
     let style = Style::load("toon", &["fills.seams=exact".to_owned()])?;
-    let drawing = render(&scene, &camera, &style);
+    let drawing = render(&scene, &camera, &style)?;
 
     // Regions are marks like lines, in layers of their own below them. Regions that lie in the shadow
     // of something else have a second layer, where the style casts shadows.

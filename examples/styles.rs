@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     for (name, style) in [("changed", changed), ("coded", coded), ("blueprint", sheet)] {
         let picture = folder.join(format!("styles-{name}.svg"));
-        std::fs::write(&picture, render(&scene, &camera, &style).to_svg(&SvgOptions::default()))?;
+        std::fs::write(&picture, render(&scene, &camera, &style)?.to_svg(&SvgOptions::default()))?;
         println!("{}", picture.display());
     }
     Ok(())

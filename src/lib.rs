@@ -11,7 +11,7 @@
 //! let scene = Scene::open("examples/models/gear.obj")?;
 //! let camera = Camera::three_quarter_of(scene.up).fit(&scene);
 //! let style = Style::load("ink", &[])?;
-//! let drawing = render(&scene, &camera, &style);
+//! let drawing = render(&scene, &camera, &style)?;
 //! let svg = drawing.to_svg(&SvgOptions::default());
 //! # assert!(svg.contains("class=\"contour silhouette\""));
 //! # Ok::<(), ligne::Error>(())

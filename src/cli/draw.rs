@@ -64,7 +64,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     progress.step("drawing");
     let Viewpoint { camera, paper, warning } = viewpoint(request, &scene)?;
     let page = Page { background: style.background, ..paper.page() };
-    let (drawing, mut report) = render_reported(&scene, &camera, &style, page, request.stage);
+    let (drawing, mut report) = render_reported(&scene, &camera, &style, page, request.stage)?;
     report.stages_ms.load = load_ms;
     report.counts.triangles = triangles(&scene);
     report.counts.paths = paths(&drawing);
@@ -186,7 +186,7 @@ mod tests {
         let page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
         let counts = Counts { paths: 74, triangles: 69_451, ..Counts::default() };
         let drawn = Drawn {
-            drawing: Drawing { title: String::new(), page, layers: Vec::new() },
+            drawing: Drawing::new("", page, Vec::new()),
             seen: View::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
             report: Report { counts, ..Report::default() },
             encoded: Vec::new(),

@@ -75,7 +75,7 @@ impl Diff {
                 }
             }
         }
-        Drawing { title: "difference".to_owned(), page, layers: layers.into_list() }
+        Drawing::new("difference", page, layers.into_list())
     }
 }
 

@@ -62,6 +62,7 @@ pub struct Layer {
 
 /// A 2-D document: a page and layers of marks, back to front; empty layers are absent.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Drawing {
     /// Title, shown by viewers: the model's name.
     pub title: String,
@@ -69,4 +70,14 @@ pub struct Drawing {
     pub page: Page,
     /// Layers, back to front.
     pub layers: Vec<Layer>,
+    /// What of the model could not be drawn as it is, in words; no file holds them.
+    pub warnings: Vec<String>,
+}
+
+impl Drawing {
+    /// A drawing without warnings.
+    #[must_use]
+    pub fn new(title: impl Into<String>, page: Page, layers: Vec<Layer>) -> Self {
+        Self { title: title.into(), page, layers, warnings: Vec::new() }
+    }
 }

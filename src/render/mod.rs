@@ -19,6 +19,7 @@ pub use stage::Stage;
 
 use crate::chain;
 use crate::drawing::{Drawing, Layer, Page, Unit};
+use crate::error::Error;
 use crate::hatch::Hatched;
 use crate::lines::{self, FeatureLines, LineOptions, Surface};
 
@@ -44,35 +45,40 @@ use stages::Made;
 /// let scene = Scene::open("gear.obj")?;
 /// let camera = Camera::three_quarter().fit(&scene);
 /// let style = Style::preset("ink").unwrap_or_default();
-/// let drawing = render::render(&scene, &camera, &style);
+/// let drawing = render::render(&scene, &camera, &style)?;
+/// drawing.warnings.iter().for_each(|warning| eprintln!("{warning}"));
 /// println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
 /// # Ok::<(), ligne::Error>(())
 /// ```
-#[must_use]
-pub fn render(scene: &Scene, camera: &Camera, style: &Style) -> Drawing {
+///
+/// # Errors
+/// If the camera can take no picture: see [`Camera::validate`].
+pub fn render(scene: &Scene, camera: &Camera, style: &Style) -> Result<Drawing, Error> {
     let page =
         Page { width: camera.width, height: camera.height, unit: Unit::Px, background: style.background };
-    render_reported(scene, camera, style, page, None).0
+    render_reported(scene, camera, style, page, None).map(|(drawing, _)| drawing)
 }
 
 /// Draws a scene on a page, with the camera's frame in the page's middle, and reports what it
 /// took. With a stage named, what that stage made is drawn instead.
 ///
 /// The report's load and write times and its path counts are left to the caller.
-#[must_use]
+///
+/// # Errors
+/// If the camera can take no picture: see [`Camera::validate`].
 pub fn render_reported(
     scene: &Scene,
     camera: &Camera,
     style: &Style,
     page: Page,
     stage: Option<Stage>,
-) -> (Drawing, Report) {
+) -> Result<(Drawing, Report), Error> {
     let mut watch = Stopwatch::start();
     let prepared = Prepared::new(scene, style);
     let preparing = watch.lap_ms();
-    let (drawing, mut report) = prepared.draw(camera, page, stage);
+    let (drawing, mut report) = prepared.draw(camera, page, stage)?;
     report.stages_ms.topology += preparing;
-    (drawing, report)
+    Ok((drawing, report))
 }
 
 /// A scene made ready for a style: what all its views share.
@@ -86,7 +92,7 @@ pub fn render_reported(
 /// for view in [NamedView::Front, NamedView::Top] {
 ///     let camera = Camera::named(view, scene.up).fit(&scene);
 ///     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-///     let (drawing, _report) = prepared.draw(&camera, page, None);
+///     let (drawing, _report) = prepared.draw(&camera, page, None)?;
 ///     println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
 /// }
 /// # Ok::<(), ligne::Error>(())
@@ -119,15 +125,24 @@ impl<'a> Prepared<'a> {
 
     /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
     /// this view.
-    #[must_use]
-    pub fn draw(&self, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
-        self.on_view(camera, |on_view| self.drawn(on_view, camera, page, stage))
+    ///
+    /// # Errors
+    /// If the camera can take no picture: see [`Camera::validate`].
+    pub fn draw(
+        &self,
+        camera: &Camera,
+        page: Page,
+        stage: Option<Stage>,
+    ) -> Result<(Drawing, Report), Error> {
+        camera.validate()?;
+        Ok(self.on_view(camera, |on_view| self.drawn(on_view, camera, page, stage)))
     }
 
     /// What a view is hatched on, and the strokes of each layer of its hatching, each with what it is
-    /// known by. `None` if the style hatches nothing.
+    /// known by. `None` if the style hatches nothing, or the camera can take no picture.
     #[must_use]
     pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(Ground, Vec<Hatched>)> {
+        camera.validate().ok()?;
         self.on_view(camera, |on_view| {
             let OnView { fills, map, .. } = on_view;
             let fills = fills.filter(|_| self.style.hatch.enabled)?;
@@ -249,7 +264,8 @@ impl<'a> Prepared<'a> {
         report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
         report.warnings.extend(warnings);
         report.warnings.extend(hatching::too_dark(style, page.unit));
-        (Drawing { title: title(scene), page, layers }, report)
+        let warnings = report.warnings.clone();
+        (Drawing { title: title(scene), page, layers, warnings }, report)
     }
 }
 
@@ -296,4 +312,28 @@ fn margin(camera: &Camera, page: &Page) -> Vec2 {
 fn title(scene: &Scene) -> String {
     let stem = scene.file.as_ref().and_then(|file| file.file_stem());
     stem.map_or_else(|| "drawing".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_camera_that_can_take_no_picture_is_an_error_on_every_road() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let scene = Scene::from_triangles(corners, [[0, 1, 2]]).unwrap();
+        let good = Camera::three_quarter().fit(&scene);
+        let style = Style::default();
+        assert!(render(&scene, &good, &style).is_ok());
+        for camera in [
+            Camera { eye: good.target, ..good },
+            Camera { width: f64::NAN, ..good },
+            Camera { up: good.target - good.eye, ..good },
+        ] {
+            let page = Page { width: 10.0, height: 10.0, unit: Unit::Px, background: None };
+            assert!(render(&scene, &camera, &style).is_err());
+            assert!(render_reported(&scene, &camera, &style, page, None).is_err());
+            assert!(Prepared::new(&scene, &style).draw(&camera, page, None).is_err());
+        }
+    }
 }

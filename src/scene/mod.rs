@@ -83,7 +83,7 @@ impl Scene {
     ///
     /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     /// let scene = Scene::from_triangles(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
-    /// let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default());
+    /// let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default())?;
     /// assert!(drawing.to_svg(&Default::default()).contains("contour"));
     /// # Ok::<(), ligne::Error>(())
     /// ```

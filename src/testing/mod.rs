@@ -7,7 +7,7 @@
 //! #[test]
 //! fn the_lid_looks_as_it_did() {
 //!     let scene = Scene::open("models/lid.glb").unwrap();
-//!     let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default());
+//!     let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default()).unwrap();
 //!     // Compared with tests/drawings/lid.svg; written there by `LIGNE_BLESS=1 cargo test`.
 //!     assert_drawing!(drawing, "lid");
 //! }

@@ -91,7 +91,7 @@ fn all_models(contours: Contours, wanted: impl Fn(bool) -> bool, limits: impl Fn
         .filter_map(|(name, own, view)| {
             let scene = open(name);
             let camera = camera(&scene, *view);
-            let drawing = render(&scene, &camera, &ink_style(contours));
+            let drawing = render(&scene, &camera, &ink_style(contours)).unwrap();
             let limits = limits(*own);
             let verdict = judge(&Truth::of(&scene, &camera), &drawing, limits.tolerance);
             let words = limits.short(&verdict);

@@ -40,7 +40,7 @@ const CRUMB_PX: f64 = 3.0;
 fn draw(scene: &Scene, camera: &Camera, contours: Contours) -> Drawing {
     let mut style = Style::preset("ink").unwrap();
     style.lines.contours = contours;
-    render(scene, camera, &style)
+    render(scene, camera, &style).unwrap()
 }
 
 fn strokes(drawing: &Drawing) -> Vec<[Point; 2]> {

@@ -11,7 +11,7 @@ use ligne::style::Style;
 fn svg(scene: &Scene, camera: &Camera, style: &Style, threads: usize) -> String {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let options = SvgOptions::default().with_precision(8);
-    pool.install(|| render(scene, camera, style).to_svg(&options))
+    pool.install(|| render(scene, camera, style).unwrap().to_svg(&options))
 }
 
 fn same_bytes(scene: &Scene, camera: &Camera, style: &Style, what: &str) {

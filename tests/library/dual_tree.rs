@@ -284,10 +284,10 @@ fn views_with_and_without_the_search_are_alike() {
     assert!(prepared_edges(&ball) > 20_000);
     // The trees are made for the hundredth view.
     let small = Camera { width: 40.0, height: 40.0, ..views(4.0)[0] };
-    (0..100).for_each(|_| drop(prepared.draw(&small, page(&small), None)));
+    (0..100).for_each(|_| drop(prepared.draw(&small, page(&small), None).unwrap()));
     for camera in views(4.0).into_iter().take(12) {
-        let (drawing, _) = prepared.draw(&camera, page(&camera), None);
-        let alone = ligne::render::Prepared::new(&ball, &style).draw(&camera, page(&camera), None).0;
+        let (drawing, _) = prepared.draw(&camera, page(&camera), None).unwrap();
+        let alone = ligne::render::Prepared::new(&ball, &style).draw(&camera, page(&camera), None).unwrap().0;
         assert!(drawing == alone, "{camera:?}");
     }
 }

@@ -36,11 +36,8 @@ fn mark(data: &str, paint: Paint, classes: &[&'static str], part: Option<&str>) 
 }
 
 fn drawing(marks: Vec<Mark>) -> Drawing {
-    Drawing {
-        title: String::new(),
-        page: Page { width: 100.0, height: 80.0, unit: Unit::Px, background: None },
-        layers: vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }],
-    }
+    let page = Page { width: 100.0, height: 80.0, unit: Unit::Px, background: None };
+    Drawing::new("", page, vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }])
 }
 
 /// Numbers that look random and never change.
@@ -192,10 +189,10 @@ fn a_document_to_the_byte() {
         stroke.cap = Cap::Butt;
     }
     let ink = Colour::rgb(0x1a, 0x1a, 0x1a);
-    let drawing = Drawing {
-        title: "Jack & Jill".into(),
-        page: Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: Some(Colour::WHITE) },
-        layers: vec![
+    let drawing = Drawing::new(
+        "Jack & Jill",
+        Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: Some(Colour::WHITE) },
+        vec![
             Layer {
                 kind: LayerKind::Fills,
                 pen: None,
@@ -217,7 +214,7 @@ fn a_document_to_the_byte() {
                 ],
             },
         ],
-    };
+    );
     let wanted = "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"210mm\" height=\"297mm\" viewBox=\"0 0 210 297\">\n\
 <title>Jack &amp; Jill</title>\n\
 <g id=\"paper\" inkscape:groupmode=\"layer\" inkscape:label=\"paper\">\n\

@@ -22,7 +22,7 @@ fn root() -> PathBuf {
 fn drawn(scene: &Scene, style: &str) -> Drawing {
     let mut camera = Camera::three_quarter();
     (camera.width, camera.height) = (260.0, 220.0);
-    render(scene, &camera.fit(scene), &Style::preset(style).unwrap())
+    render(scene, &camera.fit(scene), &Style::preset(style).unwrap()).unwrap()
 }
 
 /// Drawings of each kind: lines, hidden lines, fills, outlines, hatching, the order of a plotter.
@@ -486,7 +486,9 @@ fn a_small_change_of_the_model_is_a_small_change_of_the_text() {
     (camera.width, camera.height) = (600.0, 500.0);
     let camera = camera.fit(&named(cubes.clone()));
     let drawn = |cubes: &[(usize, f64)]| {
-        render(&named(cubes.to_vec()), &camera, &Style::preset("ink").unwrap()).to_svg(&SvgOptions::default())
+        render(&named(cubes.to_vec()), &camera, &Style::preset("ink").unwrap())
+            .unwrap()
+            .to_svg(&SvgOptions::default())
     };
     let before = drawn(&cubes);
     let all = before.lines().count();

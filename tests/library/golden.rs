@@ -16,7 +16,7 @@ use ligne::testing::assert_drawing;
 fn golden(name: &str, scene: &Scene, style: &str) {
     let mut camera = Camera::three_quarter();
     (camera.width, camera.height) = (300.0, 300.0);
-    let drawing = render(scene, &camera.fit(scene), &Style::preset(style).unwrap());
+    let drawing = render(scene, &camera.fit(scene), &Style::preset(style).unwrap()).unwrap();
     assert_drawing!(drawing, name, folder = "tests/golden");
 }
 

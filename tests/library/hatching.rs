@@ -68,7 +68,7 @@ fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
     const SCALE: u32 = 4;
     let layer = hatch::fill(&patch(bin), &context(tones, 0), options, Vec::new());
     let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: Some(Colour::WHITE) };
-    let drawing = Drawing { title: String::new(), page, layers: layer.into_iter().collect() };
+    let drawing = Drawing::new("", page, layer.into_iter().collect());
     let width = SIDE as u32 * SCALE;
     let png = drawing.to_png(&PngOptions::of_resolution(Resolution::Width(width))).expect("a picture");
     let picture = tiny_skia::Pixmap::decode_png(&png).expect("a picture");
@@ -358,14 +358,14 @@ fn the_same_bytes_on_any_number_of_threads_and_only_the_hand_follows_the_seed() 
     let camera = camera(&scene);
     for name in ["pencil", "engraving"] {
         let style = style(name, &[]);
-        let svg = |style: &Style| render(&scene, &camera, style).to_svg(&SvgOptions::default());
+        let svg = |style: &Style| render(&scene, &camera, style).unwrap().to_svg(&SvgOptions::default());
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             pool.install(|| svg(&style))
         };
         let one = on(1);
         assert!(one == on(2) && one == on(3), "{name}");
-        let drawn = |seed: u64| render(&scene, &camera, &Style { seed, ..style.clone() });
+        let drawn = |seed: u64| render(&scene, &camera, &Style { seed, ..style.clone() }).unwrap();
         let (a, b) = (drawn(0), drawn(1));
         let others = |drawing: &Drawing| {
             let layers = drawing.layers.iter().filter(|layer| layer.kind != LayerKind::Hatching);
@@ -381,7 +381,7 @@ fn the_same_bytes_on_any_number_of_threads_and_only_the_hand_follows_the_seed() 
 #[test]
 fn hatching_is_marks_that_know_their_part() {
     let scene = pipeline::scene([torus(64, 32, 1.0, 0.4)]);
-    let drawing = render(&scene, &camera(&scene), &style("pencil", &[]));
+    let drawing = render(&scene, &camera(&scene), &style("pencil", &[])).unwrap();
     let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Hatching).expect("hatching");
     for mark in &layer.marks {
         assert_eq!(mark.provenance.classes, ["hatch"]);
@@ -397,7 +397,7 @@ fn pillar(sets: &[&str]) -> Drawing {
     let scene = pipeline::scene([floor, pillar]);
     let light = "light.sources=[{kind=\"directional\", direction=[-1, 1, 0.4]}]";
     let style = style("comic", &[&[light], sets].concat());
-    render::render(&scene, &camera(&scene), &style)
+    render::render(&scene, &camera(&scene), &style).unwrap()
 }
 
 /// The area of the marks of a layer.
@@ -486,7 +486,7 @@ fn white_lines_part_blacks_and_nothing_else() {
         let light =
             format!("light.sources=[{{kind=\"directional\", direction={direction}, space=\"camera\"}}]");
         let sets = [&["pen.colour=\"#101014\"", &light], more].concat();
-        render::render(&scene, &camera(&scene), &style("comic", &sets))
+        render::render(&scene, &camera(&scene), &style("comic", &sets)).unwrap()
     };
     // From behind: all three sides are black. Of the edges between them two are joined end to end.
     let dark = from("[0, 0, -1]", &[]);
@@ -511,11 +511,11 @@ fn white_lines_part_blacks_and_nothing_else() {
     // Paint may be as black, and pens may be without a hand.
     let noir =
         style("noir", &["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]"]);
-    let noir = render::render(&scene, &camera(&scene), &noir);
+    let noir = render::render(&scene, &camera(&scene), &noir).unwrap();
     assert_eq!(lines_in(&noir, paper), BTreeMap::from([("crease", 2)]));
     let sets =
         ["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]", "light.wrap=0"];
-    let woodcut = render::render(&scene, &camera(&scene), &style("woodcut", &sets));
+    let woodcut = render::render(&scene, &camera(&scene), &style("woodcut", &sets)).unwrap();
     assert_eq!(lines_in(&woodcut, paper), BTreeMap::from([("crease", 2)]));
 }
 
@@ -530,7 +530,7 @@ fn strokes_in_a_shade_take_the_colour_that_is_painted() {
          [[hatching.layer]]\ncolour = { shade = 0.25 }\n",
     )
     .expect("a style");
-    let drawing = render::render(&scene, &camera(&scene), &style);
+    let drawing = render::render(&scene, &camera(&scene), &style).unwrap();
     for (kind, red) in [(LayerKind::Hatching, 64), (LayerKind::Lines, 128)] {
         let layer = drawing.layers.iter().find(|layer| layer.kind == kind).expect("a layer");
         for mark in &layer.marks {

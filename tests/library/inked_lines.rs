@@ -396,7 +396,7 @@ fn the_outline_of_a_ball_is_thick_away_from_the_light() {
     let ball = scene([sphere(64, 1.0)]);
     let camera = orthographic(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 3.0);
     let light = "light.sources=[{kind=\"directional\", direction=[1, 0, 0.3], space=\"camera\"}]";
-    let drawing = render(&ball, &camera, &style(&["pen.swell.lit=0.8", light]));
+    let drawing = render(&ball, &camera, &style(&["pen.swell.lit=0.8", light])).unwrap();
     let [mark] = lines(&drawing) else { panic!("{} lines", lines(&drawing).len()) };
     let outline = outline(mark);
     assert!(outline.pen_width == 4.0 && outline.width < 4.0);
@@ -415,7 +415,7 @@ fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
     // A small ball a little above a plate that is larger than it.
     let solids = [sphere(48, 0.5), cuboid(DVec3::new(-2.0, -2.0, -0.8), DVec3::new(2.0, 2.0, -0.6))];
     let camera = orthographic(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 5.0);
-    let drawing = render(&scene(solids), &camera, &style(&["pen.swell.gap=0.7"]));
+    let drawing = render(&scene(solids), &camera, &style(&["pen.swell.gap=0.7"])).unwrap();
     let (inner, outer): (Vec<&Mark>, Vec<&Mark>) =
         lines(&drawing).iter().partition(|mark| mark.path.bounding_box().width() < 300.0);
     let width = |mark: &Mark| match &mark.paint {
@@ -436,7 +436,7 @@ fn the_hand_lasts_while_the_eye_moves() {
     let drawn = |degrees: f64, sets: &[&str]| {
         let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
         let camera = orthographic(DVec3::new(5.0 * s, -5.0 * c, 3.0), DVec3::ZERO, 4.0);
-        let drawing = render(&model, &camera, &style(sets));
+        let drawing = render(&model, &camera, &style(sets)).unwrap();
         lines(&drawing).iter().map(|mark| axis(mark).clone()).collect::<Vec<_>>()
     };
     let tremor = ["pen.hand.tremor=6", "pen.hand.tremor_length=50"];
@@ -558,7 +558,7 @@ fn the_same_bytes_on_any_number_of_threads() {
     let (camera, style) = (camera(&model), style(&ALL));
     let drawn = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| render(&model, &camera, &style).to_svg(&SvgOptions::default()))
+        pool.install(|| render(&model, &camera, &style).unwrap().to_svg(&SvgOptions::default()))
     };
     let one = drawn(1);
     assert!(one.contains("data-axis"));
@@ -571,7 +571,7 @@ fn another_seed_changes_the_hand_and_nothing_else() {
     let camera = camera(&model);
     let [one, other] = ["seed=0", "seed=5"].map(|seed| {
         let sets: Vec<&str> = ALL.iter().copied().chain([seed]).collect();
-        render(&model, &camera, &style(&sets))
+        render(&model, &camera, &style(&sets)).unwrap()
     });
     for (a, b) in one.layers.iter().zip(&other.layers) {
         assert_eq!((a.kind, a.marks.len()), (b.kind, b.marks.len()));
@@ -585,8 +585,8 @@ fn another_seed_changes_the_hand_and_nothing_else() {
         }
     }
     // Without a hand it changes nothing at all.
-    let plain =
-        ["seed=0", "seed=5"].map(|seed| render(&model, &camera, &style(&["pen.swell.taper=20", seed])));
+    let plain = ["seed=0", "seed=5"]
+        .map(|seed| render(&model, &camera, &style(&["pen.swell.taper=20", seed])).unwrap());
     assert_eq!(plain[0].layers, plain[1].layers);
 }
 
@@ -603,8 +603,8 @@ fn bare(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
         "pen.swell.taper_to=0",
         "pen.swell.bend=0.6",
     ];
-    let plain = render(model, camera, &style(&sets[..4]));
-    let hand = render(model, camera, &style(&sets));
+    let plain = render(model, camera, &style(&sets[..4])).unwrap();
+    let hand = render(model, camera, &style(&sets)).unwrap();
     let ink =
         |drawing: &Drawing| -> Vec<BezPath> { lines(drawing).iter().map(|mark| mark.path.clone()).collect() };
     let (straight, shaken) = (ink(&plain), ink(&hand));

@@ -305,7 +305,7 @@ fn draw(solid: &Solid, sets: &[&str]) -> Vec<Mark> {
     let camera = orthographic(DVec3::new(5.0, 3.0, 4.0), DVec3::ZERO, 3.0);
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     let style = Style::load("suggestive", &sets).unwrap();
-    let drawing = ligne::render(&scene, &camera, &style);
+    let drawing = ligne::render(&scene, &camera, &style).unwrap();
     drawing.layers.into_iter().flat_map(|layer| layer.marks).collect()
 }
 
@@ -337,7 +337,7 @@ fn scans_show_few_and_long_suggestive_contours() {
     let scene = Scene::open(&file).unwrap();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let style = Style::load("suggestive", &[]).unwrap();
-    let drawing = ligne::render(&scene, &camera, &style);
+    let drawing = ligne::render(&scene, &camera, &style).unwrap();
     let svg = drawing.to_svg(&ligne::SvgOptions::default());
     let count = svg.matches("class=\"suggestive\"").count();
     assert!((8..=90).contains(&count), "{count}");

@@ -60,7 +60,7 @@ fn written(layer: LayerKind, mark: &Mark) -> String {
 /// How often each mark stands in a drawing, of those that lie apart from some boxes.
 fn apart(scene: &Scene, camera: &Camera, style: &Style, boxes: &[Rect]) -> BTreeMap<String, u32> {
     let mut marks = BTreeMap::new();
-    for layer in &render(scene, camera, style).layers {
+    for layer in &render(scene, camera, style).unwrap().layers {
         for mark in &layer.marks {
             let around = mark.path.bounding_box().inflate(NEAR_PX, NEAR_PX);
             let is_near = |other: &Rect| {

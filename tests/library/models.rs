@@ -44,7 +44,7 @@ fn draw(scene: &Scene) -> (Drawing, Vec<String>) {
         unit: ligne::drawing::Unit::Px,
         background: None,
     };
-    let (drawing, report) = render_reported(scene, &camera, &style, page, None);
+    let (drawing, report) = render_reported(scene, &camera, &style, page, None).unwrap();
     let mut warnings = scene.warnings.lines();
     warnings.extend(report.warnings);
     (drawing, warnings)

@@ -15,7 +15,7 @@ use ligne::style::Style;
 fn owned(scene: &Scene, camera: &Camera) -> BTreeMap<String, i64> {
     let style = Style::preset("technical").expect("a style of the project");
     let mut owned: BTreeMap<String, f64> = BTreeMap::new();
-    for layer in &render(scene, camera, &style).layers {
+    for layer in &render(scene, camera, &style).unwrap().layers {
         let is_one = |mark: &&Mark| mark.provenance.classes.first() == Some(&"intersection");
         for mark in layer.marks.iter().filter(is_one) {
             let part = mark.provenance.part.as_deref().unwrap_or("none").to_owned();

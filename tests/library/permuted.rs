@@ -19,7 +19,7 @@ fn svg(scene: &Scene, style: &Style) -> String {
     let mut camera = Camera::three_quarter_of(scene.up);
     (camera.width, camera.height) = (300.0, 300.0);
     let options = SvgOptions::default().with_precision(8);
-    render(scene, &camera.fit(scene), style).to_svg(&options)
+    render(scene, &camera.fit(scene), style).unwrap().to_svg(&options)
 }
 
 /// The items in another order: at each place stands what had this number.

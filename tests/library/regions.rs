@@ -66,7 +66,7 @@ fn a_cube_has_three_faces_and_three_paths() {
     let thresholds: Vec<f64> = falls.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
     assert!(thresholds[0] < thresholds[1]);
     style.tones.scale = ligne::stages::field::tone_options::Scale::Thresholds(thresholds);
-    let drawing = render(&cube, &camera, &style);
+    let drawing = render(&cube, &camera, &style).unwrap();
     let fills = fills(&drawing);
     assert_eq!(fills.len(), 3);
     let eye = Eye::new(&camera);
@@ -113,7 +113,7 @@ fn the_tone_border_of_a_sphere_is_a_circle() {
             orthographic(DVec3::Z * 5.0, DVec3::ZERO, 2.2),
             perspective(DVec3::new(2., 1., 4.), DVec3::ZERO, 30.0),
         ] {
-            let drawing = render(&ball, &camera, &two_tones());
+            let drawing = render(&ball, &camera, &two_tones()).unwrap();
             let fills = fills(&drawing);
             assert_eq!(fills.len(), 2);
             let (eye, light) = (Eye::new(&camera), towards_light(&camera));
@@ -145,7 +145,7 @@ fn neighbours_share_their_borders() {
         ("spheres", scenes::random_scene("spheres", &mut dice)),
     ] {
         let camera = Camera::three_quarter().fit(&model);
-        let drawing = render(&model, &camera, &two_tones());
+        let drawing = render(&model, &camera, &two_tones()).unwrap();
         let fills = fills(&drawing);
         assert!(!fills.is_empty());
         let mut uses: BTreeMap<String, i32> = BTreeMap::new();
@@ -223,7 +223,7 @@ fn what_is_painted_is_what_the_eye_sees() {
             let camera = Camera { up: turn * DVec3::Y, ..Camera::three_quarter() };
             let camera =
                 Camera { eye: camera.target + turn * (camera.eye - camera.target), ..camera }.fit(&model);
-            let drawing = render(&model, &camera, &style);
+            let drawing = render(&model, &camera, &style).unwrap();
             let fills = fills(&drawing);
             let (eye, light) = (Eye::new(&camera), towards_light(&camera));
             let borders: Vec<Point> = fills.iter().flat_map(|mark| samples(&mark.path, 1.0)).collect();
@@ -268,12 +268,12 @@ fn lines_are_the_same_with_and_without_fills() {
         [scene([torus(48, 24, 1.0, 0.4)]), scene([cuboid(DVec3::splat(-1.0), DVec3::ONE), sphere(24, 1.3)])]
     {
         let camera = Camera::three_quarter().fit(&model);
-        let ink = render(&model, &camera, &Style::preset("ink").expect("ink"));
-        let toon = render(&model, &camera, &Style::preset("toon").expect("toon"));
+        let ink = render(&model, &camera, &Style::preset("ink").expect("ink")).unwrap();
+        let toon = render(&model, &camera, &Style::preset("toon").expect("toon")).unwrap();
         assert_eq!(marks(&ink, LayerKind::Lines), marks(&toon, LayerKind::Lines));
         let mut bare = Style::preset("toon").expect("toon");
         bare.lines.enabled = false;
-        let bare = render(&model, &camera, &bare);
+        let bare = render(&model, &camera, &bare).unwrap();
         assert!(marks(&bare, LayerKind::Lines).is_empty());
         assert_eq!(fills(&bare).len(), fills(&toon).len());
     }
@@ -284,9 +284,9 @@ fn regions_reach_under_those_painted_later() {
     let ball = scene([sphere(32, 1.0)]);
     let camera = Camera::three_quarter().fit(&ball);
     let mut style = two_tones();
-    let exact = fills(&render(&ball, &camera, &style));
+    let exact = fills(&render(&ball, &camera, &style).unwrap());
     style.region.seams = Seams::Underlap;
-    let under = fills(&render(&ball, &camera, &style));
+    let under = fills(&render(&ball, &camera, &style).unwrap());
     assert_eq!((exact.len(), under.len()), (2, 2));
     // The first one grows along the shared border only; the other stays.
     assert_eq!(exact[1].path, under[1].path);
@@ -306,7 +306,7 @@ fn regions_are_the_same_on_any_number_of_threads() {
     let draw = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         let style = Style::preset("gooch").expect("gooch");
-        pool.install(|| render(&model, &camera, &style).to_svg(&SvgOptions::default()))
+        pool.install(|| render(&model, &camera, &style).unwrap().to_svg(&SvgOptions::default()))
     };
     assert_eq!(draw(1), draw(2));
     assert_eq!(draw(1), draw(3));
@@ -316,7 +316,9 @@ fn regions_are_the_same_on_any_number_of_threads() {
 fn every_fill_says_what_it_is() {
     let model = scene([cuboid(DVec3::splat(-1.0), DVec3::ONE)]);
     let camera = Camera::three_quarter().fit(&model);
-    let svg = render(&model, &camera, &Style::preset("toon").expect("toon")).to_svg(&SvgOptions::default());
+    let svg = render(&model, &camera, &Style::preset("toon").expect("toon"))
+        .unwrap()
+        .to_svg(&SvgOptions::default());
     let fills = svg.find("<g id=\"fills\"").expect("a layer of fills");
     let lines = svg.find("<g id=\"lines\"").expect("a layer of lines");
     assert!(fills < lines, "fills lie below lines");
@@ -332,7 +334,7 @@ fn nothing_to_see_paints_nothing() {
         [Scene::default(), scene([Solid { positions: vec![DVec3::ZERO; 3], triangles: vec![[0, 1, 2]] }])]
     {
         let camera = orthographic(DVec3::Z * 5.0, DVec3::ZERO, 2.2);
-        let drawing = render(&model, &camera, &two_tones());
+        let drawing = render(&model, &camera, &two_tones()).unwrap();
         assert!(fills(&drawing).is_empty());
     }
 }
@@ -341,7 +343,7 @@ fn nothing_to_see_paints_nothing() {
 fn a_camera_inside_sees_the_inside() {
     let room = scene([cuboid(DVec3::splat(-1.0), DVec3::ONE)]);
     let camera = perspective(DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.1, 0.2), 90.0);
-    let drawing = render(&room, &camera, &two_tones());
+    let drawing = render(&room, &camera, &two_tones()).unwrap();
     let area: f64 = fills(&drawing)
         .iter()
         .map(|mark| {

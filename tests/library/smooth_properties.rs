@@ -108,7 +108,7 @@ fn svg(scene: &Scene, camera: &Camera, contours: Contours, threads: usize) -> St
     let mut style = Style::preset("ink").unwrap();
     style.lines.contours = contours;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| render(scene, camera, &style).to_svg(&SvgOptions::default()))
+    pool.install(|| render(scene, camera, &style).unwrap().to_svg(&SvgOptions::default()))
 }
 
 #[test]

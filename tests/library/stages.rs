@@ -27,7 +27,7 @@ fn seen(name: &str) -> (Scene, Camera) {
 fn drawn(name: &str, style: &Style, stage: Stage) -> Drawing {
     let (scene, camera) = seen(name);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-    render_reported(&scene, &camera, style, page, Some(stage)).0
+    render_reported(&scene, &camera, style, page, Some(stage)).unwrap().0
 }
 
 fn marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {

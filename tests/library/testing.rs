@@ -24,11 +24,8 @@ fn drawing(y: f64) -> Drawing {
         provenance: Provenance { classes: vec!["crease"], part: Some("lid".into()), ..Provenance::default() },
     };
     let marks = vec![line("M10 10H90"), line(&format!("M10 {y}H90"))];
-    Drawing {
-        title: "lid".to_owned(),
-        page: Page { width: 100.0, height: 100.0, unit: Unit::Px, background: Some(Colour::WHITE) },
-        layers: vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }],
-    }
+    let page = Page { width: 100.0, height: 100.0, unit: Unit::Px, background: Some(Colour::WHITE) };
+    Drawing::new("lid", page, vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }])
 }
 
 fn folder(name: &str) -> PathBuf {
