@@ -8,11 +8,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ligne::drawing::{Drawing, Page, Unit};
+use ligne::kurbo::Vec2;
 use ligne::scene::NamedView;
 use ligne::stages::lines::{EdgeSearch, Surface};
 use ligne::stages::mesh::Mesh;
 use ligne::stages::stroke::{self, InkContext};
 use ligne::stages::view::View;
+use ligne::stages::viewmap::Ahead;
 use ligne::stages::{chain, lines, viewmap};
 use ligne::{Camera, Scene, Style, SvgOptions};
 
@@ -54,7 +56,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let view = View::new(&surface.mesh, &camera);
         let feature_lines = lines::extract_with(&surface, Some(&search), &view, &style.lines);
         let map = viewmap::build(&surface.mesh, &view, &feature_lines, &style.lines);
-        let chains = chain::link(&map, &style.chain, page.unit, style.lines.hidden);
+        let ahead = Ahead {
+            mesh: &surface.mesh,
+            pieces: &surface.pieces,
+            view: &view,
+            lines: &feature_lines,
+            seen: &map.seen_contours,
+            moved: Vec2::ZERO,
+        };
+        let chains = chain::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
         let layers = stroke::ink(&chains, &context, &style.stroke);
 
         let drawing = Drawing::new(format!("pump, {}", named.name()), page, layers);
