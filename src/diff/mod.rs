@@ -3,6 +3,18 @@
 //! Any SVG can be compared. Two drawings are the same if the same ink lies on the same places: how paths are ordered,
 //! grouped, directed, split or joined, whether curves are written as curves, and how numbers look makes no difference.
 //!
+//! ```
+//! use ligne::diff::{self, DiffOptions, Picture};
+//!
+//! let svg = |d: &str| {
+//!     format!(r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">
+//!         <path fill="none" stroke="#000" d="{d}"/></svg>"##)
+//! };
+//! let (there, back) = (Picture::from_svg(&svg("M10 10H90"))?, Picture::from_svg(&svg("M90 10L50 10H10"))?);
+//! assert!(diff::compare(&there, &back, &DiffOptions::default()).is_same());
+//! # Ok::<(), ligne::Error>(())
+//! ```
+//!
 //! 1. [`Picture::from_svg`] reads a file, refusing what would take unbounded time, into shapes in px with ink and label.
 //! 2. Shapes that are equal point for point are set aside (`exact`), so that only what differs costs time.
 //! 3. The others become chains: flattened within a stated error, and joined where they were split (`chain`).

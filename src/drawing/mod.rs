@@ -1,4 +1,13 @@
 //! [`Drawing`]: a pure 2-D document that knows nothing of 3-D, all that an exporter needs.
+//!
+//! ```
+//! use ligne::SvgOptions;
+//! use ligne::drawing::{Drawing, Page, Unit};
+//!
+//! let page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
+//! let sheet = Drawing::new("empty sheet", page, Vec::new());
+//! assert!(sheet.to_svg(&SvgOptions::default()).contains(r#"width="210mm""#));
+//! ```
 
 pub mod length;
 pub mod mark;

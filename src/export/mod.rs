@@ -1,4 +1,16 @@
 //! Bytes: a [`crate::drawing::Drawing`] as SVG, PDF or PNG.
+//!
+//! ```
+//! use ligne::{Camera, Scene, Style, SvgOptions, render};
+//!
+//! let scene = Scene::open("examples/models/gear.obj")?;
+//! let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default())?;
+//! let coarse = drawing.to_svg(&SvgOptions::default().with_precision(0));
+//! assert!(coarse.len() < drawing.to_svg(&SvgOptions::default()).len());
+//! # #[cfg(feature = "pdf")]
+//! assert!(drawing.to_pdf().starts_with(b"%PDF"));
+//! # Ok::<(), ligne::Error>(())
+//! ```
 
 mod attributes;
 pub(crate) mod canonical;

@@ -1,4 +1,15 @@
 //! Opening models: a reader for each format, and what all readers share.
+//!
+//! ```
+//! use ligne::Scene;
+//! use ligne::load::ModelFormat;
+//!
+//! let scene = Scene::open("examples/models/pump.glb")?;
+//! assert!(scene.parts.iter().any(|part| part.name == "base-plate"));
+//! let bytes = std::fs::read("examples/models/bracket.stl").expect("a model of this project");
+//! assert_eq!(Scene::from_bytes(&bytes, ModelFormat::Stl)?.format, "STL");
+//! # Ok::<(), ligne::Error>(())
+//! ```
 
 pub mod gltf;
 pub mod obj;

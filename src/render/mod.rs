@@ -1,4 +1,22 @@
 //! The pipeline, on one screen.
+//!
+//! ```
+//! use ligne::render::Prepared;
+//! use ligne::drawing::{Page, Unit};
+//! use ligne::scene::NamedView;
+//! use ligne::{Camera, Scene, Style};
+//!
+//! let scene = Scene::open("examples/models/gear.obj")?;
+//! let style = Style::default();
+//! let prepared = Prepared::new(&scene, &style);
+//! for view in [NamedView::Front, NamedView::Top] {
+//!     let camera = Camera::named(view, scene.up).fit(&scene);
+//!     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+//!     let (drawing, report) = prepared.draw(&camera, page, None)?;
+//!     assert!(report.counts.chains > 0 && !drawing.layers.is_empty());
+//! }
+//! # Ok::<(), ligne::Error>(())
+//! ```
 
 mod beside;
 pub mod defects;

@@ -1,4 +1,15 @@
 //! [`Scene`]: what a model file holds, whatever its format.
+//!
+//! ```
+//! use ligne::scene::{NamedView, UpAxis};
+//! use ligne::{Camera, Scene};
+//!
+//! let mut scene = Scene::open("examples/models/bracket.stl")?;
+//! scene.up = UpAxis::Z;
+//! let camera = Camera::named(NamedView::Iso, scene.up).with_frame(800.0, 600.0).fit(&scene);
+//! assert_eq!(camera.validate(), Ok(()));
+//! # Ok::<(), ligne::Error>(())
+//! ```
 
 pub(crate) mod beside;
 pub mod camera;

@@ -1,4 +1,14 @@
 //! [`Style`]: style sheets in TOML, the options of every stage.
+//!
+//! ```
+//! use ligne::Style;
+//!
+//! let style = Style::load("pencil", &["pen.width=1.2".to_owned(), "hatching.enabled=false".to_owned()])?;
+//! assert!(!style.hatch.enabled);
+//! let error = Style::load("pencil", &["pen.widht=1.2".to_owned()]).unwrap_err();
+//! assert!(error.to_string().contains("did you mean `width`?"), "{error}");
+//! # Ok::<(), ligne::Error>(())
+//! ```
 
 mod brush_file;
 pub(crate) mod fault;
