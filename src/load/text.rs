@@ -100,6 +100,14 @@ impl<'a> Cursor<'a> {
         rest.get(..length).unwrap_or_default().trim_ascii()
     }
 
+    /// Passes what is left of a word, and one byte at least, so that whoever does not understand a line gets on.
+    pub fn skip_word(&mut self) {
+        self.at += 1;
+        while !self.at_word_end() {
+            self.at += 1;
+        }
+    }
+
     /// The next word of printing characters; empty at the end of a line.
     pub fn word(&mut self) -> &'a [u8] {
         let start = self.at;
@@ -277,6 +285,20 @@ pub(crate) fn plain_index(bytes: &[u8], mut start: usize) -> Option<(u64, usize)
     ((at - start).wrapping_sub(1) < 18).then_some((value, at))
 }
 
+/// The bytes of a text in UTF-8: those that begin with the byte-order mark of UTF-16 are turned into it.
+///
+/// Half a character becomes U+FFFD, half a unit at the end is passed over.
+pub(crate) fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let unit = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return Cow::Borrowed(bytes),
+    };
+    let units = bytes.as_chunks().0.iter().skip(1).map(|pair| unit(*pair));
+    let characters = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER));
+    Cow::Owned(characters.collect::<String>().into_bytes())
+}
+
 /// Text in UTF-8, or else in Latin-1.
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
@@ -376,6 +398,20 @@ mod tests {
             let cursor = Cursor { bytes: text.as_bytes(), at: text.len() - 1 };
             assert_eq!(cursor.line(), 3);
         }
+    }
+
+    #[test]
+    fn utf16_is_told_by_its_mark() {
+        let units: Vec<u16> = "é 🦆".encode_utf16().collect();
+        let little: Vec<u8> = units.iter().flat_map(|u| u.to_le_bytes()).collect();
+        let big: Vec<u8> = units.iter().flat_map(|u| u.to_be_bytes()).collect();
+        assert_eq!(&*utf8(&[&[0xff, 0xfe], &little[..]].concat()), "é 🦆".as_bytes());
+        assert_eq!(&*utf8(&[&[0xfe, 0xff], &big[..]].concat()), "é 🦆".as_bytes());
+        assert_eq!(&*utf8(b"\xff\xfea\0\x00\xd8b\0c"), "a\u{fffd}b".as_bytes());
+        for other in [&b""[..], b"\xff", b"\xef\xbb\xbfv", b"caf\xe9"] {
+            assert!(matches!(utf8(other), Cow::Borrowed(same) if same == other));
+        }
+        assert!(utf8(b"\xff\xfe").is_empty());
     }
 
     #[test]

@@ -57,6 +57,33 @@ impl Warnings {
     }
 }
 
+/// Odd spots of one kind in a file: the first is told with its place, the others are counted, so that a file full of
+/// them costs no more than one.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Spots {
+    first: Option<String>,
+    others: u64,
+}
+
+impl Spots {
+    /// Adds a spot; its sentence is made only if it is the first.
+    pub fn add(&mut self, sentence: impl FnOnce() -> String) {
+        match self.first {
+            None => self.first = Some(sentence()),
+            Some(_) => self.others += 1,
+        }
+    }
+
+    /// Tells of the spots, if there were any.
+    pub fn warn(self, warnings: &mut Warnings) {
+        let Some(first) = self.first else { return };
+        warnings.note(match self.others {
+            0 => first,
+            others => format!("{first}; {others} more like it"),
+        });
+    }
+}
+
 impl fmt::Display for Warnings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.lines().join("; "))

@@ -1,6 +1,6 @@
 //! MTL libraries: materials by name.
 
-use crate::load::text::{Cursor, decode};
+use crate::load::text::{Cursor, decode, utf8};
 use crate::math::colour::Colour;
 use crate::scene::Material;
 use crate::scene::beside::stays_inside;
@@ -9,7 +9,8 @@ use crate::scene::warnings::Warnings;
 /// Adds the materials of a library; `folder` is where it lies as seen from the model, empty or
 /// with a slash at the end. Colours are taken as sRGB, as most programs do.
 pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, warnings: &mut Warnings) {
-    let mut cursor = Cursor::new(bytes);
+    let text = utf8(bytes);
+    let mut cursor = Cursor::new(&text);
     let mut current: Option<Material> = None;
     // `d` tells the truth where `Tr` does not.
     let mut has_dissolve = false;
@@ -137,6 +138,18 @@ mod tests {
             (Colour { r: 51, g: 51, b: 51, a: 51 }, Colour::rgb(255, 255, 0))
         );
         assert_eq!(read("newmtl halo\nd -halo 0.5").0[0].colour.a, 128);
+    }
+
+    #[test]
+    fn libraries_may_begin_with_a_mark_of_their_encoding() {
+        let text = "\u{feff}newmtl é\r\nKd 1 0 0\r\n";
+        let units = || text.encode_utf16();
+        let (little, big) = (units().flat_map(u16::to_le_bytes), units().flat_map(u16::to_be_bytes));
+        for bytes in [text.as_bytes().to_vec(), little.collect(), big.collect()] {
+            let (mut materials, mut warnings) = (Vec::new(), Warnings::default());
+            parse(&bytes, "", &mut materials, &mut warnings);
+            assert_eq!((materials[0].name.as_str(), materials[0].colour), ("é", Colour::rgb(255, 0, 0)));
+        }
     }
 
     #[test]

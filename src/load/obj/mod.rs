@@ -13,21 +13,21 @@ mod statements;
 use std::path::Path;
 
 use crate::error::Error;
+use crate::load::text::utf8;
 use crate::scene::Scene;
 
 /// Reads an OBJ file and the libraries beside it.
 ///
 /// # Errors
-/// Names the file and the line if something is not a number, an index points nowhere, or nothing
-/// can be drawn.
+/// Names the file and the line if an index points nowhere, or says that nothing can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
     super::read_with(path, |bytes, stem| {
         read_bytes(bytes, stem, |name| crate::scene::beside::read_beside(path, name).ok())
     })
 }
 
-/// Reads the text of an OBJ file; `stem` names faces outside objects, `library` gives the text of
-/// an MTL file by the name the model calls it.
+/// Reads the text of an OBJ file, in UTF-8, Latin-1 or (with its mark) UTF-16; `stem` names faces outside objects,
+/// `library` gives the text of an MTL file by the name the model calls it.
 ///
 /// # Errors
 /// As [`read`].
@@ -36,6 +36,7 @@ pub fn read_bytes(
     stem: &str,
     library: impl FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<Scene, Error> {
+    let bytes = &*utf8(bytes);
     let statements = statements::Statements::parse(bytes)?;
     let scene = assemble::scene(statements, stem, library);
     if bytes.contains(&0) {

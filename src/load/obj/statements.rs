@@ -1,6 +1,7 @@
 //! The statements of an OBJ file as flat arrays, in one pass over its bytes.
 
 mod faces;
+mod numbers;
 
 use std::ops::Range;
 
@@ -10,7 +11,7 @@ use crate::error::Error;
 use crate::load::shown;
 use crate::load::text::{Cursor, plain_number};
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
-use crate::scene::warnings::Warnings;
+use crate::scene::warnings::{Spots, Warnings};
 
 /// No index.
 pub(super) const NONE: u32 = u32::MAX;
@@ -119,6 +120,7 @@ struct Parser<'a> {
     too_short: u64,
     points_passed: u64,
     not_understood: u64,
+    odd_numbers: Spots,
 }
 
 impl<'a> Parser<'a> {
@@ -143,6 +145,7 @@ impl<'a> Parser<'a> {
             too_short: 0,
             points_passed: 0,
             not_understood: 0,
+            odd_numbers: Spots::default(),
         }
     }
 
@@ -153,7 +156,7 @@ impl<'a> Parser<'a> {
             match (c.peek(), c.peek_on(1)) {
                 (b'v', b' ' | b'\t') => {
                     c.at += 2;
-                    self.position()?;
+                    self.position();
                 }
                 (b'f', b' ' | b'\t') if !self.only_vertices => {
                     c.at += 2;
@@ -164,11 +167,12 @@ impl<'a> Parser<'a> {
             }
         }
         self.close_run();
-        let Self { mut out, unusable, too_short, points_passed, not_understood, .. } = self;
+        let Self { mut out, unusable, too_short, points_passed, not_understood, odd_numbers, .. } = self;
         out.warnings.count(NOT_DRAWABLE, unusable);
         out.warnings.count("faces or lines left out, with too few corners", too_short);
         out.warnings.count("points left out", points_passed);
         out.warnings.count("lines left out that are not OBJ statements", not_understood);
+        odd_numbers.warn(&mut out.warnings);
         Ok(out)
     }
 
@@ -178,18 +182,18 @@ impl<'a> Parser<'a> {
         let keyword = self.cursor.word();
         match keyword {
             b"vt" => {
-                let u = self.number()?;
+                let u = self.number();
                 self.cursor.skip_blanks();
-                let v = self.cursor.number().unwrap_or(0.0);
+                let v = if self.cursor.at_line_end() { 0.0 } else { self.number() };
                 self.out.uvs.push([u as f32, v as f32]);
                 self.pass_line();
             }
             b"vn" => {
-                let normal = [self.number()? as f32, self.number()? as f32, self.number()? as f32];
+                let normal = [self.number(), self.number(), self.number()].map(|n| n as f32);
                 self.out.normals.push(normal);
                 self.pass_line();
             }
-            b"v" => self.position()?,
+            b"v" => self.position(),
             b"f" if !self.only_vertices => self.face()?,
             b"l" if !self.only_vertices => self.line()?,
             b"p" => {
@@ -277,22 +281,16 @@ impl<'a> Parser<'a> {
         }
     }
 
-    #[inline]
-    fn number(&mut self) -> Result<f64, Error> {
-        self.cursor.skip_blanks();
-        let number = self.cursor.number();
-        number.filter(|_| self.cursor.at_word_end()).ok_or_else(|| self.not_a_number())
-    }
-
     /// `v x y z`, with a weight or a colour after it.
     #[inline]
-    fn position(&mut self) -> Result<(), Stop> {
-        if let Some((point, at)) = plain_position(self.cursor.bytes, self.cursor.at) {
-            self.cursor.at = at;
-            self.add_position(point);
-            return Ok(());
+    fn position(&mut self) {
+        match plain_position(self.cursor.bytes, self.cursor.at) {
+            Some((point, at)) => {
+                self.cursor.at = at;
+                self.add_position(point);
+            }
+            None => self.any_position(),
         }
-        self.any_position()
     }
 
     #[inline]
@@ -305,23 +303,30 @@ impl<'a> Parser<'a> {
     }
 
     #[inline(never)]
-    fn any_position(&mut self) -> Result<(), Stop> {
-        let point = DVec3::new(self.number()?, self.number()?, self.number()?);
+    fn any_position(&mut self) {
+        let point = DVec3::new(self.number(), self.number(), self.number());
         let id = self.position_count;
         self.add_position(point);
         self.cursor.skip_blanks();
         if !self.cursor.at_line_end() {
-            self.colour(id)?;
+            self.colour(id);
         }
-        Ok(())
     }
 
     #[cold]
-    fn colour(&mut self, id: usize) -> Result<(), Error> {
+    fn colour(&mut self, id: usize) {
         let mut extra = [0.0_f32; 4];
         let mut count = 0;
         while !self.cursor.at_line_end() {
-            let value = self.number()? as f32;
+            let start = self.cursor.at;
+            let Some(read) = self.cursor.number() else {
+                let mut place = self.cursor.clone();
+                self.odd_numbers.add(|| {
+                    format!("line {}: `{}` after a vertex is passed over", place.line(), shown(place.word()))
+                });
+                return self.pass_line();
+            };
+            let value = self.settled(start, Some(read)) as f32;
             if let Some(slot) = extra.get_mut(count) {
                 *slot = value;
             }
@@ -334,25 +339,13 @@ impl<'a> Parser<'a> {
             self.out.colours.resize(id, [1.0; 3]);
             self.out.colours.push([r, g, b]);
         }
-        Ok(())
-    }
-
-    #[cold]
-    fn not_a_number(&self) -> Error {
-        if self.cursor.at_line_end() {
-            return Error::new("a coordinate is missing").at(format!("line {}", self.cursor.line()));
-        }
-        self.error("a number")
     }
 
     #[cold]
     fn not_an_index(&self) -> Error {
-        self.error("the index of a vertex")
-    }
-
-    fn error(&self, wanted: &str) -> Error {
         let word = shown(self.cursor.clone().word());
-        Error::new(format!("`{word}` is not {wanted}")).at(format!("line {}", self.cursor.line()))
+        Error::new(format!("`{word}` is not the index of a vertex"))
+            .at(format!("line {}", self.cursor.line()))
     }
 }
 

@@ -152,10 +152,74 @@ fn indices_that_point_nowhere_are_errors_with_a_line() {
 }
 
 #[test]
-fn coordinates_must_be_numbers() {
-    assert_eq!(error("v a b c\n"), "line 1: `a` is not a number");
-    assert_eq!(error("\nv 1 0\n"), "line 2: a coordinate is missing");
-    assert_eq!(error("\n\nv 1 0 0,5\n"), "line 3: `,5` is not a number");
+fn odd_numbers_are_read_as_far_as_they_go() {
+    for (written, wanted) in [
+        ("1.5.2", 1.5),
+        ("-2e", -2.0),
+        ("3cm", 3.0),
+        ("0x10", 0.0),
+        ("+e2", 0.0),
+        ("abc", 0.0),
+        ("--1", 0.0),
+        ("1,5", 1.5),
+        ("-0,25e1", -2.5),
+        ("1,2,3", 1.2),
+        ("4,", 4.0),
+        (",5", 0.0),
+        ("\\x", 0.0),
+    ] {
+        let scene = read(format!("{TRIANGLE}v 7 {written} 9\nf 1 2 3\nf 1 2 4\n"));
+        let geometry = &scene.geometries[0];
+        assert_eq!(
+            (geometry.positions[3], geometry.triangles.len()),
+            (DVec3::new(7.0, wanted, 9.0), 2),
+            "{written}"
+        );
+        let told = format!("line 4: `{}` is not a number and is read as {wanted}", written.escape_debug());
+        assert_eq!(scene.warnings.lines(), [told]);
+    }
+}
+
+#[test]
+fn coordinates_that_are_missing_are_0() {
+    let scene = read("v 0 0\nv 1 0 # 5\nv\nv 0 1 0\nf 1 2 4\n");
+    assert_eq!(scene.geometries[0].positions[..3], [DVec3::ZERO, DVec3::X, DVec3::ZERO]);
+    assert_eq!(scene.warnings.lines(), ["line 1: a coordinate is missing and is read as 0; 4 more like it"]);
+}
+
+#[test]
+fn odd_normals_texture_coordinates_and_colours_refuse_no_file() {
+    let text =
+        "v 0 0 0 1 0.5x 0\nv 1 0 0 made by hand\nv 0 1 0\nvt 1,5 x\nvt\nvn 0 o 1\nf 1/1/1 2/2/1 3/1/1\n";
+    let scene = read(text);
+    let geometry = &scene.geometries[0];
+    assert_eq!((&geometry.uvs[..], geometry.normals[0]), (&[[1.5, 0.0], [0.0, 0.0]][..], [0.0, 0.0, 1.0]));
+    assert_eq!(geometry.colours[1..], [[1.0; 4]; 2]);
+    assert_eq!(scene.warnings.lines(), ["line 1: `0.5x` is not a number and is read as 0.5; 5 more like it"]);
+}
+
+#[test]
+fn what_other_programs_write_for_no_number_is_none() {
+    for word in ["1.#QNAN", "-1.#IND", "1.#INF00", "-nan(ind)", "nan"] {
+        let scene = read(format!("{TRIANGLE}v 7 {word} 9\nf 1 2 3\nf 1 2 4\n"));
+        assert_eq!(scene.geometries[0].triangles, [[0, 1, 2]], "{word}");
+    }
+    assert!(read(format!("v 0 0 1.#c\n{TRIANGLE}f 2 3 4\n")).warnings.is_empty());
+}
+
+#[test]
+fn text_may_be_utf16() {
+    let text = format!("\u{feff}o é\r\n{TRIANGLE}f 1 2 3\r\n");
+    let units = || text.encode_utf16();
+    let (little, big) = (units().flat_map(u16::to_le_bytes), units().flat_map(u16::to_be_bytes));
+    for bytes in [little.collect::<Vec<_>>(), big.collect()] {
+        let scene = read(&bytes);
+        assert_eq!((scene.parts[0].name.as_str(), scene.triangle_count()), ("é", 1));
+        assert!(scene.warnings.is_empty());
+        for length in 0..bytes.len() {
+            _ = try_read(&bytes[..length]);
+        }
+    }
 }
 
 #[test]

@@ -3,6 +3,10 @@
 use crate::error::Error;
 use crate::load::shown;
 use crate::load::text::{Cursor, decode};
+use crate::scene::warnings::{Spots, Warnings};
+
+/// A statement has fewer words; what follows them is not looked at.
+const MOST_WORDS: usize = 6;
 
 /// How the body is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,6 +139,8 @@ pub(super) struct Header {
     pub elements: Vec<Element>,
     /// Where the body begins.
     pub body: usize,
+    /// What was passed over.
+    pub warnings: Warnings,
 }
 
 impl Header {
@@ -146,21 +152,37 @@ impl Header {
                 .at("line 1")
                 .remedy("it is not a PLY file"));
         }
-        // A body may begin with the byte of a newline, so the first line says how lines end.
-        let line_end = if (cursor.peek(), cursor.peek_on(1)) == (b'\r', b'\n') { 2 } else { 1 };
+        // A body may begin with the byte of a newline, so the first line says whether returns alone end lines.
+        let returns_only = cursor.peek() == b'\r' && cursor.peek_on(1) != b'\n';
+        let pass_line_end = |cursor: &mut Cursor| {
+            let both = !returns_only && (cursor.peek(), cursor.peek_on(1)) == (b'\r', b'\n');
+            cursor.at += if both { 2 } else { 1 };
+        };
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
+        let mut strange = Spots::default();
+        // Set after a line that is an element if properties follow.
+        let mut doubt: Option<(Cursor, &[u8])> = None;
         loop {
-            cursor.at += line_end;
+            pass_line_end(&mut cursor);
             if cursor.at_end() {
                 return Err(Error::new("the header has no `end_header`").remedy("the file is cut off"));
             }
             let place = cursor.clone();
             let fail = |message: String| Err(Error::new(message).at(format!("line {}", place.line())));
             let line = cursor.rest_of_line();
-            let words: Vec<&[u8]> = line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty()).collect();
-            match *words.as_slice() {
-                [b"end_header", ..] => break,
+            let words = line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty());
+            let words: Vec<&[u8]> = words.take(MOST_WORDS).collect();
+            // What stands after a statement says nothing of the data.
+            let (statement, remark) = words.split_at(words.len().min(length(&words)));
+            if let [word, ..] = remark {
+                strange.add(|| format!("line {}: `{}` is passed over", place.line(), shown(word)));
+            }
+            if let (Some((place, line)), [b"property", ..]) = (&doubt, statement) {
+                return Err(does_not_belong(place, line));
+            }
+            match *statement {
+                [b"end_header"] => break,
                 [b"format", name, version] => {
                     encoding = Some(match name {
                         b"ascii" => Encoding::Text,
@@ -177,6 +199,7 @@ impl Header {
                         return fail(format!("`{}` is not a number of rows", shown(count)));
                     };
                     elements.push(Element { name: decode(name).into_owned(), count, properties: Vec::new() });
+                    doubt = None;
                 }
                 [b"property", b"list", length, kind, name] => {
                     match (Scalar::parse(length), Scalar::parse(kind)) {
@@ -202,12 +225,53 @@ impl Header {
                     element.properties.push(property);
                 }
                 [] | [b"comment" | b"obj_info", ..] => {}
-                _ => return fail(format!("`{}` does not belong into a header", shown(line))),
+                _ if is_statement(&words) => return Err(does_not_belong(&place, line)),
+                // Other readers pass over what they do not know too.
+                _ => {
+                    if is_like_element(&words) {
+                        doubt = Some((place.clone(), line));
+                    }
+                    strange.add(|| format!("line {}: `{}` is passed over", place.line(), shown(line)));
+                }
             }
         }
         let Some(encoding) = encoding else { return Err(Error::new("the header does not say its format")) };
-        Ok(Self { encoding, elements, body: (cursor.at + line_end).min(bytes.len()) })
+        pass_line_end(&mut cursor);
+        let mut warnings = Warnings::default();
+        strange.warn(&mut warnings);
+        Ok(Self { encoding, elements, body: cursor.at.min(bytes.len()), warnings })
     }
+}
+
+fn does_not_belong(place: &Cursor, line: &[u8]) -> Error {
+    Error::new(format!("`{}` does not belong into a header", shown(line)))
+        .at(format!("line {}", place.line()))
+}
+
+/// How many words a statement has; all of a line that is none.
+fn length(words: &[&[u8]]) -> usize {
+    match *words {
+        [b"end_header", ..] => 1,
+        [b"format" | b"element", ..] => 3,
+        [b"property", b"list", ..] => 5,
+        [b"property", ..] => 3,
+        _ => words.len(),
+    }
+}
+
+/// Whether a line is a statement about the data with something missing, or a property with another keyword: without
+/// it the body would be read wrong.
+fn is_statement(words: &[&[u8]]) -> bool {
+    match *words {
+        [b"format" | b"element" | b"property", ..] | [_, b"list", _, _, _] => true,
+        [_, kind, _] => Scalar::parse(kind).is_some(),
+        _ => false,
+    }
+}
+
+/// Whether a line may be an element with another keyword.
+fn is_like_element(words: &[&[u8]]) -> bool {
+    matches!(*words, [_, _, count] if count.iter().all(u8::is_ascii_digit))
 }
 
 #[cfg(test)]
@@ -233,7 +297,42 @@ mod tests {
     }
 
     #[test]
+    fn what_says_nothing_of_the_data_is_passed_over() {
+        let text = "ply  \r\nMade by hand\r\nformat ascii 1.0 \r\n\r\n  obj_info number of 3\r\nelement vertex 3  # corners\r\n\
+                    comment\r\nquality\r\nproperty float x [mm]\r\n\tproperty float y\t\r\nend_header now\r\n1";
+        let header = Header::parse(text.as_bytes()).unwrap();
+        let element = &header.elements[0];
+        assert_eq!((element.count, element.properties.len(), header.body), (3, 2, text.len() - 1));
+        assert_eq!(header.warnings.lines(), ["line 2: `Made by hand` is passed over; 4 more like it"]);
+    }
+
+    #[test]
+    fn lines_may_end_in_several_ways() {
+        for (text, body) in [
+            ("ply\nformat ascii 1.0\r\nelement v 1\rend_header\r\n\n", 1),
+            ("ply\r\nformat ascii 1.0\nelement v 1\r\nend_header\n\n", 1),
+            ("ply\rformat ascii 1.0\relement v 1\rend_header\r\n", 1),
+        ] {
+            let header = Header::parse(text.as_bytes()).unwrap();
+            assert_eq!((header.elements.len(), text.len() - header.body), (1, body), "{text:?}");
+        }
+    }
+
+    #[test]
     fn mistakes_name_the_line() {
+        for line in [
+            "elment face 2\n\nproperty int x",
+            "proprety float x",
+            "Property list uchar int l",
+            "element v",
+            "property int",
+        ] {
+            let error = error(&format!("ply\nformat ascii 1.0\nelement vertex 3\n{line}\nend_header\n"));
+            assert!(error.contains(&format!("line 4: `{}", &line[..9])), "{error}");
+        }
+        let free = "ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nMade in 2024\nelement face 1\nproperty int y\n\
+                    end_header\n";
+        assert_eq!(Header::parse(free.as_bytes()).unwrap().elements.len(), 2);
         assert!(error("plx").contains("line 1"));
         assert!(error("ply\nformat ascii 1.0\nelement vertex many").contains("line 3: `many`"));
         assert!(error("ply\nformat ascii 9.9\n").contains("line 2: version 9.9"));

@@ -37,7 +37,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let header = Header::parse(bytes)?;
     let mut body = Body { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };
-    let mut scene = Scene { format: "PLY", up: UpAxis::Y, ..Scene::default() };
+    let mut scene = Scene { format: "PLY", up: UpAxis::Y, warnings: header.warnings, ..Scene::default() };
     let mut geometry = Geometry::default();
     let mut has_vertices = false;
     let mut triangles = Vec::new();
