@@ -4,22 +4,19 @@
 use rustc_hash::FxHashMap;
 use usvg::roxmltree::{self, Document, Node, NodeId, ParsingOptions};
 
+use super::tags;
 use crate::error::Error;
 
 /// Elements of a file.
 const MOST_NODES: u32 = 8_000_000;
 /// Elements within elements, references counted.
-const DEEPEST: usize = 256;
-/// Attributes of one element: the reader compares each with each.
-const MOST_ATTRIBUTES: usize = 512;
-/// Declarations of namespaces times those of one element, which elements inherit.
-const MOST_NAMESPACES: usize = 20_000_000;
-/// Bytes that entities may expand to.
-const MOST_ENTITY_BYTES: usize = 16_000_000;
+pub(super) const DEEPEST: usize = 256;
 /// Bytes of what is drawn, references followed, beyond the file's own.
 const MOST_REFERRED_BYTES: u64 = 200_000_000;
 /// Rules of style times elements that they are tried on.
 const MOST_RULE_TESTS: usize = 200_000_000;
+/// Declarations of the rules of style.
+const MOST_DECLARATIONS: usize = 20_000_000;
 
 /// Parses a file of XML.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, Error> {
@@ -33,9 +30,13 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, Error> {
             .remedy("give an SVG file"));
     }
     let elements = document.descendants().filter(Node::is_element).count();
-    let rules: usize = styles(&document).map(|style| style.matches('{').count()).sum();
+    let rules: usize = styles(&document).map(selectors).sum();
     if rules.saturating_mul(elements) > MOST_RULE_TESTS {
         return Err(too_much(&format!("{rules} rules of style on {elements} elements")));
+    }
+    let declarations: usize = styles(&document).map(declarations).sum();
+    if declarations > MOST_DECLARATIONS {
+        return Err(too_much(&format!("{declarations} declarations in rules of style")));
     }
     Weights::new(&document).check(text.len())?;
     Ok(document)
@@ -46,9 +47,29 @@ fn styles<'a>(document: &'a Document) -> impl Iterator<Item = &'a str> {
     document.descendants().filter(|node| node.has_tag_name("style")).filter_map(|node| node.text())
 }
 
-fn too_much(what: &str) -> Error {
+/// Selectors of a style sheet, at most.
+fn selectors(style: &str) -> usize {
+    style.matches([',', '{']).count()
+}
+
+/// Declarations of a style sheet, at most: each selector of a rule gets all of the rule's.
+fn declarations(style: &str) -> usize {
+    let of = |rules: &str| selectors(rules).saturating_mul(1 + rules.matches(';').count());
+    // A brace in a comment or a string ends no rule.
+    match style.contains("/*") || style.contains(['"', '\'']) {
+        true => of(style),
+        false => style.split('}').map(of).sum(),
+    }
+}
+
+pub(super) fn too_much(what: &str) -> Error {
     Error::new(format!("{what} are more than is read"))
         .remedy("save the drawing as plain SVG, without references that multiply")
+}
+
+pub(super) fn too_deep() -> Error {
+    Error::new(format!("elements nest more than {DEEPEST} deep"))
+        .remedy("ungroup the drawing, or save it as plain SVG")
 }
 
 /// The parser's message, with the place where an error has it.
@@ -70,57 +91,7 @@ fn before_parsing(text: &str) -> Result<(), Error> {
     if !start.starts_with('<') {
         return Err(Error::new("is not SVG").at("line 1").remedy("give an SVG file"));
     }
-    let most = most_attributes(text);
-    if most > MOST_ATTRIBUTES {
-        return Err(too_much(&format!("{most} attributes of one element")));
-    }
-    let namespaces = text.matches("xmlns").count();
-    if namespaces.saturating_mul(most) > MOST_NAMESPACES {
-        return Err(too_much(&format!("{namespaces} declarations of namespaces")));
-    }
-    if text.contains("<!ENTITY") {
-        entities(text)?;
-    }
-    Ok(())
-}
-
-/// Equals signs outside of quotes between `<` and `>`, at most.
-fn most_attributes(text: &str) -> usize {
-    let (mut most, mut count) = (0, 0);
-    let mut tag = false;
-    let mut quote = None;
-    for byte in text.bytes() {
-        match (quote, byte) {
-            (Some(open), _) if byte == open => quote = None,
-            (Some(_), _) => {}
-            (None, b'<') => (tag, count) = (true, 0),
-            (None, b'>') => tag = false,
-            (None, b'"' | b'\'') if tag => quote = Some(byte),
-            (None, b'=') if tag => {
-                count += 1;
-                most = most.max(count);
-            }
-            _ => {}
-        }
-    }
-    most
-}
-
-/// Entities that multiply: those made of others, and long ones that are used often.
-fn entities(text: &str) -> Result<(), Error> {
-    let declared = text.rfind("<!ENTITY").unwrap_or(0);
-    let end = text[declared..].find('>').map_or(text.len(), |at| declared + at);
-    let first = text.find("<!ENTITY").unwrap_or(0);
-    let declarations = &text[first..end];
-    let refers = |piece: &str| piece.split('&').skip(1).filter(|rest| !rest.starts_with('#')).count();
-    if refers(declarations) > 0 || declarations.contains('%') {
-        return Err(too_much("entities that are made of entities"));
-    }
-    let uses = refers(&text[end..]);
-    if uses.saturating_mul(declarations.len()) > MOST_ENTITY_BYTES {
-        return Err(too_much(&format!("{uses} uses of entities")));
-    }
-    Ok(())
+    tags::check(text)
 }
 
 /// How much each element stands for, references followed.
@@ -153,10 +124,6 @@ impl<'a, 'input> Weights<'a, 'input> {
 
     /// What an element stands for; `depth` elements are around it.
     fn of(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Weight, Error> {
-        let too_deep = || {
-            Error::new(format!("elements nest more than {DEEPEST} deep"))
-                .remedy("ungroup the drawing, or save it as plain SVG")
-        };
         match self.known.get(&node.id()) {
             Some(Some(known)) if depth + known.height <= DEEPEST => return Ok(*known),
             Some(Some(_)) => return Err(too_deep()),
@@ -248,6 +215,15 @@ mod tests {
         assert!(refused(&inside(&format!("<g{many}/>"))).contains("600 attributes"));
         let style = format!("<style>{}</style>{}", "g{fill:red}".repeat(20_000), "<g/>".repeat(20_000));
         assert!(refused(&inside(&style)).contains("rules of style"));
+        let style = format!("<style>{}g{{fill:red}}</style>{}", "g,".repeat(20_000), "<g/>".repeat(20_000));
+        assert!(refused(&inside(&style)).contains("rules of style"));
+        for hidden in ["", "/*}*/", "a:\"}\";"] {
+            let style = format!("{}g{{{hidden}{}}}", "g,".repeat(20_000), "a:b;".repeat(20_000));
+            assert!(
+                refused(&inside(&format!("<style>{style}</style>"))).contains("declarations"),
+                "{hidden}"
+            );
+        }
         let marked = format!("<marker id=\"m\">{}</marker>", "<path d=\"M0 0h1\"/>".repeat(900))
             + &format!("<path marker-mid=\"url(#m)\" d=\"M0 0{}\"/>", "h1".repeat(90_000));
         assert!(refused(&inside(&marked)).contains("multiply"));
@@ -270,6 +246,8 @@ mod tests {
     fn ordinary_files_are_read() {
         let plain = "<defs><g id=\"a\"><path d=\"M0 0h1\"/></g></defs><use href=\"#a\"/><use href=\"#a\"/>";
         assert_eq!(refused(&inside(plain)), "read");
+        let style = "g,h{fill:red;stroke:none}".repeat(20_000);
+        assert_eq!(refused(&inside(&format!("<style>{style}</style>"))), "read");
         let entity = "<!DOCTYPE svg [<!ENTITY ns \"http://x\">]>".to_owned() + &inside("<g a=\"&ns;\"/>");
         assert_eq!(refused(&entity), "read");
     }

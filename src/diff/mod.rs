@@ -51,6 +51,7 @@ mod pixels;
 mod read;
 mod regions;
 mod stacking;
+mod tags;
 mod text;
 mod tolerance;
 mod totals;
