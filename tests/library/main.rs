@@ -25,6 +25,7 @@ mod intersections;
 mod lines_inside;
 mod loading;
 mod locality;
+mod marked_edges;
 mod models;
 mod order_of_parts;
 mod permuted;

@@ -128,8 +128,17 @@ impl Buffers<'_> {
         elements.whole_numbers().map_err(place)
     }
 
-    /// Plain bytes, one a scalar: the bit fields of some extensions.
+    /// Plain bytes, one a scalar: the bit fields of some extensions, which are no fractions whatever the file says.
     pub fn bytes(&self, index: usize) -> Result<Vec<u8>, Error> {
+        let accessor = self.accessor(index)?;
+        if Component::new(accessor.component_type).is_ok_and(|component| component != Component::U8) {
+            let message =
+                format!("bits are stored in unsigned bytes, not componentType {}", accessor.component_type);
+            return Err(Error::new(message).at(format!("accessor {index}")));
+        }
+        if accessor.normalized {
+            return self.read(index, |[value]: [f64; 1]| (value * 255.0).round() as u8);
+        }
         self.read(index, |[value]: [f64; 1]| value as u8)
     }
 

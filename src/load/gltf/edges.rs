@@ -4,37 +4,63 @@
 //! silhouette (a contour here), hard, and hard as a neighbour already says. A silhouette is marked
 //! on one of its two triangles only, so the stronger mark of both is the one to believe.
 
-use rustc_hash::FxHashSet;
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::buffers::Buffers;
 use super::json::Edges;
 use crate::error::Error;
 use crate::mesh::EdgeMark;
+use crate::scene::Warnings;
 
-/// The marks of the sides 0-1, 1-2, 2-0 of each triangle of a primitive.
-pub fn marks(buffers: &Buffers, edges: &Edges, triangles: &[[u32; 3]]) -> Result<Vec<[EdgeMark; 3]>, Error> {
+/// The marks of the sides 0-1, 1-2, 2-0 of each triangle of a primitive with these positions.
+pub fn marks(
+    buffers: &Buffers,
+    edges: &Edges,
+    triangles: &[[u32; 3]],
+    positions: &[DVec3],
+    warnings: &mut Warnings,
+) -> Result<Vec<[EdgeMark; 3]>, Error> {
     let mut marks = match edges.visibility {
         Some(accessor) => stored(&buffers.bytes(accessor)?, triangles.len())
             .map_err(|e| e.at(format!("accessor {accessor}")))?,
         None => vec![[EdgeMark::Hidden; 3]; triangles.len()],
     };
+    if edges.line_strings.is_empty() {
+        return Ok(marks);
+    }
+    let first = first_at_place(positions);
+    let edge = |from: u32, to: u32| {
+        let (from, to) = (*first.get(from as usize)?, *first.get(to as usize)?);
+        Some([from.min(to), from.max(to)])
+    };
     let mut hard = FxHashSet::default();
+    let mut nowhere = 0;
     for line in &edges.line_strings {
         let indices = buffers.indices(line.indices)?;
         for string in indices.values.split(|index| *index == indices.restart) {
-            hard.extend(string.array_windows().map(|[a, b]| [*a.min(b), *a.max(b)]));
+            let found = string.array_windows().map(|[a, b]| edge(*a, *b));
+            nowhere += found.clone().filter(Option::is_none).count() as u64;
+            hard.extend(found.flatten());
         }
     }
-    if !hard.is_empty() {
-        for ([a, b, c], [ab, bc, ca]) in triangles.iter().zip(&mut marks) {
-            for (from, to, mark) in [(a, b, ab), (b, c, bc), (c, a, ca)] {
-                if hard.contains(&[*from.min(to), *from.max(to)]) {
-                    *mark = EdgeMark::Hard;
-                }
+    warnings.count("marked edges left out, with an index that points nowhere", nowhere);
+    for (&[a, b, c], [ab, bc, ca]) in triangles.iter().zip(&mut marks) {
+        for (from, to, mark) in [(a, b, ab), (b, c, bc), (c, a, ca)] {
+            if edge(from, to).is_some_and(|edge| hard.contains(&edge)) {
+                *mark = EdgeMark::Hard;
             }
         }
     }
     Ok(marks)
+}
+
+/// The first vertex at the place of each: where corners are split, a line string goes along any of their vertices.
+fn first_at_place(positions: &[DVec3]) -> Vec<u32> {
+    let mut first = FxHashMap::default();
+    // Adding 0 makes one of both zeros.
+    let bits = |position: &DVec3| position.to_array().map(|axis| (axis + 0.0).to_bits());
+    positions.iter().zip(0..).map(|(position, id)| *first.entry(bits(position)).or_insert(id)).collect()
 }
 
 fn stored(bits: &[u8], triangles: usize) -> Result<Vec<[EdgeMark; 3]>, Error> {

@@ -165,6 +165,13 @@ pub struct Edges {
     pub line_strings: Vec<LineString>,
 }
 
+impl Edges {
+    /// Whether no edge is marked.
+    pub fn is_empty(&self) -> bool {
+        self.visibility.is_none() && self.line_strings.is_empty()
+    }
+}
+
 #[derive(Debug, Deserialize)]
 pub struct LineString {
     pub indices: usize,

@@ -94,8 +94,12 @@ impl<'a> Builder<'a> {
         let (block, ready) = self.vertices(primitive)?;
         let mut shape = self.shape(primitive, mode, block, ready, warnings)?;
         let mut marks = match &primitive.extensions.edges {
-            Some(edges) => edges::marks(self.buffers, edges, &shape.triangles)?,
-            None => Vec::new(),
+            Some(edges) if !edges.is_empty() => {
+                let own = self.geometry.positions.get(block.start as usize..).unwrap_or_default();
+                let own = own.get(..block.count as usize).unwrap_or_default();
+                edges::marks(self.buffers, edges, &shape.triangles, own, warnings)?
+            }
+            _ => Vec::new(),
         };
         for index in shape.triangles.as_flattened_mut().iter_mut().chain(shape.wires.as_flattened_mut()) {
             *index += block.start;
