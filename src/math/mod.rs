@@ -8,5 +8,6 @@ pub mod identity;
 pub mod linear;
 pub mod noise;
 pub mod picture;
+pub mod plane;
 pub mod power;
 pub mod tolerance;

@@ -2,7 +2,6 @@
 
 use rustc_hash::FxHashMap;
 
-use super::texture::difference;
 use crate::math::colour::Colour;
 
 /// No more flat colours than this; what has more is a photograph.
@@ -68,6 +67,12 @@ fn mean(colours: &[Colour]) -> Colour {
         ((sum + count / 2) / count) as u8
     };
     Colour::rgb(channel(|c| c.r), channel(|c| c.g), channel(|c| c.b))
+}
+
+/// The greatest difference of two colours in a channel.
+pub(super) fn difference(a: Colour, b: Colour) -> u32 {
+    let of = |a: u8, b: u8| u32::from(a.abs_diff(b));
+    of(a.r, b.r).max(of(a.g, b.g)).max(of(a.b, b.b))
 }
 
 #[cfg(test)]

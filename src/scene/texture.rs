@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::beside::read_beside;
-use super::swatches::ALIKE;
+use super::swatches::{ALIKE, difference};
 use super::{Material, Scene};
 use crate::math::colour::Colour;
 use crate::math::picture::Picture;
@@ -53,12 +53,6 @@ impl Texture {
         };
         self.picture.at(index(u, self.picture.width), index(v, self.picture.height))
     }
-}
-
-/// The greatest difference of two colours in a channel.
-pub(super) fn difference(a: Colour, b: Colour) -> u32 {
-    let of = |a: u8, b: u8| u32::from(a.abs_diff(b));
-    of(a.r, b.r).max(of(a.g, b.g)).max(of(a.b, b.b))
 }
 
 fn from_file(model: &Path, path: &str) -> Result<Picture, String> {

@@ -7,9 +7,8 @@ use super::ramp_source::{RampSource, TableSource};
 use crate::drawing::Length;
 use crate::error::Error;
 use crate::field::ToneOptions;
-use crate::field::tone_options::{
-    Colours, GREATEST_TONES, Gooch, Highlight, MaterialChange, Scale, thresholds,
-};
+use crate::field::ramp::GREATEST_TONES;
+use crate::field::tone_options::{Colours, Gooch, Highlight, MaterialChange, Scale, thresholds};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;

@@ -5,7 +5,8 @@ use serde::{Deserialize, Deserializer};
 
 use crate::drawing::Length;
 use crate::field::ShadeOptions;
-use crate::field::tone_options::{GREATEST_TONES, thresholds};
+use crate::field::ramp::GREATEST_TONES;
+use crate::field::tone_options::thresholds;
 use crate::hatch::{HatchLayer, HatchOptions};
 use crate::math::glob::Glob;
 

@@ -13,7 +13,8 @@ use crate::error::Error;
 use crate::field::LightOptions;
 use crate::lines::{LineKind, LineOptions};
 use crate::math::colour::Colour;
-use crate::stroke::pen::{dash, fraction};
+use crate::stroke::fraction::fraction;
+use crate::stroke::pen::dash;
 use crate::stroke::{
     BrushChange, Condition, HandChange, Ink, LayerOptions, Pen, PenChange, Rule, StrokeOptions, SwellChange,
 };

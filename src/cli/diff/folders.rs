@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::sides::MODELS;
 use crate::error::Error;
+
+/// Endings of models.
+pub(super) const MODELS: [&str; 5] = ["obj", "gltf", "glb", "stl", "ply"];
 
 /// Folders within folders, at most: links may lead round.
 const DEEPEST: usize = 32;

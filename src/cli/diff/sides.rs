@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::folders;
+use super::folders::{self, MODELS};
 use crate::cli::draw;
 use crate::cli::draw_args::HowArgs;
 use crate::cli::request::DrawRequest;
@@ -12,8 +12,6 @@ use crate::error::Error;
 
 /// Files larger than this are no drawings that a person keeps.
 const MOST_BYTES: u64 = 1 << 30;
-/// Endings of models.
-pub(super) const MODELS: [&str; 5] = ["obj", "gltf", "glb", "stl", "ply"];
 
 /// The files to compare, by name.
 #[derive(Debug)]

@@ -1,8 +1,7 @@
 //! Finds the corners of a jagged line: where it turns for good, not from one triangle to the next.
 
+use crate::math::plane::length;
 use kurbo::{Point, Vec2};
-
-use super::line::length;
 
 /// Cosine of the turn (45 degrees) over the wide window that makes a corner.
 const WIDE_COSINE: f64 = 0.707;

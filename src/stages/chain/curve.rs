@@ -7,7 +7,8 @@
 use kurbo::{BezPath, Point, Vec2};
 
 use super::fit::{end_tangent, fit, tangent_of, unit};
-use super::line::{Line, length};
+use super::line::Line;
+use crate::math::plane::{distance2, length};
 
 /// Cosine of the largest turn (20 degrees) within a tessellated curve.
 const STEP_COSINE: f64 = 0.9397;
@@ -62,7 +63,7 @@ pub(super) fn closed_smooth(points: &[Point], tolerance: f64) -> BezPath {
 /// Whether all points lie within `tolerance` of the segment from first to last.
 fn is_straight(points: &[Point], tolerance: f64) -> bool {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return true };
-    points.iter().all(|p| super::line::distance2(*p, *first, *last) <= tolerance * tolerance)
+    points.iter().all(|p| distance2(*p, *first, *last) <= tolerance * tolerance)
 }
 
 /// Adds an open exact polyline, with curves in place of its tessellated stretches.

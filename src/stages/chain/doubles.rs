@@ -4,10 +4,11 @@ use std::ops::RangeInclusive;
 
 use kurbo::{Point, Vec2};
 
-use super::line::{Line, distance2, length};
+use super::line::Line;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
+use crate::math::plane::{distance2, length};
 use crate::shape::Origin;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.

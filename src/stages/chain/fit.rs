@@ -4,9 +4,8 @@
 //! algorithm for automatically fitting digitized curves, Graphics Gems 1990); instead of halving
 //! where a fit fails, each cubic reaches as far as it can, which takes about half as many.
 
+use crate::math::plane::length;
 use kurbo::{BezPath, CubicBez, ParamCurve, Point, Vec2};
-
-use super::line::length;
 
 /// Rounds of moving each point's parameter to its foot on the curve.
 const ROUNDS: usize = 4;

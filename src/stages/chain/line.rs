@@ -4,6 +4,7 @@ use kurbo::Point;
 
 use super::Sample;
 use super::link::Step;
+use crate::math::plane::length;
 use crate::viewmap::{ViewMap, ViewVertex};
 
 /// A polyline in user units. A closed one does not repeat its first point.
@@ -133,17 +134,4 @@ impl Line {
 
 fn sample(vertex: &ViewVertex) -> Sample {
     Sample::new(vertex.depth, f64::from(vertex.strength))
-}
-
-/// Distance from a point to a segment, squared.
-pub(super) fn distance2(p: Point, a: Point, b: Point) -> f64 {
-    let way = b - a;
-    let length2 = way.hypot2();
-    let t = if length2 > 0.0 { ((p - a).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    (p - (a + way * t)).hypot2()
-}
-
-/// Length of a vector; `hypot` of the platform differs between machines.
-pub(super) fn length(v: kurbo::Vec2) -> f64 {
-    v.hypot2().sqrt()
 }

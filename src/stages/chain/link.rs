@@ -6,8 +6,8 @@
 
 use kurbo::Vec2;
 
-use super::line::length;
 use crate::lines::LineKind;
+use crate::math::plane::length;
 use crate::mesh::{MaterialId, PartId};
 use crate::shape::Origin;
 use crate::viewmap::{ViewEdge, ViewMap, ViewVertexId};

@@ -1,8 +1,9 @@
 //! [`Raw`]: the line of a route with what tidying has to know of it.
 
-use super::line::{Line, length};
+use super::line::Line;
 use super::link::{Class, Routes};
 use crate::lines::LineKind;
+use crate::math::plane::length;
 use crate::shape::Origin;
 use crate::viewmap::{ViewEdge, ViewMap, ViewVertexId, ViewVertexKind};
 

@@ -1,6 +1,7 @@
 //! Puts points on a line at even spacing.
 
-use super::line::{Line, length};
+use super::line::Line;
+use crate::math::plane::length;
 
 /// Evenly spaced points, ends included, no farther apart than `spacing`; a closed line keeps its
 /// first point. Returns the line and its actual spacing.

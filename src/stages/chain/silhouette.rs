@@ -1,7 +1,8 @@
 //! Cuts lines where silhouette turns into inner contour, but not where it only flickers.
 
-use super::line::{Line, length};
+use super::line::Line;
 use super::raw::Raw;
+use crate::math::plane::length;
 
 /// A stretch of a line, from one side to another, that is silhouette or is not.
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,8 @@
 //! represent a digitized line, Cartographica 1973; measured against the segment, not its line, so
 //! that a line that doubles back keeps its tip.
 
-use super::line::{Line, distance2};
+use super::line::Line;
+use crate::math::plane::distance2;
 
 /// Points this near to the straight line between their neighbours, in user units, are rounding.
 const COLLINEAR: f64 = 1e-9;

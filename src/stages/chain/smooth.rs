@@ -6,9 +6,8 @@
 //! that the line is as smooth as the tube allows, and what still strays is pulled to its wall.
 //! Source: Eilers, A perfect smoother, Analytical Chemistry 2003; Whittaker 1923.
 
+use crate::math::plane::length;
 use kurbo::{Point, Vec2};
-
-use super::line::length;
 
 /// Rounds of raising weights where the line strays.
 const ROUNDS: usize = 6;

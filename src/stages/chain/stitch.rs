@@ -8,9 +8,10 @@
 use kurbo::{Point, Vec2};
 
 use super::Sample;
-use super::line::{Line, distance2, length};
+use super::line::Line;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
+use crate::math::plane::{distance2, length};
 use crate::viewmap::{Ahead, Way};
 
 /// Tidy lengths that a stitch may jump when nothing is trimmed, and when a stub is.

@@ -5,6 +5,7 @@ use kurbo::{ParamCurve, PathEl, PathSeg};
 use super::*;
 use crate::math::function::{cos, sin};
 use crate::math::noise::hash;
+use crate::math::plane::distance2;
 use crate::shape::Origin;
 use crate::viewmap::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
@@ -296,7 +297,7 @@ fn a_line_ends_at_its_t_junctions_whatever_is_done_to_it() {
 /// The largest distance from points to a polyline.
 fn farthest(points: &[Point], line: &[Point]) -> f64 {
     let to_line = |p: &Point| {
-        let sides = line.windows(2).map(|s| line::distance2(*p, s[0], s[1]));
+        let sides = line.windows(2).map(|s| distance2(*p, s[0], s[1]));
         sides.fold(f64::MAX, f64::min).sqrt()
     };
     points.iter().map(to_line).fold(0.0, f64::max)

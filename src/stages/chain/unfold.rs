@@ -3,7 +3,8 @@
 //! Where a contour runs along a row of nearly edge-on triangles it goes forth, back and forth again
 //! over the same ink; the shortcut between the two passes draws the same.
 
-use super::line::{Line, distance2};
+use super::line::Line;
+use crate::math::plane::{distance2, length};
 
 /// Replaces each excursion of up to `reach` arc length that returns to within `tolerance` of where
 /// it left, never having been farther than `tolerance` from the shortcut or its own way back.
@@ -19,11 +20,11 @@ pub(super) fn unfold(line: &Line, tolerance: f64, reach: f64) -> Line {
         // The farthest point from which the line has come back.
         let mut arc = 0.0;
         for j in i + 1..n {
-            arc += super::line::length(line.points[j] - line.points[j - 1]);
+            arc += length(line.points[j] - line.points[j - 1]);
             if arc > reach {
                 break;
             }
-            let chord = super::line::length(line.points[j] - line.points[i]);
+            let chord = length(line.points[j] - line.points[i]);
             if j > i + 1 && arc > 1.6 * chord + 0.25 * tolerance && is_thin(line, i, j, tolerance) {
                 next = j;
             }

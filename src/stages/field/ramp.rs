@@ -7,7 +7,8 @@
 use crate::math::colour::Colour;
 use crate::math::picture::Picture;
 
-use super::tone_options::GREATEST_TONES;
+/// Most tones that a scale has; lists in style sheets are no longer.
+pub const GREATEST_TONES: usize = 1024;
 
 /// Colours over the light from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]

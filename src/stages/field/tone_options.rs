@@ -3,13 +3,10 @@
 use serde::{Deserialize, Deserializer};
 
 use super::light_options::fraction;
-use super::ramp::{Strip, Table};
+use super::ramp::{GREATEST_TONES, Strip, Table};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
-
-/// Most tones that a scale has; lists in style sheets are no longer.
-pub const GREATEST_TONES: usize = 1024;
 
 /// Into which tones the surface of a material falls, and what colours they have.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,6 +6,7 @@ use kurbo::{BezPath, Point, Vec2};
 use super::dense::{CORNER_COSINE, arcs, dense, samples};
 use crate::chain::fit::{end_tangent, fit, unit};
 use crate::chain::{Chain, Sample};
+use crate::math::plane::{distance2, length};
 
 /// Distance of the points along the axis, px.
 const STEP_PX: f64 = 1.0;
@@ -302,16 +303,4 @@ pub(super) fn add_stretch(points: &[Point], tolerance: f64, path: &mut BezPath) 
     let start = end_tangent(|i| points[i], n);
     let end = -end_tangent(|i| points[n - 1 - i], n);
     fit(points, start, end, tolerance, path);
-}
-
-/// Distance from a point to a segment, squared.
-pub(super) fn distance2(p: Point, a: Point, b: Point) -> f64 {
-    let way = b - a;
-    let length2 = way.hypot2();
-    let t = if length2 > 0.0 { ((p - a).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    (p - (a + way * t)).hypot2()
-}
-
-pub(super) fn length(v: Vec2) -> f64 {
-    v.hypot2().sqrt()
 }

@@ -6,12 +6,13 @@
 
 use kurbo::{BezPath, PathEl, Point, Vec2};
 
-use super::axis::{Axis, add_stretch, length};
+use super::axis::{Axis, add_stretch};
 use super::brush_core;
 use super::outline::{Nib, outline};
 use super::widths::mean;
 use crate::chain::fit::unit;
 use crate::drawing::{Length, Unit};
+use crate::math::plane::length;
 
 /// A shape along a line. Its x runs along the line from 0 to 1; its y lies across it, -0.5 on the left edge
 /// of the pen and 0.5 on the right.

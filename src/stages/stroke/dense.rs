@@ -2,9 +2,9 @@
 
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Vec2};
 
-use super::axis::length;
 use crate::chain::fit::unit;
 use crate::chain::{Chain, Sample};
+use crate::math::plane::length;
 
 /// A line that turns by more than this at a point (cosine of 20 degrees) has a corner there.
 pub(super) const CORNER_COSINE: f64 = 0.9397;

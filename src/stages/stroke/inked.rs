@@ -6,7 +6,7 @@
 use kurbo::BezPath;
 
 use super::InkContext;
-use super::axis::{Axis, length};
+use super::axis::Axis;
 use super::brush;
 use super::inks::{Stretch, Tint};
 use super::outline::{Nib, outline};
@@ -19,6 +19,7 @@ use crate::chain::Chain;
 use crate::lines::LineKind;
 use crate::math::colour::Colour;
 use crate::math::noise::{hash, unit};
+use crate::math::plane::length;
 
 /// Where surfaces are painted, lines that bound them stay over their borders by this, px; and by this on
 /// smooth surfaces, where lines are smoothed more than borders are.

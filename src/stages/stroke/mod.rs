@@ -7,6 +7,7 @@ pub mod brush_source;
 pub mod dash;
 mod dense;
 mod ends;
+pub(crate) mod fraction;
 mod halo;
 pub mod hand;
 mod inked;

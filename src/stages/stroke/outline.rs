@@ -7,10 +7,11 @@
 
 use kurbo::{BezPath, Point, Vec2};
 
-use super::axis::{Axis, length};
+use super::axis::Axis;
 use super::sides::{REACH, Side};
 use crate::chain::fit::{end_tangent, fit, tangent_of, unit};
 use crate::drawing::{Cap, Join};
+use crate::math::plane::length;
 
 /// How far the sides may lie from what they are fitted to, px.
 const TOLERANCE_PX: f64 = 0.1;

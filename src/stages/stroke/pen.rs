@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::brush::Brush;
 use super::brush_source::BrushChange;
+use super::fraction::fraction;
 use super::hand::{Hand, HandChange};
 use super::swell::{Swell, SwellChange};
 use crate::drawing::{Cap, Join, Length};
@@ -139,16 +140,6 @@ impl PenChange {
         if let Some(brush) = &self.brush {
             pen.brush = brush.brush();
         }
-    }
-}
-
-/// A number from 0 to 1.
-pub(crate) fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (0.0..=1.0).contains(&value) {
-        Ok(Some(value))
-    } else {
-        Err(D::Error::custom(format!("{value} is not a fraction; write a number from 0 to 1")))
     }
 }
 

@@ -7,7 +7,7 @@
 
 use serde::Deserialize;
 
-use super::pen::fraction;
+use super::fraction::fraction;
 use crate::drawing::Length;
 
 /// How the width of a line varies along it. All is off by default; what is on multiplies.

@@ -2,9 +2,10 @@
 
 use kurbo::Vec2;
 
-use super::axis::{Axis, length};
+use super::axis::Axis;
 use super::swell::Swell;
 use crate::chain::fit::unit;
+use crate::math::plane::length;
 
 /// Length over which the width is evened out, px.
 const EVEN_PX: f64 = 10.0;
