@@ -13,6 +13,7 @@ pub mod options;
 mod raw;
 pub mod removed;
 mod resample;
+mod sample;
 mod silhouette;
 mod simplify;
 mod smooth;
@@ -24,13 +25,13 @@ mod unfold;
 
 pub use options::ChainOptions;
 pub use removed::{Reason, Removed};
+pub use sample::{Sample, Under};
 
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
 use crate::drawing::{Length, Unit};
 use crate::lines::{HiddenLines, LineKind};
-use crate::math::colour::Colour;
 use crate::mesh::{MaterialId, PartId};
 use crate::viewmap::{Ahead, ViewMap};
 use finish::{Tolerances, finish};
@@ -38,59 +39,6 @@ use line::Line;
 use raw::Raw;
 use removed::Bin;
 use tidy::tidied;
-
-/// What a chain knows of the world at one of its points; travels with the chain so that strokes
-/// never look back into the scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
-    /// Distance from the eye along the optical axis, world units.
-    pub depth: f64,
-    /// How strong the line is here, 0 to 1. Only suggestive contours, ridges and valleys are ever
-    /// weaker than 1.
-    pub strength: f64,
-    /// The diffuse light on the surface beside the line, 0 to 1; 1 where nobody asked.
-    pub light: f64,
-    /// How far what lies behind the line is from it, 0 to 1; 1 before background, and where nobody
-    /// asked.
-    pub gap: f64,
-    /// On which side of the line, as it runs, the nearer surface lies: 1 on the left, -1 on the right, 0
-    /// where both are as near, and where nobody asked.
-    pub side: f64,
-    /// What is seen beside the line.
-    pub under: Under,
-}
-
-/// What is seen beside a line at one of its points, where anybody asked.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Under {
-    /// The colour of the surface that the line belongs to, as it is without light.
-    pub colour: Option<Colour>,
-    /// How far to both sides of the line there is nothing but spot blacks, user units.
-    pub black: f64,
-}
-
-impl Sample {
-    /// A sample of which only depth and strength are known.
-    #[must_use]
-    pub const fn new(depth: f64, strength: f64) -> Self {
-        Self { depth, strength, light: 1.0, gap: 1.0, side: 0.0, under: Under { colour: None, black: 0.0 } }
-    }
-
-    /// What lies between two points of a line, at part `t` of the way.
-    #[must_use]
-    pub fn lerp(self, to: Self, t: f64) -> Self {
-        let mix = |from: f64, to: f64| from + (to - from) * t;
-        Self {
-            depth: mix(self.depth, to.depth),
-            strength: mix(self.strength, to.strength),
-            light: mix(self.light, to.light),
-            gap: mix(self.gap, to.gap),
-            side: mix(self.side, to.side),
-            // Colours of surfaces do not mix.
-            under: if t < 0.5 { self.under } else { to.under },
-        }
-    }
-}
 
 /// View edges of one kind joined end to end.
 #[derive(Debug, Clone, PartialEq)]

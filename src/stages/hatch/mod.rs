@@ -8,6 +8,7 @@
 //! animation, 2000, section 3.3, with strokes in place of textures.
 
 pub mod clip;
+mod context;
 mod cut;
 pub mod cuts;
 mod disc;
@@ -32,6 +33,7 @@ use std::sync::Arc;
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
+pub use context::HatchContext;
 pub use dots::{CellDots, DotScreen, ToneBorders, dots};
 pub use flow::Flow;
 pub use grain::{Grain, Tooth, grain, speckle};
@@ -42,39 +44,14 @@ pub use share::most_covered;
 pub use stipple::{Stipple, stipple};
 pub use tone::Tone;
 
-use crate::drawing::{Layer, LayerKind, Length, Mark, Paint, Provenance, Unit};
+use crate::drawing::{Layer, LayerKind, Length, Mark, Paint, Provenance};
 use crate::math::colour::Colour;
 use crate::math::identity::identities;
 use crate::math::noise::hash;
-use crate::region::{Ground, Look, Samples};
+use crate::region::{Ground, Look};
 use crate::stroke::Ink;
 use share::{Shares, shares};
 use streamlines::{Spacing, streamlines};
-
-/// What hatching needs beside the ground.
-#[derive(Clone, Copy)]
-pub struct HatchContext<'a> {
-    /// Unit of the page.
-    pub unit: Unit,
-    /// The hand: [`crate::Style::seed`].
-    pub seed: u64,
-    /// Names of the parts, by [`crate::mesh::PartId`].
-    pub parts: &'a [Arc<str>],
-    /// Names and base colours of the materials, by [`crate::mesh::MaterialId`].
-    pub materials: &'a [(Arc<str>, Colour)],
-    /// Colours of the paints, by [`crate::mesh::PaintId`]; where there is none, the material's counts.
-    pub paints: &'a [Colour],
-    /// The tone of each paint, by [`crate::mesh::PaintId`].
-    pub tones: &'a [Tone],
-    /// The page asked at the points of a lattice, for layers that need it: see [`HatchLayer::samples`].
-    pub samples: Option<&'a Samples>,
-    /// Colour of the paper.
-    pub paper: Colour,
-    /// For each layer that follows the surface or its light, the flow of its strokes.
-    pub flows: &'a [Option<Flow<'a>>],
-    /// For each layer that is fixed to the model, its guides.
-    pub fixed: &'a [Option<Vec<Guide>>],
-}
 
 /// Strokes of one layer of hatching, as they lie on the page.
 #[derive(Debug, Clone, Default, PartialEq)]

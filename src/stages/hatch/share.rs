@@ -2,8 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
+use super::context::HatchContext;
 use super::options::{HatchLayer, HatchOptions, Kind};
-use super::{HatchContext, mark, tone};
+use super::{mark, tone};
 use crate::drawing::Unit;
 use crate::math::function::{pow, tan};
 use crate::region::Ground;

@@ -5,9 +5,9 @@
 
 use kurbo::BezPath;
 
-use super::InkContext;
 use super::axis::Axis;
 use super::brush;
+use super::context::InkContext;
 use super::inks::{Stretch, Tint};
 use super::outline::{Nib, outline};
 use super::pen::Pen;

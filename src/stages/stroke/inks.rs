@@ -4,8 +4,8 @@
 //! Ink on black is not seen. As comics have it, a line between two spot blacks is left white.
 
 use super::axis::Axis;
+use super::context::InkContext;
 use super::pen::{Ink, Pen};
-use super::{InkContext, material_colour};
 use crate::chain::Chain;
 use crate::lines::LineKind;
 use crate::math::colour::Colour;
@@ -108,6 +108,11 @@ pub(super) fn plain(chain: &Chain, pen: &Pen, beside: Option<Colour>, context: &
     };
     colour.a = (f64::from(colour.a) * pen.opacity).round() as u8;
     colour
+}
+
+/// The colour of a chain's material.
+fn material_colour(chain: &Chain, context: &InkContext) -> Option<Colour> {
+    context.materials.get(chain.material.index()).map(|(_, base)| *base)
 }
 
 /// Whether lines of a kind are between surfaces, not on one.

@@ -4,6 +4,7 @@ mod axis;
 pub mod brush;
 mod brush_core;
 pub mod brush_source;
+mod context;
 pub mod dash;
 mod dense;
 mod ends;
@@ -31,13 +32,14 @@ use rayon::prelude::*;
 pub use crate::math::glob::Glob;
 pub use brush::{Brush, BrushShape};
 pub use brush_source::{BrushChange, BrushSource};
+pub use context::{InkContext, Parting};
 pub use hand::{Hand, HandChange};
 pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
 pub use pen::{Ink, Pen, PenChange};
 pub use swell::{Swell, SwellChange};
 
 use crate::chain::{Chain, Under};
-use crate::drawing::{Layer, LayerKind, Length, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
+use crate::drawing::{Layer, LayerKind, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
 use crate::lines::HiddenLines;
 use crate::math::colour::Colour;
 use crate::math::identity::identities;
@@ -45,45 +47,6 @@ use axis::Axis;
 use inked::{Inked, Shape};
 use inks::Tint;
 use outline::Nib;
-
-/// What strokes need of the scene and the page: names, colours and the unit.
-#[derive(Debug, Clone, Copy)]
-pub struct InkContext<'a> {
-    /// Unit of the chains' points and of the drawing.
-    pub unit: Unit,
-    /// Names of the parts, by [`crate::mesh::PartId`].
-    pub parts: &'a [Arc<str>],
-    /// Names and base colours of the materials, by [`crate::mesh::MaterialId`].
-    pub materials: &'a [(Arc<str>, Colour)],
-    /// What becomes of hidden chains.
-    pub hidden: HiddenLines,
-    /// The hand: seeds all that varies by chance.
-    pub seed: u64,
-    /// Whether surfaces are painted under the lines, so that lines must not leave their borders.
-    pub painted: bool,
-    /// The depths of what counts as near and as far.
-    pub depths: [f64; 2],
-    /// For feature segments, by their number, what lasts while the eye moves; 0 = nothing. May be empty.
-    pub names: &'a [u64],
-    /// What parts spot blacks, where there are any.
-    pub parting: Option<Parting>,
-}
-
-/// The line between two spot blacks, on which ink would not be seen.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parting {
-    /// Its colour: that of the paper.
-    pub colour: Colour,
-    /// Its width, in parts of the pen's.
-    pub width: f64,
-}
-
-impl InkContext<'_> {
-    /// User units in a px.
-    fn px(&self) -> f64 {
-        Length::px(1.0).in_unit(self.unit)
-    }
-}
 
 /// Turns chains into the layers `hidden-lines` and `lines`, back to front; empty ones are absent.
 ///
@@ -204,11 +167,6 @@ fn is_solid(chain: &Chain, context: &InkContext, pen: &Pen) -> bool {
 /// The colour of a chain's ink, where nobody asked what is beside it.
 fn colour(chain: &Chain, context: &InkContext, pen: &Pen) -> Colour {
     inks::plain(chain, pen, None, context)
-}
-
-/// The colour of a chain's material.
-fn material_colour(chain: &Chain, context: &InkContext) -> Option<Colour> {
-    context.materials.get(chain.material.index()).map(|(_, base)| *base)
 }
 
 /// One chain with its pen; `None` if it has no path or its pen no width.

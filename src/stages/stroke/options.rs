@@ -4,7 +4,7 @@
 
 use serde::Deserialize;
 
-use super::InkContext;
+use super::context::InkContext;
 use super::pen::{Pen, PenChange};
 use crate::chain::Chain;
 use crate::lines::LineKind;
