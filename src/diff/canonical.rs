@@ -13,9 +13,10 @@ use usvg::roxmltree::{Attribute, Document, Node};
 use super::inherited::{Afar, Leave, Look, painted_alike};
 use super::{guard, numbers, path_data};
 use crate::error::Error;
-use crate::export::canonical::{Canonical, Form, Step};
+use crate::export::canonical::{Canonical, Form};
 use crate::export::number::{Decimals, MOST_DECIMALS};
 use crate::export::order::Name;
+use crate::export::piece::Step;
 
 /// Steps times pieces of a path beyond which its relative coordinates might not read back exactly: sums of numbers of 53
 /// bits, each off by half a bit.

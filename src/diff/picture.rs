@@ -6,10 +6,7 @@ use kurbo::BezPath;
 
 use super::ink::Ink;
 use super::label::Label;
-use super::read;
-use crate::drawing::{Drawing, Unit};
-use crate::error::Error;
-use crate::export::SvgOptions;
+use crate::drawing::Unit;
 
 /// What a shape is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -57,23 +54,6 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Reads an SVG file: any that resvg reads; texts are known by their words and pictures by their bytes.
-    ///
-    /// # Errors
-    /// Where the text is no SVG, and where reading it might take more time or memory than its length accounts for:
-    /// groups nested deeply, references that multiply, numbers beyond ten million px. The error names no file.
-    pub fn from_svg(svg: &str) -> Result<Self, Error> {
-        read::picture(svg)
-    }
-
-    /// A drawing as it would be read from its file.
-    ///
-    /// # Errors
-    /// Where the drawing is larger than what is read.
-    pub fn from_drawing(drawing: &Drawing, options: &SvgOptions) -> Result<Self, Error> {
-        Self::from_svg(&drawing.to_svg(options))
-    }
-
     /// Px in a user unit of the drawing.
     #[must_use]
     pub fn px_per_unit(&self) -> f64 {

@@ -11,8 +11,9 @@ use super::ink::{Ink, Paint};
 use super::markup::{self, Markup, Origin};
 use super::paint_words;
 use super::picture::{Picture, Shape, ShapeKind};
-use crate::drawing::{Cap, Join};
+use crate::drawing::{Cap, Drawing, Join};
 use crate::error::Error;
+use crate::export::SvgOptions;
 use crate::math::colour::Colour;
 
 /// Larger coordinates, in px, are refused.
@@ -20,8 +21,27 @@ const FARTHEST_PX: f64 = 1e8;
 /// Room for the reader's recursion over nested elements, whatever thread calls.
 const STACK_BYTES: usize = 64 << 20;
 
+impl Picture {
+    /// Reads an SVG file: any that resvg reads; texts are known by their words and pictures by their bytes.
+    ///
+    /// # Errors
+    /// Where the text is no SVG, and where reading it might take more time or memory than its length accounts for:
+    /// groups nested deeply, references that multiply, numbers beyond ten million px. The error names no file.
+    pub fn from_svg(svg: &str) -> Result<Self, Error> {
+        picture(svg)
+    }
+
+    /// A drawing as it would be read from its file.
+    ///
+    /// # Errors
+    /// Where the drawing is larger than what is read.
+    pub fn from_drawing(drawing: &Drawing, options: &SvgOptions) -> Result<Self, Error> {
+        Self::from_svg(&drawing.to_svg(options))
+    }
+}
+
 /// Reads a file.
-pub(super) fn picture(svg: &str) -> Result<Picture, Error> {
+fn picture(svg: &str) -> Result<Picture, Error> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).stack_size(STACK_BYTES).build();
     let pool = pool.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
     let gave_up = |_| Error::new("the reader of SVG gave up").remedy("save it as plain SVG");

@@ -1,12 +1,15 @@
 //! Findings about regions: what became of their borders, put together shape by shape.
 
-use kurbo::{BezPath, Rect, Shape as _};
 use std::collections::BTreeMap;
 
+use kurbo::{BezPath, Rect, Shape as _};
+use rustc_hash::FxHashMap;
+
+use super::area::area;
 use super::events::Event;
 use super::finding::{Finding, Place, Verdict};
-use super::judge::{Areas, Teller, changes, label};
-use super::picture::ShapeKind;
+use super::picture::{Picture, ShapeKind};
+use super::teller::{Teller, changes, label};
 
 /// One region before and after.
 type Key = (Option<usize>, Option<usize>);
@@ -127,4 +130,14 @@ fn one(teller: &Teller, (old, new): Key, events: Vec<Event>, areas: &mut Areas) 
     };
     finding.place = Place::of(place.unwrap_or_default());
     finding
+}
+
+/// The area of each shape that is asked for, measured once.
+#[derive(Default)]
+struct Areas(FxHashMap<(usize, usize), f64>);
+
+impl Areas {
+    fn of(&mut self, pictures: [&Picture; 2], side: usize, shape: usize) -> f64 {
+        *self.0.entry((side, shape)).or_insert_with(|| pictures[side].shapes.get(shape).map_or(0.0, area))
+    }
 }

@@ -21,6 +21,7 @@ mod path_data;
 pub mod pdf;
 #[cfg(feature = "pdf")]
 mod pdf_content;
+pub(crate) mod piece;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod svg;

@@ -9,8 +9,9 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::attributes::{Attributes, alike};
-use super::canonical::{Canonical, Form, Step};
+use super::canonical::{Canonical, Form};
 use super::number::Decimals;
+use super::piece::Step;
 use super::xml::read_back;
 use crate::drawing::{Mark, Paint, Provenance};
 

@@ -3,8 +3,8 @@
 //! Every coordinate is rounded where it stands on the page, and differences are taken of the
 //! rounded ones: rounding does not add up along a path.
 
-use super::canonical::{Kind, Piece, Step};
 use super::number::Decimals;
+use super::piece::{Kind, Piece, Step};
 
 /// Writes the `d` of one path, subpath by subpath.
 pub(super) struct Writer<'a> {
