@@ -7,8 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::buffers::Buffers;
 use super::json::Primitive;
 use super::primitive::{Mode, Shape};
-use super::streams::{Streams, uv_variant};
-use super::{edges, pose};
+use super::{edges, pose, vertices};
 use crate::error::Error;
 use crate::mesh::EdgeMark;
 use crate::scene::{Geometry, Warnings};
@@ -116,13 +115,13 @@ impl<'a> Builder<'a> {
     /// The vertices of a primitive, read if no primitive before had the same ones; and the
     /// triangles that come with compressed ones.
     fn vertices(&mut self, primitive: &'a Primitive) -> Result<(Block, Option<Triangles>), Error> {
-        let variant = uv_variant(self.buffers, primitive);
+        let variant = vertices::uv_variant(self.buffers, primitive);
         let key: Key = (&primitive.attributes, &primitive.targets, variant);
         let shareable = primitive.extensions.draco.is_none();
         if let Some((_, block)) = self.blocks.iter().find(|(known, _)| shareable && *known == key) {
             return Ok((*block, None));
         }
-        let mut streams = Streams::read(self.buffers, primitive)?;
+        let mut streams = vertices::read(self.buffers, primitive)?;
         pose::morph(&mut streams, self.buffers, primitive, self.weights)?;
         if let Some(joints) = self.joints {
             pose::skin(&mut streams, self.buffers, primitive, joints)?;

@@ -23,6 +23,7 @@ mod pose;
 mod primitive;
 mod streams;
 mod uri;
+mod vertices;
 mod views;
 
 use std::borrow::Cow;
