@@ -8,7 +8,7 @@
 use kurbo::{Point, Vec2};
 
 use crate::region::Samples;
-use crate::region::samples::{Axes, Axis};
+use crate::region::axes::{Axes, Axis};
 
 /// The directions of strokes over a page.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::Samples;
+use super::samples::Samples;
 
 /// Normals of neighbours on a flat face differ by less than this.
 const SAME: f64 = 1e-3;

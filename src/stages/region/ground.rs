@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 
 use kurbo::{Point, Vec2};
 
+pub use super::piece::{PAPER, Piece};
+
 use super::cells::{OUTSIDE, Triangulation};
 use super::merge;
 use super::piece_grid::Grid;
@@ -26,17 +28,6 @@ pub struct Cell {
     pub area: f64,
 }
 
-/// A straight piece of border.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece {
-    /// Its ends.
-    pub ends: [Point; 2],
-    /// The cells on both sides: first that to the right of its way as the page is seen (y down).
-    pub sides: [u32; 2],
-    /// Whether it parts two surfaces, not only light from shade; strokes end there.
-    pub parts_surfaces: bool,
-}
-
 /// What is seen where, and the borders between.
 #[derive(Debug, Clone, Default)]
 pub struct Ground {
@@ -48,9 +39,6 @@ pub struct Ground {
     pub facets: u32,
     grid: Grid,
 }
-
-/// The cell of paper.
-pub const PAPER: u32 = 0;
 
 impl Ground {
     /// The ground of a page that is seen, moved on the page by `offset`. Cells of less area than a square

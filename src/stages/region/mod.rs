@@ -6,6 +6,7 @@
 //! border between two regions is one curve, which both use.
 
 mod arcs;
+pub mod axes;
 mod cells;
 mod flat;
 pub mod ground;
@@ -15,6 +16,7 @@ mod merge;
 mod noding;
 pub mod options;
 pub mod paint;
+mod piece;
 mod piece_grid;
 pub mod samples;
 pub mod seen;

@@ -2,7 +2,7 @@
 
 use kurbo::{Point, Vec2};
 
-use super::ground::{PAPER, Piece};
+use super::piece::{PAPER, Piece};
 
 /// Pieces by the tiles of the page that they pass.
 #[derive(Debug, Clone, Default)]
