@@ -5,9 +5,9 @@ use super::options::{Contours, Normals};
 use crate::field;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
+use crate::shape::file_normals::file_cosines;
 use crate::shape::patches;
 use crate::shape::refine::Refined;
-use crate::shape::smooth_normals::file_cosines;
 use crate::shape::{HardEdges, Origin, Patches, SmoothNormals};
 use crate::view::Frame;
 

@@ -7,8 +7,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::SmoothNormals;
-use super::curvature::{Principal, in_axes, turned};
 use super::fans::{Fans, GRAIN, sides};
+use super::principal::{Principal, in_axes, turned};
 use crate::math::linear::solve;
 use crate::mesh::{FaceId, Mesh};
 

@@ -7,8 +7,8 @@
 
 use rayon::prelude::*;
 
-use super::curvature::Principal;
 use super::fans::{Fans, GRAIN};
+use super::principal::Principal;
 use crate::mesh::{Mesh, PartId};
 
 /// The part of the surface that may be flatter than the measured curvature.

@@ -3,8 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::SmoothNormals;
-use super::smooth_normals::{FaceWeights, NO_NORMAL, NormalSum, chosen, file_normals};
+use super::file_normals::{chosen, file_normals};
+use super::normal_sum::{FaceWeights, NormalSum};
+use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use crate::mesh::{FaceId, Mesh};
 
 /// A corner of a rounded face at a vertex where surfaces are parted.

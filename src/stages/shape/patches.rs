@@ -8,9 +8,9 @@
 //! operators for triangulated 2-manifolds", 2002, section 4.
 
 use super::HardEdges;
+use super::file_normals::file_cosines;
 use super::planes::{Planes, area};
 use super::rounded::{LEAST_EDGES, Make, Origin, Verdict, verdicts};
-use super::smooth_normals::file_cosines;
 use crate::math::function::{acos, cos};
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::groups::Groups;

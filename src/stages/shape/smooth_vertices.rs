@@ -1,0 +1,150 @@
+//! Makes [`SmoothNormals`] of a mesh: a normal for each vertex, and more of them where surfaces are parted.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::file_normals::{chosen, file_normals};
+use super::normal_sum::{FaceWeights, NormalSum};
+use super::parting;
+use super::smooth_normals::{NO_NORMAL, SmoothNormals};
+use crate::mesh::edge_set::EdgeSet;
+use crate::mesh::{EdgeFaces, Mesh};
+
+impl SmoothNormals {
+    /// The normals of a mesh all of which is one rounded surface without hard edges.
+    #[must_use]
+    pub fn rounded(mesh: &Mesh) -> Self {
+        Self {
+            normals: vertex_normals(mesh, |_| true),
+            vertices: (0..mesh.positions.len() as u32).collect(),
+            corners: mesh.triangles.clone(),
+            parting: EdgeSet::default(),
+            straight: EdgeSet::default(),
+            seamless: true,
+        }
+    }
+
+    /// The normals of a mesh of which the faces with `is_rounded` belong to rounded surfaces, which
+    /// the edges with `is_hard` part. The file's own normals are taken where it has any.
+    #[must_use]
+    pub fn new(
+        mesh: &Mesh,
+        is_rounded: impl Fn(u32) -> bool + Sync,
+        is_hard: impl Fn(usize) -> bool + Sync,
+    ) -> Self {
+        let rounded: Vec<bool> = (0..mesh.triangles.len() as u32).map(&is_rounded).collect();
+        if !rounded.contains(&true) {
+            return Self::default();
+        }
+        let parting = EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
+            EdgeFaces::One(_) => false,
+            EdgeFaces::Two { faces, same_way } => {
+                let count = faces.iter().filter(|f| rounded[**f as usize]).count();
+                count == 1 || (count == 2 && (same_way || is_hard(edge)))
+            }
+            EdgeFaces::Many(faces) => faces.iter().any(|f| rounded[*f as usize]),
+        });
+        let all = !rounded.contains(&false);
+        let corners = if all {
+            mesh.triangles.clone()
+        } else {
+            let of = |(t, rounded): (&[u32; 3], &bool)| if *rounded { *t } else { [NO_NORMAL; 3] };
+            mesh.triangles.iter().zip(&rounded).map(of).collect()
+        };
+        let mut smooth = Self {
+            normals: vertex_normals(mesh, |face| rounded[face]),
+            vertices: (0..mesh.positions.len() as u32).collect(),
+            corners,
+            seamless: all && parting.is_empty(),
+            parting,
+            straight: EdgeSet::default(),
+        };
+        parting::part(mesh, &mut smooth);
+        smooth.straight = uneven(mesh, &smooth);
+        smooth
+    }
+}
+
+/// Edges more than so many times as long as one beside them, between normals that turn by more than this
+/// (cosine, 15 degrees), are straight.
+const UNEVEN_LENGTHS: f64 = 4.0;
+const UNEVEN_COSINE: f64 = 0.966;
+
+/// Long edges beside short ones: the normals at their ends are those of a bevel or a fillet there, and what
+/// is between the ends does not bend with them.
+fn uneven(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
+    let squared = |a: u32, b: u32| mesh.positions[a as usize].distance_squared(mesh.positions[b as usize]);
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        let Some([a, b]) = smooth.across(mesh, edge) else { return false };
+        if smooth.normals[a as usize].dot(smooth.normals[b as usize]) > UNEVEN_COSINE {
+            return false;
+        }
+        let ends = mesh.edges.vertices[edge];
+        let least = squared(ends[0], ends[1]) / (UNEVEN_LENGTHS * UNEVEN_LENGTHS);
+        mesh.edges.faces(edge).list().iter().any(|face| {
+            let [a, b, c] = mesh.triangles[*face as usize];
+            [[a, b], [b, c], [c, a]].iter().any(|[a, b]| squared(*a, *b) < least)
+        })
+    })
+}
+
+/// The normal of each vertex from the faces with `counts` around it, or those that the file has
+/// there.
+fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
+    let count = mesh.positions.len();
+    // Each worker owns a range of vertices, so that sums do not depend on the number of workers.
+    let workers = if count < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
+    let bounds: Vec<usize> = (0..=workers).map(|k| count * k / workers).collect();
+    let parts: Vec<Vec<DVec3>> = bounds
+        .par_windows(2)
+        .map(|range| {
+            let mut sums = vec![NormalSum::default(); range[1] - range[0]];
+            let mut own = vec![DVec3::ZERO; if mesh.corner_normals.is_empty() { 0 } else { sums.len() }];
+            for (face, triangle) in mesh.triangles.iter().enumerate() {
+                let slots = triangle.map(|v| (v as usize).wrapping_sub(range[0]));
+                if slots.iter().all(|slot| *slot >= sums.len()) || !counts(face) {
+                    continue;
+                }
+                let Some(weighted) = FaceWeights::new(triangle.map(|v| mesh.positions[v as usize])) else {
+                    continue;
+                };
+                for (k, slot) in slots.iter().enumerate() {
+                    if let Some(sum) = sums.get_mut(*slot) {
+                        sum.add(&weighted, k);
+                    }
+                }
+                if !own.is_empty() {
+                    for (slot, normal) in slots.iter().zip(file_normals(mesh, face)) {
+                        if let Some(sum) = own.get_mut(*slot) {
+                            *sum += normal;
+                        }
+                    }
+                }
+            }
+            let of_file = |k: usize| own.get(k).copied().unwrap_or_default();
+            sums.iter().enumerate().map(|(k, sum)| chosen(sum.normal(), of_file(k))).collect()
+        })
+        .collect();
+    parts.concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    #[test]
+    fn normals_of_an_inscribed_polyhedron_are_those_of_the_sphere() {
+        // An octahedron with one corner moved along the sphere.
+        let tilted = DVec3::new(0.6, 0.0, 0.8);
+        let positions = vec![DVec3::X, DVec3::Y, tilted, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+        let triangles =
+            vec![[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+        let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+        let smooth = SmoothNormals::rounded(&mesh);
+        for (normal, position) in smooth.normals.iter().zip(&mesh.positions) {
+            let on_sphere = *position + mesh.origin;
+            assert!(normal.distance(on_sphere) < 1e-9, "{normal} at {on_sphere}");
+        }
+    }
+}
