@@ -15,7 +15,8 @@ use crate::mesh::Mesh;
 use crate::view::View;
 use crate::viewmap::grid::Grid;
 use crate::viewmap::grouped::bucket;
-use crate::viewmap::occlude::{Limits, covered};
+use crate::viewmap::limits::Limits;
+use crate::viewmap::occlude::covered;
 use crate::viewmap::occluders::{Occluder, Triangles};
 
 /// Most tiles across the image.

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use super::graph::SeenContour;
 use super::grouped::bucket;
-use super::occlude::{Limits, hidden_interval};
+use super::limits::Limits;
+use super::occlude::hidden_interval;
 use super::occluders::{Occluder, Triangles};
 use super::project::ImageSegment;
 use super::tile::Item;

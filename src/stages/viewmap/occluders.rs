@@ -6,10 +6,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::cover::Sides;
 use super::grid::{Grid, TileBox};
 use super::grouped::{Grouped, bucket};
-use super::occlude::{Limits, Slack};
+use super::limits::{Limits, Slack};
+use super::sides::Sides;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 

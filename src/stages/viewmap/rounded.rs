@@ -3,7 +3,8 @@
 
 use super::graph::{ContourCounts, SeenContour, ViewVertexKind};
 use super::layers::Layer;
-use super::occlude::{Interval, Limits};
+use super::limits::Limits;
+use super::occlude::Interval;
 use super::project::ImageSegment;
 use super::runs::{Run, runs};
 use super::teeth::Teeth;
