@@ -62,7 +62,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let load_ms = watch.lap_ms();
 
     progress.step("drawing");
-    let Viewpoint { camera, paper, warning } = viewpoint(request, &scene)?;
+    let Viewpoint { camera, paper, warning } = viewpoint(&request.view, &request.sheet, &scene)?;
     let page = Page { background: style.background, ..paper.page() };
     let (drawing, mut report) = render_reported(&scene, &camera, &style, page, request.stage)?;
     report.stages_ms.load = load_ms;

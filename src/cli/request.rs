@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::draw_args::{DrawArgs, GroupBy, HowArgs};
 use super::output::{Format, Output, is_stdout};
-use super::paper::{Extent, Measure};
-use super::viewpoint::{Lens, View};
+use super::viewpoint::{Lens, Sheet, View};
 use crate::drawing::Unit;
 use crate::error::Error;
 use crate::math::colour::Colour;
@@ -27,9 +26,7 @@ pub(super) struct DrawRequest {
     pub(super) up: Option<UpAxis>,
     pub(super) only: Vec<String>,
     pub(super) hide: Vec<String>,
-    /// Size of the sheet where one was asked for, and its unit.
-    pub(super) extent: Option<(Extent, Unit)>,
-    pub(super) margin: Option<Measure>,
+    pub(super) sheet: Sheet,
     pub(super) svg: SvgChoices,
     pub(super) dpi: Option<f64>,
     pub(super) stage: Option<Stage>,
@@ -98,8 +95,10 @@ impl DrawRequest {
             up: args.up,
             only: args.only,
             hide: args.hide,
-            extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
-            margin: args.margin,
+            sheet: Sheet {
+                extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
+                margin: args.margin,
+            },
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             dpi: args.dpi,
             stage: None,
@@ -152,6 +151,7 @@ fn same_file(a: &Path, b: &Path) -> bool {
 mod tests {
     use clap::Parser;
 
+    use super::super::paper::Extent;
     use super::*;
 
     #[derive(Parser)]
@@ -172,19 +172,20 @@ mod tests {
         let paths: Vec<_> = request.outputs.iter().map(|output| output.path.clone()).collect();
         assert_eq!(paths, [PathBuf::from("bunny.v2.svg")]);
         assert_eq!(request.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens: None });
-        assert!(request.extent.is_none() && request.background.is_none());
+        assert!(request.sheet.extent.is_none() && request.background.is_none());
         Ok(())
     }
 
     #[test]
     fn options_become_what_is_meant() -> Result<(), String> {
-        let sheet = request("m.stl a.svg -o b.PNG -o - --page a4 --landscape --scale 1:2 --background none")?;
-        let formats: Vec<_> = sheet.outputs.iter().map(|output| output.format).collect();
+        let printed =
+            request("m.stl a.svg -o b.PNG -o - --page a4 --landscape --scale 1:2 --background none")?;
+        let formats: Vec<_> = printed.outputs.iter().map(|output| output.format).collect();
         assert_eq!(formats, [Format::Svg, Format::Png, Format::SvgToStdout]);
-        assert_eq!(sheet.extent, Some((Extent { width: 297.0, height: 210.0 }, Unit::Mm)));
-        assert_eq!(sheet.background, Some(None));
+        assert_eq!(printed.sheet.extent, Some((Extent { width: 297.0, height: 210.0 }, Unit::Mm)));
+        assert_eq!(printed.background, Some(None));
         let lens = Some(Lens::Orthographic { scale: Some(0.5) });
-        assert_eq!(sheet.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens });
+        assert_eq!(printed.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens });
         let turned = request("m.stl --azimuth -35 --elevation -10.5 --fov 20")?;
         let lens = Some(Lens::Perspective { fov_y_deg: 20.0 });
         assert_eq!(turned.view, View::Angles { azimuth_deg: Some(-35.0), elevation_deg: Some(-10.5), lens });

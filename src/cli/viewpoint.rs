@@ -1,9 +1,8 @@
-//! The camera and the sheet that a request means for a scene.
+//! The camera and the sheet that are meant for a scene.
 
 use std::path::Path;
 
-use super::paper::{Extent, Paper};
-use super::request::DrawRequest;
+use super::paper::{Extent, Measure, Paper};
 use crate::drawing::Unit;
 use crate::error::Error;
 use crate::scene::camera::{DEFAULT_FOV_Y_DEG, DEFAULT_FRAME_PX};
@@ -40,6 +39,14 @@ pub(super) enum Lens {
     },
 }
 
+/// The sheet that is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sheet {
+    /// Its size and unit.
+    pub(super) extent: Option<(Extent, Unit)>,
+    pub(super) margin: Option<Measure>,
+}
+
 /// The camera, the sheet, and a warning where the one does not fit the other.
 #[derive(Debug)]
 pub(super) struct Viewpoint {
@@ -53,11 +60,11 @@ pub(super) struct Viewpoint {
 /// # Errors
 /// Where the camera record is wrong, where the model has no such camera, and where the margin
 /// leaves nothing of the page.
-pub(super) fn viewpoint(request: &DrawRequest, scene: &Scene) -> Result<Viewpoint, Error> {
+pub(super) fn viewpoint(view: &View, sheet: &Sheet, scene: &Scene) -> Result<Viewpoint, Error> {
     let square = Extent { width: DEFAULT_FRAME_PX, height: DEFAULT_FRAME_PX };
-    let (extent, unit) = request.extent.unwrap_or((square, Unit::Px));
-    let (direction, lens) = match &request.view {
-        View::Recorded(name) => return recorded(request, scene, name),
+    let (extent, unit) = sheet.extent.unwrap_or((square, Unit::Px));
+    let (direction, lens) = match view {
+        View::Recorded(name) => return recorded(sheet, scene, name),
         View::Fixed(camera, paper) => return Ok(Viewpoint { camera: *camera, paper: *paper, warning: None }),
         View::Named(view, lens) => {
             (Camera::named(*view, scene.up), lens.unwrap_or(Lens::Orthographic { scale: None }))
@@ -71,7 +78,7 @@ pub(super) fn viewpoint(request: &DrawRequest, scene: &Scene) -> Result<Viewpoin
             lens.unwrap_or(Lens::Perspective { fov_y_deg: DEFAULT_FOV_Y_DEG }),
         ),
     };
-    let paper = Paper::new(extent, unit, request.margin)?;
+    let paper = Paper::new(extent, unit, sheet.margin)?;
     let (width, height) = paper.frame();
     let projection = match lens {
         Lens::Perspective { fov_y_deg } => Projection::Perspective { fov_y_deg },
@@ -109,11 +116,11 @@ fn model_mm(scene: &Scene) -> f64 {
 }
 
 /// A camera of a file: it keeps its own frame unless a sheet is asked for.
-fn recorded(request: &DrawRequest, scene: &Scene, name: &str) -> Result<Viewpoint, Error> {
+fn recorded(sheet: &Sheet, scene: &Scene, name: &str) -> Result<Viewpoint, Error> {
     let camera = open_camera(scene, name)?;
     let own = (Extent { width: camera.width, height: camera.height }, Unit::Px);
-    let (extent, unit) = request.extent.unwrap_or(own);
-    let paper = Paper::new(extent, unit, request.margin)?;
+    let (extent, unit) = sheet.extent.unwrap_or(own);
+    let paper = Paper::new(extent, unit, sheet.margin)?;
     let (width, height) = paper.frame();
     Ok(Viewpoint { camera: camera.with_frame(width, height), paper, warning: None })
 }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Told;
 use super::sides::Pairing;
+use super::told::Told;
 use crate::cli::output::{Format, Output, Staging, check_place};
 use crate::cli::pipeline;
 use crate::diff::{Diff, View};

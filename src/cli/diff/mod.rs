@@ -4,6 +4,7 @@ mod folders;
 mod images;
 mod sides;
 mod tell;
+mod told;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -12,10 +13,11 @@ use clap::Args;
 
 use self::images::Images;
 use self::sides::Pairing;
+use self::told::Told;
 use super::draw_args::HowArgs;
 use super::output::Staging;
 use super::{DIFFERENCES, pipeline, print};
-use crate::diff::{self, Diff, DiffOptions, Tolerances, View};
+use crate::diff::{self, DiffOptions, Tolerances, View};
 use crate::error::Error;
 
 const EXAMPLES: &str = "Examples:
@@ -71,20 +73,6 @@ pub(super) struct DiffArgs {
 
 fn tolerances(text: &str) -> Result<Tolerances, String> {
     Tolerances::parse(text).map_err(|error| error.to_string())
-}
-
-/// What became of one drawing.
-enum Told {
-    /// It is in both.
-    Both(Box<Diff>),
-    /// It is in one folder only, the first or the second.
-    Only(usize),
-}
-
-impl Told {
-    fn is_same(&self) -> bool {
-        matches!(self, Self::Both(diff) if diff.is_same())
-    }
 }
 
 /// Compares, tells, and draws what differs.

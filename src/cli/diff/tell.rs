@@ -4,8 +4,9 @@ use std::io::IsTerminal;
 
 use serde_json::{Value, json};
 
+use super::DiffArgs;
 use super::sides::Pairing;
-use super::{DiffArgs, Told};
+use super::told::Told;
 use crate::diff::Verdict;
 
 /// Lines for people. One drawing is told by its findings; of many, each that differs has a heading.
