@@ -3,6 +3,7 @@
 pub mod dice;
 pub mod eye;
 pub mod hard_scenes;
+pub mod imports;
 pub mod ink;
 pub mod judge;
 pub mod mesh_file;

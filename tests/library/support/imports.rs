@@ -1,0 +1,192 @@
+//! Which file imports which: `use` and paths read from source code, names followed to the file that defines them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Names from the root of the crate down.
+type Path = Vec<String>;
+
+/// A file of a crate.
+pub struct File {
+    /// Its place under `src/`, with `/`.
+    pub place: String,
+    /// Its code, without comments and tests.
+    pub code: String,
+}
+
+/// The files that each file imports something of, by their places.
+///
+/// Where a module imports a name, whoever takes the name from there imports the file that defines it. A `mod.rs`
+/// may make names of its children public, and call the children by their paths: that is what it is for.
+pub fn imports(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
+    let scope = Scope::new(files);
+    let of_file = |file: &'_ File| {
+        let own = module(&file.place);
+        let is_front = ["mod.rs", "lib.rs"].iter().any(|name| file.place.ends_with(name));
+        let (uses, rest) = split(&file.code);
+        let used = uses.into_iter().filter(|used| !(is_front && used.is_public)).map(|used| used.path);
+        used.chain(paths(&rest))
+            .filter_map(|path| scope.file(&scope.absolute(&own, &path)?, MOST_HOPS))
+            .filter(|other| *other != file.place)
+            .collect()
+    };
+    files.iter().map(|file| (&*file.place, of_file(file))).collect()
+}
+
+/// Circles of files each of which imports the next, and the last one the first; some of those that share an import
+/// with another may be missing.
+pub fn circles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'a str>> {
+    let mut rest = imports.clone();
+    let mut found = Vec::new();
+    loop {
+        // What imports nothing of the rest is in no circle.
+        let is_leaf = |others: &BTreeSet<&str>| others.iter().all(|other| !rest.contains_key(other));
+        let leaves: Vec<&str> = rest.iter().filter(|(_, to)| is_leaf(to)).map(|(file, _)| *file).collect();
+        if !leaves.is_empty() {
+            rest.retain(|file, _| !leaves.contains(file));
+            continue;
+        }
+        let Some((first, _)) = rest.first_key_value() else { return found };
+        let mut way = vec![*first];
+        loop {
+            let last = way[way.len() - 1];
+            let next = *rest[last].iter().find(|other| rest.contains_key(*other)).unwrap();
+            if let Some(start) = way.iter().position(|file| *file == next) {
+                found.push(way.split_off(start));
+                rest.get_mut(last).unwrap().remove(next);
+                break;
+            }
+            way.push(next);
+        }
+    }
+}
+
+/// No name goes through more modules than this before it is defined.
+const MOST_HOPS: usize = 8;
+
+/// The modules of a crate and the names that they import.
+struct Scope<'a> {
+    files: BTreeMap<Path, &'a str>,
+    names: BTreeMap<Path, Path>,
+}
+
+impl<'a> Scope<'a> {
+    fn new(files: &'a [File]) -> Self {
+        let places = files.iter().map(|file| (module(&file.place), &*file.place)).collect();
+        let mut scope = Self { files: places, names: BTreeMap::new() };
+        // A second look finds what is imported by way of names that the first has found.
+        for _ in 0..2 {
+            for file in files {
+                let own = module(&file.place);
+                for used in split(&file.code).0 {
+                    let name = [&own[..], &[used.name]].concat();
+                    if let Some(path) = scope.absolute(&own, &used.path).filter(|path| *path != name) {
+                        scope.names.insert(name, path);
+                    }
+                }
+            }
+        }
+        scope
+    }
+
+    /// A path in a module from the root of the crate; none if it leads to another crate.
+    fn absolute(&self, own: &[String], path: &[String]) -> Option<Path> {
+        let supers = path.iter().take_while(|name| *name == "super").count();
+        let (start, rest) = match path.first()?.as_str() {
+            "crate" => (&own[..0], &path[1..]),
+            "self" => (own, &path[1..]),
+            "super" => (&own[..own.len().checked_sub(supers)?], &path[supers..]),
+            first => {
+                let inner = [own, &[first.to_owned()]].concat();
+                let is_here = self.files.contains_key(&inner) || self.names.contains_key(&inner);
+                (is_here.then_some(own)?, path)
+            }
+        };
+        Some([start, rest].concat())
+    }
+
+    /// The file that defines what a path from the root leads to.
+    fn file(&self, path: &[String], hops: usize) -> Option<&'a str> {
+        let is_module = |count: &usize| self.files.contains_key(&path[..*count]);
+        let known = (0..=path.len()).rev().find(is_module)?;
+        let beyond = (known + 1).min(path.len());
+        match self.names.get(&path[..beyond]).filter(|_| hops > 0 && known < path.len()) {
+            Some(meant) => self.file(&[meant, &path[beyond..]].concat(), hops - 1),
+            None => self.files.get(&path[..known]).copied(),
+        }
+    }
+}
+
+/// The module that a file is.
+fn module(place: &str) -> Path {
+    let mut path: Path = place.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
+    path.pop_if(|last| ["mod", "lib"].contains(&last.as_str()));
+    path
+}
+
+/// A name that is imported.
+struct Used {
+    path: Path,
+    /// What it is called from then on.
+    name: String,
+    is_public: bool,
+}
+
+/// What is imported by `use`, and the code without that.
+fn split(code: &str) -> (Vec<Used>, String) {
+    let (mut uses, mut others) = (Vec::new(), String::new());
+    let mut rest = code;
+    while let Some(line) = rest.split_inclusive('\n').next() {
+        let bare = line.trim_start();
+        let public = bare.strip_prefix("pub").and_then(|after| after.split_once("use "));
+        let public = public.filter(|(between, _)| between.trim().is_empty() || between.ends_with(") "));
+        let tree = bare.strip_prefix("use ").or(public.map(|(_, tree)| tree));
+        let Some(tree) = tree.map(|tree| &rest[line.len() - tree.len()..]) else {
+            others.push_str(line);
+            rest = &rest[line.len()..];
+            continue;
+        };
+        let (tree, after) = tree.split_once(';').unwrap_or((tree, ""));
+        add_leaves(tree, &[], public.is_some(), &mut uses);
+        rest = after;
+    }
+    (uses, others)
+}
+
+/// Adds the names of a tree such as `a::{self, b::C as D}`, which stands behind `before`.
+fn add_leaves(tree: &str, before: &[String], is_public: bool, out: &mut Vec<Used>) {
+    let (head, list) = tree.split_once('{').map_or((tree, None), |(head, list)| (head, Some(list)));
+    let (head, alias) = head.split_once(" as ").map_or((head, None), |(head, alias)| (head, Some(alias)));
+    let names = head.split("::").map(str::trim).filter(|name| !name.is_empty());
+    // In a list `self` is what stands before it.
+    let names = names.filter(|name| before.is_empty() || *name != "self").map(str::to_owned);
+    let path: Path = before.iter().cloned().chain(names).collect();
+    let Some(list) = list else {
+        let name = alias.map(str::trim).or(path.last().map(String::as_str)).unwrap_or_default().to_owned();
+        out.push(Used { path, name, is_public });
+        return;
+    };
+    let (mut depth, mut start) = (0, 0);
+    for (at, c) in list.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth > 0 => depth -= 1,
+            ',' | '}' if depth == 0 => {
+                let inner = &list[start..at];
+                if !inner.trim().is_empty() {
+                    add_leaves(inner, &path, is_public, out);
+                }
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Paths in code that begin at the root, at the module or above it.
+fn paths(code: &str) -> Vec<Path> {
+    let is_of_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    code.split(|c| !is_of_path(c))
+        .filter(|path| ["crate::", "self::", "super::"].iter().any(|root| path.starts_with(root)))
+        .map(|path| path.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect())
+        .collect()
+}
