@@ -19,7 +19,7 @@ pub struct File {
 /// may make names of its children public, and call the children by their paths: that is what it is for.
 pub fn imports(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
     let scope = Scope::new(files);
-    let of_file = |file: &'_ File| {
+    let of_file = |file: &File| {
         let own = module(&file.place);
         let is_front = ["mod.rs", "lib.rs"].iter().any(|name| file.place.ends_with(name));
         let (uses, rest) = split(&file.code);
