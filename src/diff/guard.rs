@@ -4,13 +4,11 @@
 use rustc_hash::FxHashMap;
 use usvg::roxmltree::{self, Document, Node, NodeId, ParsingOptions};
 
-use super::tags;
+use super::tags::{self, DEEPEST, too_deep, too_much};
 use crate::error::Error;
 
 /// Elements of a file.
 const MOST_NODES: u32 = 8_000_000;
-/// Elements within elements, references counted.
-pub(super) const DEEPEST: usize = 256;
 /// Bytes of what is drawn, references followed, beyond the file's own.
 const MOST_REFERRED_BYTES: u64 = 200_000_000;
 /// Rules of style times elements that they are tried on.
@@ -60,16 +58,6 @@ fn declarations(style: &str) -> usize {
         true => of(style),
         false => style.split('}').map(of).sum(),
     }
-}
-
-pub(super) fn too_much(what: &str) -> Error {
-    Error::new(format!("{what} are more than is read"))
-        .remedy("save the drawing as plain SVG, without references that multiply")
-}
-
-pub(super) fn too_deep() -> Error {
-    Error::new(format!("elements nest more than {DEEPEST} deep"))
-        .remedy("ungroup the drawing, or save it as plain SVG")
 }
 
 /// The parser's message, with the place where an error has it.

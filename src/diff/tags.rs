@@ -6,9 +6,10 @@
 
 use xmlparser::{ElementEnd, EntityDefinition, StrSpan, Token, Tokenizer};
 
-use super::guard::{DEEPEST, too_deep, too_much};
 use crate::error::Error;
 
+/// Elements within elements, references counted.
+pub(super) const DEEPEST: usize = 256;
 /// Attributes of one element: the parser compares each with each.
 const MOST_ATTRIBUTES: usize = 512;
 /// Comparisons of names with the namespaces that are in scope.
@@ -170,6 +171,16 @@ fn in_words(error: xmlparser::Error) -> Error {
     Error::new(format!("is not well-formed XML: {message}"))
         .at(format!("line {}, column {}", place.row, place.col))
         .remedy("give a whole SVG file")
+}
+
+pub(super) fn too_much(what: &str) -> Error {
+    Error::new(format!("{what} are more than is read"))
+        .remedy("save the drawing as plain SVG, without references that multiply")
+}
+
+pub(super) fn too_deep() -> Error {
+    Error::new(format!("elements nest more than {DEEPEST} deep"))
+        .remedy("ungroup the drawing, or save it as plain SVG")
 }
 
 #[cfg(test)]
