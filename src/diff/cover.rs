@@ -7,7 +7,7 @@ use kurbo::Point;
 use rayon::prelude::*;
 
 use super::chain::Chain;
-use super::grid::Grid;
+use super::grid::SegmentCells;
 use super::groups::{Groups, Likeness};
 
 /// Stretches of a chain shorter than this many tolerances, between two that are alike, are what lines leave that
@@ -18,7 +18,7 @@ const ROUNDING_PX: f64 = 1e-7;
 
 /// A stretch of a chain, by arc length in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Run {
+pub(super) struct Stretch {
     pub from: f64,
     pub to: f64,
     /// The best of what lies there in the other drawing; `None` where nothing does.
@@ -27,7 +27,7 @@ pub(super) struct Run {
     pub partner: u32,
 }
 
-impl Run {
+impl Stretch {
     pub(super) fn length(&self) -> f64 {
         self.to - self.from
     }
@@ -37,7 +37,7 @@ impl Run {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cover {
     /// From its start to its end, without gaps.
-    pub runs: Vec<Run>,
+    pub runs: Vec<Stretch>,
     /// The chains that cover it, the one with the longest stretch first; each with the best likeness that it has anywhere, and
     /// the length that it covers.
     pub partners: Vec<(u32, Likeness, f64)>,
@@ -50,7 +50,7 @@ pub(super) struct Cover {
 impl Cover {
     /// Length of what nothing covers.
     pub(super) fn bare(&self) -> f64 {
-        self.runs.iter().filter(|run| run.likeness.is_none()).map(Run::length).sum()
+        self.runs.iter().filter(|run| run.likeness.is_none()).map(Stretch::length).sum()
     }
 
     /// Whether something covers all of it.
@@ -85,7 +85,7 @@ impl Cover {
 }
 
 /// What of `others`, which are sorted into `grid`, covers each of the chains.
-pub(super) fn cover(chains: &[Chain], others: &[Chain], grid: &Grid, groups: &Groups) -> Vec<Cover> {
+pub(super) fn cover(chains: &[Chain], others: &[Chain], grid: &SegmentCells, groups: &Groups) -> Vec<Cover> {
     chains
         .par_iter()
         .map_init(Scratch::default, |scratch, chain| one(chain, others, grid, groups, scratch))
@@ -108,7 +108,13 @@ struct Interval {
     partner: u32,
 }
 
-fn one(chain: &Chain, others: &[Chain], grid: &Grid, groups: &Groups, scratch: &mut Scratch) -> Cover {
+fn one(
+    chain: &Chain,
+    others: &[Chain],
+    grid: &SegmentCells,
+    groups: &Groups,
+    scratch: &mut Scratch,
+) -> Cover {
     let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
     let mut cover = Cover { length: chain.length(), ..Cover::default() };
     cover.dot = cover.length == 0.0;
@@ -152,11 +158,11 @@ fn one(chain: &Chain, others: &[Chain], grid: &Grid, groups: &Groups, scratch: &
 }
 
 /// Runs from `start` to `end`: at every place the best of the intervals that cover it.
-fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Run>) {
+fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Stretch>) {
     if start == end {
         // A dot is covered or not.
         let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner));
-        out.push(Run {
+        out.push(Stretch {
             from: start,
             to: end,
             likeness: best.map(|best| best.likeness),
@@ -180,7 +186,7 @@ fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Run>) {
                 rest.push((from, to));
                 continue;
             }
-            out.push(Run {
+            out.push(Stretch {
                 from: low,
                 to: high,
                 likeness: Some(interval.likeness),
@@ -190,12 +196,12 @@ fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Run>) {
         }
         free = rest;
     }
-    out.extend(free.into_iter().map(|(from, to)| Run { from, to, likeness: None, partner: 0 }));
+    out.extend(free.into_iter().map(|(from, to)| Stretch { from, to, likeness: None, partner: 0 }));
     out[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
 }
 
 /// Joins neighbours of one likeness and one partner.
-fn merge(runs: &mut Vec<Run>) {
+fn merge(runs: &mut Vec<Stretch>) {
     runs.dedup_by(|next, run| {
         let alike = next.likeness == run.likeness && (next.partner == run.partner || run.likeness.is_none());
         if alike {
@@ -206,7 +212,7 @@ fn merge(runs: &mut Vec<Run>) {
 }
 
 /// Gives short runs between two of one likeness to these.
-fn absorb(runs: &mut Vec<Run>, most: f64, gives: impl Fn(&Run, &Run) -> bool) {
+fn absorb(runs: &mut Vec<Stretch>, most: f64, gives: impl Fn(&Stretch, &Stretch) -> bool) {
     let mut index = 1;
     while index + 1 < runs.len() {
         let (before, run, after) = (runs[index - 1], runs[index], runs[index + 1]);

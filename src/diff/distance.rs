@@ -3,7 +3,7 @@
 use kurbo::Point;
 
 use super::chain::Chain;
-use super::grid::{Grid, nearest_on};
+use super::grid::{SegmentCells, nearest_on};
 use crate::math::tolerance::DISTANCE_SHARE;
 
 /// Polylines of more segments are searched by a grid.
@@ -66,12 +66,12 @@ pub(super) fn places(chain: &Chain, count: usize) -> impl Iterator<Item = Point>
 /// A chain that is asked for its nearest point.
 pub(super) struct Near<'a> {
     chain: &'a Chain,
-    grid: Option<Grid>,
+    grid: Option<SegmentCells>,
 }
 
 impl<'a> Near<'a> {
     pub(super) fn new(chain: &'a Chain) -> Self {
-        let grid = (chain.points.len() > FEW).then(|| Grid::new(std::slice::from_ref(chain)));
+        let grid = (chain.points.len() > FEW).then(|| SegmentCells::new(std::slice::from_ref(chain)));
         Self { chain, grid }
     }
 

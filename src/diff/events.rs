@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::chain::Chain;
-use super::cover::{Cover, Run};
+use super::cover::{Cover, Stretch};
 use super::distance::apart;
 use super::finding::Verdict;
 use super::groups::{Groups, Likeness};
@@ -209,7 +209,7 @@ fn bare(chain: &Chain, cover: &Cover) -> BezPath {
     stretches(chain, cover, |run| run.likeness.is_none())
 }
 
-fn stretches(chain: &Chain, cover: &Cover, wanted: impl Fn(&Run) -> bool) -> BezPath {
+fn stretches(chain: &Chain, cover: &Cover, wanted: impl Fn(&Stretch) -> bool) -> BezPath {
     let runs = cover.runs.iter().filter(|run| wanted(run));
     runs.flat_map(|run| stretch(chain, run.from, run.to).into_iter().collect::<Vec<_>>()).collect()
 }

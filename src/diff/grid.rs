@@ -1,4 +1,4 @@
-//! [`Grid`]: the segments of chains by place, for asking what is near.
+//! [`SegmentCells`]: the segments of chains by place, for asking what is near.
 
 use kurbo::Point;
 
@@ -20,7 +20,7 @@ pub(super) struct Segment {
 
 /// Segments sorted into square cells.
 #[derive(Debug)]
-pub(super) struct Grid {
+pub(super) struct SegmentCells {
     pub segments: Vec<Segment>,
     origin: Point,
     cell: f64,
@@ -31,7 +31,7 @@ pub(super) struct Grid {
     items: Vec<u32>,
 }
 
-impl Grid {
+impl SegmentCells {
     /// Sorts the segments of chains.
     pub(super) fn new(chains: &[Chain]) -> Self {
         let segments: Vec<Segment> = chains
@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn what_is_near_is_found_as_by_asking_all() {
         let chains = scattered(400, 7);
-        let grid = Grid::new(&chains);
+        let grid = SegmentCells::new(&chains);
         let mut found = Vec::new();
         for chain in scattered(60, 9) {
             let (from, to) = (chain.points[0], chain.points[1]);
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn rings_find_the_nearest() {
         let chains = scattered(300, 11);
-        let grid = Grid::new(&chains);
+        let grid = SegmentCells::new(&chains);
         for chain in scattered(80, 13) {
             let p = chain.points[0];
             let distance = |s: &Segment| p.distance(nearest_on(s.from, s.to, p));

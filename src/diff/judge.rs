@@ -8,7 +8,7 @@ use super::cover::cover;
 use super::events::{Event, events};
 use super::exact;
 use super::finding::{Change, Diff, Finding, Place, Stage, Verdict};
-use super::grid::Grid;
+use super::grid::SegmentCells;
 use super::groups::Groups;
 use super::ink::trimmed;
 use super::label::Label;
@@ -81,7 +81,7 @@ fn findings(
         chain::of(before, &rest[0], &groups.of_shape[0], groups),
         chain::of(after, &rest[1], &groups.of_shape[1], groups),
     ];
-    let grids = [Grid::new(&chains[0]), Grid::new(&chains[1])];
+    let grids = [SegmentCells::new(&chains[0]), SegmentCells::new(&chains[1])];
     let covers =
         [cover(&chains[0], &chains[1], &grids[1], groups), cover(&chains[1], &chains[0], &grids[0], groups)];
     let [a, b] = chains;

@@ -9,7 +9,7 @@ use super::align::{Alignment, align};
 use super::chain::Chain;
 use super::cover::Cover;
 use super::distance::places;
-use super::grid::{Grid, nearest_on};
+use super::grid::{SegmentCells, nearest_on};
 use super::groups::{Groups, Likeness};
 
 /// A mark is sought no farther than this part of the page's longer side from where it was.
@@ -56,7 +56,7 @@ pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
         let other = 1 - side;
         let targets: Vec<Chain> =
             bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
-        let grid = Grid::new(&targets);
+        let grid = SegmentCells::new(&targets);
         let of = |index: &usize| {
             let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
             let chain = &sides[side].chains[*index];
@@ -97,7 +97,7 @@ fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
 }
 
 /// Uncovered chains of the other side that lie near.
-fn candidates(side: &Side, index: usize, bare: &[usize], grid: &Grid, reach: f64) -> Vec<usize> {
+fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, reach: f64) -> Vec<usize> {
     let chain = &side.chains[index];
     let partners = side.covers[index].partners.iter().map(|(partner, ..)| *partner as usize);
     let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();

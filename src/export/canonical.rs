@@ -10,7 +10,7 @@ use kurbo::{BezPath, PathEl, Point};
 
 use super::number::Decimals;
 use super::path_data::Writer;
-use super::piece::{Kind, Piece, Step};
+use super::piece::{Kind, PathPiece, Step};
 
 /// What of a path makes no difference to how it is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,8 +31,8 @@ pub(crate) struct Canonical {
     /// The subpath that is being read: where it began, and its pieces.
     begun: Option<Step>,
     pen: Step,
-    pieces: Vec<Piece>,
-    turned: Vec<Piece>,
+    pieces: Vec<PathPiece>,
+    turned: Vec<PathPiece>,
     first: Option<Step>,
     lost: bool,
 }
@@ -90,7 +90,7 @@ impl Canonical {
     fn piece(&mut self, kind: Kind, c1: Step, c2: Step, to: Step) {
         // What follows a close without a move begins where that subpath began.
         self.begun.get_or_insert(self.pen);
-        let piece = Piece { from: self.pen, to, kind, c1, c2 };
+        let piece = PathPiece { from: self.pen, to, kind, c1, c2 };
         if piece.has_no_length() {
             self.lost = true;
         } else {
@@ -106,14 +106,14 @@ impl Canonical {
             self.lost |= self.pen == start && self.pieces.last().is_some_and(|last| last.kind == Kind::Line);
             if self.pen != start {
                 let none = Step::default();
-                let closing = Piece { from: self.pen, to: start, kind: Kind::Line, c1: none, c2: none };
+                let closing = PathPiece { from: self.pen, to: start, kind: Kind::Line, c1: none, c2: none };
                 self.pieces.push(closing);
             }
         }
         match (self.form, closed) {
             (Form::Kept, _) | (Form::Filled, false) => {}
             (Form::Stroked, false) => {
-                let backwards = self.pieces.iter().rev().map(Piece::reversed);
+                let backwards = self.pieces.iter().rev().map(PathPiece::reversed);
                 if backwards.cmp(self.pieces.iter().copied()) == Ordering::Less {
                     self.pieces.reverse();
                     self.pieces.iter_mut().for_each(|piece| *piece = piece.reversed());
@@ -122,7 +122,7 @@ impl Canonical {
             (Form::Filled, true) => rotate(&mut self.pieces),
             (Form::Stroked, true) => {
                 self.turned.clear();
-                self.turned.extend(self.pieces.iter().rev().map(Piece::reversed));
+                self.turned.extend(self.pieces.iter().rev().map(PathPiece::reversed));
                 rotate(&mut self.pieces);
                 rotate(&mut self.turned);
                 if self.turned < self.pieces {
@@ -140,7 +140,7 @@ impl Canonical {
 }
 
 /// Turns a closed subpath until it is the least of all that it may be: it begins at its least point then.
-fn rotate(pieces: &mut [Piece]) {
+fn rotate(pieces: &mut [PathPiece]) {
     let turns = least_rotation(pieces);
     pieces.rotate_left(turns);
 }

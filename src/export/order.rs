@@ -103,25 +103,25 @@ fn form(mark: &Mark, ordered: bool) -> Form {
 }
 
 /// Neighbours that are painted alike.
-pub(super) struct Run {
+pub(super) struct AlikeMarks {
     /// Which of the marks, in the order that they are written in.
     pub range: Range<usize>,
     pub attributes: Attributes,
 }
 
 /// The runs of marks that are painted alike.
-pub(super) fn runs(marks: &[&Mark]) -> Vec<Run> {
+pub(super) fn runs(marks: &[&Mark]) -> Vec<AlikeMarks> {
     let mut at = 0;
     let run = |run: &[&Mark]| {
         let range = at..at + run.len();
         at = range.end;
-        Some(Run { range, attributes: Attributes::of(run.first()?) })
+        Some(AlikeMarks { range, attributes: Attributes::of(run.first()?) })
     };
     marks.chunk_by(|a, b| alike(a, b)).filter_map(run).collect()
 }
 
 /// The order that marks are written in: those of a run by name, start and path.
-pub(super) fn sorted(marks: &[&Mark], runs: &[Run], paths: &Paths) -> Vec<usize> {
+pub(super) fn sorted(marks: &[&Mark], runs: &[AlikeMarks], paths: &Paths) -> Vec<usize> {
     let mut order: Vec<usize> = (0..marks.len()).collect();
     let ranks = ranks(marks);
     let key = |mark: usize| (ranks.get(mark), paths.places.get(mark).map(|place| place.start));

@@ -4,7 +4,7 @@
 //! rounded ones: rounding does not add up along a path.
 
 use super::number::Decimals;
-use super::piece::{Kind, Piece, Step};
+use super::piece::{Kind, PathPiece, Step};
 
 /// Writes the `d` of one path, subpath by subpath.
 pub(super) struct Writer<'a> {
@@ -30,7 +30,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes a subpath whose pieces all have a length; those of a closed one lead back to its start.
-    pub fn subpath(&mut self, start: Step, pieces: &[Piece], closed: bool) {
+    pub fn subpath(&mut self, start: Step, pieces: &[PathPiece], closed: bool) {
         self.move_to(start);
         let drawn = match pieces {
             // Closing draws this line.

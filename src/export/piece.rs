@@ -1,4 +1,4 @@
-//! [`Piece`]: a piece of a path, rounded to steps of the written precision.
+//! [`PathPiece`]: a piece of a path, rounded to steps of the written precision.
 
 /// A point in steps of the written precision; of two the upper one is less, and of those as high the left one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
@@ -19,7 +19,7 @@ pub(super) enum Kind {
 
 /// A piece of a path. The order of its fields is that in which pieces are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Piece {
+pub(super) struct PathPiece {
     pub from: Step,
     pub to: Step,
     pub kind: Kind,
@@ -29,7 +29,7 @@ pub(super) struct Piece {
     pub c2: Step,
 }
 
-impl Piece {
+impl PathPiece {
     /// The piece run through from its end.
     pub fn reversed(&self) -> Self {
         let (c1, c2) = if self.kind == Kind::Cubic { (self.c2, self.c1) } else { (self.c1, self.c2) };

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::attributes::{Attributes, WIDTH_DECIMALS, hex};
 use super::number::Decimals;
-use super::order::{self, CHUNK, Paths, Run};
+use super::order::{self, AlikeMarks, CHUNK, Paths};
 use super::xml::{Ids, escape};
 use crate::drawing::{Drawing, Layer, LayerKind, Mark, Paint, Unit};
 
@@ -260,7 +260,8 @@ impl Group<'_> {
         let Shared { common, paths, runs } = shared;
         let first = runs.partition_point(|run| run.range.end <= from);
         let to = from + chunk.len();
-        for Run { range, attributes } in runs.iter().skip(first).take_while(|run| run.range.start < to) {
+        for AlikeMarks { range, attributes } in runs.iter().skip(first).take_while(|run| run.range.start < to)
+        {
             let grouped = range.len() > 1 && !attributes.fits(common);
             if grouped && range.start >= from {
                 out.extend_from_slice(b"<g");
@@ -287,7 +288,7 @@ impl Group<'_> {
 struct Shared<'a> {
     common: Attributes,
     paths: &'a Paths,
-    runs: &'a [Run],
+    runs: &'a [AlikeMarks],
 }
 
 /// One path.

@@ -13,7 +13,7 @@ const MOST_TESTS: usize = 100_000_000;
 
 /// Whether a polygon could be cut as it should.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cut {
+pub enum CutOutcome {
     /// It was.
     Sound,
     /// It was fanned, or fanned from some corner on, because it has too many corners.
@@ -26,16 +26,16 @@ pub enum Cut {
 /// there; a larger polygon is fanned from corner 0 where it is convex seen along its normal, and
 /// else loses its first ear until three corners are left. A polygon of n corners gives n − 2
 /// triangles, but for very large ones, which lose corners that repeat the one before.
-pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> Cut {
+pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
     match *points {
-        [] | [_] | [_, _] => Cut::Sound,
+        [] | [_] | [_, _] => CutOutcome::Sound,
         [_, _, _] => {
             triangles.push([0, 1, 2]);
-            Cut::Sound
+            CutOutcome::Sound
         }
         [a, b, c, d] => {
             triangles.extend(quad(a, b, c, d));
-            Cut::Sound
+            CutOutcome::Sound
         }
         _ => polygon(points, triangles),
     }
@@ -49,14 +49,14 @@ pub fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
     if u.cross(v).dot(v.cross(w)) < 0.0 { [[0, 1, 3], [1, 2, 3]] } else { [[0, 1, 2], [0, 2, 3]] }
 }
 
-fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> Cut {
+fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
     let Some(flat) = flatten(points) else {
         fan(0..points.len() as u32, triangles);
-        return Cut::Sound;
+        return CutOutcome::Sound;
     };
     if is_convex(&flat) {
         fan(0..points.len() as u32, triangles);
-        return Cut::Sound;
+        return CutOutcome::Sound;
     }
     if points.len() <= MOST_CORNERS {
         return Ears::new(&flat).clip(triangles);
@@ -69,7 +69,7 @@ fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> Cut {
     }
     if kept.len() > MOST_CORNERS {
         fan(kept, triangles);
-        return Cut::TooLarge;
+        return CutOutcome::TooLarge;
     }
     let flat: Vec<DVec2> = kept.iter().filter_map(|&i| flat.get(i as usize).copied()).collect();
     let first = triangles.len();
@@ -181,12 +181,12 @@ impl Ears {
         std::iter::successors(Some(self.first), |&i| Some(self.corner(i).after)).take(self.left)
     }
 
-    fn clip(mut self, triangles: &mut Vec<[u32; 3]>) -> Cut {
+    fn clip(mut self, triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
         while self.left > 3 {
             if self.tests > MOST_TESTS {
                 let rest: Vec<u32> = self.ring().collect();
                 fan(rest, triangles);
-                return Cut::TooLarge;
+                return CutOutcome::TooLarge;
             }
             // A polygon that crosses itself may have no ear: take anything.
             let ear = self.first_ear().unwrap_or(self.first);
@@ -197,7 +197,7 @@ impl Ears {
         if let [a, b, c] = *self.ring().collect::<Vec<_>>() {
             triangles.push([a, b, c]);
         }
-        Cut::Sound
+        CutOutcome::Sound
     }
 
     fn first_ear(&mut self) -> Option<u32> {
@@ -276,7 +276,7 @@ mod tests {
 
     fn cut(points: &[DVec3]) -> Vec<[u32; 3]> {
         let mut triangles = Vec::new();
-        assert_eq!(triangulate(points, &mut triangles), Cut::Sound);
+        assert_eq!(triangulate(points, &mut triangles), CutOutcome::Sound);
         triangles
     }
 
@@ -394,11 +394,11 @@ mod tests {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let points: Vec<_> = (0..60_000).map(|i| corners[i % 3]).collect();
         let mut triangles = Vec::new();
-        assert_eq!(triangulate(&points, &mut triangles), Cut::Sound);
+        assert_eq!(triangulate(&points, &mut triangles), CutOutcome::Sound);
         triangles.clear();
         // A corner that juts in makes it concave.
         let jagged: Vec<_> = points.iter().copied().chain([DVec3::new(0.1, 0.2, 0.0)]).collect();
-        assert_eq!(triangulate(&jagged, &mut triangles), Cut::TooLarge);
+        assert_eq!(triangulate(&jagged, &mut triangles), CutOutcome::TooLarge);
         assert_eq!(triangles.len(), jagged.len() - 2);
         // Corners that only repeat do not count.
         let ell = [(2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0)];

@@ -16,7 +16,7 @@ use ligne::render::Prepared;
 use ligne::scene::{Camera, Geometry, NamedView, Scene};
 use ligne::stages::hatch::{self, HatchContext, HatchOptions, HatchStroke, Tone};
 use ligne::stages::mesh::{FaceId, MaterialId, Mesh, PaintId, PartId};
-use ligne::stages::region::ground::{Cell, Piece};
+use ligne::stages::region::ground::{BorderPiece, Cell};
 use ligne::stages::region::{Ground, Look};
 use ligne::stages::stroke::Ink;
 use ligne::{Drawing, Style, SvgOptions, render};
@@ -30,8 +30,11 @@ fn patch(bin: u16) -> Ground {
         Look { part: PartId(0), material: MaterialId(0), paint: PaintId(0), tone: 0, bin, cast: false };
     let cells = vec![Cell { look, facet: 0, area: 0.0 }, Cell { look, facet: 1, area: SIDE * SIDE }];
     let corners = [(0.0, 0.0), (SIDE, 0.0), (SIDE, SIDE), (0.0, SIDE)].map(|(x, y)| Point::new(x, y));
-    let side =
-        |k: usize| Piece { ends: [corners[k], corners[(k + 1) % 4]], sides: [1, 0], parts_surfaces: true };
+    let side = |k: usize| BorderPiece {
+        ends: [corners[k], corners[(k + 1) % 4]],
+        sides: [1, 0],
+        parts_surfaces: true,
+    };
     Ground::of_pieces(cells, (0..4).map(side).collect())
 }
 

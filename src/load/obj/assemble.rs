@@ -4,7 +4,7 @@ use glam::DAffine3;
 use rustc_hash::FxHashMap;
 
 use super::library;
-use super::statements::{NONE, Object, Run, Statements};
+use super::statements::{FaceGroup, NONE, Object, Statements};
 use crate::load::text::decode;
 use crate::math::colour::linear;
 use crate::scene::beside::stays_inside;
@@ -20,7 +20,7 @@ pub(super) fn scene(
     let materials = materials(&statements, library, &mut warnings);
     let mut scene = Scene { format: "OBJ", up: UpAxis::Y, materials, warnings, ..Scene::default() };
 
-    let mut runs: Vec<Vec<Run>> = vec![Vec::new(); statements.objects.len()];
+    let mut runs: Vec<Vec<FaceGroup>> = vec![Vec::new(); statements.objects.len()];
     // Parts come in the order of their first face.
     let mut order = Vec::new();
     for run in std::mem::take(&mut statements.runs) {
@@ -129,8 +129,8 @@ fn rgba([r, g, b]: [f32; 3]) -> [f32; 4] {
     [linear(r), linear(g), linear(b), 1.0]
 }
 
-fn assign_materials(geometry: &mut Geometry, runs: &[Run], unnamed: u32) {
-    let id = |run: &Run| run.material.map_or(unnamed, |m| m as u32);
+fn assign_materials(geometry: &mut Geometry, runs: &[FaceGroup], unnamed: u32) {
+    let id = |run: &FaceGroup| run.material.map_or(unnamed, |m| m as u32);
     let first = runs.first().and_then(|run| run.material);
     if runs.iter().all(|run| run.material == first) && first.is_none() {
         return;
@@ -188,7 +188,7 @@ impl<'a> Split<'a> {
         }
     }
 
-    fn geometry(&mut self, runs: &[Run]) -> Geometry {
+    fn geometry(&mut self, runs: &[FaceGroup]) -> Geometry {
         let from = self.statements;
         let mut triangles = gather(&from.triangles, runs);
         let mut wires: Vec<[u32; 2]> =
@@ -222,7 +222,7 @@ impl<'a> Split<'a> {
 }
 
 /// The corners of the triangles of some runs; none where the file has none.
-fn gather(all: &[[u32; 3]], runs: &[Run]) -> Vec<[u32; 3]> {
+fn gather(all: &[[u32; 3]], runs: &[FaceGroup]) -> Vec<[u32; 3]> {
     let count = runs.iter().map(|run| run.triangles.len()).sum();
     let mut corners = Vec::with_capacity(if all.is_empty() { 0 } else { count });
     if all.is_empty() {

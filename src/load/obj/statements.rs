@@ -21,7 +21,7 @@ type Corner = [u32; 3];
 
 /// Triangles and wires that follow one another in the same part with the same material.
 #[derive(Debug, Clone)]
-pub(super) struct Run {
+pub(super) struct FaceGroup {
     /// Index into `objects`.
     pub object: usize,
     /// Index into `materials`, if `usemtl` came before.
@@ -52,7 +52,7 @@ pub(super) struct Statements<'a> {
     pub corner_uvs: Vec<[u32; 3]>,
     pub corner_normals: Vec<[u32; 3]>,
     pub wires: Vec<[u32; 2]>,
-    pub runs: Vec<Run>,
+    pub runs: Vec<FaceGroup>,
     pub objects: Vec<Object<'a>>,
     /// Names of `usemtl`, each once, in order of first use.
     pub materials: Vec<&'a [u8]>,
@@ -269,7 +269,7 @@ impl<'a> Parser<'a> {
             self.out.runs.last().map_or((0, 0), |run| (run.triangles.end, run.wires.end));
         let (triangles, wires) = (triangles..self.out.triangles.len(), wires..self.out.wires.len());
         if !triangles.is_empty() || !wires.is_empty() {
-            self.out.runs.push(Run { object: self.object, material: self.material, triangles, wires });
+            self.out.runs.push(FaceGroup { object: self.object, material: self.material, triangles, wires });
         }
     }
 

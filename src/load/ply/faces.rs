@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::body::{Body, Row, place};
 use super::header::{Element, Encoding, Scalar};
 use crate::error::Error;
-use crate::load::polygon::{self, Cut};
+use crate::load::polygon::{self, CutOutcome};
 use crate::scene::coordinate::is_drawable;
 use crate::scene::warnings::Warnings;
 
@@ -130,7 +130,7 @@ impl<'a> Faces<'a> {
             return;
         }
         self.cut.clear();
-        if polygon::triangulate(&self.points, &mut self.cut) == Cut::TooLarge {
+        if polygon::triangulate(&self.points, &mut self.cut) == CutOutcome::TooLarge {
             self.warnings.count("concave polygons with too many corners, cut roughly", 1);
         }
         let id = |corner: u32| corners.get(corner as usize).copied().unwrap_or_default();

@@ -33,7 +33,7 @@ const ABREAST: f64 = 0.3;
 
 /// A piece of a visible line in a bucket of the page.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct LinePiece {
     line: u32,
     a: Point,
     b: Point,
@@ -57,7 +57,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
     if suspects.is_empty() {
         return;
     }
-    let mut pieces: Vec<Piece> = Vec::new();
+    let mut pieces: Vec<LinePiece> = Vec::new();
     let mut spans: Vec<usize> = vec![0];
     let mut lengths: Vec<f64> = Vec::with_capacity(raws.len());
     for (i, raw) in raws.iter().enumerate() {
@@ -118,7 +118,7 @@ fn is_suspect(raw: &Raw) -> bool {
 }
 
 /// The pieces of a line, with the direction each has over a few distances.
-fn collect(index: u32, line: &Line, distance: f64, pieces: &mut Vec<Piece>) {
+fn collect(index: u32, line: &Line, distance: f64, pieces: &mut Vec<LinePiece>) {
     let n = line.len();
     let sides = if line.closed { n } else { n - 1 };
     let reach = WINDOW * distance / 2.0;
@@ -133,12 +133,12 @@ fn collect(index: u32, line: &Line, distance: f64, pieces: &mut Vec<Piece>) {
             high += 1;
         }
         let direction = super::fit::unit(line.points[high % n] - line.points[low]);
-        pieces.push(Piece { line: index, a, b, direction });
+        pieces.push(LinePiece { line: index, a, b, direction });
     }
 }
 
 impl Buckets {
-    fn new(pieces: &[Piece], cell: f64) -> Option<Self> {
+    fn new(pieces: &[LinePiece], cell: f64) -> Option<Self> {
         let ends = || pieces.iter().flat_map(|p| [p.a, p.b]);
         let mut low = ends().next()?;
         let mut high = low;
@@ -201,7 +201,7 @@ impl Buckets {
     /// Whether a parallel piece of an admitted line runs beside `point` within `distance`.
     fn beside(
         &self,
-        pieces: &[Piece],
+        pieces: &[LinePiece],
         point: Point,
         direction: Vec2,
         distance: f64,
@@ -221,7 +221,7 @@ impl Buckets {
     }
 }
 
-impl Piece {
+impl LinePiece {
     /// Whether a point lies beside the piece rather than ahead of it or behind, but for `slack`.
     fn is_abreast(&self, point: Point, slack: f64) -> bool {
         let side = self.b - self.a;

@@ -9,7 +9,7 @@ use crate::viewmap::{Ahead, ViewMap, Way};
 
 /// A stretch of a route over which something stays the same.
 #[derive(Debug, Clone, Copy)]
-struct Run {
+struct Stretch {
     first: usize,
     end: usize,
     length: f64,
@@ -87,11 +87,11 @@ impl Gap {
 
 /// The runs of equal value along a route. In a closed route the first run may begin before the
 /// route's start: its `end` then exceeds the number of steps.
-fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bool) -> Vec<Run> {
+fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bool) -> Vec<Stretch> {
     let n = steps.len();
     let start =
         if closed { (1..n).find(|k| value(&steps[*k]) != value(&steps[k - 1])).unwrap_or(0) } else { 0 };
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<Stretch> = Vec::new();
     for k in start..start + n {
         let step = &steps[k % n];
         let (now, length) = (value(step), step.length(map));
@@ -100,7 +100,7 @@ fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bo
                 run.end = k + 1;
                 run.length += length;
             }
-            _ => runs.push(Run { first: k, end: k + 1, length, value: now }),
+            _ => runs.push(Stretch { first: k, end: k + 1, length, value: now }),
         }
     }
     runs

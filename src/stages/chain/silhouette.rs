@@ -6,7 +6,7 @@ use crate::math::plane::length;
 
 /// A stretch of a line, from one side to another, that is silhouette or is not.
 #[derive(Debug, Clone, Copy)]
-struct Run {
+struct Stretch {
     first: usize,
     end: usize,
     length: f64,
@@ -45,8 +45,8 @@ fn with_silhouette(raw: &Raw, line: Line, silhouette: bool) -> Raw {
     part
 }
 
-fn runs(line: &Line) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+fn runs(line: &Line) -> Vec<Stretch> {
+    let mut runs: Vec<Stretch> = Vec::new();
     for i in 0..line.len() - 1 {
         let (value, side) = (line.silhouette[i], length(line.points[i + 1] - line.points[i]));
         match runs.last_mut() {
@@ -54,14 +54,14 @@ fn runs(line: &Line) -> Vec<Run> {
                 run.end = i + 1;
                 run.length += side;
             }
-            _ => runs.push(Run { first: i, end: i + 1, length: side, value }),
+            _ => runs.push(Stretch { first: i, end: i + 1, length: side, value }),
         }
     }
     runs
 }
 
 /// Joins the shortest run to its neighbours until all are long enough.
-fn even(mut runs: Vec<Run>, shortest: f64) -> Vec<Run> {
+fn even(mut runs: Vec<Stretch>, shortest: f64) -> Vec<Stretch> {
     while runs.len() > 1 {
         let least = (0..runs.len()).min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)).unwrap_or(0);
         if runs[least].length >= shortest {
@@ -70,7 +70,7 @@ fn even(mut runs: Vec<Run>, shortest: f64) -> Vec<Run> {
         let low = least.saturating_sub(1);
         let high = (least + 1).min(runs.len() - 1);
         let value = if low == least { runs[high].value } else { runs[low].value };
-        let joined = Run {
+        let joined = Stretch {
             first: runs[low].first,
             end: runs[high].end,
             length: runs[low..=high].iter().map(|r| r.length).sum(),

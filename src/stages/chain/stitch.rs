@@ -46,8 +46,8 @@ struct Stitch {
     cost: f64,
     a: usize,
     b: usize,
-    cut_a: Cut,
-    cut_b: Cut,
+    cut_a: SeamEnd,
+    cut_b: SeamEnd,
 }
 
 impl Stitch {
@@ -65,7 +65,7 @@ impl Stitch {
 /// What is left of a line at one end: it begins at `point` and goes on with point `next`, counted
 /// from that end.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
+struct SeamEnd {
     point: Point,
     sample: Sample,
     next: usize,
@@ -85,7 +85,7 @@ pub(super) fn stitch(
     if stitches.is_empty() {
         return raws;
     }
-    let mut link: Vec<Option<(usize, Cut)>> = vec![None; 2 * raws.len()];
+    let mut link: Vec<Option<(usize, SeamEnd)>> = vec![None; 2 * raws.len()];
     for s in stitches {
         for (end, cut) in [(s.a, s.cut_a), (s.b, s.cut_b)] {
             if cut.trimmed > 0.0 {
@@ -225,7 +225,7 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
         let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
         // A line that is mostly stub is another line.
         let eaten =
-            |walk: &Walk, cut: &Cut| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
+            |walk: &Walk, cut: &SeamEnd| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
         let consumed = trimmed > LONG_STUB * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
         // Two crumbs do not make a line by what is between them.
         let far = length(jump);
@@ -276,17 +276,17 @@ impl<'a> Walk<'a> {
     }
 
     /// The cut at part `t` of the side after point `k`.
-    fn cut(&self, k: usize, t: f64, trimmed: f64) -> Cut {
+    fn cut(&self, k: usize, t: f64, trimmed: f64) -> SeamEnd {
         let sample = |k: usize| self.line.samples[self.index(k)];
         let point = if t > 0.0 { self.point(k).lerp(self.point(k + 1), t) } else { self.point(k) };
         let sample = if t > 0.0 { sample(k).lerp(sample(k + 1), t) } else { sample(k) };
-        Cut { point, sample, next: k + 1, trimmed }
+        SeamEnd { point, sample, next: k + 1, trimmed }
     }
 
     /// The cut nearest to `p` within the first `reach` of the line, but for its very end.
-    fn nearest(&self, p: Point, reach: f64) -> Option<Cut> {
+    fn nearest(&self, p: Point, reach: f64) -> Option<SeamEnd> {
         let mut arc = 0.0;
-        let mut least: Option<(f64, Cut)> = None;
+        let mut least: Option<(f64, SeamEnd)> = None;
         for k in 0..self.line.len() - 1 {
             let (a, b) = (self.point(k), self.point(k + 1));
             let side = length(b - a);
@@ -306,13 +306,13 @@ impl<'a> Walk<'a> {
     }
 
     /// Unit direction in which the line leaves a cut.
-    fn direction(&self, cut: &Cut, window: f64) -> Vec2 {
+    fn direction(&self, cut: &SeamEnd, window: f64) -> Vec2 {
         let far = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
         super::fit::unit(self.point(far.unwrap_or(self.line.len() - 1)) - cut.point)
     }
 
     /// Whether what is cut off lies away from the beginning of the other line.
-    fn strays(&self, cut: &Cut, other: &Walk, tidy: f64) -> bool {
+    fn strays(&self, cut: &SeamEnd, other: &Walk, tidy: f64) -> bool {
         if cut.trimmed <= 0.0 {
             return false;
         }
@@ -333,7 +333,7 @@ impl<'a> Walk<'a> {
 }
 
 /// Adds a line, walked backwards or not, without what is cut off at its beginning and end.
-fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<Cut>, end: Option<Cut>) {
+fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<SeamEnd>, end: Option<SeamEnd>) {
     let n = line.len();
     let index = |k: usize| if backwards { n - 1 - k } else { k };
     let first = begin.map_or(0, |cut| cut.next);

@@ -25,7 +25,7 @@ const CHUNK: usize = 1 << 13;
 
 /// A piece of a face, all of it between two neighbouring levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Piece {
+pub struct FacePiece {
     /// The face it is cut from.
     pub face: u32,
     /// How many levels lie below it.
@@ -41,7 +41,7 @@ pub struct SurfaceCut {
     /// The level that crosses there, as an index. One per point.
     pub levels: Vec<u16>,
     /// The pieces: face by face, and those of one face from the lowest band to the highest.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<FacePiece>,
     /// The corners of all pieces, one piece after the other.
     corners: Vec<u32>,
     /// Number of vertices of the mesh.
@@ -98,7 +98,7 @@ pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) 
             Corner::Vertex(v) => smooth.vertices[*v as usize],
             Corner::Crossing(c) => (cut.vertices + crossings.partition_point(|known| known < c)) as u32,
         }));
-        cut.pieces.push(Piece { face, band, corners: first..cut.corners.len() as u32 });
+        cut.pieces.push(FacePiece { face, band, corners: first..cut.corners.len() as u32 });
     }
     cut
 }
@@ -145,7 +145,7 @@ impl SurfaceCut {
     /// The corners of a piece, in the sense of its face: vertices of the mesh, or beyond those,
     /// [`SurfaceCut::points`].
     #[must_use]
-    pub fn corners(&self, piece: &Piece) -> &[u32] {
+    pub fn corners(&self, piece: &FacePiece) -> &[u32] {
         &self.corners[piece.corners.start as usize..piece.corners.end as usize]
     }
 
@@ -159,7 +159,7 @@ impl SurfaceCut {
 
     /// The pieces of a face.
     #[must_use]
-    pub fn of_face(&self, face: u32) -> &[Piece] {
+    pub fn of_face(&self, face: u32) -> &[FacePiece] {
         let first = self.pieces.partition_point(|piece| piece.face < face);
         let rest = &self.pieces[first..];
         &rest[..rest.partition_point(|piece| piece.face == face)]
@@ -211,7 +211,7 @@ mod tests {
     }
 
     /// The area of a piece, by its corners.
-    fn area(cut: &SurfaceCut, mesh: &Mesh, piece: &Piece) -> DVec3 {
+    fn area(cut: &SurfaceCut, mesh: &Mesh, piece: &FacePiece) -> DVec3 {
         let corners: Vec<DVec3> = cut.corners(piece).iter().map(|c| cut.position(mesh, *c)).collect();
         let fan = corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
         fan.sum::<DVec3>() / 2.0

@@ -119,7 +119,7 @@ pub(super) mod tests {
     use super::*;
     use crate::mesh::{MaterialId, PaintId, PartId};
     use crate::region::Look;
-    use crate::region::ground::{Cell, Piece};
+    use crate::region::ground::{BorderPiece, Cell};
 
     /// Two squares side by side, 10 wide, from (0, 0): bins 0 and 1, of one facet or of two.
     pub fn two_squares(parts_surfaces: bool) -> Ground {
@@ -133,7 +133,7 @@ pub(super) mod tests {
         };
         let cell = |bin: u16, facet: u32| Cell { look: look(bin), facet, area: 100.0 };
         let cells = vec![cell(0, 0), cell(0, 1), cell(1, if parts_surfaces { 2 } else { 1 })];
-        let piece = |a: [f64; 2], b: [f64; 2], sides: [u32; 2], parts_surfaces: bool| Piece {
+        let piece = |a: [f64; 2], b: [f64; 2], sides: [u32; 2], parts_surfaces: bool| BorderPiece {
             ends: [Point::new(a[0], a[1]), Point::new(b[0], b[1])],
             sides,
             parts_surfaces,

@@ -3,7 +3,7 @@
 use kurbo::Point;
 
 use crate::region::Ground;
-use crate::region::ground::Piece;
+use crate::region::ground::BorderPiece;
 
 /// No domain: paper, and cells that stay blank.
 pub(super) const BLANK: u32 = u32::MAX;
@@ -32,7 +32,7 @@ impl Domains {
     }
 
     /// The domains on the two sides of a piece, if they differ.
-    pub fn parted(&self, piece: &Piece) -> Option<[u32; 2]> {
+    pub fn parted(&self, piece: &BorderPiece) -> Option<[u32; 2]> {
         let sides = piece.sides.map(|cell| self.of(cell));
         (sides[0] != sides[1]).then_some(sides)
     }
@@ -40,7 +40,7 @@ impl Domains {
 
 /// A piece of border of what is `within`, directed so that this lies to the right as the page is seen
 /// (y down), with the cell there; none if it lies on both sides or neither.
-pub(super) fn border(piece: &Piece, within: impl Fn(u32) -> bool) -> Option<([Point; 2], u32)> {
+pub(super) fn border(piece: &BorderPiece, within: impl Fn(u32) -> bool) -> Option<([Point; 2], u32)> {
     let [right, left] = piece.sides.map(within);
     let [a, b] = piece.ends;
     match (right, left) {

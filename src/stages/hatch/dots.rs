@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::cut::Cut;
 use super::disc::Disc;
 use super::domain::{BLANK, Domains, border, nearest};
-use super::scan::{Grid, Scan};
+use super::scan::{Lattice, Scan};
 use crate::math::function::acos;
 use crate::math::tolerance;
 use crate::region::Ground;
@@ -64,7 +64,7 @@ pub fn dots(
 ) -> Vec<CellDots> {
     let area: f64 = ground.cells.iter().map(|cell| cell.area).sum();
     let pitch = screen.pitch.max((area / MOST_DOTS).sqrt());
-    let grid = Grid::new(screen.origin, screen.angle, pitch);
+    let grid = Lattice::new(screen.origin, screen.angle, pitch);
     let scan = Scan::new(ground, &grid);
     let least = tolerance::DOT_PX * screen.px / pitch;
     let size = Size { coverage, least };
@@ -112,7 +112,7 @@ struct Spot {
     radius: f64,
 }
 
-fn spots(scan: &Scan, row: usize, grid: &Grid, size: &Size) -> Vec<Spot> {
+fn spots(scan: &Scan, row: usize, grid: &Lattice, size: &Size) -> Vec<Spot> {
     let y = (scan.first + row as i64) as f64;
     let mut spots = Vec::new();
     for (from, to, cell) in scan.stretches(row) {
@@ -174,7 +174,7 @@ struct Meeting {
     piece: u32,
 }
 
-fn meetings(ground: &Ground, grid: &Grid, domains: &Domains) -> Vec<Meeting> {
+fn meetings(ground: &Ground, grid: &Lattice, domains: &Domains) -> Vec<Meeting> {
     let of_piece = |(piece, parted): (usize, [u32; 2])| {
         let [a, b] = ground.pieces[piece].ends.map(|p| grid.place(p));
         let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
@@ -214,7 +214,7 @@ enum Dot {
 
 struct Cutter<'a> {
     ground: &'a Ground,
-    grid: Grid,
+    grid: Lattice,
     domains: &'a Domains,
     size: Size<'a>,
     px: f64,

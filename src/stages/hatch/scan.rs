@@ -13,7 +13,7 @@ use crate::region::ground::PAPER;
 
 /// A square grid, turned and laid on the page.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Grid {
+pub(super) struct Lattice {
     pub origin: Point,
     /// Unit vector along its rows; columns run a quarter turn from it, from x to y.
     along: Vec2,
@@ -21,7 +21,7 @@ pub(super) struct Grid {
     pub step: f64,
 }
 
-impl Grid {
+impl Lattice {
     /// A grid whose rows run at `angle` radians from the x axis, turning from x to y.
     pub fn new(origin: Point, angle: f64, step: f64) -> Self {
         Self { origin, along: Vec2::new(cos(angle), sin(angle)), step }
@@ -61,7 +61,7 @@ pub(super) struct Scan {
 
 impl Scan {
     /// Scans a ground along the rows of a grid.
-    pub fn new(ground: &Ground, grid: &Grid) -> Self {
+    pub fn new(ground: &Ground, grid: &Lattice) -> Self {
         let placed: Vec<[Point; 2]> = ground
             .pieces
             .par_iter()
@@ -154,7 +154,7 @@ mod tests {
     use crate::math::noise::{hash, unit};
     use crate::mesh::{MaterialId, PaintId, PartId};
     use crate::region::Look;
-    use crate::region::ground::{Cell, Piece};
+    use crate::region::ground::{BorderPiece, Cell};
 
     const CELL: Cell = Cell {
         look: Look {
@@ -179,10 +179,16 @@ mod tests {
         };
         let cell = |k: u64| ((k + corners - 1) % corners + 1) as u32;
         let pieces = (1..=corners).flat_map(|k| {
-            let spoke =
-                Piece { ends: [middle, corner(k)], sides: [cell(k + 1), cell(k)], parts_surfaces: true };
-            let rim =
-                Piece { ends: [corner(k - 1), corner(k)], sides: [cell(k), PAPER], parts_surfaces: true };
+            let spoke = BorderPiece {
+                ends: [middle, corner(k)],
+                sides: [cell(k + 1), cell(k)],
+                parts_surfaces: true,
+            };
+            let rim = BorderPiece {
+                ends: [corner(k - 1), corner(k)],
+                sides: [cell(k), PAPER],
+                parts_surfaces: true,
+            };
             [spoke, rim]
         });
         Ground::of_pieces(vec![CELL; corners as usize + 1], pieces.collect())
@@ -194,7 +200,7 @@ mod tests {
             let ground = sectors(corners);
             for (angle, step) in [(0.0, 1.0), (0.7, 0.31), (-2.0, 2.5)] {
                 // Rows of the first grid pass exactly through the middle.
-                let grid = Grid::new(Point::new(0.0, 0.0), angle, step);
+                let grid = Lattice::new(Point::new(0.0, 0.0), angle, step);
                 let scan = Scan::new(&ground, &grid);
                 let mut inside = 0;
                 for row in 0..scan.rows() {

@@ -17,7 +17,7 @@ use super::cut::Cut;
 use super::disc::Disc;
 use super::domain::{border, nearest};
 use super::dots::MOST_DOTS;
-use super::scan::{Grid, Scan};
+use super::scan::{Lattice, Scan};
 use super::voronoi::{BLACK, NOBODY, Patch};
 use crate::math::noise::{hash, unit};
 use crate::region::Ground;
@@ -52,11 +52,11 @@ pub fn stipple(
     if side.is_nan() || side <= 0.0 {
         return Vec::new();
     }
-    let grid = Grid::new(Point::new(side / 2.0, side / 2.0), 0.0, side);
+    let grid = Lattice::new(Point::new(side / 2.0, side / 2.0), 0.0, side);
     let scan = Scan::new(ground, &grid);
-    let mut runs: Vec<Run> = (0..scan.rows()).flat_map(|row| runs(ground, &scan, row)).collect();
+    let mut runs: Vec<RowSpan> = (0..scan.rows()).flat_map(|row| runs(ground, &scan, row)).collect();
     runs.par_sort_by_key(|run| run.facet);
-    let facets: Vec<&[Run]> = runs.chunk_by(|a, b| a.facet == b.facet).collect();
+    let facets: Vec<&[RowSpan]> = runs.chunk_by(|a, b| a.facet == b.facet).collect();
     let found: Vec<Vec<(u32, Disc, Cut)>> = facets
         .par_iter()
         .map(|runs| Facet::new(runs, &grid, coverage).stippled(ground, &grid, options))
@@ -83,7 +83,7 @@ const MOST_SQUARES: f64 = 1.6e7;
 
 /// Squares side by side in a row, of one cell.
 #[derive(Debug, Clone, Copy)]
-struct Run {
+struct RowSpan {
     facet: u32,
     row: i64,
     from: i64,
@@ -92,8 +92,8 @@ struct Run {
     cell: u32,
 }
 
-fn runs<'a>(ground: &'a Ground, scan: &'a Scan, row: usize) -> impl Iterator<Item = Run> + 'a {
-    let of = move |(from, to, cell): (f64, f64, u32)| Run {
+fn runs<'a>(ground: &'a Ground, scan: &'a Scan, row: usize) -> impl Iterator<Item = RowSpan> + 'a {
+    let of = move |(from, to, cell): (f64, f64, u32)| RowSpan {
         facet: ground.cells[cell as usize].facet,
         row: scan.first + row as i64,
         from: from.floor() as i64 + 1,
@@ -105,7 +105,7 @@ fn runs<'a>(ground: &'a Ground, scan: &'a Scan, row: usize) -> impl Iterator<Ite
 
 /// A stretch of surface to be stippled.
 struct Facet<'a> {
-    runs: &'a [Run],
+    runs: &'a [RowSpan],
     /// The first square of the patch.
     corner: [i64; 2],
     patch: Patch,
@@ -114,7 +114,7 @@ struct Facet<'a> {
 }
 
 impl<'a> Facet<'a> {
-    fn new(runs: &'a [Run], grid: &Grid, coverage: &(dyn Fn(u32, Point) -> f64 + Sync)) -> Self {
+    fn new(runs: &'a [RowSpan], grid: &Lattice, coverage: &(dyn Fn(u32, Point) -> f64 + Sync)) -> Self {
         let left = runs.iter().map(|run| run.from).min().unwrap_or_default();
         let right = runs.iter().map(|run| run.to).max().unwrap_or_default();
         let top = runs.first().map_or(0, |run| run.row);
@@ -123,8 +123,8 @@ impl<'a> Facet<'a> {
         let mut ink = vec![0u16; width * height];
         let mut inked: Vec<u32> = Vec::new();
         // The tone is asked for once in a block of squares for each cell there, where it is met first.
-        let band = |run: &Run| run.row.div_euclid(ASKED_APART);
-        let bands: Vec<&[Run]> = runs.chunk_by(|a, b| band(a) == band(b)).collect();
+        let band = |run: &RowSpan| run.row.div_euclid(ASKED_APART);
+        let bands: Vec<&[RowSpan]> = runs.chunk_by(|a, b| band(a) == band(b)).collect();
         let asked: Vec<Vec<(usize, u16)>> = bands
             .into_par_iter()
             .map(|runs| {
@@ -157,7 +157,7 @@ impl<'a> Facet<'a> {
     }
 
     /// Its dots: the cell of each, the disc, and what is left of it.
-    fn stippled(&self, ground: &Ground, grid: &Grid, options: &Stipple) -> Vec<(u32, Disc, Cut)> {
+    fn stippled(&self, ground: &Ground, grid: &Lattice, options: &Stipple) -> Vec<(u32, Disc, Cut)> {
         let dot = PI * options.radius * options.radius / (grid.step * grid.step);
         let [left, top] = self.corner.map(i64::cast_unsigned);
         let words = [left, top, self.patch.width as u64, self.patch.height as u64];

@@ -22,7 +22,7 @@ pub(super) fn tell(
     facing: &[f64],
     segments: &mut [FeatureSegment],
 ) {
-    let surface = Surface { mesh, view, smooth, facing };
+    let surface = FoldedSurface { mesh, view, smooth, facing };
     segments.par_iter_mut().with_min_len(1 << 10).for_each(|segment| {
         let hosts = segment.hosts;
         if let Role::Witness { convex, fold } = &mut segment.role {
@@ -34,14 +34,14 @@ pub(super) fn tell(
     });
 }
 
-struct Surface<'a> {
+struct FoldedSurface<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     smooth: &'a SmoothNormals,
     facing: &'a [f64],
 }
 
-impl Surface<'_> {
+impl FoldedSurface<'_> {
     /// Whether the faces around one that turn as it does end before the smooth surface turns so.
     fn is_ripple(&self, first: u32) -> bool {
         let side = self.view.facing[first as usize];

@@ -22,7 +22,7 @@ const NONE: u32 = u32::MAX;
 
 /// A piece of a contour, with the facing side of the surface on its left, seen from outside.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct ContourPiece {
     segment: FeatureSegment,
     /// See [`ContourCurve::advance`].
     advance: f32,
@@ -37,14 +37,14 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64], li
     let points: Vec<DVec3> = set.points.par_iter().with_min_len(1 << 10).map(point).collect();
     lines.points.extend(points);
     let position = |end: u32| lines.position(mesh, end);
-    let pieces: Vec<Piece> = set
+    let pieces: Vec<ContourPiece> = set
         .segments
         .par_iter()
         .with_min_len(1 << 10)
         .map(|s| {
             let ends = s.ends.map(|end| first + end);
             let advance = advance(view, smooth, &set, s.ends, ends.map(position));
-            Piece { segment: segment(mesh, ends, s.face), advance }
+            ContourPiece { segment: segment(mesh, ends, s.face), advance }
         })
         .collect();
     for (order, closed) in curves(&pieces) {
@@ -90,7 +90,7 @@ fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
 
 /// The pieces in the order in which curves pass them, and whether each curve closes. Where more than
 /// one piece leaves a point, the earlier ones go on.
-fn curves(pieces: &[Piece]) -> Vec<(Vec<u32>, bool)> {
+fn curves(pieces: &[ContourPiece]) -> Vec<(Vec<u32>, bool)> {
     let mut leaving: FxHashMap<u32, u32> = FxHashMap::default();
     let mut next_leaving = vec![NONE; pieces.len()];
     let mut arriving: FxHashMap<u32, u32> = FxHashMap::default();

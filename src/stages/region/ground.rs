@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 
 use kurbo::{Point, Vec2};
 
-pub use super::piece::{PAPER, Piece};
+pub use super::piece::{BorderPiece, PAPER};
 
 use super::cells::{OUTSIDE, Triangulation};
 use super::merge;
-use super::piece_grid::Grid;
+use super::piece_grid::PieceTiles;
 use super::seen::{Look, NOTHING, Seen};
 use crate::drawing::{Length, Unit};
 
@@ -34,10 +34,10 @@ pub struct Ground {
     /// The cells; the first is paper.
     pub cells: Vec<Cell>,
     /// The borders: where the cells on both sides differ, or surfaces part.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<BorderPiece>,
     /// Number of facets; facet 0 is paper.
     pub facets: u32,
-    grid: Grid,
+    grid: PieceTiles,
 }
 
 impl Ground {
@@ -125,16 +125,16 @@ impl Ground {
             let [x, y] = cut.points[v as usize];
             Point::new(x as f64 * seen.step, y as f64 * seen.step) + offset
         });
-        ground.grid = Grid::new(&ground.pieces);
+        ground.grid = PieceTiles::new(&ground.pieces);
         ground
     }
 
     /// A ground of given cells and pieces, for tests and for pages without a model; the first cell is
     /// paper.
     #[must_use]
-    pub fn of_pieces(cells: Vec<Cell>, pieces: Vec<Piece>) -> Self {
+    pub fn of_pieces(cells: Vec<Cell>, pieces: Vec<BorderPiece>) -> Self {
         let facets = cells.iter().map(|cell| cell.facet + 1).max().unwrap_or(1);
-        let grid = Grid::new(&pieces);
+        let grid = PieceTiles::new(&pieces);
         Self { cells, pieces, facets, grid }
     }
 
@@ -156,7 +156,7 @@ impl Ground {
                 let parts_surfaces = parts || facet(own) != facet(other);
                 let ends = [corners[side], corners[(side + 1) % 3]].map(&point);
                 // Triangles turn from x to y: their inside is to the right as the page is seen.
-                self.pieces.push(Piece { ends, sides: [own, other], parts_surfaces });
+                self.pieces.push(BorderPiece { ends, sides: [own, other], parts_surfaces });
             }
         }
     }
@@ -241,7 +241,7 @@ fn is_right(a: Point, b: Point, p: Point) -> bool {
 }
 
 /// Where a segment crosses a piece, and whether from its first side to its second.
-fn crossing(piece: &Piece, from: Point, to: Point) -> Option<(f64, bool)> {
+fn crossing(piece: &BorderPiece, from: Point, to: Point) -> Option<(f64, bool)> {
     let [a, b] = piece.ends;
     let (side_a, side_b) = (is_right(from, to, a), is_right(from, to, b));
     if side_a == side_b {

@@ -31,7 +31,7 @@ pub struct LevelCurve {
 }
 
 /// One piece: a level in a face.
-struct Piece {
+struct LevelPiece {
     ends: [DVec3; 2],
     level: i64,
     density: f64,
@@ -49,7 +49,7 @@ pub fn level_curves(
 ) -> Vec<LevelCurve> {
     const CHUNK: usize = 1 << 11;
     let count = lit.mesh.triangles.len();
-    let found: Vec<Vec<Piece>> = (0..count.div_ceil(CHUNK))
+    let found: Vec<Vec<LevelPiece>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
             let mut pieces = Vec::new();
@@ -61,7 +61,7 @@ pub fn level_curves(
             pieces
         })
         .collect();
-    let pieces: Vec<Piece> = found.into_iter().flatten().collect();
+    let pieces: Vec<LevelPiece> = found.into_iter().flatten().collect();
     chains(lit, offset, &pieces)
 }
 
@@ -71,7 +71,7 @@ fn trace(
     face: u32,
     value: &impl Fn(u32) -> Option<[f64; 3]>,
     is_wanted: &impl Fn(i64, f64) -> bool,
-    pieces: &mut Vec<Piece>,
+    pieces: &mut Vec<LevelPiece>,
 ) {
     let Some(values) = value(face) else { return };
     let t = lit.mesh.triangles[face as usize];
@@ -114,7 +114,7 @@ fn trace(
             && from != to
         {
             let part = lit.mesh.face_part[face as usize];
-            pieces.push(Piece { ends: [from, to], level, density, part });
+            pieces.push(LevelPiece { ends: [from, to], level, density, part });
         }
     }
 }
@@ -123,8 +123,8 @@ fn trace(
 const MOST_LEVELS: f64 = 1e4;
 
 /// Joins pieces end to end and leads them to the page.
-fn chains(lit: &Lit, offset: Vec2, pieces: &[Piece]) -> Vec<LevelCurve> {
-    let key = |piece: &Piece, end: usize| (piece.level, piece.ends[end].to_array().map(f64::to_bits));
+fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
+    let key = |piece: &LevelPiece, end: usize| (piece.level, piece.ends[end].to_array().map(f64::to_bits));
     let mut at: FxHashMap<(i64, [u64; 3]), [u32; 2]> = FxHashMap::default();
     for (k, piece) in pieces.iter().enumerate() {
         for end in 0..2 {
@@ -170,7 +170,7 @@ fn chains(lit: &Lit, offset: Vec2, pieces: &[Piece]) -> Vec<LevelCurve> {
                     f64::midpoint(densities[before], densities[after])
                 })
                 .collect();
-            let Piece { level, part, .. } = pieces[first];
+            let LevelPiece { level, part, .. } = pieces[first];
             curves.push(LevelCurve { line, points, level, density, part, nearness });
         }
     }

@@ -39,7 +39,7 @@ impl Border {
 
 /// A piece of a border between two points, by their numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Piece {
+pub(super) struct NodedPiece {
     /// The lesser number first.
     pub ends: [u32; 2],
     /// What it parts.
@@ -51,7 +51,7 @@ pub(super) struct Piece {
 pub(super) struct Noded {
     pub points: Vec<GridPoint>,
     /// In order of their ends, no two alike.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<NodedPiece>,
 }
 
 /// Rounds of cutting at most. What still crosses then is left to the triangulation, which leaves
@@ -85,7 +85,7 @@ pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
     points.sort_unstable();
     let number = |old: u32| points.binary_search(&noded.points[old as usize]).unwrap_or_default() as u32;
     let numbers: Vec<u32> = (0..noded.points.len() as u32).map(number).collect();
-    let mut pieces: Vec<Piece> = noded.pieces;
+    let mut pieces: Vec<NodedPiece> = noded.pieces;
     for piece in &mut pieces {
         piece.ends = piece.ends.map(|end| numbers[end as usize]);
         piece.ends.sort_unstable();
@@ -100,7 +100,7 @@ pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
 struct Noder {
     points: Vec<GridPoint>,
     number: FxHashMap<GridPoint, u32>,
-    pieces: Vec<Piece>,
+    pieces: Vec<NodedPiece>,
     /// Whether each piece is new since the last round; the others are known not to meet.
     fresh: Vec<bool>,
 }
@@ -117,7 +117,7 @@ impl Noder {
 
     fn add(&mut self, [a, b]: [u32; 2], border: Border) {
         if a != b {
-            self.pieces.push(Piece { ends: [a.min(b), a.max(b)], border });
+            self.pieces.push(NodedPiece { ends: [a.min(b), a.max(b)], border });
             self.fresh.push(true);
         }
     }
@@ -293,7 +293,7 @@ struct Tiles {
 }
 
 impl Tiles {
-    fn new(points: &[GridPoint], pieces: &[Piece]) -> Self {
+    fn new(points: &[GridPoint], pieces: &[NodedPiece]) -> Self {
         let low = [0, 1].map(|k| points.iter().map(|p| p[k]).min().unwrap_or_default());
         let high = [0, 1].map(|k| points.iter().map(|p| p[k]).max().unwrap_or_default());
         let across = ((pieces.len() / PIECES_A_TILE) as f64).sqrt() as usize;

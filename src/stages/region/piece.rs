@@ -1,10 +1,10 @@
-//! [`Piece`]: a straight piece of border between cells of a ground.
+//! [`BorderPiece`]: a straight piece of border between cells of a ground.
 
 use kurbo::Point;
 
 /// A straight piece of border.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece {
+pub struct BorderPiece {
     /// Its ends.
     pub ends: [Point; 2],
     /// The cells on both sides: first that to the right of its way as the page is seen (y down).

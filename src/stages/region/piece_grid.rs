@@ -1,12 +1,12 @@
-//! [`Grid`]: pieces of border by the tiles of the page that they pass.
+//! [`PieceTiles`]: pieces of border by the tiles of the page that they pass.
 
 use kurbo::{Point, Vec2};
 
-use super::piece::{PAPER, Piece};
+use super::piece::{BorderPiece, PAPER};
 
 /// Pieces by the tiles of the page that they pass.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Grid {
+pub(super) struct PieceTiles {
     low: Vec2,
     tiles_per_unit: f64,
     across: [usize; 2],
@@ -20,8 +20,8 @@ const PIECES_A_TILE: usize = 2;
 /// Most tiles across.
 const MOST_TILES: f64 = 256.0;
 
-impl Grid {
-    pub fn new(pieces: &[Piece]) -> Self {
+impl PieceTiles {
+    pub fn new(pieces: &[BorderPiece]) -> Self {
         let ends = || pieces.iter().flat_map(|piece| piece.ends);
         let Some(first) = ends().next() else { return Self::default() };
         let (low, high) = ends().fold((first, first), |(low, high), p| {
@@ -111,7 +111,7 @@ impl Grid {
     }
 
     /// The cell at a point: what the next piece to its left has on this side.
-    pub fn cell_at(&self, pieces: &[Piece], p: Point) -> u32 {
+    pub fn cell_at(&self, pieces: &[BorderPiece], p: Point) -> u32 {
         let at = (p.to_vec2() - self.low) * self.tiles_per_unit;
         let [columns, rows] = self.across;
         if columns == 0 || at.x < 0.0 || at.y < 0.0 || at.y >= rows as f64 {

@@ -28,7 +28,7 @@ impl Candidate {
 
 /// A part of an edge whose shadow falls on one face.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Run {
+pub(super) struct EdgePart {
     /// The face.
     pub face: u32,
     /// Where on the edge it starts, as a parameter.
@@ -41,7 +41,7 @@ pub(super) struct Run {
 
 /// The nearest candidate over each part of an edge, ascending; nothing where that one touches. Runs no
 /// longer than `shortest` are rounding, and so are gaps.
-pub(super) fn envelope(mut candidates: Vec<Candidate>, shortest: f64) -> Vec<Run> {
+pub(super) fn envelope(mut candidates: Vec<Candidate>, shortest: f64) -> Vec<EdgePart> {
     candidates.retain(|c| c.end > c.start);
     let mut stops: Vec<f64> = candidates.iter().flat_map(|c| [c.start, c.end]).collect();
     stops.sort_by(f64::total_cmp);
@@ -93,7 +93,7 @@ fn nearest_over(active: &[Candidate], from: f64, to: f64, winners: &mut Vec<(Can
 }
 
 /// Joins neighbouring winners that are one face, and drops what is too short.
-fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<Run> {
+fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
     struct Part {
         face: u32,
         touches: bool,
@@ -135,7 +135,7 @@ fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<Run> {
         .map(|Part { face, start, end, nearness, .. }| {
             let start = if start <= shortest { 0.0 } else { start };
             let end = if 1.0 - end <= shortest { 1.0 } else { end };
-            Run { face, start, end, nearness }
+            EdgePart { face, start, end, nearness }
         })
         .collect()
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::envelope::Run;
+use super::envelope::EdgePart;
 use super::receive::Borders;
 use crate::math::power::power_of_two_below;
 use crate::mesh::{FaceId, Mesh};
@@ -142,7 +142,7 @@ fn rounded(p: DVec3, reach: f64) -> DVec3 {
 
 /// The point of a face behind a point of the light's image, local space; `nearness` is where it lies as
 /// far as interpolation tells.
-fn on_face(mesh: &Mesh, frame: &Frame, run: &Run, image: DVec3, nearness: f64) -> DVec3 {
+fn on_face(mesh: &Mesh, frame: &Frame, run: &EdgePart, image: DVec3, nearness: f64) -> DVec3 {
     let interpolated = local_from_image(frame, image, frame.depth_of(nearness));
     let [a, b, c] = mesh.corners(FaceId(run.face));
     let normal = (b - a).cross(c - a);

@@ -25,7 +25,7 @@ const MIXED: f64 = 0.01;
 
 /// What is known of a connected piece of the surface.
 #[derive(Debug, Clone, Copy, Default)]
-struct Piece {
+struct Component {
     area: f64,
     normal: DVec3,
     volume: f64,
@@ -35,7 +35,7 @@ struct Piece {
     place: DVec3,
 }
 
-impl Piece {
+impl Component {
     fn outside(&self) -> Outside {
         if self.normal.length() > OPEN * self.area || self.mixed as f64 > MIXED * self.edges as f64 {
             Outside::Unknown
@@ -58,7 +58,7 @@ pub(super) fn outside(mesh: &Mesh) -> Vec<Outside> {
             }
         }
     });
-    let mut pieces = vec![Piece::default(); mesh.triangles.len()];
+    let mut pieces = vec![Component::default(); mesh.triangles.len()];
     for face in 0..mesh.triangles.len() as u32 {
         let [a, b, c] = mesh.corners(FaceId(face));
         let piece = &mut pieces[connected.of(face) as usize];

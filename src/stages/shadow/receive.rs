@@ -8,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::cast::{self, CastEdge};
-use super::envelope::{Candidate, Run, envelope};
+use super::envelope::{Candidate, EdgePart, envelope};
 use super::light::LightView;
 use crate::lines::Surface;
 use crate::mesh::Mesh;
@@ -31,7 +31,7 @@ pub(super) struct Borders<'a> {
     /// The edges that cast them.
     pub edges: Vec<CastEdge>,
     /// What each edge casts: what receives its shadow from where to where.
-    pub runs: Vec<Vec<Run>>,
+    pub runs: Vec<Vec<EdgePart>>,
 }
 
 /// Part of an edge in one tile.

@@ -18,7 +18,7 @@ const MOST_CUTS: usize = 8;
 
 /// A face that may be cut further.
 #[derive(Clone, Copy)]
-struct Piece {
+struct Facet {
     corners: [u32; 3],
     /// Whether the sides 0-1, 1-2, 2-0 may be cut.
     open: [bool; 3],
@@ -62,7 +62,7 @@ pub fn refined(
         work.cut(ends);
     }
     let (kept, mut open) = work.affected(mesh, smooth);
-    let mut done: Vec<Piece> = Vec::new();
+    let mut done: Vec<Facet> = Vec::new();
     for cuts in 0..MOST_CUTS {
         let mut next = Vec::with_capacity(open.len() * 2);
         for piece in &open {
@@ -119,7 +119,7 @@ impl Work {
     }
 
     /// Decides about the open sides of a piece that are not decided yet.
-    fn decide(&mut self, piece: &Piece, wanted: &impl Fn([DVec3; 2], [DVec3; 2]) -> bool) {
+    fn decide(&mut self, piece: &Facet, wanted: &impl Fn([DVec3; 2], [DVec3; 2]) -> bool) {
         for side in (0..3).filter(|side| piece.open[*side]) {
             let ends = piece.side(side);
             if self.middles.contains_key(&ends) {
@@ -135,7 +135,7 @@ impl Work {
     }
 
     /// Which faces of the mesh stay as they are, and the pieces to begin with.
-    fn affected(&self, mesh: &Mesh, smooth: &SmoothNormals) -> (Vec<u32>, Vec<Piece>) {
+    fn affected(&self, mesh: &Mesh, smooth: &SmoothNormals) -> (Vec<u32>, Vec<Facet>) {
         let mut touched = vec![false; smooth.vertices.len()];
         for [a, b] in self.middles.keys() {
             (touched[*a as usize], touched[*b as usize]) = (true, true);
@@ -148,14 +148,14 @@ impl Work {
                 continue;
             };
             let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
-            let mut piece = Piece { corners, open: [false; 3], marks, face };
+            let mut piece = Facet { corners, open: [false; 3], marks, face };
             piece.open = [0, 1, 2].map(|side| self.middles.contains_key(&piece.side(side)));
             if piece.open.contains(&true) { open.push(piece) } else { kept.push(face) }
         }
         (kept, open)
     }
 
-    fn middle(&self, piece: &Piece, side: usize) -> Option<u32> {
+    fn middle(&self, piece: &Facet, side: usize) -> Option<u32> {
         if !piece.open[side] {
             return None;
         }
@@ -163,7 +163,7 @@ impl Work {
     }
 
     /// Cuts a piece by the pattern of its cut sides.
-    fn split(&self, piece: &Piece, out: &mut Vec<Piece>) {
+    fn split(&self, piece: &Facet, out: &mut Vec<Facet>) {
         let middles = [0, 1, 2].map(|side| self.middle(piece, side));
         let count = middles.iter().flatten().count();
         // Turned so that side 0 is the only cut one, or side 2 the only whole one.
@@ -180,7 +180,7 @@ impl Work {
         let half = |side: usize| (true, piece.marks[side]);
         let new = (true, EdgeMark::Unmarked);
         let mut push = |corners: [u32; 3], sides: [(bool, EdgeMark); 3]| {
-            out.push(Piece {
+            out.push(Facet {
                 corners,
                 open: sides.map(|s| s.0),
                 marks: sides.map(|s| s.1),
@@ -218,7 +218,7 @@ impl Work {
 
     /// Texture coordinates of the finer mesh, and those of its corners: on a piece of a face what the face
     /// has there.
-    fn texture(&self, mesh: &Mesh, kept: &[u32], done: &[Piece]) -> (Vec<[f32; 2]>, Vec<[u32; 3]>) {
+    fn texture(&self, mesh: &Mesh, kept: &[u32], done: &[Facet]) -> (Vec<[f32; 2]>, Vec<[u32; 3]>) {
         if mesh.corner_uvs.is_empty() {
             return (Vec::new(), Vec::new());
         }
@@ -251,7 +251,7 @@ impl Work {
         smooth: &SmoothNormals,
         straight: &EdgeSet,
         kept: &[u32],
-        done: &[Piece],
+        done: &[Facet],
     ) -> Refined {
         let faces = || kept.iter().copied().chain(done.iter().map(|piece| piece.face));
         let hosts: Vec<u32> = faces().collect();
@@ -272,7 +272,7 @@ impl Work {
             of_kept.chain(done.iter().map(|piece| piece.marks)).collect()
         };
         // What was cut is rounded, and has the smooth normals.
-        let none = |_: &Piece| [u32::MAX; 3];
+        let none = |_: &Facet| [u32::MAX; 3];
         let corner_normals = if mesh.corner_normals.is_empty() {
             Vec::new()
         } else {
@@ -315,7 +315,7 @@ impl Work {
 /// Texture coordinates of new corners are rounded to this part.
 const UV_STEPS: f64 = 65536.0;
 
-impl Piece {
+impl Facet {
     /// The smooth vertices at the ends of a side, smaller first.
     fn side(&self, side: usize) -> [u32; 2] {
         let (a, b) = (self.corners[side], self.corners[(side + 1) % 3]);

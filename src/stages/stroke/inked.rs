@@ -11,7 +11,7 @@ use super::context::InkContext;
 use super::inks::{Stretch, Tint};
 use super::outline::{Nib, outline};
 use super::pen::Pen;
-use super::pieces::{End, Piece, broken, parted};
+use super::pieces::{AxisPart, End, broken, parted};
 use super::tinted::{Drawn, parts};
 use super::tremor::Tremor;
 use super::widths::{Setting, mean, meet, taper};
@@ -89,7 +89,7 @@ impl Inked<'_> {
         // The widths travel in place of the strengths, which they have used up.
         axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
         let (mean, gap) = (in_unit(hand.breaks), in_unit(hand.break_gap));
-        let pieces: Vec<Piece> = parted(&axis, self.gaps, lifts, ends, px)
+        let pieces: Vec<AxisPart> = parted(&axis, self.gaps, lifts, ends, px)
             .into_iter()
             .enumerate()
             .flat_map(|(k, piece)| broken(piece, mean, gap, hash(seed, &[0, k as u64]), px))
@@ -128,14 +128,14 @@ impl Inked<'_> {
 
     fn shapes_of(
         &self,
-        piece: Piece,
+        piece: AxisPart,
         tremor: &Tremor,
         pass: u64,
         setting: &Setting,
         context: &InkContext,
     ) -> Vec<(Shape, Colour)> {
         let swell = &self.pen.swell;
-        let Piece { axis, ends } = piece;
+        let AxisPart { axis, ends } = piece;
         let mut axis = axis.subdivided();
         let mut thick: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
         if !axis.closed && swell.taper.value > 0.0 {

@@ -9,7 +9,7 @@ const LIFT_COSINE: f64 = 0.819;
 
 /// A part of an axis, and what its ends are.
 #[derive(Debug, Clone)]
-pub(super) struct Piece {
+pub(super) struct AxisPart {
     pub axis: Axis,
     pub ends: [End; 2],
 }
@@ -36,7 +36,7 @@ const SHORTEST_PX: f64 = 0.75;
 
 /// The parts of an axis outside of gaps (arc lengths, ascending, not beyond its ends but in a closed axis);
 /// with `lifts`, corners part them as well. `ends` are what the ends of an open axis are.
-pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2], px: f64) -> Vec<Piece> {
+pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2], px: f64) -> Vec<AxisPart> {
     let total = axis.length();
     let mut cuts: Vec<([f64; 2], End)> = gaps.iter().map(|gap| (*gap, End::GAP)).collect();
     if lifts {
@@ -50,12 +50,12 @@ pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2]
         cuts.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
     }
     if cuts.is_empty() {
-        return vec![Piece { axis: axis.clone(), ends }];
+        return vec![AxisPart { axis: axis.clone(), ends }];
     }
     let mut pieces = Vec::new();
     let mut add = |from: f64, to: f64, ends: [End; 2]| {
         if to - from >= SHORTEST_PX * px {
-            pieces.push(Piece { axis: axis.cut(from, to), ends });
+            pieces.push(AxisPart { axis: axis.cut(from, to), ends });
         }
     };
     let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return pieces };
@@ -78,7 +78,7 @@ pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2]
 
 /// A piece with gaps of about a length that the hand leaves, on the mean so far from each other; how
 /// many there are does not depend on the seed.
-pub(super) fn broken(piece: Piece, mean: f64, gap: f64, seed: u64, px: f64) -> Vec<Piece> {
+pub(super) fn broken(piece: AxisPart, mean: f64, gap: f64, seed: u64, px: f64) -> Vec<AxisPart> {
     let total = piece.axis.length();
     let count = if mean > 0.0 { (total / mean).round().min(MOST_BREAKS) as usize } else { 0 };
     let (Some(first), true) = (piece.axis.arcs.first(), count > 0 && gap > 0.0) else { return vec![piece] };

@@ -36,7 +36,7 @@ pub fn shorten(marks: Vec<Mark>) -> Vec<Mark> {
     let mut pen = Point::ZERO;
     let mut left = remaining.len();
     while left > 0 {
-        let mut grid = Grid::new(&remaining);
+        let mut grid = EndCells::new(&remaining);
         // A grid made for many ends is slow for few: start anew when three quarters are gone.
         let rebuild_at = left / 4;
         while left > rebuild_at
@@ -85,7 +85,7 @@ fn turns_well(mark: &Mark) -> bool {
 }
 
 /// Ends in square cells over their bounding box.
-struct Grid {
+struct EndCells {
     origin: Point,
     cell: f64,
     columns: usize,
@@ -93,7 +93,7 @@ struct Grid {
     cells: Vec<Vec<End>>,
 }
 
-impl Grid {
+impl EndCells {
     /// About two ends a cell.
     fn new(ends: &[End]) -> Self {
         let mut low = Point::new(f64::INFINITY, f64::INFINITY);

@@ -94,7 +94,7 @@ struct Seen<'a> {
 }
 
 /// A piece of a segment between two parameters.
-struct Piece {
+struct SegmentPart {
     start: f64,
     end: f64,
     end_kind: ViewVertexKind,
@@ -168,7 +168,7 @@ fn view_edge(
     segment: u32,
     start: ViewVertexId,
     end: ViewVertexId,
-    piece: &Piece,
+    piece: &SegmentPart,
 ) -> ViewEdge {
     ViewEdge {
         start,
@@ -188,7 +188,7 @@ fn view_edge(
 
 /// Cuts a segment where its invisibility changes, and visible contours also where background
 /// begins or ends behind them.
-fn pieces(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64) -> Vec<Piece> {
+fn pieces(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64) -> Vec<SegmentPart> {
     let shortest = shortest / segment.length().max(shortest);
     let mut out = Vec::with_capacity(1);
     let mut at = 0.0;
@@ -199,7 +199,7 @@ fn pieces(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64) -> V
             visible(&mut out, seen, contour, at, start, interval.start_kind, shortest);
         }
         let end = if 1.0 - interval.end <= shortest { 1.0 } else { interval.end };
-        out.push(Piece {
+        out.push(SegmentPart {
             start,
             end,
             end_kind: interval.end_kind,
@@ -215,7 +215,7 @@ fn pieces(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64) -> V
 }
 
 fn visible(
-    out: &mut Vec<Piece>,
+    out: &mut Vec<SegmentPart>,
     seen: Seen,
     contour: bool,
     start: f64,
@@ -224,7 +224,7 @@ fn visible(
     shortest: f64,
 ) {
     let mut push = |start: f64, end: f64, end_kind, silhouette| {
-        out.push(Piece { start, end, end_kind, invisibility: 0, silhouette });
+        out.push(SegmentPart { start, end, end_kind, invisibility: 0, silhouette });
     };
     let mut at = start;
     if contour {

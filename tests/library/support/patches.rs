@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use kurbo::{BezPath, PathEl, Point};
 use ligne::stages::mesh::{MaterialId, PaintId, PartId};
-use ligne::stages::region::ground::{Cell, Piece};
+use ligne::stages::region::ground::{BorderPiece, Cell};
 use ligne::stages::region::{Ground, Look};
 
 /// A ground whose cells are polygons in facets, turning from x to y; cell 0 is paper. Polygons that touch
@@ -35,7 +35,7 @@ pub fn ground(polygons: &[(u32, Vec<Point>)]) -> Ground {
         }
     }
     let facet = |cell: u32| cells[cell as usize].facet;
-    let piece = |(ends, sides): ([Point; 2], [u32; 2])| Piece {
+    let piece = |(ends, sides): ([Point; 2], [u32; 2])| BorderPiece {
         ends,
         sides,
         parts_surfaces: facet(sides[0]) != facet(sides[1]),

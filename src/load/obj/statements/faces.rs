@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{Corner, NONE, Parser, Stop};
 use crate::error::Error;
-use crate::load::polygon::{self, Cut};
+use crate::load::polygon::{self, CutOutcome};
 use crate::load::text::{Cursor, plain_index};
 use crate::scene::coordinate::is_drawable;
 
@@ -125,7 +125,7 @@ impl Parser<'_> {
         points.clear();
         points.extend(corners.iter().map(|c| self.point(c[0])));
         cut.clear();
-        if polygon::triangulate(&points, &mut cut) == Cut::TooLarge {
+        if polygon::triangulate(&points, &mut cut) == CutOutcome::TooLarge {
             self.out.warnings.count("concave polygons with too many corners, cut roughly", 1);
         }
         for &[a, b, c] in &cut {
