@@ -270,7 +270,7 @@ mod tests {
         let sought = "<n0:g n0:a=\"\"/>".repeat(1_000_000);
         assert!(refused(&format!("<svg{names}>{sought}</svg>")).contains("namespaces in scope"));
         let nested: String = (0..200)
-            .map(|i| format!("<g xmlns:n{i}=\"u\"{}>", names.replace('n', &format!("m{i}"))))
+            .map(|i| format!("<g xmlns:n{i}=\"u\"{}>", names.replace(":n", &format!(":m{i}x"))))
             .collect();
         assert!(refused(&format!("<svg>{nested}")).contains("namespaces"));
         let usual =
