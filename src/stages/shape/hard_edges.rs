@@ -83,11 +83,10 @@ impl HardEdges {
         Self::of_edges(to, hard.filter_map(|ends| to.edges.vertices.binary_search(&ends).ok()))
     }
 
-    /// The edges of these where `own` holds, and of `others` where it does not.
+    /// Those edges of a mesh of which it is said that they are hard.
     #[must_use]
-    pub fn chosen_from(&self, others: &Self, mesh: &Mesh, own: impl Fn(usize) -> bool) -> Self {
-        let hard = |e: &usize| if own(*e) { self.is_hard(*e) } else { others.is_hard(*e) };
-        Self::of_edges(mesh, (0..mesh.edges.len()).filter(hard))
+    pub fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool) -> Self {
+        Self::of_edges(mesh, (0..mesh.edges.len()).filter(|edge| is_hard(*edge)))
     }
 
     fn of_edges(mesh: &Mesh, edges: impl Iterator<Item = usize>) -> Self {

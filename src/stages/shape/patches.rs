@@ -111,20 +111,21 @@ fn hard_edges(mesh: &Mesh, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
     if round == 0 {
         return HardEdges::above(mesh, crease_deg);
     }
-    let sharp = HardEdges::find(mesh, (ROUND * crease_deg).min(180.0));
+    let chains = HardEdges::find(mesh, (ROUND * crease_deg).min(180.0));
     if round == verdicts.len() && mesh.corner_normals.is_empty() {
-        return sharp;
+        return chains;
     }
+    let above = HardEdges::above(mesh, crease_deg);
     let least = cos(crease_deg.to_radians()) as f32;
-    sharp.chosen_from(&HardEdges::above(mesh, crease_deg), mesh, |edge| match mesh.edges.faces(edge) {
-        EdgeFaces::Two { faces, .. } => {
-            let shaded_sharp = || {
-                faces.iter().all(|face| verdicts[*face as usize].believed)
-                    && file_cosines(mesh, edge, faces).is_some_and(|[a, b]| a.min(b) < least)
-            };
-            faces.iter().all(|face| is_round(*face)) && (sharp.is_hard(edge) || !shaded_sharp())
+    let shaded_sharp = |edge: usize, faces: [u32; 2]| {
+        faces.iter().all(|face| verdicts[*face as usize].believed)
+            && file_cosines(mesh, edge, faces).is_some_and(|[a, b]| a.min(b) < least)
+    };
+    HardEdges::of(mesh, |edge| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, .. } if faces.iter().all(|face| is_round(*face)) => {
+            chains.is_hard(edge) || (above.is_hard(edge) && shaded_sharp(edge, faces))
         }
-        _ => false,
+        _ => above.is_hard(edge),
     })
 }
 
