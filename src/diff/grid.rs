@@ -3,6 +3,7 @@
 use kurbo::Point;
 
 use super::chain::Chain;
+use crate::math::grouped::{Grouped, grouped};
 
 /// Cells along the longer side, at most.
 const MOST_CELLS: f64 = 2048.0;
@@ -26,9 +27,8 @@ pub(super) struct SegmentCells {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Where the list of each cell begins in `items`.
-    starts: Vec<u32>,
-    items: Vec<u32>,
+    /// The numbers of the segments that go through each cell.
+    items: Grouped<u32>,
 }
 
 impl SegmentCells {
@@ -57,34 +57,12 @@ impl SegmentCells {
         let cell = (side / count.sqrt().ceil().clamp(1.0, MOST_CELLS)).max(mean / CELLS_OF_SEGMENT);
         let count = |length: f64| (length / cell) as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
-        let mut grid = Self {
-            segments,
-            origin: low,
-            cell,
-            columns,
-            rows,
-            starts: vec![0; columns * rows + 1],
-            items: Vec::new(),
-        };
-        let mut counts = vec![0u32; columns * rows];
-        let each = |grid: &Self, call: &mut dyn FnMut(usize, usize)| {
+        let mut grid = Self { segments, origin: low, cell, columns, rows, items: Grouped::default() };
+        grid.items = grouped(columns * rows, |put| {
             for (index, segment) in grid.segments.iter().enumerate() {
-                grid.cells(segment.from, segment.to, 0.0, |cell| call(cell, index));
+                grid.cells(segment.from, segment.to, 0.0, |cell| put(cell, index as u32));
             }
-        };
-        each(&grid, &mut |cell, _| counts[cell] += 1);
-        let mut sum = 0;
-        for (start, count) in grid.starts.iter_mut().zip(counts.iter().chain(&[0])) {
-            *start = sum;
-            sum += count;
-        }
-        let mut items = vec![0u32; sum as usize];
-        let mut at = grid.starts.clone();
-        each(&grid, &mut |cell, index| {
-            items[at[cell] as usize] = index as u32;
-            at[cell] += 1;
         });
-        grid.items = items;
         grid
     }
 
@@ -123,10 +101,7 @@ impl SegmentCells {
     /// The segments that may lie within `reach` of a segment, each once, in order.
     pub(super) fn near(&self, from: Point, to: Point, reach: f64, found: &mut Vec<u32>) {
         found.clear();
-        self.cells(from, to, reach, |cell| {
-            let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
-            found.extend_from_slice(&self.items[range]);
-        });
+        self.cells(from, to, reach, |cell| found.extend_from_slice(self.items.of(cell)));
         found.sort_unstable();
         found.dedup();
     }
@@ -148,9 +123,7 @@ impl SegmentCells {
         while ring <= most {
             let visit = |x: f64, y: f64, see: &mut dyn FnMut(u32)| {
                 if (0.0..columns).contains(&x) && (0.0..rows).contains(&y) {
-                    let cell = y as usize * self.columns + x as usize;
-                    let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
-                    self.items[range].iter().for_each(|item| see(*item));
+                    self.items.of(y as usize * self.columns + x as usize).iter().for_each(|item| see(*item));
                 }
             };
             let mut y = (row - ring).max(0.0);

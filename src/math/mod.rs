@@ -4,6 +4,7 @@ pub mod colour;
 pub mod factor;
 pub mod function;
 pub mod glob;
+pub mod grouped;
 pub mod identity;
 pub mod linear;
 pub mod noise;

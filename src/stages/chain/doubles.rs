@@ -8,6 +8,7 @@ use super::line::Line;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
+use crate::math::grouped::{Grouped, grouped};
 use crate::math::plane::{distance2, length};
 use crate::shape::Origin;
 
@@ -46,8 +47,7 @@ struct Buckets {
     corner: Point,
     columns: usize,
     rows: usize,
-    first: Vec<u32>,
-    pieces: Vec<u32>,
+    pieces: Grouped<u32>,
 }
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within
@@ -153,24 +153,12 @@ impl Buckets {
         }
         let columns = ((high.x - low.x) / cell) as usize + 1;
         let rows = ((high.y - low.y) / cell) as usize + 1;
-        let mut buckets = Self { cell, corner: low, columns, rows, first: Vec::new(), pieces: Vec::new() };
-        let mut counts: Vec<u32> = vec![0; columns * rows + 1];
-        for piece in pieces {
-            buckets.each_cell(piece.a, piece.b, |cell| counts[cell + 1] += 1);
-        }
-        for c in 1..counts.len() {
-            counts[c] += counts[c - 1];
-        }
-        let mut next = counts.clone();
-        let mut filled = vec![0; counts.last().copied().unwrap_or(0) as usize];
-        for (i, piece) in pieces.iter().enumerate() {
-            buckets.each_cell(piece.a, piece.b, |cell| {
-                filled[next[cell] as usize] = i as u32;
-                next[cell] += 1;
-            });
-        }
-        buckets.first = counts;
-        buckets.pieces = filled;
+        let mut buckets = Self { cell, corner: low, columns, rows, pieces: Grouped::default() };
+        buckets.pieces = grouped(columns * rows, |put| {
+            for (i, piece) in pieces.iter().enumerate() {
+                buckets.each_cell(piece.a, piece.b, |cell| put(cell, i as u32));
+            }
+        });
         Some(buckets)
     }
 
@@ -209,9 +197,7 @@ impl Buckets {
     ) -> bool {
         let (columns, rows) = self.range(point, point, distance);
         rows.flat_map(|row| columns.clone().map(move |column| (row, column))).any(|(row, column)| {
-            let cell = row * self.columns + column;
-            let range = self.first[cell] as usize..self.first[cell + 1] as usize;
-            self.pieces[range].iter().map(|i| &pieces[*i as usize]).any(|other| {
+            self.pieces.of(row * self.columns + column).iter().map(|i| &pieces[*i as usize]).any(|other| {
                 other.direction.dot(direction).abs() >= PARALLEL_COSINE
                     && other.is_abreast(point, ABREAST * distance)
                     && admit(other.line)

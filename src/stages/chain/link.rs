@@ -7,6 +7,7 @@
 use kurbo::Vec2;
 
 use crate::lines::LineKind;
+use crate::math::grouped::{Grouped, grouped};
 use crate::math::plane::length;
 use crate::mesh::{MaterialId, PartId};
 use crate::shape::Origin;
@@ -114,37 +115,21 @@ const MOST_ENDS: usize = 48;
 const JUNCTION_COSINE: f64 = 0.643;
 
 /// Edge ends around each vertex; end `2e` is the start of edge `e`, `2e + 1` its end.
-pub(super) struct Ends {
-    first: Vec<u32>,
-    ends: Vec<u32>,
-}
+pub(super) struct Ends(Grouped<u32>);
 
 impl Ends {
-    /// Collects the ends of the edges that `keep` admits, by a counting sort on the vertex.
+    /// Collects the ends of the edges that `keep` admits.
     pub fn new(map: &ViewMap, keep: impl Fn(usize) -> bool) -> Self {
-        let mut first = vec![0_u32; map.vertices.len() + 1];
-        for (e, edge) in map.edges.iter().enumerate().filter(|(e, _)| keep(*e)) {
-            debug_assert!(e < map.edges.len());
-            first[edge.start.index() + 1] += 1;
-            first[edge.end.index() + 1] += 1;
-        }
-        for v in 1..first.len() {
-            first[v] += first[v - 1];
-        }
-        let mut next = first.clone();
-        let mut ends = vec![0_u32; first.last().copied().unwrap_or(0) as usize];
-        for (e, edge) in map.edges.iter().enumerate().filter(|(e, _)| keep(*e)) {
-            for (side, vertex) in [edge.start, edge.end].into_iter().enumerate() {
-                let slot = &mut next[vertex.index()];
-                ends[*slot as usize] = (2 * e + side) as u32;
-                *slot += 1;
+        Self(grouped(map.vertices.len(), |put| {
+            for (e, edge) in map.edges.iter().enumerate().filter(|(e, _)| keep(*e)) {
+                put(edge.start.index(), (2 * e) as u32);
+                put(edge.end.index(), (2 * e + 1) as u32);
             }
-        }
-        Self { first, ends }
+        }))
     }
 
     pub fn at(&self, vertex: usize) -> &[u32] {
-        &self.ends[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+        self.0.of(vertex)
     }
 }
 

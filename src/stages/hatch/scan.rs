@@ -7,6 +7,7 @@ use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
 use crate::math::function::{cos, sin};
+use crate::math::grouped::{Grouped, grouped};
 use crate::math::tolerance;
 use crate::region::Ground;
 use crate::region::ground::PAPER;
@@ -55,8 +56,7 @@ struct Crossing {
 pub(super) struct Scan {
     /// The number of the first row.
     pub first: i64,
-    starts: Vec<u32>,
-    crossings: Vec<Crossing>,
+    crossings: Grouped<Crossing>,
 }
 
 impl Scan {
@@ -80,50 +80,34 @@ impl Scan {
             let (low, high) = (a.y.min(b.y).ceil() as i64, a.y.max(b.y).ceil() as i64);
             (low - first) as usize..(high - first) as usize
         };
-        let mut starts = vec![0u32; (high as i64 - first) as usize + 2];
-        for ends in &placed {
-            rows(*ends).for_each(|row| starts[row + 1] += 1);
-        }
-        for k in 1..starts.len() {
-            starts[k] += starts[k - 1];
-        }
-        let mut next = starts.clone();
-        let empty = Crossing { x: 0.0, slope: 0.0, before: PAPER, after: PAPER };
-        let mut crossings = vec![empty; starts.last().copied().unwrap_or_default() as usize];
-        for (piece, ends) in ground.pieces.iter().zip(&placed) {
-            // What runs towards greater y has its first side where x is less.
-            let [a, b] = *ends;
-            let (low, high, [before, after]) =
-                if a.y < b.y { (a, b, piece.sides) } else { (b, a, [piece.sides[1], piece.sides[0]]) };
-            let slope = (high.x - low.x) / (high.y - low.y);
-            for row in rows(*ends) {
-                let y = (first + row as i64) as f64;
-                let crossing = Crossing { x: low.x + (y - low.y) * slope, slope, before, after };
-                crossings[next[row] as usize] = crossing;
-                next[row] += 1;
+        let mut crossings = grouped((high as i64 - first) as usize + 1, |put| {
+            for (piece, ends) in ground.pieces.iter().zip(&placed) {
+                // What runs towards greater y has its first side where x is less.
+                let [a, b] = *ends;
+                let (low, high, [before, after]) =
+                    if a.y < b.y { (a, b, piece.sides) } else { (b, a, [piece.sides[1], piece.sides[0]]) };
+                let slope = (high.x - low.x) / (high.y - low.y);
+                for row in rows(*ends) {
+                    let y = (first + row as i64) as f64;
+                    put(row, Crossing { x: low.x + (y - low.y) * slope, slope, before, after });
+                }
             }
+        });
+        for row in 0..crossings.count() {
+            order(crossings.of_mut(row));
         }
-        let mut scan = Self { first, starts, crossings };
-        for row in 0..scan.rows() {
-            let own = scan.range(row);
-            order(&mut scan.crossings[own]);
-        }
-        scan
+        Self { first, crossings }
     }
 
     /// How many rows there are.
     pub fn rows(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-
-    fn range(&self, row: usize) -> std::ops::Range<usize> {
-        self.starts[row] as usize..self.starts[row + 1] as usize
+        self.crossings.count()
     }
 
     /// The stretches of a row that lie in cells other than paper: from where to where along it, and the
     /// cell.
     pub fn stretches(&self, row: usize) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
-        let own = &self.crossings[self.range(row)];
+        let own = self.crossings.of(row);
         let pairs = own.windows(2).map(|pair| (pair[0].x, pair[1].x, pair[0].after));
         pairs.filter(|(from, to, cell)| *cell != PAPER && from < to)
     }

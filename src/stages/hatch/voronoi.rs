@@ -9,6 +9,8 @@
 
 use rayon::prelude::*;
 
+use crate::math::grouped::{Grouped, grouped};
+
 /// Ink wanted is counted in parts of this for a square that is all black.
 pub(super) const BLACK: u16 = 16_384;
 
@@ -199,8 +201,7 @@ fn distance2(a: [f64; 2], b: [f64; 2]) -> f64 {
 struct Buckets {
     side: f64,
     across: [usize; 2],
-    starts: Vec<u32>,
-    sites: Vec<([f64; 2], u32)>,
+    sites: Grouped<([f64; 2], u32)>,
 }
 
 impl Buckets {
@@ -210,20 +211,15 @@ impl Buckets {
         let side =
             (2.0 * size[0] * size[1] / sites.len() as f64).sqrt().clamp(2.0, size[0].max(size[1]).max(2.0));
         let across = size.map(|size| (size / side) as usize + 1);
-        let mut buckets = Self { side, across, starts: Vec::new(), sites: Vec::new() };
+        let mut buckets = Self { side, across, sites: Grouped::default() };
         let of: Vec<usize> = sites.iter().map(|site| buckets.bucket(*site)).collect();
-        let mut starts = vec![0u32; across[0] * across[1] + 1];
-        of.iter().for_each(|bucket| starts[bucket + 1] += 1);
-        for k in 1..starts.len() {
-            starts[k] += starts[k - 1];
-        }
-        let mut next = starts.clone();
-        buckets.sites = vec![([0.0; 2], NOBODY); sites.len()];
-        for (number, (site, bucket)) in sites.iter().zip(of).enumerate() {
-            buckets.sites[next[bucket] as usize] = (*site, number as u32);
-            next[bucket] += 1;
-        }
-        buckets.starts = starts;
+        buckets.sites = grouped(across[0] * across[1], |put| {
+            sites
+                .iter()
+                .zip(&of)
+                .enumerate()
+                .for_each(|(number, (site, bucket))| put(*bucket, (*site, number as u32)));
+        });
         buckets
     }
 
@@ -237,8 +233,7 @@ impl Buckets {
     }
 
     fn of_bucket(&self, column: usize, row: usize) -> &[([f64; 2], u32)] {
-        let bucket = row * self.across[0] + column;
-        &self.sites[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
+        self.sites.of(row * self.across[0] + column)
     }
 
     /// All sites that may be the nearest one to the middle of a square of the block around a centre.
@@ -251,9 +246,8 @@ impl Buckets {
         near.clear();
         for row in top..=bottom {
             // The buckets of a row lie one after the other.
-            let first = self.starts[row * self.across[0] + left] as usize;
-            let last = self.starts[row * self.across[0] + right + 1] as usize;
-            for site in &self.sites[first..last] {
+            let row = row * self.across[0];
+            for site in self.sites.of_all(row + left..row + right + 1) {
                 if distance2(site.0, centre) <= limit * limit {
                     near.push(*site);
                 }

@@ -3,6 +3,7 @@
 use kurbo::{Point, Vec2};
 
 use super::piece::{BorderPiece, PAPER};
+use crate::math::grouped::{Grouped, grouped};
 
 /// Pieces by the tiles of the page that they pass.
 #[derive(Debug, Clone, Default)]
@@ -10,8 +11,7 @@ pub(super) struct PieceTiles {
     low: Vec2,
     tiles_per_unit: f64,
     across: [usize; 2],
-    starts: Vec<u32>,
-    pieces: Vec<u32>,
+    pieces: Grouped<u32>,
 }
 
 /// Pieces in a tile, on average.
@@ -32,23 +32,11 @@ impl PieceTiles {
         let tiles_per_unit = wanted / size.x.max(size.y).max(f64::MIN_POSITIVE);
         let across = [size.x, size.y].map(|length| (length * tiles_per_unit) as usize + 1);
         let mut grid = Self { low: low.to_vec2(), tiles_per_unit, across, ..Self::default() };
-        let mut starts = vec![0u32; across[0] * across[1] + 1];
-        for piece in pieces {
-            grid.pass(piece.ends[0], piece.ends[1], |tile| starts[tile + 1] += 1);
-        }
-        for k in 1..starts.len() {
-            starts[k] += starts[k - 1];
-        }
-        let mut next = starts.clone();
-        let mut sorted = vec![0u32; starts.last().copied().unwrap_or_default() as usize];
-        for (number, piece) in pieces.iter().enumerate() {
-            grid.pass(piece.ends[0], piece.ends[1], |tile| {
-                sorted[next[tile] as usize] = number as u32;
-                next[tile] += 1;
-            });
-        }
-        grid.starts = starts;
-        grid.pieces = sorted;
+        grid.pieces = grouped(across[0] * across[1], |put| {
+            for (number, piece) in pieces.iter().enumerate() {
+                grid.pass(piece.ends[0], piece.ends[1], |tile| put(tile, number as u32));
+            }
+        });
         grid
     }
 
@@ -82,10 +70,7 @@ impl PieceTiles {
 
     /// Calls for the pieces in the tiles that a segment passes, for some more than once.
     pub fn visit(&self, from: Point, to: Point, mut call: impl FnMut(u32)) {
-        self.pass(from, to, |tile| {
-            let own = self.starts[tile] as usize..self.starts[tile + 1] as usize;
-            self.pieces[own].iter().for_each(|number| call(*number));
-        });
+        self.pass(from, to, |tile| self.pieces.of(tile).iter().for_each(|number| call(*number)));
     }
 
     /// Pieces in the tiles that a box touches, ascending.
@@ -99,10 +84,7 @@ impl PieceTiles {
         }
         for row in low.y.max(0.0) as usize..=(high.y as usize).min(rows - 1) {
             for column in low.x.max(0.0) as usize..=(high.x as usize).min(columns - 1) {
-                let tile = row * columns + column;
-                found.extend_from_slice(
-                    &self.pieces[self.starts[tile] as usize..self.starts[tile + 1] as usize],
-                );
+                found.extend_from_slice(self.pieces.of(row * columns + column));
             }
         }
         found.sort_unstable();
@@ -119,9 +101,8 @@ impl PieceTiles {
         }
         let row = at.y as usize;
         for column in (0..=(at.x as usize).min(columns - 1)).rev() {
-            let tile = row * columns + column;
             let mut nearest: Option<(f64, u32)> = None;
-            for number in &self.pieces[self.starts[tile] as usize..self.starts[tile + 1] as usize] {
+            for number in self.pieces.of(row * columns + column) {
                 let piece = &pieces[*number as usize];
                 let [a, b] = piece.ends;
                 if (a.y > p.y) == (b.y > p.y) {

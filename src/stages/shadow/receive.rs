@@ -11,10 +11,10 @@ use super::cast::{self, CastEdge};
 use super::envelope::{Candidate, EdgePart, envelope};
 use super::light::LightView;
 use crate::lines::Surface;
+use crate::math::grouped::grouped;
 use crate::mesh::Mesh;
 use crate::view::View;
 use crate::viewmap::grid::Grid;
-use crate::viewmap::grouped::bucket;
 use crate::viewmap::limits::Limits;
 use crate::viewmap::occlude::covered;
 use crate::viewmap::occluders::{Occluder, Triangles};
@@ -73,14 +73,14 @@ fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candida
     });
     let across = ((mesh.triangles.len() as f64).sqrt() / 2.0) as u32;
     let grid = &Grid::new(low, high, across.clamp(8, MOST_TILES));
-    let items = bucket(grid.len(), |put| {
+    let items = grouped(grid.len(), |put| {
         for (k, edge) in edges.iter().enumerate() {
             grid.walk(edge.a, edge.b, |tile, start, end| put(tile, Item { edge: k as u32, start, end }));
         }
     });
     let triangles = Triangles { mesh, view, grid, limits };
     let boxes = triangles.tile_boxes();
-    let faces = bucket(grid.len(), |put| {
+    let faces = grouped(grid.len(), |put| {
         for (id, tiles) in boxes.iter().enumerate().filter(|(_, tiles)| !tiles.is_empty()) {
             for (tile, _) in grid.tiles_of(*tiles) {
                 if !items.of(tile).is_empty() {

@@ -9,6 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::math::function::cos;
+use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::dihedral::Dihedral;
 use crate::mesh::{FaceId, Mesh};
 
@@ -40,10 +41,8 @@ pub(super) struct Folds<'a> {
     mesh: &'a Mesh,
     /// In edge order.
     pub folds: Vec<Fold>,
-    /// For each vertex, where its ends begin in `ends`, and one entry more.
-    starts: Vec<u32>,
-    /// Fold shifted left by one; bit 0 says which of its vertices.
-    ends: Vec<u32>,
+    /// By vertex: the fold shifted left by one; bit 0 says which of its vertices.
+    ends: Grouped<u32>,
 }
 
 /// Folds end to end.
@@ -77,24 +76,14 @@ impl<'a> Folds<'a> {
     /// Sorts the ends of folds by vertex.
     pub fn new(mesh: &'a Mesh, folds: Vec<Fold>) -> Self {
         let vertices = |f: &Fold| mesh.edges.vertices[f.edge as usize];
-        let mut starts = vec![0u32; mesh.positions.len() + 1];
-        for v in folds.iter().flat_map(vertices) {
-            starts[v as usize] += 1;
-        }
-        let mut total = 0;
-        for start in &mut starts {
-            total += *start;
-            *start = total;
-        }
-        // Filled from behind, `starts` moves from the ends of the lists to their beginnings.
-        let mut ends = vec![0u32; 2 * folds.len()];
-        for (i, fold) in folds.iter().enumerate().rev() {
-            for (side, v) in vertices(fold).into_iter().enumerate() {
-                starts[v as usize] -= 1;
-                ends[starts[v as usize] as usize] = (i << 1 | side) as u32;
+        let ends = grouped(mesh.positions.len(), |put| {
+            for (i, fold) in folds.iter().enumerate() {
+                for (side, v) in vertices(fold).into_iter().enumerate() {
+                    put(v as usize, (i << 1 | side) as u32);
+                }
             }
-        }
-        Self { mesh, folds, starts, ends }
+        });
+        Self { mesh, folds, ends }
     }
 
     /// The chains that hold a fold of more than `high_deg` degrees, each as long as it goes.
@@ -130,7 +119,7 @@ impl<'a> Folds<'a> {
     /// between them.
     fn links(&self) -> Vec<Option<(u32, f32)>> {
         const CHUNK: usize = 1 << 14;
-        let vertices = self.starts.len() - 1;
+        let vertices = self.ends.count();
         let found: Vec<Vec<Pair>> = (0..vertices.div_ceil(CHUNK))
             .into_par_iter()
             .map(|k| {
@@ -139,7 +128,7 @@ impl<'a> Folds<'a> {
                 pairs
             })
             .collect();
-        let mut links = vec![None; self.ends.len()];
+        let mut links = vec![None; 2 * self.folds.len()];
         for Pair { ends: [a, b], cosine, .. } in found.into_iter().flatten() {
             links[a as usize] = Some((b, cosine as f32));
             links[b as usize] = Some((a, cosine as f32));
@@ -149,7 +138,7 @@ impl<'a> Folds<'a> {
 
     /// Adds the pairs of ends at a vertex that continue each other.
     fn pair_up(&self, vertex: usize, pairs: &mut Vec<Pair>) {
-        let ends = &self.ends[self.starts[vertex] as usize..self.starts[vertex + 1] as usize];
+        let ends = self.ends.of(vertex);
         if !(2..=TIP).contains(&ends.len()) {
             return;
         }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::SmoothNormals;
 use super::smooth_normals::NO_NORMAL;
+use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::{FaceId, Mesh, PartId};
 
 /// The smallest piece of work for a thread, in vertices or faces.
@@ -15,8 +16,7 @@ pub(super) const GRAIN: usize = 1 << 12;
 /// Flat faces and faces without area are in no fan.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Fans {
-    starts: Vec<u32>,
-    corners: Vec<u32>,
+    corners: Grouped<u32>,
     /// One per face.
     pub(super) frames: Vec<FaceFrame>,
 }
@@ -42,35 +42,20 @@ impl Fans {
             .with_min_len(GRAIN)
             .map(|face| FaceFrame::of(mesh, smooth, face).unwrap_or(FaceFrame::NONE))
             .collect();
-        let mut starts = vec![0u32; smooth.vertices.len() + 1];
-        let sound = |face: &usize| frames[*face].u != DVec3::ZERO;
-        for face in (0..faces).filter(sound) {
-            for v in smooth.corners[face] {
-                starts[v as usize] += 1;
+        let corners = grouped(smooth.vertices.len(), |put| {
+            for face in (0..faces).filter(|face| frames[*face].u != DVec3::ZERO) {
+                for (corner, v) in smooth.corners[face].into_iter().enumerate() {
+                    put(v as usize, (face as u32) << 2 | corner as u32);
+                }
             }
-        }
-        let mut total = 0;
-        for start in &mut starts {
-            total += *start;
-            *start = total;
-        }
-        // Filled from behind, `starts` moves from the ends of the fans to their beginnings.
-        let mut corners = vec![0u32; total as usize];
-        for face in (0..faces).rev().filter(sound) {
-            for (corner, v) in smooth.corners[face].into_iter().enumerate().rev() {
-                let start = &mut starts[v as usize];
-                *start -= 1;
-                corners[*start as usize] = (face as u32) << 2 | corner as u32;
-            }
-        }
-        Self { starts, corners, frames }
+        });
+        Self { corners, frames }
     }
 
     /// The faces around a smooth vertex, and which of their corners it is, in mesh order.
     #[inline]
     pub fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let range = self.starts[vertex] as usize..self.starts[vertex + 1] as usize;
-        self.corners[range].iter().map(|corner| ((corner >> 2) as usize, (corner & 3) as usize))
+        self.corners.of(vertex).iter().map(|corner| ((corner >> 2) as usize, (corner & 3) as usize))
     }
 
     /// The part of each of so many smooth vertices: that of the first face around it.

@@ -5,7 +5,6 @@ use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
 use super::graph::SeenContour;
-use super::grouped::bucket;
 use super::limits::Limits;
 use super::occlude::hidden_interval;
 use super::occluders::{Occluder, Triangles};
@@ -14,6 +13,7 @@ use super::tile::Item;
 use super::visibility::grid_over;
 use super::witnesses::REACH_PX;
 use crate::lines::{FeatureLines, NO_FACE, Role};
+use crate::math::grouped::grouped;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -65,7 +65,7 @@ impl Ahead<'_> {
         let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
         let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
         let grid = grid_over(&segments, TILES);
-        let items = bucket(grid.len(), |put| {
+        let items = grouped(grid.len(), |put| {
             for (i, s) in segments.iter().enumerate() {
                 grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));
             }
@@ -75,7 +75,7 @@ impl Ahead<'_> {
         let open = vec![f64::NEG_INFINITY; grid.len()];
         let occluders = triangles.fill(&triangles.tile_boxes(), &wanted, &open);
         let reach = DVec2::splat(REACH_PX * limits.px);
-        let seen = bucket(grid.len(), |put| {
+        let seen = grouped(grid.len(), |put| {
             for seen in self.seen {
                 let [a, b] = seen.ends;
                 let tiles = grid.tile_box((a.min(b) - reach).extend(0.0), (a.max(b) + reach).extend(0.0));

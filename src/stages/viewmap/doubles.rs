@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::grid::Grid;
-use super::grouped::{Grouped, bucket};
+use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::Extents;
 
 /// Lines shorter than this many times the distance have no direction to speak of, and are left
@@ -65,7 +65,7 @@ fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64
     }
     let across = ((ids.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
     let grid = Grid::new(low.truncate(), high.truncate(), across);
-    let lines_of = bucket(grid.len(), |put| {
+    let lines_of = grouped(grid.len(), |put| {
         for id in &ids {
             let (p, q) = ends(*id);
             grid.walk(p, q, |tile, _, _| put(tile, *id));

@@ -8,7 +8,7 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::grouped::{Grouped, bucket};
+use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -93,7 +93,7 @@ impl<'a> PointGrid<'a> {
         let per_unit = |size: f64| if size > 0.0 { across as f64 / size } else { 0.0 };
         let cells_per_unit = DVec2::new(per_unit(size.x), per_unit(size.y));
         let mut grid = Self { points, low, high, cells_per_unit, across, cells: Grouped::default() };
-        grid.cells = bucket(across * across, |put| {
+        grid.cells = grouped(across * across, |put| {
             for (i, p) in points.iter().enumerate() {
                 let [x, y] = grid.cell(*p);
                 put(y * across + x, i as u32);

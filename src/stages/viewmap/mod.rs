@@ -7,7 +7,6 @@ pub mod doubles;
 pub mod front;
 pub mod graph;
 pub mod grid;
-pub(crate) mod grouped;
 pub mod layers;
 pub mod limits;
 pub mod occlude;

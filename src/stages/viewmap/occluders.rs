@@ -7,9 +7,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::grid::{Grid, TileBox};
-use super::grouped::{Grouped, bucket};
 use super::limits::{Limits, Slack};
 use super::sides::Sides;
+use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -134,7 +134,7 @@ impl Triangles<'_> {
             })
             .collect();
         // Chunks follow the order of the triangles, so tiles do too.
-        bucket(self.grid.len(), |put| {
+        grouped(self.grid.len(), |put| {
             for (tile, id) in found.iter().flatten() {
                 put(*tile as usize, *id);
             }

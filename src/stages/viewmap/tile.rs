@@ -5,13 +5,13 @@ use glam::{DVec2, DVec3};
 use super::cover::{self, OPEN};
 use super::graph::ViewVertexKind;
 use super::grid::{Grid, TileBox};
-use super::grouped::bucket;
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
 use super::occlude::{Interval, covered, hidden_interval};
 use super::occluders::Occluder;
 use super::project::ImageSegment;
 use crate::lines::NO_FACE;
+use crate::math::grouped::grouped;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -150,7 +150,7 @@ impl Context<'_> {
                 result.whole.push(*item);
             }
         }
-        let fine_items = bucket(grid.len(), |put| {
+        let fine_items = grouped(grid.len(), |put| {
             for (tile, item) in &fine {
                 put(*tile as usize, *item);
             }
@@ -165,7 +165,7 @@ impl Context<'_> {
                 (*i, grid.tile_box(low - slack, high + slack))
             })
             .collect();
-        let fine_entries = bucket(grid.len(), |put| {
+        let fine_entries = grouped(grid.len(), |put| {
             for (i, tiles) in &boxes {
                 let nearest = f64::from(entries.all[*i as usize].nearest);
                 for (tile, _) in grid.tiles_of(*tiles) {

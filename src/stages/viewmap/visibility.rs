@@ -19,13 +19,13 @@ use rayon::prelude::*;
 use super::cover::Covers;
 use super::graph::ViewVertexKind;
 use super::grid::Grid;
-use super::grouped::{Grouped, bucket};
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
 use super::occlude::Interval;
 use super::occluders::{Occluder, Triangles};
 use super::project::ImageSegment;
 use super::tile::{Context, Item, TileResult};
+use crate::math::grouped::{Grouped, grouped};
 use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -79,7 +79,7 @@ pub fn decide(
     counting: bool,
 ) -> Visibility {
     let grid = grid_over(segments, tiles_across(mesh.triangles.len()));
-    let mut items = bucket(grid.len(), |put| {
+    let mut items = grouped(grid.len(), |put| {
         for (i, s) in segments.iter().enumerate() {
             grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));
         }
@@ -195,7 +195,7 @@ fn gather(
     }
     let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - WHOLE_SLACK).collect();
     let open = |segment: u32| !buried[segment as usize];
-    let hidden = bucket(segments.len(), |put| {
+    let hidden = grouped(segments.len(), |put| {
         for item in wholes().filter(|item| open(item.segment)) {
             put(item.segment as usize, whole(item.start, item.end));
         }
@@ -203,7 +203,7 @@ fn gather(
             put(*segment as usize, *layer);
         }
     });
-    let backed = bucket(segments.len(), |put| {
+    let backed = grouped(segments.len(), |put| {
         for (segment, interval) in results.iter().flat_map(|r| &r.backed) {
             put(*segment as usize, *interval);
         }

@@ -11,7 +11,6 @@ use rayon::prelude::*;
 
 use super::graph::{SeenContour, ViewVertexKind};
 use super::grid::Grid;
-use super::grouped::{Grouped, bucket};
 use super::layers::Layer;
 use super::limits::Limits;
 use super::occlude::Interval;
@@ -19,6 +18,7 @@ use super::project::ImageSegment;
 use super::runs::Run;
 use super::visibility::{Visibility, grid_over};
 use crate::lines::Role;
+use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -107,7 +107,7 @@ impl<'a> Court<'a> {
         limits: &Limits,
     ) -> Self {
         let grid = grid_over(segments, GRID);
-        let pieces = bucket(grid.len(), |put| {
+        let pieces = grouped(grid.len(), |put| {
             for (r, run) in runs.iter().enumerate() {
                 for (k, id) in run.segments.iter().enumerate() {
                     let segment = &segments[*id as usize];

@@ -1,0 +1,129 @@
+//! [`Grouped`]: values sorted by the number of the group they belong to, by a counting sort.
+
+use std::ops::Range;
+
+/// Values by the groups they belong to, in each in the order in which they came.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grouped<T> {
+    /// Where each group begins among the values, and where the last one ends; empty where there are no groups.
+    starts: Vec<u32>,
+    values: Vec<T>,
+}
+
+impl<T> Default for Grouped<T> {
+    fn default() -> Self {
+        Self { starts: Vec::new(), values: Vec::new() }
+    }
+}
+
+/// Sorts what `fill` puts into `count` groups: `fill` runs twice and must put the same both times, group first.
+pub fn grouped<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> Grouped<T> {
+    let mut starts = vec![0u32; count + 1];
+    let mut any = None;
+    fill(&mut |group, value| {
+        starts[group + 1] += 1;
+        any = Some(value);
+    });
+    for group in 0..count {
+        starts[group + 1] += starts[group];
+    }
+    let Some(blank) = any else { return Grouped { starts, values: Vec::new() } };
+    let mut values = vec![blank; starts[count] as usize];
+    let mut next = starts.clone();
+    fill(&mut |group, value| {
+        values[next[group] as usize] = value;
+        next[group] += 1;
+    });
+    Grouped { starts, values }
+}
+
+impl<T: Copy> Grouped<T> {
+    /// How many groups there are.
+    pub fn count(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// The values of a group.
+    #[inline]
+    pub fn of(&self, group: usize) -> &[T] {
+        &self.values[self.range(group)]
+    }
+
+    /// The values of a group, to be changed.
+    pub fn of_mut(&mut self, group: usize) -> &mut [T] {
+        let range = self.range(group);
+        &mut self.values[range]
+    }
+
+    /// The values of groups that follow each other.
+    pub fn of_all(&self, groups: Range<usize>) -> &[T] {
+        &self.values[self.starts[groups.start] as usize..self.starts[groups.end] as usize]
+    }
+
+    /// One of all values, to be changed.
+    pub fn at_mut(&mut self, at: usize) -> &mut T {
+        &mut self.values[at]
+    }
+
+    /// Where the values of a group lie among all of them.
+    #[inline]
+    pub fn range(&self, group: usize) -> Range<usize> {
+        self.starts[group] as usize..self.starts[group + 1] as usize
+    }
+
+    /// These groups after `tidy` has ordered and joined the values of each that is not empty.
+    pub fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
+        let mut tidied = Self {
+            starts: Vec::with_capacity(self.starts.len()),
+            values: Vec::with_capacity(self.values.len()),
+        };
+        tidied.starts.push(0);
+        let mut own: Vec<T> = Vec::new();
+        for group in 0..self.count() {
+            let found = self.of(group);
+            if !found.is_empty() {
+                own.clear();
+                own.extend_from_slice(found);
+                tidy(group, &mut own);
+                tidied.values.extend_from_slice(&own);
+            }
+            tidied.starts.push(tidied.values.len() as u32);
+        }
+        tidied
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_words(words: &[&'static str]) -> Grouped<&'static str> {
+        grouped(4, |put| words.iter().for_each(|word| put(word.len(), *word)))
+    }
+
+    #[test]
+    fn values_keep_their_order_in_their_group() {
+        let lengths = of_words(&["an", "b", "of", "", "c", "to"]);
+        assert_eq!(lengths.count(), 4);
+        assert_eq!([lengths.of(0), lengths.of(1), lengths.of(3)], [&[""][..], &["b", "c"], &[]]);
+        assert_eq!(lengths.of(2), ["an", "of", "to"]);
+        assert_eq!(lengths.of_all(1..3), ["b", "c", "an", "of", "to"]);
+        assert_eq!(lengths.range(2), 3..6);
+    }
+
+    #[test]
+    fn groups_may_have_no_values() {
+        let none = of_words(&[]);
+        assert_eq!((none.count(), none.of(3).len()), (4, 0));
+        assert_eq!(Grouped::<u32>::default().count(), 0);
+    }
+
+    #[test]
+    fn tidied_groups_are_shorter_and_in_order() {
+        let tidied = of_words(&["to", "an", "x", "to"]).tidied(|_, own| {
+            own.sort_unstable();
+            own.dedup();
+        });
+        assert_eq!((tidied.of(1), tidied.of(2), tidied.of(3).len()), (&["x"][..], &["an", "to"][..], 0));
+    }
+}
