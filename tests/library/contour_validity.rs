@@ -17,10 +17,12 @@ use ligne::stages::mesh::Mesh;
 /// stops that is explained, percent.
 type Level = (&'static str, f64, f64);
 
-/// `examples/…` belongs to the project, the others are shared models.
-const QUICK: [Level; 1] = [("examples/models/knot.ply", 4.0, 98.2)];
+/// From every third view.
+const QUICK: [Level; 1] = [("examples/models/knot.ply", 3.9, 97.3)];
 
-const ALL: [Level; 7] = [
+/// From all views; `examples/…` belongs to the project, the others are shared models.
+const ALL: [Level; 8] = [
+    ("examples/models/knot.ply", 4.0, 98.2),
     ("organic/spot.obj", 8.0, 85.0),
     ("organic/suzanne.obj", 70.1, 71.7),
     ("organic/cow.obj", 70.0, 80.0),
@@ -38,8 +40,8 @@ fn open(name: &str) -> Option<Scene> {
     path.map(|path| Scene::open(&path).unwrap())
 }
 
-/// Looks at models from all sides, and compares with their levels.
-fn hold(levels: &[Level]) {
+/// Looks at models from every so many of all sides, and compares with their levels.
+fn hold(levels: &[Level], step: usize) {
     let options = LineOptions::default();
     let mut faults = Vec::new();
     println!("{}", Tally::header());
@@ -47,11 +49,11 @@ fn hold(levels: &[Level]) {
         let Some(scene) = open(name) else { continue };
         let surface = Surface::new(Mesh::build(scene.to_soup()), &options);
         let mut tally = Tally::default();
-        for camera in cameras(&scene) {
+        for camera in cameras(&scene).into_iter().step_by(step) {
             tally.add(check(&view_map(&surface, &camera, &options)));
         }
         println!("{}", tally.row(name));
-        assert!(tally.stops > 100 && tally.curves > 25, "{name} has hardly any smooth contours");
+        assert!(tally.stops > 100 && tally.curves * step > 25, "{name} has hardly any smooth contours");
         if tally.bare_a_view() > *bare || tally.explained() < *explained {
             faults.push(format!(
                 "{name}: more than {bare} bare pieces a view or less than {explained} % explained"
@@ -63,13 +65,13 @@ fn hold(levels: &[Level]) {
 
 #[test]
 fn contours_stop_where_something_explains_it() {
-    hold(&QUICK);
+    hold(&QUICK, 3);
 }
 
 #[test]
 #[ignore = "long: .ci/nightly"]
 fn contours_of_all_models_stop_where_something_explains_it() {
-    hold(&ALL);
+    hold(&ALL, 1);
 }
 
 /// A model, and the least part of its smooth contours within half a px of the polyhedron's, percent.

