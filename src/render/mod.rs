@@ -28,6 +28,7 @@ pub mod stage;
 mod stages;
 mod under;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use kurbo::{PathEl, Vec2};
@@ -44,7 +45,7 @@ use crate::lines::{self, FeatureLines, LineOptions, Surface};
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
 use crate::region::Ground;
-use crate::scene::{Camera, Scene, paint::Paints};
+use crate::scene::{Camera, Scene, Warnings, cutout, paint::Paints};
 use crate::stroke::{self, InkContext, Parting};
 use crate::style::Style;
 use crate::view::View;
@@ -117,7 +118,9 @@ pub fn render_reported(
 /// ```
 #[derive(Debug)]
 pub struct Prepared<'a> {
-    scene: &'a Scene,
+    /// What is drawn of the scene: without what pictures of its materials leave clear.
+    scene: Cow<'a, Scene>,
+    warnings: Warnings,
     style: &'a Style,
     sought: LineOptions,
     /// Where surfaces are painted or hatched, or lines take their colour: the paints of the scene.
@@ -132,13 +135,14 @@ impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+        let (scene, warnings) = cutout::cut(scene);
         let needs_paints = fills::is_lit(style) || under::asks_colours(style);
-        let paints = needs_paints.then(|| Paints::of(scene));
+        let paints = needs_paints.then(|| Paints::of(&scene));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);
         let paintable = fills::is_lit(style).then(|| Paintable::new(&surface));
-        Self { scene, style, sought, paints, surface, paintable, search: LateSearch::default() }
+        Self { scene, warnings, style, sought, paints, surface, paintable, search: LateSearch::default() }
     }
 
     /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
@@ -164,7 +168,7 @@ impl<'a> Prepared<'a> {
         self.on_view(camera, |on_view| {
             let OnView { fills, map, .. } = on_view;
             let fills = fills.filter(|_| self.style.hatch.enabled)?;
-            let (scene, style) = (self.scene, self.style);
+            let (scene, style) = (self.scene.as_ref(), self.style);
             let hatching = Hatching { fills, scene, page: &page, camera, style };
             Some(hatching.strokes(&fills.see(&map, &page)))
         })
@@ -279,6 +283,7 @@ impl<'a> Prepared<'a> {
         report.counts.chains = chains.len() as u64;
         report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
         report.warnings = defects::of_mesh(&surface.mesh, scene).lines();
+        report.warnings.extend(self.warnings.lines());
         report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
         report.warnings.extend(warnings);
         report.warnings.extend(hatching::too_dark(style, page.unit));

@@ -36,6 +36,14 @@ pub struct Geometry {
     pub single_precision: bool,
 }
 
+impl Geometry {
+    /// The material of a triangle.
+    #[must_use]
+    pub fn material_of(&self, triangle: usize) -> Option<u32> {
+        self.triangle_material.get(triangle).copied().or(self.material)
+    }
+}
+
 /// One instance of a geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {

@@ -20,6 +20,41 @@ pub struct Material {
     pub texture: Option<String>,
     /// The base-colour texture, still encoded, if it is inside the model's file.
     pub picture: Option<Arc<[u8]>>,
+    /// What becomes of the alpha of the base colour and of its texture.
+    pub alpha: Alpha,
+    /// Path of a picture that says how opaque the material is, relative to the model (`map_d` in MTL).
+    pub opacity_map: Option<String>,
+    /// How the texture goes on beyond its borders, along u and along v.
+    pub wrap: [Wrap; 2],
+}
+
+/// What becomes of alpha.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub enum Alpha {
+    /// It says nothing.
+    #[default]
+    Opaque,
+    /// What of the texture has less is cut away.
+    Mask {
+        /// The least alpha of the texture that is left, 0 to 1.
+        cutoff: f32,
+    },
+    /// The surface is as opaque as it says; what of the texture has less than half of the most is cut away.
+    Blend,
+}
+
+/// How a texture goes on beyond its borders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Wrap {
+    /// It begins again.
+    #[default]
+    Repeat,
+    /// Its border goes on.
+    Clamp,
+    /// It goes back and forth.
+    Mirror,
 }
 
 impl Default for Material {
@@ -31,6 +66,9 @@ impl Default for Material {
             double_sided: false,
             texture: None,
             picture: None,
+            alpha: Alpha::Opaque,
+            opacity_map: None,
+            wrap: [Wrap::Repeat; 2],
         }
     }
 }

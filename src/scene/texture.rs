@@ -19,11 +19,7 @@ impl Texture {
     /// The texture of a material; none if it has none or if it is not PNG or JPEG, an error if it
     /// cannot be read.
     pub fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
-        let picture = match (&material.picture, &material.texture, &scene.file) {
-            (Some(bytes), ..) => Picture::decode(bytes),
-            (None, Some(path), Some(file)) => from_file(file, path),
-            _ => return None,
-        };
+        let picture = picture_of(scene, material)?;
         Some(picture.map(|picture| Self { picture, upward: scene.format != "glTF" }))
     }
 
@@ -53,6 +49,20 @@ impl Texture {
         };
         self.picture.at(index(u, self.picture.width), index(v, self.picture.height))
     }
+}
+
+/// The picture of a material's base colour; none if it has none, an error if it cannot be read.
+pub(super) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Picture, String>> {
+    match (&material.picture, &material.texture) {
+        (Some(bytes), _) => Some(Picture::decode(bytes)),
+        (None, Some(path)) => beside(scene, path),
+        (None, None) => None,
+    }
+}
+
+/// The picture in a file beside the model; none if the model is no file.
+pub(super) fn beside(scene: &Scene, path: &str) -> Option<Result<Picture, String>> {
+    scene.file.as_ref().map(|file| from_file(file, path))
 }
 
 fn from_file(model: &Path, path: &str) -> Result<Picture, String> {

@@ -53,7 +53,10 @@ fn hold(levels: &[Level], step: usize) {
             tally.add(check(&view_map(&surface, &camera, &options)));
         }
         println!("{}", tally.row(name));
-        assert!(tally.stops > 100 && tally.curves * step as u64 > 25, "{name} has hardly any smooth contours");
+        assert!(
+            tally.stops > 100 && tally.curves * step as u64 > 25,
+            "{name} has hardly any smooth contours"
+        );
         if tally.bare_a_view() > *bare || tally.explained() < *explained {
             faults.push(format!(
                 "{name}: more than {bare} bare pieces a view or less than {explained} % explained"

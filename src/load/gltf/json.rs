@@ -18,6 +18,7 @@ pub struct Root {
     pub buffers: Vec<Buffer>,
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
+    pub samplers: Vec<Sampler>,
     pub images: Vec<Image>,
     pub cameras: Vec<Camera>,
     pub skins: Vec<Skin>,
@@ -337,7 +338,15 @@ pub struct TextureTransform {
 #[serde(default)]
 pub struct Texture {
     pub source: Option<usize>,
+    pub sampler: Option<usize>,
     pub extensions: TextureExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub struct Sampler {
+    pub wrap_s: Option<u32>,
+    pub wrap_t: Option<u32>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -6,7 +6,7 @@ use super::buffers::{Buffers, Fetch};
 use super::json;
 use super::uri;
 use crate::math::colour::Colour;
-use crate::scene::{Material, Warnings};
+use crate::scene::{Alpha, Material, Warnings, Wrap};
 
 /// The path of a texture beside the model, or its bytes.
 type TextureSource = (Option<String>, Option<Arc<[u8]>>);
@@ -28,6 +28,9 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
             double_sided: material.double_sided,
             texture,
             picture,
+            alpha: alpha(base[3], material),
+            opacity_map: None,
+            wrap: base_texture(material).map_or([Wrap::Repeat; 2], |texture| wrap(buffers.root, texture)),
         }
     };
     buffers.root.materials.iter().map(read).collect()
@@ -44,6 +47,27 @@ fn base_colour(material: &json::Material) -> [f32; 4] {
     let glossy = material.extensions.specular_glossiness.as_ref();
     let metallic = material.pbr_metallic_roughness.base_color_factor;
     metallic.or_else(|| glossy.and_then(|glossy| glossy.diffuse_factor)).unwrap_or([1.0; 4])
+}
+
+fn alpha(factor: f32, material: &json::Material) -> Alpha {
+    match material.alpha_mode.as_deref() {
+        Some("BLEND") => Alpha::Blend,
+        // The texture is multiplied by the factor before it is compared.
+        Some("MASK") => Alpha::Mask { cutoff: material.alpha_cutoff.unwrap_or(0.5) / factor },
+        _ => Alpha::Opaque,
+    }
+}
+
+/// How a texture goes on beyond its borders.
+fn wrap(root: &json::Root, texture: &json::TextureUse) -> [Wrap; 2] {
+    let sampler = root.textures.get(texture.index).and_then(|texture| root.samplers.get(texture.sampler?));
+    sampler.map_or([Wrap::Repeat; 2], |sampler| {
+        [sampler.wrap_s, sampler.wrap_t].map(|code| match code {
+            Some(33_071) => Wrap::Clamp,
+            Some(33_648) => Wrap::Mirror,
+            _ => Wrap::Repeat,
+        })
+    })
 }
 
 fn with_alpha_mode([r, g, b, a]: [f32; 4], material: &json::Material) -> [f32; 4] {

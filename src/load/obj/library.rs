@@ -56,15 +56,13 @@ pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, w
                 }
             }
             b"map_Kd" => {
-                let name = texture(cursor.rest_of_line());
-                if !name.is_empty() {
-                    let path = format!("{folder}{}", name.replace('\\', "/"));
-                    if stays_inside(&path) && !name.starts_with(['/', '\\']) {
-                        material.texture = Some(path);
-                    } else {
-                        warnings
-                            .note(format!("texture {name} lies outside the model's folder and is left out"));
-                    }
+                if let Some(path) = texture_path(cursor.rest_of_line(), folder, warnings) {
+                    material.texture = Some(path);
+                }
+            }
+            b"map_d" => {
+                if let Some(path) = texture_path(cursor.rest_of_line(), folder, warnings) {
+                    material.opacity_map = Some(path);
                 }
             }
             _ => {}
@@ -88,6 +86,20 @@ fn channels(cursor: &mut Cursor) -> Option<[u8; 3]> {
 
 fn byte(channel: f64) -> u8 {
     (channel.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// Where the file of a texture statement lies as seen from the model; none, with a warning, if outside of its folder.
+fn texture_path(statement: &[u8], folder: &str, warnings: &mut Warnings) -> Option<String> {
+    let name = texture(statement);
+    if name.is_empty() {
+        return None;
+    }
+    let path = format!("{folder}{}", name.replace('\\', "/"));
+    if stays_inside(&path) && !name.starts_with(['/', '\\']) {
+        return Some(path);
+    }
+    warnings.note(format!("texture {name} lies outside the model's folder and is left out"));
+    None
 }
 
 /// The file name after the options of a texture statement; it may hold blanks.

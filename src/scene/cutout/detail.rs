@@ -1,0 +1,54 @@
+//! How closely the borders of a mask are followed: as a drawing shows them.
+
+use super::mask::Mask;
+use super::outline::Outline;
+use super::texels_of;
+use crate::scene::Scene;
+
+/// A drawing that is this many px across shows borders within [`FINE_PX`] of where they are.
+const ACROSS_PX: f64 = 4096.0;
+const FINE_PX: f64 = 0.2;
+
+/// Where there is very much of them, as on trees with many thousands of leaves, within so many px.
+const COARSE_PX: f64 = 4.0;
+
+/// More pieces of border in all are too many to be followed finely.
+const MANY: f64 = 1.5e6;
+
+/// How far beside its place a border may lie at least and at most, texels.
+const TOLERANCES: [f64; 2] = [0.005, 2.0];
+
+/// The borders of a material's mask, as closely as a large drawing of the whole scene shows them.
+pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Outline {
+    let (mut in_space, mut in_texels) = (0.0_f64, 0.0_f64);
+    for part in &scene.parts {
+        let Some(geometry) = scene.geometries.get(part.geometry) else { continue };
+        for triangle in 0..geometry.triangles.len() {
+            if geometry.material_of(triangle) != Some(material as u32) {
+                continue;
+            }
+            let Some([a, b, c]) = texels_of(geometry, triangle, mask) else { continue };
+            let [p, q, r] = geometry.triangles[triangle]
+                .map(|corner| part.world_from_part.transform_point3(geometry.positions[corner as usize]));
+            in_space += (q - p).cross(r - p).length() / 2.0;
+            in_texels += (b - a).perp_dot(c - a).abs() / 2.0;
+        }
+    }
+    let size = scene.bounds().map_or(0.0, |(low, high)| (high - low).length());
+    let texel: f64 = (in_space / in_texels).sqrt();
+    let px_texels = size / ACROSS_PX / texel;
+    let [width, height] = mask.size();
+    let [least, most] = TOLERANCES;
+    let within =
+        |px: f64, most: f64| if px_texels.is_finite() { (px * px_texels).clamp(least, most) } else { least };
+    let mut tolerance = within(FINE_PX, most);
+    let coarsest = within(COARSE_PX, most.max(width.min(height) as f64 / 16.0));
+    let times_shown = in_texels / (width * height) as f64;
+    loop {
+        let outline = Outline::new(mask, tolerance);
+        if outline.count() as f64 * times_shown <= MANY || tolerance >= coarsest {
+            return outline;
+        }
+        tolerance = (tolerance * 1.7).min(coarsest);
+    }
+}

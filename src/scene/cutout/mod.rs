@@ -1,0 +1,262 @@
+//! Cut-outs: what a material's picture leaves clear is taken out of the triangles, so that outlines, visibility, regions,
+//! shadows and hatching see holes where there are holes.
+//!
+//! The border between opaque and clear is found in the plane of the texels, with the precision of bilinear interpolation, and
+//! carried over to the triangles exactly: neighbours that share a side are cut at the same points of it.
+
+mod detail;
+mod mask;
+mod outline;
+mod pieces;
+mod side;
+mod triangle;
+
+use std::borrow::Cow;
+use std::hash::Hash;
+
+use glam::DVec2;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use self::mask::{Mask, Masked};
+use self::outline::{Outline, Segment};
+use self::pieces::Rebuilt;
+use self::side::{TexelSide, in_order, turn};
+use self::triangle::{Pieces, TexelTriangle};
+use super::{Geometry, Material, Scene, Warnings};
+
+/// A scene without what the pictures of its materials leave clear, and what could not be cut. Borrowed where nothing is.
+#[must_use]
+pub fn cut(scene: &Scene) -> (Cow<'_, Scene>, Warnings) {
+    let mut warnings = Warnings::default();
+    let read: Vec<_> = scene.materials.par_iter().map(|material| Masked::of(scene, material)).collect();
+    let mut stencils = Vec::with_capacity(read.len());
+    for (id, (masked, material)) in read.into_iter().zip(&scene.materials).enumerate() {
+        stencils.push(match masked {
+            Ok(Masked::Nowhere) => Stencil::Whole,
+            Ok(Masked::Everywhere) => Stencil::Clear,
+            Ok(Masked::Where(mask)) => {
+                let outline = detail::outline(scene, id, &mask);
+                Stencil::Cut(Box::new((mask, outline)))
+            }
+            Err(message) => {
+                let Material { name, .. } = material;
+                warnings.note(format!("nothing is cut out of the material `{name}`: {message}"));
+                Stencil::Whole
+            }
+        });
+    }
+    if stencils.iter().all(|stencil| matches!(stencil, Stencil::Whole)) {
+        return (Cow::Borrowed(scene), warnings);
+    }
+    let mut cut = scene.clone();
+    let mut too_many = 0;
+    for geometry in &mut cut.geometries {
+        let (rebuilt, whole) = cut_geometry(geometry, &stencils);
+        too_many += whole;
+        if let Some(rebuilt) = rebuilt {
+            *geometry = rebuilt;
+        }
+    }
+    if too_many > 0 {
+        warnings.note(format!("{too_many} triangles show too much of a cut-out picture to be cut along it"));
+    }
+    (Cow::Owned(cut), warnings)
+}
+
+/// What is left of the triangles of a material.
+enum Stencil {
+    Whole,
+    Clear,
+    Cut(Box<(Mask, Outline)>),
+}
+
+/// The corners of a triangle in the plane of the texels; none where it shows nothing of the picture.
+fn texels_of(geometry: &Geometry, triangle: usize, mask: &Mask) -> Option<[DVec2; 3]> {
+    let [a, b, c] = geometry.corner_uvs.get(triangle)?.map(|uv| mask.place(*geometry.uvs.get(uv as usize)?));
+    Some([a?, b?, c?])
+}
+
+/// A side of a triangle, by the places of its ends in space.
+type SideKey = [[u64; 3]; 2];
+
+/// What is known of a triangle before its neighbours are.
+enum Look<'a> {
+    Whole,
+    Gone,
+    Crossed {
+        mask: &'a Mask,
+        corners: [DVec2; 3],
+        sides: [TexelSide; 3],
+        borders: Vec<Segment>,
+    },
+    /// More borders than are cut along.
+    TooMany,
+}
+
+/// A geometry without what is clear, unless nothing is; and how many triangles had to be left whole.
+fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<Geometry>, usize) {
+    let stencil = |triangle: usize| {
+        let material = geometry.material_of(triangle).and_then(|id| stencils.get(id as usize));
+        material.unwrap_or(&Stencil::Whole)
+    };
+    let count = geometry.triangles.len();
+    if (0..count).all(|triangle| matches!(stencil(triangle), Stencil::Whole)) {
+        return (None, 0);
+    }
+    // Triangles that show the same of a picture, as the leaves of a tree do, are looked at and cut once.
+    let shows = alike((0..count).map(|triangle| shown(geometry, triangle, stencil(triangle))));
+    let looks: Vec<Look> = shows
+        .firsts
+        .par_iter()
+        .map(|triangle| match stencil(*triangle) {
+            Stencil::Whole => Look::Whole,
+            Stencil::Clear => Look::Gone,
+            Stencil::Cut(cut) => look(geometry, *triangle, &cut.0, &cut.1),
+        })
+        .collect();
+    let look_of = |triangle: usize| &looks[shows.kind[triangle] as usize];
+    let crossings = crossings(geometry, look_of);
+    let none = Vec::new();
+    let of_sides = |triangle: usize| {
+        side_keys(geometry, triangle)
+            .map(|(key, is_forward)| (crossings.get(&key).unwrap_or(&none), is_forward))
+    };
+    let cut_like = alike((0..count).map(|triangle| (shows.kind[triangle], of_sides(triangle))));
+    let pieces: Vec<Option<Pieces>> = cut_like
+        .firsts
+        .par_iter()
+        .map(|triangle| {
+            let of_sides = of_sides(*triangle);
+            let crossings = of_sides
+                .map(|(crossings, _)| crossings.iter().map(|bits| f64::from_bits(*bits)).collect::<Vec<_>>());
+            let crossings = crossings.each_ref().map(Vec::as_slice);
+            match look_of(*triangle) {
+                Look::Gone => Some(Pieces::default()),
+                Look::Crossed { mask, corners, sides, borders } => {
+                    TexelTriangle { corners: *corners, sides: *sides, crossings }.cut(borders, Some(mask))
+                }
+                _ if crossings.iter().all(|crossings| crossings.is_empty()) => None,
+                // A neighbour is cut along a side: there the triangle gets its points, so that both still meet.
+                _ => {
+                    let corners = [DVec2::ZERO, DVec2::X, DVec2::Y];
+                    let sides = sides(corners, of_sides.map(|side| side.1));
+                    TexelTriangle { corners, sides, crossings }.cut(&[], None)
+                }
+            }
+        })
+        .collect();
+    let mut rebuilt = Rebuilt::of(geometry);
+    for triangle in 0..count {
+        match &pieces[cut_like.kind[triangle] as usize] {
+            None => rebuilt.keep(triangle),
+            Some(pieces) => rebuilt.add(triangle, pieces, of_sides(triangle)),
+        }
+    }
+    let too_many = (0..count).filter(|triangle| matches!(look_of(*triangle), Look::TooMany)).count();
+    (Some(rebuilt.done()), too_many)
+}
+
+/// What a triangle shows of a picture: nothing of any, or its material, its corners there, and which ends of its sides
+/// come first in space.
+type Shown = Option<(u32, [[u32; 2]; 3], [bool; 3])>;
+
+/// What a triangle shows of its material's picture; of what is clear all over, none.
+fn shown(geometry: &Geometry, triangle: usize, stencil: &Stencil) -> (bool, Shown) {
+    let corners = geometry.corner_uvs.get(triangle).map(|corners| {
+        corners.map(|uv| geometry.uvs.get(uv as usize).map_or([u32::MAX; 2], |uv| uv.map(f32::to_bits)))
+    });
+    match stencil {
+        Stencil::Whole => (true, None),
+        Stencil::Clear => (false, None),
+        Stencil::Cut(_) => {
+            let is_forward = side_keys(geometry, triangle).map(|key| key.1);
+            let material = geometry.material_of(triangle).unwrap_or(u32::MAX);
+            (true, Some((material, corners.unwrap_or([[u32::MAX; 2]; 3]), is_forward)))
+        }
+    }
+}
+
+/// Which of many things are alike.
+struct Alike {
+    /// The kind of each.
+    kind: Vec<u32>,
+    /// The first of each kind.
+    firsts: Vec<usize>,
+}
+
+fn alike<T: Eq + Hash>(all: impl Iterator<Item = T>) -> Alike {
+    let mut known: FxHashMap<T, u32> = FxHashMap::default();
+    let mut alike = Alike { kind: Vec::new(), firsts: Vec::new() };
+    for (number, one) in all.enumerate() {
+        let next = alike.firsts.len() as u32;
+        let kind = *known.entry(one).or_insert(next);
+        if kind == next {
+            alike.firsts.push(number);
+        }
+        alike.kind.push(kind);
+    }
+    alike
+}
+
+/// What a mask leaves of a triangle, seen alone.
+fn look<'a>(geometry: &Geometry, triangle: usize, mask: &'a Mask, outline: &Outline) -> Look<'a> {
+    let Some(corners) = texels_of(geometry, triangle, mask) else { return Look::Whole };
+    let [a, b, c] = corners;
+    let whole_or_gone = || if mask.is_opaque((a + b + c) / 3.0) { Look::Whole } else { Look::Gone };
+    if turn(a, b, c) == 0.0 {
+        return whole_or_gone();
+    }
+    let Some(mut borders) = outline.near(a.min(b).min(c), a.max(b).max(c)) else { return Look::TooMany };
+    let sides = sides(corners, side_keys(geometry, triangle).map(|key| key.1));
+    borders.retain(|border| {
+        let ends_in = border.iter().any(|end| sides.iter().all(|side| side.admits(*end)));
+        ends_in || sides.iter().any(|side| side.crossing(*border).is_some())
+    });
+    if borders.is_empty() {
+        return whole_or_gone();
+    }
+    Look::Crossed { mask, corners, sides, borders }
+}
+
+/// The sides of a triangle in the plane of the texels, each from the end that comes first in space.
+fn sides(corners: [DVec2; 3], is_forward: [bool; 3]) -> [TexelSide; 3] {
+    [0, 1, 2].map(|k| {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        let (from, to) = if is_forward[k] { (a, b) } else { (b, a) };
+        TexelSide { from, to, inside: turn(from, to, corners[(k + 2) % 3]) >= 0.0 }
+    })
+}
+
+/// The sides of a triangle by the places of their ends, and whether each begins with the end that comes first in space.
+fn side_keys(geometry: &Geometry, triangle: usize) -> [(SideKey, bool); 3] {
+    let ends = geometry.triangles[triangle].map(|corner| geometry.positions[corner as usize]);
+    [0, 1, 2].map(|k| {
+        let [a, b] = [ends[k], ends[(k + 1) % 3]].map(|p| (p + glam::DVec3::ZERO).to_array());
+        let is_forward = a.partial_cmp(&b).is_none_or(std::cmp::Ordering::is_le);
+        let [a, b] = [a, b].map(|p| p.map(f64::to_bits));
+        (if is_forward { [a, b] } else { [b, a] }, is_forward)
+    })
+}
+
+/// Where the sides of all triangles are crossed, from whichever of the triangles beside them: the bits of the parts.
+fn crossings<'a>(geometry: &Geometry, look: impl Fn(usize) -> &'a Look<'a>) -> FxHashMap<SideKey, Vec<u64>> {
+    let mut all: FxHashMap<SideKey, Vec<f64>> = FxHashMap::default();
+    for triangle in 0..geometry.triangles.len() {
+        let Look::Crossed { sides, borders, .. } = look(triangle) else { continue };
+        for (side, (key, _)) in sides.iter().zip(side_keys(geometry, triangle)) {
+            let mut found = borders.iter().filter_map(|border| Some(side.crossing(*border)?.0)).peekable();
+            if found.peek().is_some() {
+                all.entry(key).or_default().extend(found);
+            }
+        }
+    }
+    let bits = |mut parts: Vec<f64>| {
+        in_order(&mut parts);
+        parts.into_iter().map(f64::to_bits).collect()
+    };
+    all.into_iter().map(|(key, parts)| (key, bits(parts))).collect()
+}
+
+#[cfg(test)]
+mod tests;
