@@ -35,6 +35,7 @@ mod stl;
 mod street;
 mod sweep;
 mod teapot;
+mod trellis;
 
 use std::path::PathBuf;
 
@@ -90,5 +91,9 @@ fn main() -> std::io::Result<()> {
     write("helmet.mtl", obj::library(title, &helmet).as_bytes())?;
     write("street.glb", &glb::bytes("ligne make_models", &street::street()))?;
     write("shelf.ply", &ply::bytes("a scanned vase and a machined gear", &shelf::shelf(), &[]))?;
-    write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))
+    write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))?;
+    write("trellis.obj", trellis::text().as_bytes())?;
+    write("trellis.mtl", trellis::library().as_bytes())?;
+    write("trellis-hole.png", &trellis::hole())?;
+    write("trellis-leaf.png", &trellis::leaf())
 }

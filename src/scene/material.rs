@@ -40,7 +40,8 @@ pub enum Alpha {
         /// The least alpha of the texture that is left, 0 to 1.
         cutoff: f32,
     },
-    /// The surface is as opaque as it says; what of the texture has less than half of the most is cut away.
+    /// The surface is as opaque as it says. Where some of the texture is wholly clear, as between leaves, what has less than
+    /// half of its most is cut away.
     Blend,
 }
 

@@ -5,6 +5,7 @@ mod support;
 mod architecture;
 mod closed_forms;
 mod contour_validity;
+mod cutouts;
 mod default_drawings;
 mod default_properties;
 mod determinism;

@@ -46,7 +46,9 @@ impl Masked {
         let (least, most) = opacity.iter().fold((255, 0), |(a, b), o| (a.min(*o), b.max(*o)));
         let level = match material.alpha {
             Alpha::Mask { cutoff } => f64::from(cutoff) * 255.0,
-            // What is blended is not there where it is less than half as opaque as it gets.
+            // A picture that is wholly clear nowhere is glass with dirt on it. The edge of another one is where it is half as
+            // opaque as it gets.
+            Alpha::Blend if least > 0 => return Ok(Self::Nowhere),
             Alpha::Blend => f64::from(most) / 2.0,
             Alpha::Opaque => 127.5,
         };
