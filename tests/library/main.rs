@@ -3,11 +3,11 @@
 mod support;
 
 mod architecture;
+mod chains;
 mod closed_forms;
 mod contour_validity;
 mod default_drawings;
 mod default_properties;
-mod determinism;
 mod diff;
 mod diff_hostile;
 mod diff_properties;
@@ -27,13 +27,10 @@ mod loading;
 mod locality;
 mod marked_edges;
 mod models;
-mod order_of_parts;
-mod permuted;
 mod properties;
 mod regions;
 mod shadows;
 mod smooth_contours;
-mod smooth_properties;
 mod stability;
 mod stages;
 mod style;
