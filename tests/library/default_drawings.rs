@@ -8,6 +8,11 @@ use crate::support::polygons;
 use std::path::Path;
 
 use crate::support::judge::{COARSE, EXACT, Limits, MIXED, ROUND, judge, judge_ink};
+use crate::support::pipeline::scene;
+use crate::support::properties::bound::Bound;
+use crate::support::properties::option_set::{INK, INK_MESH};
+use crate::support::properties::subject::Subject;
+use crate::support::solids::{cuboid, tube};
 use crate::support::truth::{State, Truth};
 use glam::DVec3;
 use ligne::math::function::{cos, sin};
@@ -140,4 +145,29 @@ fn the_judge_sees_what_is_hidden_lost_and_made_up() {
 
     let made_up = [seen, vec![[kurbo::Point::new(2.0, 2.0), kurbo::Point::new(2.0, 900.0)]]].concat();
     assert!(judge_ink(&truth, &made_up, 0.1).off.share > 0.01);
+}
+
+#[test]
+fn flat_faces_are_drawn_by_default_as_along_the_mesh() {
+    let models = [
+        ("box", scene([cuboid(DVec3::splat(-1.0), DVec3::new(1.0, 2.0, 0.5))])),
+        ("prism", scene([tube(6, 1, 1.0, 1.0)])),
+        ("gear.obj", open("gear.obj")),
+    ];
+    for (name, model) in models {
+        for camera in [Camera::three_quarter(), Camera::azimuth_elevation(200.0, -35.0, model.up)] {
+            let subject = Subject::new(name, model.clone(), camera.fit(&model));
+            let [auto, mesh] = [INK, INK_MESH].map(|way| way.draw(&subject));
+            assert!(auto.bytes().contains("<path"), "{name}: nothing is drawn");
+            Bound::Bytes.check(&auto, &mesh).unwrap_or_else(|words| panic!("{name} {words}"));
+        }
+    }
+}
+
+#[test]
+fn rounded_models_are_drawn_otherwise() {
+    let model = open("knot.ply");
+    let subject = Subject::new("knot", model.clone(), Camera::three_quarter().fit(&model));
+    let [auto, mesh] = [INK, INK_MESH].map(|way| way.draw(&subject));
+    assert!(auto.bytes() != mesh.bytes());
 }

@@ -3,12 +3,12 @@
 mod support;
 
 mod architecture;
+mod chains;
 mod closed_forms;
 mod contour_validity;
 mod cutouts;
 mod default_drawings;
 mod default_properties;
-mod determinism;
 mod diff;
 mod diff_hostile;
 mod diff_properties;
@@ -28,13 +28,10 @@ mod loading;
 mod locality;
 mod marked_edges;
 mod models;
-mod order_of_parts;
-mod permuted;
 mod properties;
 mod regions;
 mod shadows;
 mod smooth_contours;
-mod smooth_properties;
 mod stability;
 mod stages;
 mod style;

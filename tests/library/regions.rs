@@ -300,19 +300,6 @@ fn regions_reach_under_those_painted_later() {
 }
 
 #[test]
-fn regions_are_the_same_on_any_number_of_threads() {
-    let model = scene([torus(96, 48, 1.0, 0.4), sphere(40, 0.5)]);
-    let camera = Camera::three_quarter().fit(&model);
-    let draw = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        let style = Style::preset("gooch").expect("gooch");
-        pool.install(|| render(&model, &camera, &style).unwrap().to_svg(&SvgOptions::default()))
-    };
-    assert_eq!(draw(1), draw(2));
-    assert_eq!(draw(1), draw(3));
-}
-
-#[test]
 fn every_fill_says_what_it_is() {
     let model = scene([cuboid(DVec3::splat(-1.0), DVec3::ONE)]);
     let camera = Camera::three_quarter().fit(&model);

@@ -15,6 +15,7 @@ pub mod pipeline;
 pub mod polygon_lines;
 pub mod polygon_truth;
 pub mod polygons;
+pub mod properties;
 pub mod rays;
 pub mod round_solids;
 pub mod scenes;

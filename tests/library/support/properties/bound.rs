@@ -1,0 +1,126 @@
+//! How alike two pictures are, and what they have to be for a property to hold.
+
+use std::collections::BTreeMap;
+
+use kurbo::Point;
+
+use super::picture::{Key, Picture};
+use crate::support::segments::{length, uncovered};
+
+/// What lines are told apart by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum By {
+    Class,
+    ClassAndPart,
+}
+
+/// What two pictures must have in common.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// Every byte.
+    Bytes,
+    /// All visible lines within `nearness` px, but for `slack` px and a `share` of their length.
+    Lines { by: By, nearness: f64, slack: f64, share: f64 },
+    /// How long the lines along intersections are that belong to each part; there are `least` such parts.
+    Owners { least: usize },
+    /// The area in each colour on each part, but for a share of all.
+    Areas { share: f64 },
+    /// The length of strokes on each part, but for a share of all.
+    Strokes { share: f64 },
+}
+
+impl Bound {
+    pub const fn by_class(nearness: f64, slack: f64) -> Self {
+        Self::by_class_but_for(nearness, slack, 0.0)
+    }
+
+    pub const fn by_class_but_for(nearness: f64, slack: f64, share: f64) -> Self {
+        Self::Lines { by: By::Class, nearness, slack, share }
+    }
+
+    pub const fn by_class_and_part(nearness: f64, slack: f64) -> Self {
+        Self::Lines { by: By::ClassAndPart, nearness, slack, share: 0.0 }
+    }
+
+    /// Fails with what differs, or where there is too little to compare.
+    pub fn check(self, one: &Picture, other: &Picture) -> Result<(), String> {
+        match self {
+            Self::Bytes => same_bytes(one.bytes(), other.bytes()),
+            Self::Lines { by, nearness, slack, share } => {
+                let [one, other] = [one, other].map(|picture| groups(picture, by));
+                lines_alike(&one, &other, nearness, slack, share)
+            }
+            Self::Owners { least } => {
+                let (owned, others) = (one.owners(), other.owners());
+                if owned.len() < least || owned != others {
+                    return Err(format!("lines along intersections belong to {owned:?}, then to {others:?}"));
+                }
+                Ok(())
+            }
+            Self::Areas { share } => amounts_alike(&one.areas(), &other.areas(), share),
+            Self::Strokes { share } => amounts_alike(&one.strokes(), &other.strokes(), share),
+        }
+    }
+}
+
+/// Lines by what they are told apart by.
+type Groups = BTreeMap<Key, Vec<[Point; 2]>>;
+
+fn groups(picture: &Picture, by: By) -> Groups {
+    let mut groups = Groups::new();
+    for ((class, part), lines) in &picture.lines {
+        let part = if by == By::Class { String::new() } else { part.clone() };
+        groups.entry((class.clone(), part)).or_default().extend(lines);
+    }
+    groups
+}
+
+/// Fails where in all groups together more than so much is not covered by the same group of the other picture.
+fn lines_alike(one: &Groups, other: &Groups, nearness: f64, slack: f64, share: f64) -> Result<(), String> {
+    let nothing = Vec::new();
+    let lost = |from: &Groups, by: &Groups| -> BTreeMap<Key, f64> {
+        let of = |(key, lines): (&Key, &Vec<_>)| {
+            (key.clone(), uncovered(lines, by.get(key).unwrap_or(&nothing), nearness))
+        };
+        from.iter().map(of).collect()
+    };
+    let whole: f64 = one.values().map(|lines| length(lines)).sum();
+    let most = slack + share * whole;
+    for (what, lost) in [("gone", lost(one, other)), ("new", lost(other, one))] {
+        let sum: f64 = lost.values().sum();
+        if sum > most {
+            let by_key: Vec<_> = lost.iter().filter(|(_, length)| **length > 1e-9).collect();
+            return Err(format!("of {whole:.1} px {sum:.3e} are {what}: {by_key:?}"));
+        }
+    }
+    Ok(())
+}
+
+fn amounts_alike(one: &BTreeMap<Key, f64>, other: &BTreeMap<Key, f64>, share: f64) -> Result<(), String> {
+    let whole: f64 = one.values().sum();
+    if whole <= 0.0 {
+        return Err("there is nothing to compare".into());
+    }
+    for key in one.keys().chain(other.keys()) {
+        let [a, b] = [one, other].map(|amounts| amounts.get(key).copied().unwrap_or_default());
+        if (a - b).abs() > share * whole {
+            return Err(format!("{key:?}: {a:.2}, then {b:.2}, of {whole:.2}"));
+        }
+    }
+    Ok(())
+}
+
+/// Fails with where two texts part and some of what is around.
+fn same_bytes(one: &str, other: &str) -> Result<(), String> {
+    if one == other {
+        return Ok(());
+    }
+    let at = one.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
+    let around = |text: &str| {
+        let bytes = text.as_bytes();
+        let end = (at + 60).min(bytes.len());
+        String::from_utf8_lossy(&bytes[at.saturating_sub(80)..end]).into_owned()
+    };
+    let (one_part, other_part) = (around(one), around(other));
+    Err(format!("differs at byte {at} of {} and {}:\n{one_part}\n{other_part}", one.len(), other.len()))
+}

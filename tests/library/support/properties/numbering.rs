@@ -1,0 +1,105 @@
+//! The same model numbered in another way: its vertices, faces and parts in another order.
+
+use ligne::scene::{Geometry, Scene};
+
+use crate::support::dice::Dice;
+
+/// The items in another order: at each place stands what had this number.
+fn taken<T: Copy>(items: &[T], order: &[u32]) -> Vec<T> {
+    if items.is_empty() { Vec::new() } else { order.iter().map(|k| items[*k as usize]).collect() }
+}
+
+fn shuffled_numbers(dice: &mut Dice, count: usize) -> Vec<u32> {
+    dice.shuffled((0..count as u32).collect())
+}
+
+/// The new number of each item, given which stands at each place.
+fn new_numbers(order: &[u32]) -> Vec<u32> {
+    let mut new_id = vec![0; order.len()];
+    order.iter().zip(0..).for_each(|(old, new)| new_id[*old as usize] = new);
+    new_id
+}
+
+/// Numbers values anew: the values in their new order, the corners of each triangle with their new numbers.
+fn renumber<T: Copy>(dice: &mut Dice, values: &mut Vec<T>, corners: &mut [u32]) {
+    let order = shuffled_numbers(dice, values.len());
+    let new_id = new_numbers(&order);
+    *values = taken(values, &order);
+    // Corners without a value have no id.
+    corners.iter_mut().for_each(|id| *id = new_id.get(*id as usize).copied().unwrap_or(*id));
+}
+
+/// What belongs to the corners of each triangle, with another corner in front.
+fn turn<T: Copy>(corners: &mut [[T; 3]], turns: &[usize]) {
+    for (corners, by) in corners.iter_mut().zip(turns) {
+        corners.rotate_left(*by);
+    }
+}
+
+/// The same shape with vertices, normals, triangles and wires in another order, and other corners of the
+/// triangles in front.
+fn renumbered_geometry(geometry: &Geometry, dice: &mut Dice) -> Geometry {
+    let mut mixed = geometry.clone();
+    let order = shuffled_numbers(dice, geometry.positions.len());
+    let new_id = new_numbers(&order);
+    mixed.positions = taken(&geometry.positions, &order);
+    mixed.colours = taken(&geometry.colours, &order);
+    let corners = mixed.triangles.as_flattened_mut().iter_mut().chain(mixed.wires.as_flattened_mut());
+    corners.for_each(|v| *v = new_id[*v as usize]);
+    renumber(dice, &mut mixed.normals, mixed.corner_normals.as_flattened_mut());
+    renumber(dice, &mut mixed.uvs, mixed.corner_uvs.as_flattened_mut());
+
+    let count = geometry.triangles.len();
+    let turns: Vec<usize> = (0..count).map(|_| dice.below(3)).collect();
+    turn(&mut mixed.triangles, &turns);
+    turn(&mut mixed.corner_normals, &turns);
+    turn(&mut mixed.corner_uvs, &turns);
+    turn(&mut mixed.edge_marks, &turns);
+    let order = shuffled_numbers(dice, count);
+    mixed.triangles = taken(&mixed.triangles, &order);
+    mixed.triangle_material = taken(&mixed.triangle_material, &order);
+    mixed.corner_normals = taken(&mixed.corner_normals, &order);
+    mixed.corner_uvs = taken(&mixed.corner_uvs, &order);
+    mixed.edge_marks = taken(&mixed.edge_marks, &order);
+    mixed.wires = dice.shuffled(mixed.wires);
+    for wire in &mut mixed.wires {
+        wire.rotate_left(dice.below(2));
+    }
+    mixed
+}
+
+/// The scene with each of its shapes numbered in another way.
+pub fn renumbered(scene: &Scene, dice: &mut Dice) -> Scene {
+    let geometries = scene.geometries.iter().map(|geometry| renumbered_geometry(geometry, dice)).collect();
+    Scene { geometries, ..scene.clone() }
+}
+
+/// The scene with its parts in another order.
+pub fn with_parts_shuffled(scene: &Scene, dice: &mut Dice) -> Scene {
+    Scene { parts: dice.shuffled(scene.parts.clone()), ..scene.clone() }
+}
+
+/// The text of an OBJ file with its vertices in another order, and the faces of each object likewise.
+pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
+    let vertices: Vec<&str> = text.lines().filter(|line| line.starts_with("v ")).collect();
+    let order = shuffled_numbers(dice, vertices.len());
+    let new_id = new_numbers(&order);
+    let renamed = |corner: &str| {
+        let (vertex, rest) = corner.find('/').map_or((corner, ""), |slash| corner.split_at(slash));
+        // The file counts from 1.
+        format!("{}{rest}", new_id[vertex.parse::<usize>().unwrap() - 1] + 1)
+    };
+    let mut mixed: Vec<String> = order.iter().map(|old| vertices[*old as usize].to_owned()).collect();
+    let mut faces: Vec<String> = Vec::new();
+    for line in text.lines().filter(|line| !line.starts_with("v ")) {
+        if let Some(corners) = line.strip_prefix("f ") {
+            let corners: Vec<String> = corners.split_whitespace().map(renamed).collect();
+            faces.push(format!("f {}", corners.join(" ")));
+        } else {
+            mixed.append(&mut dice.shuffled(std::mem::take(&mut faces)));
+            mixed.push(line.to_owned());
+        }
+    }
+    mixed.append(&mut dice.shuffled(faces));
+    mixed.join("\n")
+}

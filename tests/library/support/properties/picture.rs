@@ -1,0 +1,91 @@
+//! What was drawn, as properties compare it: visible lines by class and part, areas, strokes, bytes.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use kurbo::{ParamCurveArclen, Point, Shape};
+use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
+use ligne::export::SvgOptions;
+
+use crate::support::judge::{axis, ink_marks};
+use crate::support::pipeline::Stages;
+
+/// The class of a line, and the name of its part; both empty where they do not count.
+pub type Key = (String, String);
+
+/// What was drawn.
+pub struct Picture {
+    /// Visible lines in short segments, by class and part.
+    pub lines: BTreeMap<Key, Vec<[Point; 2]>>,
+    drawing: Option<Drawing>,
+    bytes: OnceLock<String>,
+}
+
+fn key(mark: &Mark) -> Key {
+    let class = mark.provenance.classes.first().unwrap_or(&"").to_string();
+    (class, mark.provenance.part.as_deref().unwrap_or("").to_owned())
+}
+
+impl Picture {
+    pub fn of_stages(stages: &Stages) -> Self {
+        let mut lines: BTreeMap<Key, Vec<[Point; 2]>> = BTreeMap::new();
+        for edge in stages.map.edges.iter().filter(|edge| edge.invisibility == 0) {
+            let class = format!("{:?}", edge.kind);
+            lines.entry((class, String::new())).or_default().push(stages.ends(edge));
+        }
+        Self { lines, drawing: None, bytes: OnceLock::new() }
+    }
+
+    pub fn of_drawing(drawing: Drawing) -> Self {
+        let mut lines: BTreeMap<Key, Vec<[Point; 2]>> = BTreeMap::new();
+        for mark in ink_marks(&drawing) {
+            lines.entry(key(mark)).or_default().extend(axis(mark));
+        }
+        Self { lines, drawing: Some(drawing), bytes: OnceLock::new() }
+    }
+
+    /// All there is as text, with every digit, so that no difference is rounded away.
+    pub fn bytes(&self) -> &str {
+        self.bytes.get_or_init(|| match &self.drawing {
+            Some(drawing) => drawing.to_svg(&SvgOptions::default().with_precision(8)),
+            None => format!("{:?}", self.lines),
+        })
+    }
+
+    fn marks(&self, layer: LayerKind) -> impl Iterator<Item = &Mark> {
+        let layers = self.drawing.iter().flat_map(|drawing| &drawing.layers);
+        layers.filter(move |other| other.kind == layer).flat_map(|layer| &layer.marks)
+    }
+
+    /// The length of the lines along intersections that belong to each part, in hundredths of a px.
+    pub fn owners(&self) -> BTreeMap<String, i64> {
+        let mut owned: BTreeMap<String, f64> = BTreeMap::new();
+        let lines = self.marks(LayerKind::Lines).chain(self.marks(LayerKind::HiddenLines));
+        for mark in lines.filter(|mark| mark.provenance.classes.first() == Some(&"intersection")) {
+            let length = mark.path.segments().map(|segment| segment.arclen(1e-6)).sum::<f64>();
+            *owned.entry(key(mark).1).or_default() += length;
+        }
+        owned.into_iter().map(|(part, length)| (part, (length * 100.0).round() as i64)).collect()
+    }
+
+    /// The area that is filled, by colour and part, px².
+    pub fn areas(&self) -> BTreeMap<Key, f64> {
+        let mut areas: BTreeMap<Key, f64> = BTreeMap::new();
+        for mark in self.marks(LayerKind::Fills).chain(self.marks(LayerKind::Shadows)) {
+            if let Paint::Fill(colour) = &mark.paint {
+                *areas.entry((format!("{colour:?}"), key(mark).1)).or_default() += mark.path.area().abs();
+            }
+        }
+        areas
+    }
+
+    /// The length of strokes of hatching on each part, px.
+    pub fn strokes(&self) -> BTreeMap<Key, f64> {
+        let mut strokes: BTreeMap<Key, f64> = BTreeMap::new();
+        for mark in self.marks(LayerKind::Hatching) {
+            let length = axis(mark).iter().map(|[a, b]| (*b - *a).hypot()).sum::<f64>();
+            *strokes.entry((String::new(), key(mark).1)).or_default() += length;
+        }
+        strokes
+    }
+}

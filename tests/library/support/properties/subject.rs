@@ -1,0 +1,196 @@
+//! What the properties are asked of: scenes with their cameras, made by chance, made on purpose, or read.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use glam::{DAffine3, DVec3};
+use ligne::scene::{Camera, Geometry, Part, Scene};
+
+use crate::support::dice::Dice;
+use crate::support::hard_scenes::{HARD_SCENES, any_camera, hard_parts, hard_scene};
+use crate::support::models;
+use crate::support::pipeline::{geometry, orthographic, perspective, scene};
+use crate::support::round_solids::{icosphere, saddle};
+use crate::support::scenes::{random_camera, random_scene};
+use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
+
+/// A scene and who looks at it.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    pub name: String,
+    pub scene: Scene,
+    pub camera: Camera,
+    /// Boxes of the world of which the camera sees nothing, from corner to corner.
+    pub unseen: Vec<[DVec3; 2]>,
+    /// What may be put there.
+    pub hideable: Vec<Geometry>,
+}
+
+impl Subject {
+    pub fn new(name: impl Into<String>, scene: Scene, camera: Camera) -> Self {
+        Self { name: name.into(), scene, camera, unseen: Vec::new(), hideable: Vec::new() }
+    }
+
+    /// A scene seen from where models are seen by default, in a square frame.
+    pub fn framed(name: impl Into<String>, scene: Scene, side: f64) -> Self {
+        let mut camera = Camera::three_quarter_of(scene.up);
+        (camera.width, camera.height) = (side, side);
+        let camera = camera.fit(&scene);
+        Self::new(name, scene, camera)
+    }
+}
+
+/// One random scene of each kind before each camera.
+pub fn random(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
+    let one = |kind: &str, camera: &str| {
+        let mut dice = Dice::new(seed);
+        let (scene, seen) = (random_scene(kind, &mut dice), random_camera(camera, &mut dice));
+        Subject::new(format!("{kind}, {camera}, seed {seed}"), scene, seen)
+    };
+    kinds.iter().flat_map(|kind| cameras.iter().map(|camera| one(kind, camera))).collect()
+}
+
+/// Random scenes of all kinds that are hard to see right, for each seed.
+pub fn hard(seeds: Range<u64>) -> Vec<Subject> {
+    let one = |kind: &str, seed: u64| {
+        let mut dice = Dice::new(seed);
+        let (scene, camera) = (hard_scene(kind, &mut dice), any_camera(&mut dice));
+        Subject::new(format!("{kind}, seed {seed}"), scene, camera)
+    };
+    HARD_SCENES.iter().flat_map(|kind| seeds.clone().map(|seed| one(kind, seed))).collect()
+}
+
+/// Every other one of some subjects on a small page: enough where drawing takes long.
+pub fn few_in_small(subjects: Vec<Subject>) -> Vec<Subject> {
+    let mut few: Vec<Subject> = subjects.into_iter().step_by(2).collect();
+    few.iter_mut().for_each(|few| (few.camera.width, few.camera.height) = (400.0, 400.0));
+    few
+}
+
+/// The same scenes shrunk to the right half; on the left a wall stands, with room for their parts behind it, near
+/// and far.
+pub fn beside_a_wall(seed: u64) -> Vec<Subject> {
+    let one = |kind: &str| {
+        let parts = hard_parts(kind, &mut Dice::new(seed));
+        let wall = cuboid(DVec3::new(-1.4, -0.8, 0.3), DVec3::new(-0.2, 0.8, 0.4));
+        let hideable = parts.iter().cloned().map(geometry).collect();
+        let small = parts.into_iter().map(|part| part.moved(|p| p * 0.4 + DVec3::X * 0.75));
+        let camera = orthographic(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 3.6);
+        let behind = |from: f64, to: f64| [DVec3::new(-1.3, -0.7, from), DVec3::new(-0.3, 0.7, to)];
+        let unseen = vec![behind(-1.6, 0.2), behind(-21.0, -19.0)];
+        let name = format!("{kind} beside a wall, seed {seed}");
+        Subject { unseen, hideable, ..Subject::new(name, scene(small.chain([wall])), camera) }
+    };
+    HARD_SCENES.iter().map(|kind| one(kind)).collect()
+}
+
+/// A closed box with room in it and behind it, before a camera of either kind.
+pub fn shells() -> Vec<Subject> {
+    let eye = DVec3::new(1.0, 0.5, 9.0);
+    let mut dice = Dice::new(14);
+    let mut one = |name: &str, camera: Camera| {
+        let hideable = random_scene("mixture", &mut dice).geometries;
+        let shell = cuboid(DVec3::new(-2.0, -2.0, -1.0), DVec3::new(2.0, 2.0, 1.0));
+        let inside = [DVec3::new(-1.9, -1.9, -0.9), DVec3::new(1.9, 1.9, 0.9)];
+        let behind = [DVec3::new(-1.0, -1.0, -3.0), DVec3::new(1.0, 1.0, -2.0)];
+        let unseen = vec![inside, behind];
+        Subject { unseen, hideable, ..Subject::new(name, scene([shell]), camera) }
+    };
+    vec![
+        one("a shell, perspective", perspective(eye, DVec3::ZERO, 35.0)),
+        one("a shell, orthographic", orthographic(eye, DVec3::ZERO, 5.0)),
+    ]
+}
+
+fn round_solids() -> Vec<(&'static str, Solid)> {
+    let mut two = icosphere(2);
+    two.add(torus(24, 12, 1.0, 0.3).moved(|p| DVec3::new(p.x + 0.7, p.z, p.y)));
+    vec![
+        ("torus", torus(24, 12, 1.0, 0.4)),
+        ("sphere", icosphere(2)),
+        ("ellipsoid", icosphere(3).moved(|p| p * DVec3::new(1.5, 1.0, 0.5))),
+        ("saddle", saddle(16)),
+        ("ring through a sphere", two),
+        ("bulging tube", tube(24, 24, 0.6, 1.0).moved(|p| p * DVec3::new(1.0 + 0.4 * p.z * p.z, 1.0, 1.0))),
+    ]
+}
+
+/// Rounded solids, each before as many of the three cameras as told.
+pub fn round(cameras: usize) -> Vec<Subject> {
+    let all = [
+        perspective(DVec3::new(3.1, -4.2, 2.3), DVec3::new(0.1, 0.0, -0.1), 35.0),
+        perspective(DVec3::new(-2.0, 0.9, 5.4), DVec3::ZERO, 40.0),
+        orthographic(DVec3::new(1.3, 4.0, 1.9), DVec3::ZERO, 4.5),
+    ];
+    let seen = |(name, solid): (&str, Solid)| {
+        let one = |camera: &Camera| {
+            Subject::new(format!("{name} from {}", camera.eye), scene([solid.clone()]), *camera)
+        };
+        all[..cameras].iter().map(one).collect::<Vec<_>>()
+    };
+    round_solids().into_iter().flat_map(seen).collect()
+}
+
+/// A ring.
+pub fn ring() -> Subject {
+    Subject::framed("a ring", scene([torus(64, 32, 1.0, 0.4)]), 1000.0)
+}
+
+pub fn ring_with_box() -> Subject {
+    let solids = [torus(40, 20, 1.0, 0.4), cuboid(DVec3::splat(-0.3), DVec3::splat(0.3))];
+    Subject::framed("a ring around a box", scene(solids), 400.0)
+}
+
+pub fn ring_with_ball() -> Subject {
+    let solids = [torus(96, 48, 1.0, 0.4), sphere(40, 0.5)];
+    Subject::framed("a ring around a ball", scene(solids), 1000.0)
+}
+
+/// Solids through each other, each placed by its part.
+pub fn through_each_other() -> Vec<Subject> {
+    let mut dice = Dice::new(5);
+    let one = |round: usize| {
+        let mut scene = Scene::default();
+        for k in 0..8 {
+            let half = DVec3::new(dice.between(0.3, 1.0), dice.between(0.3, 1.0), dice.between(0.3, 1.0));
+            let solid = match k % 3 {
+                0 => cuboid(-half, half),
+                1 => sphere(24, half.x),
+                _ => tube(24, 3, half.x / 2.0, 2.0 * half.y),
+            };
+            let place = DAffine3::from_mat3_translation(dice.turn(), dice.point(0.9));
+            scene.geometries.push(geometry(solid));
+            scene.parts.push(Part { name: format!("part {k}"), geometry: k, world_from_part: place });
+        }
+        Subject::framed(format!("solids through each other, {round}"), scene, 500.0)
+    };
+    (0..4).map(one).collect()
+}
+
+/// Cubes that only their places tell apart.
+pub fn equal_cubes() -> Subject {
+    let mut dice = Dice::new(6);
+    let cube = |k: usize| Part {
+        name: format!("cube {k}"),
+        geometry: 0,
+        world_from_part: DAffine3::from_translation(dice.point(0.9)),
+    };
+    let parts = (0..5).map(cube).collect();
+    let geometries = vec![geometry(cuboid(DVec3::NEG_ONE, DVec3::ONE))];
+    Subject::framed("equal cubes", Scene { geometries, parts, ..Scene::default() }, 500.0)
+}
+
+pub fn example(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
+}
+
+/// Example models in a square frame.
+pub fn examples(names: &[&str], side: f64) -> Vec<Subject> {
+    names.iter().map(|name| Subject::framed(*name, Scene::open(example(name)).unwrap(), side)).collect()
+}
+
+/// Shared models in a square frame, those of them that are there.
+pub fn shared(names: &[&str], side: f64) -> Vec<Subject> {
+    let found = names.iter().filter_map(|name| Some((name, models::find(name)?)));
+    found.map(|(name, path)| Subject::framed(*name, Scene::open(path).unwrap(), side)).collect()
+}

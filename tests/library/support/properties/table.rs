@@ -1,0 +1,275 @@
+//! What holds of what: each row names ways to draw, subjects, changes, and how alike the drawings have to be.
+
+use super::Row;
+use super::bound::Bound;
+use super::change::Change;
+use super::option_set::*;
+use super::sheets::sheets;
+use super::subject::{self, Subject};
+use crate::support::scenes::SCENES;
+
+pub const KINDS: [&str; 5] = ["boxes", "tori", "soup", "interpenetrating", "mixture"];
+const FLAT_KINDS: [&str; 3] = ["boxes", "tetrahedra", "soup"];
+pub const CAMERAS: [&str; 3] = ["perspective", "orthographic", "cutting"];
+
+/// Contours along the mesh, by default, and all smooth.
+const INKS: [OptionSet; 3] = [INK_MESH, INK, INK_SMOOTH];
+const STYLES: [OptionSet; 9] = [INK, TECHNICAL, TOON, COMIC, PENCIL, PEN, SUGGESTIVE, ENGRAVING, STIPPLE];
+
+type Changes = &'static [(Change, &'static [Bound])];
+
+const BYTES: &[Bound] = &[Bound::Bytes];
+/// Two threads draw what these are compared with.
+const THREADS: Changes = &[(Change::Threads(1), BYTES), (Change::Threads(4), BYTES)];
+const RENUMBERED: Changes = &[(Change::Renumbered, BYTES)];
+const SHUFFLED: Changes = &[(Change::AllShuffled, BYTES)];
+
+const EXACTLY: &[Bound] = &[Bound::by_class(1e-6, 0.02)];
+/// At 1e6 a coordinate is exact to 1e-10, of which each unit takes some hundred px.
+const FAR_AWAY: &[Bound] = &[Bound::by_class(1e-5, 0.05)];
+/// The new vertices lie in their planes up to rounding only.
+const CUT: &[Bound] = &[Bound::by_class(1e-6, 0.05)];
+const CUT_AND_DRAWN: &[Bound] = &[Bound::by_class_and_part(1e-5, 0.01)];
+
+/// Where an edge is cut turns on whether its arc is higher than 0.08 px, and rounding may decide that
+/// differently where a symmetrical solid has many edges at that height: so lines may lie 0.1 px apart. Of some
+/// 3,000 px 30 may differ: on an open surface seen edge-on, whether a ripple of the mesh lies beside its contour
+/// or is drawn itself rounding may decide either way.
+const SMOOTHLY: &[Bound] = &[Bound::by_class(0.1, 30.0)];
+
+/// Rounding may decide where a chain begins and an arc is cut, not where a line is seen; a line that ends may
+/// run 3 px too far. To whom a line belongs along which parts of equal size meet, their places decide.
+const INKED_LINES: Bound = Bound::by_class_but_for(0.5, 3.0, 0.003);
+const INKED: &[Bound] = &[INKED_LINES];
+
+/// Along how many parts lines run where two pass through each other, and which.
+const fn reordered(owned: &'static [Bound]) -> [(Change, &'static [Bound]); 4] {
+    [
+        (Change::PartsShuffled { seed: 47 }, owned),
+        (Change::PartsShuffled { seed: 48 }, owned),
+        (Change::PartsShuffled { seed: 49 }, owned),
+        (Change::PartsReversed, owned),
+    ]
+}
+const OWNED: Changes = &reordered(&[Bound::Bytes, Bound::Owners { least: 3 }]);
+const CUBES_OWNED: Changes = &reordered(&[Bound::Bytes, Bound::Owners { least: 2 }]);
+
+/// What holds on any machine, and soon.
+pub const ROWS: &[Row] = &[
+    // Lines as stages give them.
+    Row {
+        options: &[EXACT],
+        subjects: || subject::random(&KINDS, &CAMERAS, 11),
+        unchanged_by: &[
+            (Change::RIGID, EXACTLY),
+            (Change::size(1e-6), EXACTLY),
+            (Change::size(1e9), EXACTLY),
+            (Change::FAR, FAR_AWAY),
+        ],
+        least: 10,
+    },
+    Row {
+        options: &[EXACT],
+        subjects: || subject::random(&KINDS, &CAMERAS, 12),
+        unchanged_by: &[(Change::Renumbered, BYTES), (Change::AllShuffled, &[Bound::by_class(1e-9, 0.02)])],
+        least: 10,
+    },
+    Row {
+        options: &[EXACT],
+        subjects: || subject::random(&KINDS, &CAMERAS, 13),
+        unchanged_by: &[(Change::FacesSplit, CUT)],
+        least: 10,
+    },
+    Row {
+        options: &[EXACT],
+        subjects: || subject::hard(14..15),
+        unchanged_by: &[(Change::RIGID, EXACTLY), (Change::FAR, FAR_AWAY)],
+        least: 40,
+    },
+    Row {
+        options: &[EXACT],
+        subjects: subject::shells,
+        unchanged_by: &[(Change::HiddenThings { places: 2 }, &[Bound::by_class(1e-9, 1e-6)])],
+        least: 4,
+    },
+    Row {
+        options: &[SMOOTH_LINES],
+        subjects: || subject::round(3),
+        unchanged_by: &[
+            (Change::RIGID, SMOOTHLY),
+            (Change::size(1e-5), SMOOTHLY),
+            (Change::size(1e7), SMOOTHLY),
+            (Change::Renumbered, BYTES),
+        ],
+        least: 41,
+    },
+    // Ink, its contours found in three ways.
+    Row {
+        options: &INKS,
+        subjects: || subject::hard(13..14),
+        unchanged_by: &[
+            (Change::RIGID, INKED),
+            (Change::turned_size(1e-3), INKED),
+            (Change::turned_size(1e4), INKED),
+        ],
+        least: 40,
+    },
+    Row { options: &INKS, subjects: || subject::hard(11..13), unchanged_by: SHUFFLED, least: 40 },
+    Row {
+        options: &INKS,
+        subjects: || subject::beside_a_wall(10),
+        unchanged_by: &[
+            (Change::HiddenThings { places: 1 }, BYTES),
+            (Change::HiddenThings { places: 2 }, BYTES),
+        ],
+        least: 40,
+    },
+    Row {
+        options: &[INK_MESH, INK, TOON],
+        subjects: || subject::random(&FLAT_KINDS, &CAMERAS, 13),
+        unchanged_by: &[(Change::FacesSplit, CUT_AND_DRAWN)],
+        least: 40,
+    },
+    // Fills and hatching.
+    Row {
+        options: &[TOON],
+        subjects: || subject::few_in_small(subject::hard(13..14)),
+        unchanged_by: &[
+            (Change::RIGID, &[INKED_LINES, Bound::Areas { share: 1e-3 }]),
+            (Change::AllShuffled, BYTES),
+        ],
+        least: 40,
+    },
+    Row {
+        options: &[PEN],
+        subjects: || subject::few_in_small(subject::hard(13..14)),
+        unchanged_by: &[
+            (Change::RIGID, &[INKED_LINES, Bound::Strokes { share: 1e-3 }]),
+            (Change::AllShuffled, BYTES),
+        ],
+        least: 40,
+    },
+    Row {
+        options: &[TOON],
+        subjects: || subject::few_in_small(subject::beside_a_wall(10)),
+        unchanged_by: &[(Change::HiddenThings { places: 2 }, BYTES)],
+        least: 40,
+    },
+    Row {
+        options: &[PEN],
+        subjects: || subject::few_in_small(subject::beside_a_wall(10)),
+        // Shadows are found anew.
+        unchanged_by: &[(
+            Change::HiddenThings { places: 2 },
+            &[Bound::by_class_and_part(0.01, 0.05), Bound::Strokes { share: 1e-4 }],
+        )],
+        least: 40,
+    },
+    // Which part the line belongs to along which two parts pass through each other.
+    Row { options: &[TECHNICAL], subjects: subject::through_each_other, unchanged_by: OWNED, least: 40 },
+    Row {
+        options: &[TECHNICAL],
+        subjects: || vec![subject::equal_cubes()],
+        unchanged_by: CUBES_OWNED,
+        least: 40,
+    },
+    Row {
+        options: &[TECHNICAL],
+        subjects: || subject::examples(&["castle.obj"], 500.0),
+        unchanged_by: OWNED,
+        least: 40,
+    },
+    // How files number what they hold.
+    Row {
+        options: &STYLES,
+        subjects: || subject::examples(&["bear.ply", "knot.ply", "bracket.stl"], 300.0),
+        unchanged_by: SHUFFLED,
+        least: 40,
+    },
+    Row {
+        options: &[INK, TOON, PENCIL],
+        subjects: || subject::examples(&["gear.obj", "castle.obj"], 300.0),
+        unchanged_by: SHUFFLED,
+        least: 40,
+    },
+    Row {
+        options: &[TECHNICAL, COMIC, STIPPLE],
+        subjects: || subject::examples(&["pump.glb"], 300.0),
+        // The order of its parts shows.
+        unchanged_by: RENUMBERED,
+        least: 40,
+    },
+    Row {
+        options: &STYLES,
+        subjects: || vec![Subject::framed("sheets", sheets(), 300.0)],
+        unchanged_by: SHUFFLED,
+        least: 10,
+    },
+    // Threads.
+    Row {
+        options: &[INK, TECHNICAL],
+        subjects: || subject::random(&SCENES, &["perspective"], 21),
+        unchanged_by: THREADS,
+        least: 40,
+    },
+    Row {
+        options: &[TECHNICAL],
+        subjects: || {
+            let edge = ["edge/self-intersecting.obj", "edge/soup.stl"];
+            subject::shared(&[&edge[..], &["organic/suzanne.obj", "scene/Duck.glb"]].concat(), 1000.0)
+        },
+        unchanged_by: THREADS,
+        least: 10,
+    },
+    Row { options: &[INK_SMOOTH], subjects: || subject::round(1), unchanged_by: THREADS, least: 40 },
+    Row {
+        options: &[PENCIL, ENGRAVING],
+        subjects: || vec![subject::ring()],
+        unchanged_by: THREADS,
+        least: 40,
+    },
+    Row { options: &[HAND], subjects: || vec![subject::ring_with_box()], unchanged_by: THREADS, least: 40 },
+    Row { options: &[GOOCH], subjects: || vec![subject::ring_with_ball()], unchanged_by: THREADS, least: 40 },
+];
+
+/// What takes longer: models with all that may go wrong, open and twisted surfaces, faces through each other, doubled
+/// and without area, textures and colours of vertices, wires, instances.
+pub const LONG_ROWS: &[Row] = &[
+    Row {
+        options: &STYLES,
+        subjects: || {
+            let solids = ["edge/nonmanifold.obj", "edge/degenerate.obj", "edge/coplanar.obj"];
+            subject::shared(&[&solids[..], &["edge/primitive-modes.gltf"]].concat(), 300.0)
+        },
+        unchanged_by: RENUMBERED,
+        least: 1,
+    },
+    Row {
+        options: &[TECHNICAL, COMIC, PEN],
+        subjects: || {
+            let plain = ["edge/soup.stl", "edge/gpu-instancing.glb", "organic/suzanne.obj"];
+            let coloured = ["features/BoxVertexColors.glb", "scene/cakeBirthday.glb"];
+            subject::shared(&[&plain[..], &coloured].concat(), 300.0)
+        },
+        unchanged_by: RENUMBERED,
+        least: 1,
+    },
+    Row {
+        options: &[TOON],
+        subjects: || subject::shared(&["edge/colours-ascii.ply"], 300.0),
+        unchanged_by: RENUMBERED,
+        least: 1,
+    },
+    Row {
+        options: &[INK, SUGGESTIVE],
+        subjects: || subject::shared(&["edge/moebius.obj", "edge/self-intersecting.obj"], 300.0),
+        unchanged_by: RENUMBERED,
+        least: 1,
+    },
+    Row {
+        options: &[TOON, PENCIL],
+        subjects: || subject::shared(&["scene/CesiumMilkTruck.glb"], 300.0),
+        unchanged_by: RENUMBERED,
+        least: 1,
+    },
+];
