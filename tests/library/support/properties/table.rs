@@ -194,7 +194,7 @@ pub const ROWS: &[Row] = &[
     },
     Row {
         options: &[TECHNICAL, COMIC, STIPPLE],
-        subjects: || subject::examples(&["pump.glb"], 300.0),
+        subjects: || subject::examples(&["pump.glb", "trellis.obj"], 300.0),
         // The order of its parts shows.
         unchanged_by: RENUMBERED,
         least: 40,
