@@ -108,9 +108,9 @@ fn add_solid(out: &mut String, points: &mut usize, solid: &Solid) {
     out.push_str("o pot\nusemtl clay\n");
     add_points(out, &solid.points);
     for face in &solid.faces {
-        out.push('f');
-        face.iter().for_each(|corner| drop(write!(out, " {}", *corner as usize + *points + 1)));
-        out.push('\n');
+        let corners: Vec<String> =
+            face.iter().map(|corner| (*corner as usize + *points + 1).to_string()).collect();
+        let _ = writeln!(out, "f {}", corners.join(" "));
     }
     *points += solid.points.len();
 }

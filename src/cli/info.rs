@@ -11,7 +11,7 @@ use super::{pipeline, print};
 use crate::error::Error;
 use crate::math::colour::Colour;
 use crate::scene::framing::{bounds, world_points};
-use crate::scene::{LightKind, Projection, Scene, UpAxis};
+use crate::scene::{Alpha, LightKind, Projection, Scene, UpAxis};
 
 /// Entries of a list that are shown to people; programs get all.
 const SHOWN: usize = 20;
@@ -60,6 +60,13 @@ struct MaterialInfo {
     name: String,
     colour: Colour,
     texture: Option<String>,
+    /// `opaque`, `mask` or `blend`.
+    alpha: &'static str,
+    /// The least alpha that a mask leaves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cutoff: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    opacity_map: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -172,12 +179,30 @@ impl PartInfo {
 
 impl MaterialInfo {
     fn of(material: &crate::scene::Material) -> Self {
-        Self { name: material.name.clone(), colour: material.colour, texture: material.texture.clone() }
+        let (alpha, cutoff) = match material.alpha {
+            Alpha::Mask { cutoff } => ("mask", Some(cutoff)),
+            Alpha::Blend => ("blend", None),
+            Alpha::Opaque => ("opaque", None),
+        };
+        Self {
+            name: material.name.clone(),
+            colour: material.colour,
+            texture: material.texture.clone(),
+            alpha,
+            cutoff,
+            opacity_map: material.opacity_map.clone(),
+        }
     }
 
     fn line(&self) -> String {
         let texture = self.texture.as_ref().map_or(String::new(), |file| format!(", texture {file}"));
-        format!("{}: {}{texture}", named(&self.name), String::from(self.colour))
+        let alpha = match (self.alpha, self.cutoff) {
+            (_, Some(cutoff)) => format!(", cut out below alpha {cutoff}"),
+            ("blend", _) => ", blended".to_owned(),
+            _ => String::new(),
+        };
+        let map = self.opacity_map.as_ref().map_or(String::new(), |file| format!(", cut out by {file}"));
+        format!("{}: {}{texture}{alpha}{map}", named(&self.name), String::from(self.colour))
     }
 }
 

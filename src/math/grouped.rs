@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     fn of_words(words: &[&'static str]) -> Grouped<&'static str> {
-        grouped(4, |put| words.iter().for_each(|word| put(word.len(), *word)))
+        grouped(4, |put| words.iter().copied().for_each(|word| put(word.len(), word)))
     }
 
     #[test]

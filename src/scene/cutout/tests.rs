@@ -26,8 +26,11 @@ fn png(width: usize, opacity: &[u8]) -> Arc<[u8]> {
     Arc::from(bytes)
 }
 
+/// The corners of a triangle, what they show, and its material.
+type Shown = ([u32; 3], [[f32; 2]; 3], u32);
+
 /// A scene of triangles in the plane z = 0, with a cut-out material (0) and a whole one (1).
-fn scene(positions: &[[f64; 2]], triangles: &[([u32; 3], [[f32; 2]; 3], u32)], material: Material) -> Scene {
+fn scene(positions: &[[f64; 2]], triangles: &[Shown], material: Material) -> Scene {
     let geometry = Geometry {
         positions: positions.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect(),
         triangles: triangles.iter().map(|t| t.0).collect(),
