@@ -15,12 +15,17 @@ const COARSE_PX: f64 = 4.0;
 /// More pieces of border in all are too many to be followed finely.
 const MANY: f64 = 1.5e6;
 
+/// No more pieces are cut out of a material in all, and no more are looked at.
+const MOST_PIECES: f64 = 3e7;
+const MOST_LOOKS: f64 = 1e9;
+
 /// How far beside its place a border may lie at least and at most, texels.
 const TOLERANCES: [f64; 2] = [0.005, 2.0];
 
-/// The borders of a material's mask, as closely as a large drawing of the whole scene shows them.
-pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Outline {
-    let (mut in_space, mut in_texels) = (0.0_f64, 0.0_f64);
+/// The borders of a material's mask, as closely as a large drawing of the whole scene shows them; none if there are too many
+/// to cut along.
+pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Option<Outline> {
+    let (mut in_space, mut in_texels, mut in_boxes) = (0.0_f64, 0.0_f64, 0.0_f64);
     for part in &scene.parts {
         let Some(geometry) = scene.geometries.get(part.geometry) else { continue };
         for triangle in 0..geometry.triangles.len() {
@@ -28,10 +33,12 @@ pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Outline {
                 continue;
             }
             let Some([a, b, c]) = texels_of(geometry, triangle, mask) else { continue };
-            let [p, q, r] = geometry.triangles[triangle]
-                .map(|corner| part.world_from_part.transform_point3(geometry.positions[corner as usize]));
+            let corners = geometry.triangles[triangle].map(|corner| geometry.positions.get(corner as usize));
+            let [Some(p), Some(q), Some(r)] = corners else { continue };
+            let [p, q, r] = [p, q, r].map(|p| part.world_from_part.transform_point3(*p));
             in_space += (q - p).cross(r - p).length() / 2.0;
             in_texels += (b - a).perp_dot(c - a).abs() / 2.0;
+            in_boxes += (a.max(b).max(c) - a.min(b).min(c)).element_product();
         }
     }
     let size = scene.bounds().map_or(0.0, |(low, high)| (high - low).length());
@@ -43,11 +50,16 @@ pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Outline {
         |px: f64, most: f64| if px_texels.is_finite() { (px * px_texels).clamp(least, most) } else { least };
     let mut tolerance = within(FINE_PX, most);
     let coarsest = within(COARSE_PX, most.max(width.min(height) as f64 / 16.0));
-    let times_shown = in_texels / (width * height) as f64;
+    let [times_shown, times_near] = [in_texels, in_boxes].map(|texels| texels / (width * height) as f64);
     loop {
-        let outline = Outline::new(mask, tolerance);
-        if outline.count() as f64 * times_shown <= MANY || tolerance >= coarsest {
-            return outline;
+        let outline = Outline::new(mask, tolerance)?;
+        let count = outline.count() as f64;
+        if count * times_shown <= MANY {
+            return (count * times_near <= MOST_LOOKS).then_some(outline);
+        }
+        if tolerance >= coarsest {
+            let can_be_cut = count * times_shown <= MOST_PIECES && count * times_near <= MOST_LOOKS;
+            return can_be_cut.then_some(outline);
         }
         tolerance = (tolerance * 1.7).min(coarsest);
     }

@@ -23,7 +23,7 @@ use self::outline::{Outline, Segment};
 use self::pieces::Rebuilt;
 use self::side::{TexelSide, in_order, turn};
 use self::triangle::{Pieces, TexelTriangle};
-use super::{Geometry, Material, Scene, Warnings};
+use super::{Geometry, Scene, Warnings};
 
 /// A scene without what the pictures of its materials leave clear, and what could not be cut. Borrowed where nothing is.
 #[must_use]
@@ -32,19 +32,19 @@ pub fn cut(scene: &Scene) -> (Cow<'_, Scene>, Warnings) {
     let read: Vec<_> = scene.materials.par_iter().map(|material| Masked::of(scene, material)).collect();
     let mut stencils = Vec::with_capacity(read.len());
     for (id, (masked, material)) in read.into_iter().zip(&scene.materials).enumerate() {
-        stencils.push(match masked {
-            Ok(Masked::Nowhere) => Stencil::Whole,
-            Ok(Masked::Everywhere) => Stencil::Clear,
-            Ok(Masked::Where(mask)) => {
-                let outline = detail::outline(scene, id, &mask);
-                Stencil::Cut(Box::new((mask, outline)))
-            }
-            Err(message) => {
-                let Material { name, .. } = material;
-                warnings.note(format!("nothing is cut out of the material `{name}`: {message}"));
-                Stencil::Whole
-            }
-        });
+        let stencil = match masked {
+            Ok(Masked::Nowhere) => Ok(Stencil::Whole),
+            Ok(Masked::Everywhere) => Ok(Stencil::Clear),
+            Ok(Masked::Where(mask)) => match detail::outline(scene, id, &mask) {
+                Some(outline) => Ok(Stencil::Cut(Box::new((mask, outline)))),
+                None => Err("its picture has too much detail".to_owned()),
+            },
+            Err(message) => Err(message),
+        };
+        stencils.push(stencil.unwrap_or_else(|message| {
+            warnings.note(format!("nothing is cut out of the material `{}`: {message}", material.name));
+            Stencil::Whole
+        }));
     }
     if stencils.iter().all(|stencil| matches!(stencil, Stencil::Whole)) {
         return (Cow::Borrowed(scene), warnings);
@@ -101,7 +101,8 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<Geometry>,
         material.unwrap_or(&Stencil::Whole)
     };
     let count = geometry.triangles.len();
-    if (0..count).all(|triangle| matches!(stencil(triangle), Stencil::Whole)) {
+    let is_sound = geometry.triangles.as_flattened().iter().all(|v| (*v as usize) < geometry.positions.len());
+    if !is_sound || (0..count).all(|triangle| matches!(stencil(triangle), Stencil::Whole)) {
         return (None, 0);
     }
     // Triangles that show the same of a picture, as the leaves of a tree do, are looked at and cut once.

@@ -24,6 +24,9 @@ const MOST_CELLS: usize = 64;
 /// Whoever asks for more pieces of border at once gets none.
 pub(super) const MOST_SEGMENTS: usize = 100_000;
 
+/// A picture whose texels part opaque from clear more often than this has no borders.
+const MOST_CROSSINGS: usize = 1 << 22;
+
 /// The borders of a mask, one period of them, by place.
 pub(super) struct Outline {
     segments: Vec<Segment>,
@@ -35,13 +38,13 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// The borders of a mask, which may lie this far beside where they are exactly, texels.
-    pub fn new(mask: &Mask, tolerance: f64) -> Self {
+    /// The borders of a mask, which may lie this far beside where they are exactly, texels; none if there are too many.
+    pub fn new(mask: &Mask, tolerance: f64) -> Option<Self> {
         let size = mask.size();
         let periods = mask.periods();
         let reach = [0, 1].map(|k| periods[k].unwrap_or(size[k] - 1));
         let mut segments = Vec::new();
-        for chain in trace(mask, reach) {
+        for chain in trace(mask, reach)? {
             let mut line = thinned(chain, tolerance);
             extend(&mut line, reach, periods);
             segments.extend(line.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[a, b]| a != b));
@@ -56,7 +59,7 @@ impl Outline {
                 outline.each_cell(a.min(*b), a.max(*b), |cell| put(cell, number as u32));
             }
         });
-        outline
+        Some(outline)
     }
 
     /// How many pieces of border a picture has.
@@ -116,7 +119,7 @@ impl Outline {
 type Side = (u32, u32, bool);
 
 /// The borders in the cells between so many texels and their neighbours, end to end.
-fn trace(mask: &Mask, [columns, rows]: [usize; 2]) -> Vec<Vec<DVec2>> {
+fn trace(mask: &Mask, [columns, rows]: [usize; 2]) -> Option<Vec<Vec<DVec2>>> {
     let mut next: FxHashMap<Side, Side> = FxHashMap::default();
     let mut starts: Vec<Side> = Vec::new();
     let mut above: Vec<f64> = (0..=columns as i64).map(|i| mask.texel(i, 0)).collect();
@@ -149,6 +152,9 @@ fn trace(mask: &Mask, [columns, rows]: [usize; 2]) -> Vec<Vec<DVec2>> {
             }
         }
         above = below;
+        if starts.len() > MOST_CROSSINGS {
+            return None;
+        }
     }
     let point = |(i, j, down): Side| {
         let (a, b) = (
@@ -175,7 +181,7 @@ fn trace(mask: &Mask, [columns, rows]: [usize; 2]) -> Vec<Vec<DVec2>> {
             lines.push(line);
         }
     }
-    lines
+    Some(lines)
 }
 
 /// Adds points of the border on its way through a cell, where it is a piece of a hyperbola: opacity is bilinear.
@@ -279,7 +285,7 @@ mod tests {
     #[test]
     fn a_round_hole_is_round() {
         let mask = Mask::of_opacities(64, disc(64, 20.3), Wrap::Repeat);
-        let outline = Outline::new(&mask, 0.02);
+        let outline = Outline::new(&mask, 0.02).unwrap();
         let middle = DVec2::splat(31.5);
         assert!(outline.segments.len() > 40 && outline.segments.len() < 240, "{}", outline.segments.len());
         for [a, b] in &outline.segments {
@@ -297,12 +303,12 @@ mod tests {
     fn borders_go_on_over_the_seam_or_beyond() {
         // The left half is opaque.
         let half = |wrap| Mask::of_opacities(4, [255, 255, 0, 0].repeat(4), wrap);
-        let repeated = Outline::new(&half(Wrap::Repeat), 0.1);
+        let repeated = Outline::new(&half(Wrap::Repeat), 0.1).unwrap();
         assert_eq!(repeated.segments.len(), 2);
         assert!(repeated.segments.iter().all(|[a, b]| (a.y - b.y).abs() == 4.0));
-        let clamped = Outline::new(&half(Wrap::Clamp), 0.1);
+        let clamped = Outline::new(&half(Wrap::Clamp), 0.1).unwrap();
         let far = clamped.near(DVec2::new(0.0, 500.0), DVec2::new(3.0, 600.0)).unwrap();
         assert!(far.iter().all(|[a, b]| a.x == 1.5 && b.x == 1.5) && !far.is_empty());
-        assert_eq!(Outline::new(&half(Wrap::Mirror), 0.1).segments.len(), 2);
+        assert_eq!(Outline::new(&half(Wrap::Mirror), 0.1).unwrap().segments.len(), 2);
     }
 }

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::*;
 use crate::mesh::Mesh;
-use crate::scene::{Alpha, Part, Wrap};
+use crate::scene::{Alpha, Material, Part, Wrap};
 
 /// Chance for tests.
 struct Dice(u64);
@@ -213,4 +213,24 @@ fn materials_say_what_is_cut() {
     let clear = crate::math::colour::Colour { a: 0, ..Material::default().colour };
     assert_eq!(faces(Material { colour: clear, ..of(Alpha::Blend, None) }), (0, 0));
     assert_eq!(faces(of(Alpha::Mask { cutoff: 0.5 }, Some(Arc::from(&b"no picture"[..])))), (2, 1));
+}
+
+#[test]
+fn pictures_of_noise_on_very_many_triangles_are_left_alone() {
+    let noise: Vec<u8> = (0..128 * 128).map(|k| if (k + k / 128) % 2 == 0 { 255 } else { 0 }).collect();
+    // Each triangle shows the picture eight hundred times.
+    let [a, b, c] = [[0.0, 0.0], [40.0, 0.0], [40.0, 40.0]];
+    let triangles = vec![([0, 1, 2], [a, b, c], 0); 4];
+    let noisy = scene(&SQUARE, &triangles, masked(png(128, &noise), Wrap::Repeat));
+    let (whole, warnings) = cut(&noisy);
+    assert_eq!(whole.geometries[0].triangles.len(), 4);
+    assert!(
+        warnings.lines()[0].contains("too much"),
+        "{:?}",
+        warnings.lines()
+    );
+    // A scene made by hand may point beyond its vertices.
+    let mut scene = square(masked(png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
+    scene.geometries[0].triangles[1][2] = 99;
+    assert_eq!(cut(&scene).0.geometries[0].triangles.len(), 2);
 }
