@@ -224,11 +224,7 @@ fn pictures_of_noise_on_very_many_triangles_are_left_alone() {
     let noisy = scene(&SQUARE, &triangles, masked(png(128, &noise), Wrap::Repeat));
     let (whole, warnings) = cut(&noisy);
     assert_eq!(whole.geometries[0].triangles.len(), 4);
-    assert!(
-        warnings.lines()[0].contains("too much"),
-        "{:?}",
-        warnings.lines()
-    );
+    assert!(warnings.lines()[0].contains("too much"), "{:?}", warnings.lines());
     // A scene made by hand may point beyond its vertices.
     let mut scene = square(masked(png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
     scene.geometries[0].triangles[1][2] = 99;
