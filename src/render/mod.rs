@@ -135,9 +135,10 @@ impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        let (scene, warnings) = cutout::cut(scene);
         let needs_paints = fills::is_lit(style) || under::asks_colours(style);
-        let paints = needs_paints.then(|| Paints::of(&scene));
+        let mut paints = needs_paints.then(|| Paints::of(scene));
+        let cutout::Cut { scene, origins, warnings } = cutout::cut(scene);
+        paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);

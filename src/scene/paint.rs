@@ -91,6 +91,15 @@ impl Paints {
         paints
     }
 
+    /// Gives pieces of triangles the paint of what they were cut out of: one triangle has one.
+    pub(crate) fn carry(&mut self, origins: &[Option<Vec<u32>>]) {
+        for (paints, origins) in self.triangles.iter_mut().zip(origins) {
+            if let (false, Some(origins)) = (paints.is_empty(), origins) {
+                *paints = origins.iter().filter_map(|origin| paints.get(*origin as usize).copied()).collect();
+            }
+        }
+    }
+
     /// The paints of a geometry's triangles, or none where each has that of its material.
     #[must_use]
     pub fn of_geometry(&self, geometry: usize) -> &[PaintId] {

@@ -25,9 +25,19 @@ use self::side::{TexelSide, in_order, turn};
 use self::triangle::{Pieces, TexelTriangle};
 use super::{Geometry, Scene, Warnings};
 
-/// A scene without what the pictures of its materials leave clear, and what could not be cut. Borrowed where nothing is.
+/// A scene without what the pictures of its materials leave clear.
+pub struct Cut<'a> {
+    /// What is left; borrowed where all is.
+    pub scene: Cow<'a, Scene>,
+    /// For each geometry that was cut, which triangle each of its new ones was, or was a piece of.
+    pub origins: Vec<Option<Vec<u32>>>,
+    /// What could not be cut.
+    pub warnings: Warnings,
+}
+
+/// Takes out of a scene what the pictures of its materials leave clear.
 #[must_use]
-pub fn cut(scene: &Scene) -> (Cow<'_, Scene>, Warnings) {
+pub fn cut(scene: &Scene) -> Cut<'_> {
     let mut warnings = Warnings::default();
     let read: Vec<_> = scene.materials.par_iter().map(|material| Masked::of(scene, material)).collect();
     let mut stencils = Vec::with_capacity(read.len());
@@ -47,13 +57,16 @@ pub fn cut(scene: &Scene) -> (Cow<'_, Scene>, Warnings) {
         }));
     }
     if stencils.iter().all(|stencil| matches!(stencil, Stencil::Whole)) {
-        return (Cow::Borrowed(scene), warnings);
+        return Cut { scene: Cow::Borrowed(scene), origins: Vec::new(), warnings };
     }
     let mut cut = scene.clone();
+    let mut origins = Vec::with_capacity(cut.geometries.len());
     let mut too_many = 0;
     for geometry in &mut cut.geometries {
         let (rebuilt, whole) = cut_geometry(geometry, &stencils);
         too_many += whole;
+        let (rebuilt, of_pieces) = rebuilt.unzip();
+        origins.push(of_pieces);
         if let Some(rebuilt) = rebuilt {
             *geometry = rebuilt;
         }
@@ -61,7 +74,7 @@ pub fn cut(scene: &Scene) -> (Cow<'_, Scene>, Warnings) {
     if too_many > 0 {
         warnings.note(format!("{too_many} triangles show too much of a cut-out picture to be cut along it"));
     }
-    (Cow::Owned(cut), warnings)
+    Cut { scene: Cow::Owned(cut), origins, warnings }
 }
 
 /// What is left of the triangles of a material.
@@ -94,8 +107,9 @@ enum Look<'a> {
     TooMany,
 }
 
-/// A geometry without what is clear, unless nothing is; and how many triangles had to be left whole.
-fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<Geometry>, usize) {
+/// A geometry without what is clear and where its triangles are from, unless nothing is; and how many triangles had to be left
+/// whole.
+fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry, Vec<u32>)>, usize) {
     let stencil = |triangle: usize| {
         let material = geometry.material_of(triangle).and_then(|id| stencils.get(id as usize));
         material.unwrap_or(&Stencil::Whole)

@@ -13,6 +13,8 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Rebuilt<'a> {
     from: &'a Geometry,
     to: Geometry,
+    /// The triangle that each of the new ones was, or was a piece of.
+    origins: Vec<u32>,
     /// Vertices at crossings, by the corners of their side and the bits of the part of it.
     on_sides: FxHashMap<([u32; 2], u64), u32>,
 }
@@ -30,11 +32,12 @@ impl<'a> Rebuilt<'a> {
             single_precision: from.single_precision,
             ..Geometry::default()
         };
-        Self { from, to, on_sides: FxHashMap::default() }
+        Self { from, to, origins: Vec::new(), on_sides: FxHashMap::default() }
     }
 
     /// Adds a triangle as it was.
     pub fn keep(&mut self, triangle: usize) {
+        self.origins.push(triangle as u32);
         self.to.triangles.push(self.from.triangles[triangle]);
         self.to.triangle_material.extend(self.from.triangle_material.get(triangle));
         self.to.corner_normals.extend(self.from.corner_normals.get(triangle));
@@ -87,6 +90,7 @@ impl<'a> Rebuilt<'a> {
             })
         });
         for piece in &pieces.triangles {
+            self.origins.push(triangle as u32);
             self.to.triangles.push(piece.map(|i| vertices[i as usize]));
             self.to.triangle_material.extend(from.triangle_material.get(triangle));
             self.to.corner_normals.extend(normals.as_ref().map(|of| piece.map(|i| of[i as usize])));
@@ -136,9 +140,9 @@ impl<'a> Rebuilt<'a> {
         places.iter().zip(shares).map(of_place).collect()
     }
 
-    /// The geometry.
-    pub fn done(self) -> Geometry {
-        self.to
+    /// The geometry, and for each of its triangles which it was, or was a piece of.
+    pub fn done(self) -> (Geometry, Vec<u32>) {
+        (self.to, self.origins)
     }
 }
 
