@@ -52,7 +52,8 @@ fn base_colour(material: &json::Material) -> [f32; 4] {
 fn alpha(factor: f32, material: &json::Material) -> Alpha {
     match material.alpha_mode.as_deref() {
         Some("BLEND") => Alpha::Blend,
-        // The texture is multiplied by the factor before it is compared.
+        // The texture is multiplied by the factor before it is compared; nothing is less than nothing.
+        Some("MASK") if material.alpha_cutoff.is_some_and(|cutoff| cutoff <= 0.0) => Alpha::Opaque,
         Some("MASK") => Alpha::Mask { cutoff: material.alpha_cutoff.unwrap_or(0.5) / factor },
         _ => Alpha::Opaque,
     }

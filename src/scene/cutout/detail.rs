@@ -3,6 +3,7 @@
 use super::mask::Mask;
 use super::outline::Outline;
 use super::texels_of;
+use super::trace::Traced;
 use crate::scene::Scene;
 
 /// A drawing that is this many px across shows borders within [`FINE_PX`] of where they are.
@@ -51,8 +52,9 @@ pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Option<Out
     let mut tolerance = within(FINE_PX, most);
     let coarsest = within(COARSE_PX, most.max(width.min(height) as f64 / 16.0));
     let [times_shown, times_near] = [in_texels, in_boxes].map(|texels| texels / (width * height) as f64);
+    let traced = Traced::of(mask)?;
     loop {
-        let outline = Outline::new(mask, tolerance)?;
+        let outline = Outline::new(&traced, tolerance);
         let count = outline.count() as f64;
         if count * times_shown <= MANY {
             return (count * times_near <= MOST_LOOKS).then_some(outline);

@@ -9,6 +9,7 @@ mod mask;
 mod outline;
 mod pieces;
 mod side;
+mod trace;
 mod triangle;
 
 use std::borrow::Cow;
@@ -97,14 +98,19 @@ type SideKey = [[u64; 3]; 2];
 enum Look<'a> {
     Whole,
     Gone,
-    Crossed {
-        mask: &'a Mask,
-        corners: [DVec2; 3],
-        sides: [TexelSide; 3],
-        borders: Vec<Segment>,
-    },
+    Crossed(Box<Crossed<'a>>),
     /// More borders than are cut along.
     TooMany,
+}
+
+/// A triangle that borders pass through.
+struct Crossed<'a> {
+    mask: &'a Mask,
+    corners: [DVec2; 3],
+    sides: [TexelSide; 3],
+    borders: Vec<Segment>,
+    /// Where they cross its sides.
+    parts: [Vec<f64>; 3],
 }
 
 /// A geometry without what is clear and where its triangles are from, unless nothing is; and how many triangles had to be left
@@ -148,7 +154,8 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
             let crossings = crossings.each_ref().map(Vec::as_slice);
             match look_of(*triangle) {
                 Look::Gone => Some(Pieces::default()),
-                Look::Crossed { mask, corners, sides, borders } => {
+                Look::Crossed(crossed) => {
+                    let Crossed { mask, corners, sides, borders, .. } = crossed.as_ref();
                     TexelTriangle { corners: *corners, sides: *sides, crossings }.cut(borders, Some(mask))
                 }
                 _ if crossings.iter().all(|crossings| crossings.is_empty()) => None,
@@ -168,7 +175,12 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
             Some(pieces) => rebuilt.add(triangle, pieces, of_sides(triangle)),
         }
     }
-    let too_many = (0..count).filter(|triangle| matches!(look_of(*triangle), Look::TooMany)).count();
+    let left_whole = |triangle: &usize| match look_of(*triangle) {
+        Look::TooMany => true,
+        Look::Crossed(_) => pieces[cut_like.kind[*triangle] as usize].is_none(),
+        Look::Whole | Look::Gone => false,
+    };
+    let too_many = (0..count).filter(left_whole).count();
     (Some(rebuilt.done()), too_many)
 }
 
@@ -224,14 +236,17 @@ fn look<'a>(geometry: &Geometry, triangle: usize, mask: &'a Mask, outline: &Outl
     }
     let Some(mut borders) = outline.near(a.min(b).min(c), a.max(b).max(c)) else { return Look::TooMany };
     let sides = sides(corners, side_keys(geometry, triangle).map(|key| key.1));
+    let mut parts: [Vec<f64>; 3] = Default::default();
     borders.retain(|border| {
-        let ends_in = border.iter().any(|end| sides.iter().all(|side| side.admits(*end)));
-        ends_in || sides.iter().any(|side| side.crossing(*border).is_some())
+        let crossed = sides.map(|side| side.crossing(*border).map(|(part, _)| part));
+        parts.iter_mut().zip(crossed).for_each(|(parts, part)| parts.extend(part));
+        crossed.iter().any(Option::is_some)
+            || border.iter().any(|end| sides.iter().all(|side| side.admits(*end)))
     });
     if borders.is_empty() {
         return whole_or_gone();
     }
-    Look::Crossed { mask, corners, sides, borders }
+    Look::Crossed(Box::new(Crossed { mask, corners, sides, borders, parts }))
 }
 
 /// The sides of a triangle in the plane of the texels, each from the end that comes first in space.
@@ -258,11 +273,10 @@ fn side_keys(geometry: &Geometry, triangle: usize) -> [(SideKey, bool); 3] {
 fn crossings<'a>(geometry: &Geometry, look: impl Fn(usize) -> &'a Look<'a>) -> FxHashMap<SideKey, Vec<u64>> {
     let mut all: FxHashMap<SideKey, Vec<f64>> = FxHashMap::default();
     for triangle in 0..geometry.triangles.len() {
-        let Look::Crossed { sides, borders, .. } = look(triangle) else { continue };
-        for (side, (key, _)) in sides.iter().zip(side_keys(geometry, triangle)) {
-            let mut found = borders.iter().filter_map(|border| Some(side.crossing(*border)?.0)).peekable();
-            if found.peek().is_some() {
-                all.entry(key).or_default().extend(found);
+        let Look::Crossed(crossed) = look(triangle) else { continue };
+        for (parts, (key, _)) in crossed.parts.iter().zip(side_keys(geometry, triangle)) {
+            if !parts.is_empty() {
+                all.entry(key).or_default().extend(parts);
             }
         }
     }

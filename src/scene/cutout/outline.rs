@@ -1,12 +1,10 @@
-//! [`Outline`]: the borders of what a mask leaves, as lines in the plane of its texels.
+//! [`Outline`]: the borders of what a mask leaves, thinned to what is needed of them, by place.
 //!
-//! Source: Lorensen and Cline, "Marching cubes", SIGGRAPH 1987, in two dimensions; cells with two diagonals as Nielson
-//! and Hamann, "The asymptotic decider", 1991. Lines are thinned as Douglas and Peucker, "Algorithms for the reduction of the number of points", 1973.
+//! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points", 1973.
 
 use glam::DVec2;
-use rustc_hash::FxHashMap;
 
-use super::mask::Mask;
+use super::trace::Traced;
 use crate::math::grouped::{Grouped, grouped};
 
 /// A piece of border, with what is opaque on its left (x to the right, y upwards).
@@ -15,17 +13,14 @@ pub(super) type Segment = [DVec2; 2];
 /// How far the lines go on beyond a picture whose border is repeated for ever, texels.
 const FAR: f64 = 2e9;
 
-/// How far the pieces of a border lie beside it before it is thinned, texels.
-const STRAIGHT: f64 = 1e-3;
-
 /// Cells of the index along each side, at most.
 const MOST_CELLS: usize = 64;
 
-/// Whoever asks for more pieces of border at once gets none.
-pub(super) const MOST_SEGMENTS: usize = 100_000;
+/// A line of more points than this is thinned in parts.
+const SPAN: usize = 512;
 
-/// A picture whose texels part opaque from clear more often than this has no borders.
-const MOST_CROSSINGS: usize = 1 << 22;
+/// Whoever asks for more pieces of border at once gets none.
+const MOST_SEGMENTS: usize = 100_000;
 
 /// The borders of a mask, one period of them, by place.
 pub(super) struct Outline {
@@ -38,20 +33,18 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// The borders of a mask, which may lie this far beside where they are exactly, texels; none if there are too many.
-    pub fn new(mask: &Mask, tolerance: f64) -> Option<Self> {
-        let size = mask.size();
-        let periods = mask.periods();
-        let reach = [0, 1].map(|k| periods[k].unwrap_or(size[k] - 1));
+    /// The borders of a mask, which may lie this far beside where they are exactly, texels.
+    pub fn new(traced: &Traced, tolerance: f64) -> Self {
+        let Traced { lines, reach, periods } = traced;
+        let (reach, periods) = (*reach, *periods);
         let mut segments = Vec::new();
-        for chain in trace(mask, reach)? {
-            let mut line = thinned(chain, tolerance);
+        for line in lines {
+            let mut line = thinned(line, tolerance);
             extend(&mut line, reach, periods);
             segments.extend(line.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[a, b]| a != b));
         }
         let across = reach.map(|count| (count / 4).clamp(1, MOST_CELLS));
-        let cell =
-            DVec2::new(reach[0].max(1) as f64 / across[0] as f64, reach[1].max(1) as f64 / across[1] as f64);
+        let cell = DVec2::new(reach[0] as f64 / across[0] as f64, reach[1] as f64 / across[1] as f64);
         let periods = periods.map(|period| period.map(|count| count as f64));
         let mut outline = Self { segments, periods, across, cell, cells: Grouped::default() };
         outline.cells = grouped(across[0] * across[1], |put| {
@@ -59,7 +52,7 @@ impl Outline {
                 outline.each_cell(a.min(*b), a.max(*b), |cell| put(cell, number as u32));
             }
         });
-        Some(outline)
+        outline
     }
 
     /// How many pieces of border a picture has.
@@ -86,6 +79,9 @@ impl Outline {
             None => (0, 0),
         };
         let ((left, right), (top, bottom)) = (turns(0), turns(1));
+        if (right - left + 1) * (bottom - top + 1) > MOST_SEGMENTS as i64 {
+            return None;
+        }
         let mut found = Vec::new();
         let mut numbers = Vec::new();
         for y in top..=bottom {
@@ -115,102 +111,6 @@ impl Outline {
     }
 }
 
-/// A side between neighbouring texels: the column and row of the first, and whether the second lies below it.
-type Side = (u32, u32, bool);
-
-/// The borders in the cells between so many texels and their neighbours, end to end.
-fn trace(mask: &Mask, [columns, rows]: [usize; 2]) -> Option<Vec<Vec<DVec2>>> {
-    let mut next: FxHashMap<Side, Side> = FxHashMap::default();
-    let mut starts: Vec<Side> = Vec::new();
-    let mut above: Vec<f64> = (0..=columns as i64).map(|i| mask.texel(i, 0)).collect();
-    for j in 0..rows as u32 {
-        let below: Vec<f64> = (0..=columns as i64).map(|i| mask.texel(i, i64::from(j) + 1)).collect();
-        for i in 0..columns as u32 {
-            let k = i as usize;
-            let corners = [above[k], above[k + 1], below[k + 1], below[k]];
-            let is_in = corners.map(|value| value > 0.0);
-            if is_in == [is_in[0]; 4] {
-                continue;
-            }
-            let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
-            // Round the cell: where it is left, and where it is entered again.
-            let leaves = (0..4).filter(|s| is_in[*s] && !is_in[(*s + 1) % 4]);
-            let [a, b, c, d] = corners;
-            // The value where bilinear opacity has its saddle.
-            let joined = (a * c - b * d) / (a + c - b - d) >= 0.0;
-            for leave in leaves {
-                let enters = |s: &usize| !is_in[*s % 4] && is_in[(*s + 1) % 4];
-                // Where the saddle is opaque the next entry ahead belongs to the other corner.
-                let enter = match joined {
-                    true => (leave + 1..leave + 4).find(enters),
-                    false => (leave + 1..leave + 4).rev().find(enters),
-                };
-                if let Some(enter) = enter {
-                    next.insert(sides[leave], sides[enter % 4]);
-                    starts.push(sides[leave]);
-                }
-            }
-        }
-        above = below;
-        if starts.len() > MOST_CROSSINGS {
-            return None;
-        }
-    }
-    let point = |(i, j, down): Side| {
-        let (a, b) = (
-            mask.texel(i.into(), j.into()),
-            mask.texel((i + u32::from(!down)).into(), (j + u32::from(down)).into()),
-        );
-        let part = a / (a - b);
-        DVec2::new(f64::from(i), f64::from(j)) + if down { DVec2::Y } else { DVec2::X } * part
-    };
-    // Open lines begin where nothing leads to.
-    let led_to: rustc_hash::FxHashSet<Side> = next.values().copied().collect();
-    let (open, closed): (Vec<Side>, Vec<Side>) = starts.into_iter().partition(|side| !led_to.contains(side));
-    let mut lines = Vec::new();
-    for start in open.into_iter().chain(closed) {
-        let mut line = Vec::new();
-        let mut at = start;
-        while let Some(to) = next.remove(&at) {
-            line.push(point(at));
-            curve(mask, point(at), point(to), &mut line);
-            at = to;
-        }
-        if !line.is_empty() {
-            line.push(point(at));
-            lines.push(line);
-        }
-    }
-    Some(lines)
-}
-
-/// Adds points of the border on its way through a cell, where it is a piece of a hyperbola: opacity is bilinear.
-fn curve(mask: &Mask, from: DVec2, to: DVec2, line: &mut Vec<DVec2>) {
-    let low = ((from + to) / 2.0).floor();
-    let (i, j) = (low.x as i64, low.y as i64);
-    let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| mask.texel(i + x, j + y));
-    let twist = a - b - c + d;
-    // The border is where the product of the distances from the axes is `product`.
-    let axes = low - DVec2::new(c - a, b - a) / twist;
-    let product = ((b - a) * (c - a) / twist - a) / twist;
-    if axes.is_finite() && product.is_finite() && (from.x - axes.x) * (to.x - axes.x) > 0.0 {
-        bend(axes, product, from, to, line);
-    }
-}
-
-/// Adds points of a hyperbola between two of its points until what is left between them is all but straight.
-fn bend(axes: DVec2, product: f64, from: DVec2, to: DVec2, line: &mut Vec<DVec2>) {
-    let x = ((from.x - axes.x) * (to.x - axes.x)).sqrt().copysign(from.x - axes.x);
-    let middle = axes + DVec2::new(x, product / x);
-    let way = to - from;
-    let off = way.perp_dot(middle - from).abs();
-    if off > STRAIGHT * way.length() && way.length_squared() > STRAIGHT * STRAIGHT {
-        bend(axes, product, from, middle, line);
-        line.push(middle);
-        bend(axes, product, middle, to, line);
-    }
-}
-
 /// Lets a line that ends at a border which is repeated for ever go on outwards.
 fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2]) {
     let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) else { return };
@@ -236,25 +136,23 @@ fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2])
     line.extend(beyond(last));
 }
 
-/// A line without the points that lie within `tolerance` of the line without them; closed ones smaller than that are gone.
-fn thinned(line: Vec<DVec2>, tolerance: f64) -> Vec<DVec2> {
+/// A line without the points that lie within `tolerance` of the line without them; closed ones that are no wider than that are
+/// gone.
+fn thinned(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     let count = line.len();
+    let is_closed = line[0] == line[count - 1];
     let mut kept = vec![false; count];
-    kept[0] = true;
-    kept[count - 1] = true;
-    let mut spans = Vec::new();
-    if line[0] == line[count - 1] {
-        let from = |p: &DVec2| p.distance_squared(line[0]);
-        let farthest = (1..count).max_by(|a, b| from(&line[*a]).total_cmp(&from(&line[*b])).then(b.cmp(a)));
-        let Some(farthest) = farthest.filter(|k| from(&line[*k]) > tolerance * tolerance) else {
-            return Vec::new();
-        };
-        kept[farthest] = true;
-        spans.extend([(0, farthest), (farthest, count - 1)]);
-    } else {
-        spans.push((0, count - 1));
+    // A line that winds for ever would be gone through once a turn, so that long ones are thinned span by span.
+    let mut ends: Vec<usize> = (0..count - 1).step_by(SPAN).chain([count - 1]).collect();
+    if is_closed && count <= SPAN {
+        let from = |k: &usize| line[*k].distance_squared(line[0]);
+        let farthest = (1..count).max_by(|a, b| from(a).total_cmp(&from(b)).then(b.cmp(a)));
+        ends.extend(farthest);
+        ends.sort_unstable();
     }
-    while let Some((first, last)) = spans.pop() {
+    ends.iter().for_each(|end| kept[*end] = true);
+    let mut spans: Vec<[usize; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    while let Some([first, last]) = spans.pop() {
         let (a, way) = (line[first], line[last] - line[first]);
         let off = |p: DVec2| {
             let along = ((p - a).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -265,16 +163,22 @@ fn thinned(line: Vec<DVec2>, tolerance: f64) -> Vec<DVec2> {
             .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
         if let Some((_, k)) = worst.filter(|(off, _)| *off > tolerance * tolerance) {
             kept[k] = true;
-            spans.extend([(first, k), (k, last)]);
+            spans.extend([[first, k], [k, last]]);
         }
     }
-    line.into_iter().zip(kept).filter_map(|(p, kept)| kept.then_some(p)).collect()
+    let thinned: Vec<DVec2> = line.iter().zip(kept).filter_map(|(p, kept)| kept.then_some(*p)).collect();
+    if is_closed && thinned.len() < 4 { Vec::new() } else { thinned }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::cutout::mask::Mask;
     use crate::scene::material::Wrap;
+
+    fn outline(mask: &Mask, tolerance: f64) -> Outline {
+        Outline::new(&Traced::of(mask).unwrap(), tolerance)
+    }
 
     fn disc(size: usize, radius: f64) -> Vec<u8> {
         let middle = (size as f64 - 1.0) / 2.0;
@@ -285,7 +189,7 @@ mod tests {
     #[test]
     fn a_round_hole_is_round() {
         let mask = Mask::of_opacities(64, disc(64, 20.3), Wrap::Repeat);
-        let outline = Outline::new(&mask, 0.02).unwrap();
+        let outline = outline(&mask, 0.02);
         let middle = DVec2::splat(31.5);
         assert!(outline.segments.len() > 40 && outline.segments.len() < 240, "{}", outline.segments.len());
         for [a, b] in &outline.segments {
@@ -303,12 +207,41 @@ mod tests {
     fn borders_go_on_over_the_seam_or_beyond() {
         // The left half is opaque.
         let half = |wrap| Mask::of_opacities(4, [255, 255, 0, 0].repeat(4), wrap);
-        let repeated = Outline::new(&half(Wrap::Repeat), 0.1).unwrap();
+        let repeated = outline(&half(Wrap::Repeat), 0.1);
         assert_eq!(repeated.segments.len(), 2);
         assert!(repeated.segments.iter().all(|[a, b]| (a.y - b.y).abs() == 4.0));
-        let clamped = Outline::new(&half(Wrap::Clamp), 0.1).unwrap();
+        let clamped = outline(&half(Wrap::Clamp), 0.1);
         let far = clamped.near(DVec2::new(0.0, 500.0), DVec2::new(3.0, 600.0)).unwrap();
         assert!(far.iter().all(|[a, b]| a.x == 1.5 && b.x == 1.5) && !far.is_empty());
-        assert_eq!(Outline::new(&half(Wrap::Mirror), 0.1).unwrap().segments.len(), 2);
+        assert_eq!(outline(&half(Wrap::Mirror), 0.1).segments.len(), 2);
+    }
+
+    #[test]
+    fn a_picture_of_one_column_has_borders_along_it() {
+        let mask = Mask::of_opacities(1, vec![0, 0, 255, 255], Wrap::Clamp);
+        let near = outline(&mask, 0.1).near(DVec2::new(-0.3, 0.0), DVec2::new(0.2, 3.0)).unwrap();
+        assert!(!near.is_empty() && near.iter().flatten().all(|p| p.y == 1.5));
+    }
+
+    #[test]
+    fn specks_thinner_than_the_tolerance_are_gone_and_long_lines_keep_their_shape() {
+        let speck: Vec<DVec2> =
+            [[0.0, 0.0], [3.0, 0.1], [6.0, 0.0], [3.0, -0.1], [0.0, 0.0]].map(DVec2::from).to_vec();
+        assert!(thinned(&speck, 0.2).is_empty() && thinned(&speck, 0.05).len() == 5);
+        let turn = |k: usize| std::f64::consts::TAU * (k % 3000) as f64 / 3000.0;
+        let ring: Vec<DVec2> = (0..=3000)
+            .map(|k| {
+                DVec2::new(crate::math::function::cos(turn(k)), crate::math::function::sin(turn(k))) * 100.0
+            })
+            .collect();
+        let thin = thinned(&ring, 0.1);
+        assert!((60..120).contains(&thin.len()), "{}", thin.len());
+        assert!(thin.windows(2).all(|pair| (pair[0] + pair[1]).length() / 2.0 > 99.8));
+    }
+
+    #[test]
+    fn texture_coordinates_that_run_on_for_ever_are_too_many() {
+        let outline = outline(&Mask::of_opacities(4, [255, 255, 0, 0].repeat(4), Wrap::Repeat), 0.1);
+        assert!(outline.near(DVec2::new(0.0, 0.0), DVec2::new(9e8, 1e-3)).is_none());
     }
 }

@@ -45,7 +45,8 @@ impl<'a> Rebuilt<'a> {
         self.to.edge_marks.extend(self.from.edge_marks.get(triangle));
     }
 
-    /// Adds the pieces of a triangle; with each side its crossings (the bits of the parts of it), and whether its first corner comes first in space.
+    /// Adds the pieces of a triangle; with each side its crossings (the bits of the parts of it), and whether its first corner
+    /// comes first in space.
     pub fn add(&mut self, triangle: usize, pieces: &Pieces, sides: [(&Vec<u64>, bool); 3]) {
         let from = self.from;
         let corners = from.triangles[triangle];

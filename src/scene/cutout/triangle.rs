@@ -1,7 +1,7 @@
 //! Cuts one triangle along the borders of a mask.
 
 use glam::DVec2;
-use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
 use super::mask::Mask;
 use super::outline::Segment;
@@ -34,20 +34,16 @@ pub(super) struct Pieces {
     pub triangles: Vec<[u32; 3]>,
 }
 
-struct Vertex {
-    at: Point2<f64>,
-    place: Place,
+type Faces = ConstrainedDelaunayTriangulation<Point2<f64>>;
+
+/// A triangulation in the making.
+#[derive(Default)]
+struct Net {
+    faces: Faces,
+    /// Where each vertex lies on the triangle.
+    places: Vec<Place>,
 }
 
-impl HasPosition for Vertex {
-    type Scalar = f64;
-
-    fn position(&self) -> Point2<f64> {
-        self.at
-    }
-}
-
-type Net = ConstrainedDelaunayTriangulation<Vertex>;
 type VertexHandle = spade::handles::FixedVertexHandle;
 
 const UNKNOWN: u32 = u32::MAX;
@@ -56,14 +52,15 @@ impl TexelTriangle<'_> {
     /// The parts of the triangle that a mask leaves, or all of it in pieces where there is none. `None` if it cannot be
     /// cut.
     pub fn cut(&self, borders: &[Segment], mask: Option<&Mask>) -> Option<Pieces> {
-        let mut net = Net::new();
+        let mut net = Net::default();
         let corners = self.add_sides(&mut net)?;
         let mut drawn = Vec::new();
         for border in borders {
             self.add_border(&mut net, &corners, *border, &mut drawn)?;
         }
+        let Net { faces: net, places } = net;
         let (component, count) = components(&net);
-        let kept = kept(&net, &component, count, &drawn, mask);
+        let kept = self.kept(&net, &component, count, &drawn, mask);
         let turned = turn(self.corners[0], self.corners[1], self.corners[2]) < 0.0;
         let mut pieces = Pieces::default();
         let mut number = vec![UNKNOWN; net.num_vertices()];
@@ -72,7 +69,7 @@ impl TexelTriangle<'_> {
                 let number = &mut number[vertex.index()];
                 if *number == UNKNOWN {
                     *number = pieces.places.len() as u32;
-                    pieces.places.push(vertex.data().place);
+                    pieces.places.push(places[vertex.index()]);
                 }
                 *number
             });
@@ -89,7 +86,7 @@ impl TexelTriangle<'_> {
     fn add_sides(&self, net: &mut Net) -> Option<[Vec<VertexHandle>; 3]> {
         let mut corners = Vec::with_capacity(3);
         for (k, corner) in self.corners.iter().enumerate() {
-            corners.push(insert(net, *corner, Place::Corner(k as u8))?);
+            corners.push(net.insert(*corner, Place::Corner(k as u8))?);
         }
         let mut rows: [Vec<VertexHandle>; 3] = Default::default();
         for (k, row) in rows.iter_mut().enumerate() {
@@ -99,13 +96,13 @@ impl TexelTriangle<'_> {
             row.push(if is_forward { first } else { last });
             for (number, part) in self.crossings[k].iter().enumerate() {
                 let at = side.from + (side.to - side.from) * *part;
-                row.push(insert(net, at, Place::Side(k as u8, number as u32))?);
+                row.push(net.insert(at, Place::Side(k as u8, number as u32))?);
             }
             row.push(if is_forward { last } else { first });
         }
         for row in &rows {
             for pair in row.windows(2) {
-                join(net, pair[0], pair[1]);
+                net.join(pair[0], pair[1]);
             }
         }
         Some(rows)
@@ -137,13 +134,13 @@ impl TexelTriangle<'_> {
         }
         for (end, along) in [(border[0], 0.0), (border[1], 1.0)] {
             if self.sides.iter().all(|side| side.admits(end)) {
-                met.push((along, insert(net, end, Place::Inside(self.shares(end)))?));
+                met.push((along, net.insert(end, Place::Inside(self.shares(end)))?));
             }
         }
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
         for pair in met.chunks_exact(2) {
             let [from, to] = [pair[0].1, pair[1].1];
-            if from != to && join(net, from, to) {
+            if net.join(from, to) {
                 drawn.push([from, to]);
             }
         }
@@ -157,31 +154,65 @@ impl TexelTriangle<'_> {
         let whole: f64 = shares.iter().sum();
         shares.map(|share| share / whole)
     }
+
+    /// Which faces are left: those on the left of a border, and of its component. Where no border is drawn the mask is asked
+    /// once; where borders contradict each other, face by face.
+    fn kept(
+        &self,
+        net: &Faces,
+        component: &[u32],
+        count: u32,
+        drawn: &[[VertexHandle; 2]],
+        mask: Option<&Mask>,
+    ) -> Vec<bool> {
+        let mut says: Vec<[bool; 2]> = vec![[false; 2]; count as usize];
+        for [from, to] in drawn {
+            let Some(edge) = net.get_edge_from_neighbors(*from, *to) else { continue };
+            says[component[edge.face().index()] as usize][1] = true;
+            says[component[edge.rev().face().index()] as usize][0] = true;
+        }
+        let is_opaque = |p: DVec2| mask.is_none_or(|mask| mask.is_opaque(p));
+        let without = is_opaque(self.corners.iter().sum::<DVec2>() / 3.0);
+        let mut kept = vec![false; component.len()];
+        for face in net.inner_faces() {
+            let own = component[face.index()];
+            kept[face.index()] = own != 0
+                && match says[own as usize] {
+                    [false, true] => true,
+                    [true, false] => false,
+                    [false, false] => without,
+                    [true, true] => {
+                        let centre = face.center();
+                        is_opaque(DVec2::new(centre.x, centre.y))
+                    }
+                };
+        }
+        kept
+    }
 }
 
-/// Adds a vertex; where one is already it stays what it was.
-fn insert(net: &mut Net, at: DVec2, place: Place) -> Option<VertexHandle> {
-    let at = Point2::new(
-        spade::mitigate_underflow(Point2::new(at.x, at.y)).x,
-        spade::mitigate_underflow(Point2::new(at.x, at.y)).y,
-    );
-    if let spade::PositionInTriangulation::OnVertex(known) = net.locate(at) {
-        return Some(known);
+impl Net {
+    /// Adds a vertex; where one is already it stays what it was.
+    fn insert(&mut self, at: DVec2, place: Place) -> Option<VertexHandle> {
+        let vertex = self.faces.insert(spade::mitigate_underflow(Point2::new(at.x, at.y))).ok()?;
+        if vertex.index() == self.places.len() {
+            self.places.push(place);
+        }
+        Some(vertex)
     }
-    net.insert(Vertex { at, place }).ok()
-}
 
-/// Joins two vertices unless that would cross what is joined already; whether they are joined now.
-fn join(net: &mut Net, from: VertexHandle, to: VertexHandle) -> bool {
-    if from == to || !net.can_add_constraint(from, to) {
-        return false;
+    /// Joins two vertices unless that would cross what is joined already; whether they are joined now.
+    fn join(&mut self, from: VertexHandle, to: VertexHandle) -> bool {
+        let can_be = from != to && self.faces.can_add_constraint(from, to);
+        if can_be {
+            self.faces.add_constraint(from, to);
+        }
+        can_be
     }
-    net.add_constraint(from, to);
-    true
 }
 
 /// Which faces hang together without a joined edge between them, and how many such sets there are; the first is outside.
-fn components(net: &Net) -> (Vec<u32>, u32) {
+fn components(net: &Faces) -> (Vec<u32>, u32) {
     let mut component = vec![UNKNOWN; net.num_all_faces()];
     let mut stack = Vec::new();
     component[net.outer_face().index()] = 0;
@@ -215,36 +246,4 @@ fn components(net: &Net) -> (Vec<u32>, u32) {
         stack.push(seed.adjacent_edges()[0].face().fix());
     }
     (component, count)
-}
-
-/// Which faces are left: those on the left of a border, and of its component. Where borders contradict each other, or there
-/// are none, the mask is asked face by face.
-fn kept(
-    net: &Net,
-    component: &[u32],
-    count: u32,
-    drawn: &[[VertexHandle; 2]],
-    mask: Option<&Mask>,
-) -> Vec<bool> {
-    let mut says: Vec<[bool; 2]> = vec![[false; 2]; count as usize];
-    for [from, to] in drawn {
-        let Some(edge) = net.get_edge_from_neighbors(*from, *to) else { continue };
-        says[component[edge.face().index()] as usize][1] = true;
-        says[component[edge.rev().face().index()] as usize][0] = true;
-    }
-    let mut kept = vec![false; component.len()];
-    for face in net.inner_faces() {
-        let own = component[face.index()];
-        let ask = || {
-            let centre = face.center();
-            mask.is_none_or(|mask| mask.is_opaque(DVec2::new(centre.x, centre.y)))
-        };
-        kept[face.index()] = own != 0
-            && match says[own as usize] {
-                [false, true] => true,
-                [true, false] => false,
-                _ => ask(),
-            };
-    }
-    kept
 }
