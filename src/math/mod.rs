@@ -8,6 +8,7 @@ pub mod grouped;
 pub mod identity;
 pub mod linear;
 pub mod noise;
+pub mod oklab;
 pub mod picture;
 pub mod plane;
 pub mod power;

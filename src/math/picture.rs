@@ -71,6 +71,29 @@ impl Picture {
         self.pixels.get(row * self.width + column).copied().unwrap_or(Colour::BLACK)
     }
 
+    /// The same picture with fewer pixels, if it has more than so many: the means of squares of them.
+    #[must_use]
+    pub fn at_most(self, most: usize) -> Self {
+        let smaller = |times: usize| [self.width, self.height].map(|count| (count / times).max(1));
+        let fits = |times: &usize| smaller(*times).iter().product::<usize>() <= most.max(1);
+        let times = (1..).find(fits).unwrap_or(1);
+        if times == 1 {
+            return self;
+        }
+        let [width, height] = smaller(times);
+        let mean = |k: usize| {
+            let (column, row) = (k % width * times, k / width * times);
+            let mut sum = [0; 4];
+            for (i, j) in (0..times * times).map(|n| (n % times, n / times)) {
+                let Colour { r, g, b, a } = self.at(column + i, row + j);
+                sum.iter_mut().zip([r, g, b, a]).for_each(|(sum, c)| *sum += usize::from(c));
+            }
+            let [r, g, b, a] = sum.map(|sum| ((sum + times * times / 2) / (times * times)) as u8);
+            Colour { r, g, b, a }
+        };
+        Self { width, height, pixels: (0..width * height).map(mean).collect() }
+    }
+
     /// The colours of a row.
     #[must_use]
     pub fn row(&self, row: usize) -> &[Colour] {
@@ -136,6 +159,15 @@ mod tests {
         assert_eq!((picture.width, picture.height), (2, 1));
         assert_eq!(picture.row(0), [Colour::rgb(1, 2, 3), Colour::rgb(250, 0, 9)]);
         assert_eq!(picture.at(7, 7), Colour::rgb(250, 0, 9));
+    }
+
+    #[test]
+    fn large_pictures_are_made_smaller() {
+        let grey = |v: u8| Colour::rgb(v, v, v);
+        let picture =
+            Picture { width: 4, height: 2, pixels: [0, 100, 7, 7, 100, 200, 7, 7].map(grey).to_vec() };
+        assert_eq!(picture.clone().at_most(8), picture);
+        assert_eq!(picture.at_most(7), Picture { width: 2, height: 1, pixels: vec![grey(100), grey(7)] });
     }
 
     /// JPEG files in base 64: one pixel block of each colour, and a grey one.

@@ -10,7 +10,7 @@ use kurbo::{Point, Vec2};
 use crate::chain::{Chain, Sample};
 use crate::drawing::{Length, Unit};
 use crate::field::{ShadedNormals, Shading};
-use crate::lines::{FeatureLines, Lit, Surface};
+use crate::lines::{FeatureLines, Lit, Surface, Textures};
 use crate::math::noise::hash;
 use crate::mesh::FaceId;
 use crate::scene::Scene;
@@ -187,7 +187,16 @@ impl Beside<'_> {
         // What had to be mended is said where surfaces are painted.
         let style = self.style;
         let shading = Shading::new(self.scene, &[], mesh, frame, &style.light, &style.tones, &mut Vec::new());
-        let lit = Lit { mesh, view, normals: &normals, shading: &shading, openness: &[], solid: &[] };
+        let textures = Textures::default();
+        let lit = Lit {
+            mesh,
+            view,
+            normals: &normals,
+            shading: &shading,
+            openness: &[],
+            textures: &textures,
+            solid: &[],
+        };
         let of = |(front, place): (Option<crate::viewmap::Front>, &DVec2)| {
             let front = front?;
             let at = frame.local_from_image(place.extend(front.nearness));

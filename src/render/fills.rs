@@ -5,11 +5,13 @@ use std::sync::Arc;
 use glam::DVec3;
 use kurbo::Vec2;
 
-use crate::drawing::{Layer, Page};
+use crate::drawing::{Layer, Length, Page, Unit};
 use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
-use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Surface, isophotes, tone_edges};
+use crate::lines::{
+    FeatureLines, LineKind, LineOptions, Lit, Surface, Textures, isophotes, texture_borders, tone_edges,
+};
 use crate::math::colour::Colour;
 use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
@@ -93,9 +95,9 @@ pub(super) struct Paintable {
 }
 
 impl Paintable {
-    pub fn new(surface: &Surface) -> Self {
+    pub fn new(surface: &Surface, paints: &Paints) -> Self {
         let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
-        let edges = tone_edges::candidates(&surface.mesh, &normals);
+        let edges = tone_edges::candidates(&surface.mesh, &normals, paints);
         Self { normals, edges, solid: solid_parts(&surface.mesh) }
     }
 }
@@ -113,6 +115,7 @@ pub(super) struct Fills<'a> {
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
     paints: &'a [Paint],
+    textures: Textures,
     darkened: Darkened,
 }
 
@@ -124,9 +127,12 @@ impl<'a> Fills<'a> {
         scene: &Scene,
         paints: &'a Paints,
         style: &Style,
+        unit: Unit,
         warnings: &mut Vec<String>,
     ) -> Self {
         let (mesh, frame) = (&surface.mesh, &view.frame);
+        let textures = Textures::new(mesh, view, paints, Length::px(1.0).in_unit(unit));
+        warnings.extend_from_slice(textures.warnings());
         let mut shading =
             Shading::new(scene, &paints.list, mesh, frame, &style.light, &tones(style), warnings);
         if style.hatch.enabled {
@@ -145,6 +151,7 @@ impl<'a> Fills<'a> {
             shadows,
             openness,
             paints: &paints.list,
+            textures,
             darkened: darkened(style),
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
@@ -176,6 +183,7 @@ impl<'a> Fills<'a> {
             normals: &self.paintable.normals,
             shading: &self.shading,
             openness: &self.openness,
+            textures: &self.textures,
             solid: if is_cut { &[] } else { &self.paintable.solid },
         }
     }
@@ -185,6 +193,7 @@ impl<'a> Fills<'a> {
         let lit = self.lit();
         tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
         isophotes::find(&lit, &self.masks, lines);
+        texture_borders::find(&lit, lines);
         self.shadows.lines.append_to(lit.mesh, lines);
     }
 

@@ -136,13 +136,14 @@ impl<'a> Prepared<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
         let needs_paints = fills::is_lit(style) || under::asks_colours(style);
-        let mut paints = needs_paints.then(|| Paints::of(scene));
+        let mut paints = needs_paints.then(|| Paints::of(scene, &style.textures));
         let cutout::Cut { scene, origins, warnings } = cutout::cut(scene);
         paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);
-        let paintable = fills::is_lit(style).then(|| Paintable::new(&surface));
+        let paintable =
+            paints.as_ref().filter(|_| fills::is_lit(style)).map(|paints| Paintable::new(&surface, paints));
         Self { scene, warnings, style, sought, paints, surface, paintable, search: LateSearch::default() }
     }
 
@@ -158,7 +159,7 @@ impl<'a> Prepared<'a> {
         stage: Option<Stage>,
     ) -> Result<(Drawing, Report), Error> {
         camera.validate()?;
-        Ok(self.on_view(camera, |on_view| self.drawn(on_view, camera, page, stage)))
+        Ok(self.on_view(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
     }
 
     /// What a view is hatched on, and the strokes of each layer of its hatching, each with what it is
@@ -166,7 +167,7 @@ impl<'a> Prepared<'a> {
     #[must_use]
     pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(Ground, Vec<Hatched>)> {
         camera.validate().ok()?;
-        self.on_view(camera, |on_view| {
+        self.on_view(camera, page.unit, |on_view| {
             let OnView { fills, map, .. } = on_view;
             let fills = fills.filter(|_| self.style.hatch.enabled)?;
             let (scene, style) = (self.scene.as_ref(), self.style);
@@ -176,7 +177,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// Decides what is seen of the lines of a view.
-    fn on_view<T>(&self, camera: &Camera, call: impl FnOnce(OnView) -> T) -> T {
+    fn on_view<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(OnView) -> T) -> T {
         let Self { scene, style, sought, paints, .. } = self;
         let mut report = Report::default();
         let mut watch = Stopwatch::start();
@@ -185,7 +186,8 @@ impl<'a> Prepared<'a> {
 
         let refined = self.surface.refined_for(camera);
         let surface = refined.as_ref().unwrap_or(&self.surface);
-        let own = refined.as_ref().filter(|_| fills::is_lit(style)).map(Paintable::new);
+        let own = refined.as_ref().zip(paints.as_ref()).filter(|_| fills::is_lit(style));
+        let own = own.map(|(surface, paints)| Paintable::new(surface, paints));
         let paintable = own.as_ref().or(self.paintable.as_ref());
         let view = View::new(&surface.mesh, camera);
         report.stages_ms.topology = watch.lap_ms();
@@ -195,7 +197,7 @@ impl<'a> Prepared<'a> {
         let mut lines = lines::extract_with(surface, search, &view, sought);
         let mut warnings = Vec::new();
         let fills = paintable.zip(paints.as_ref()).map(|(paintable, paints)| {
-            Fills::new(surface, paintable, &view, scene, paints, style, &mut warnings)
+            Fills::new(surface, paintable, &view, scene, paints, style, unit, &mut warnings)
         });
         if let Some(fills) = &fills {
             fills.add_tone_borders(&mut lines);

@@ -23,8 +23,8 @@ pub mod light;
 pub mod material;
 pub mod paint;
 pub mod select;
-mod swatches;
-mod texture;
+pub(crate) mod texels;
+pub(crate) mod texture;
 pub mod views;
 pub mod warnings;
 
@@ -37,6 +37,7 @@ pub use geometry::{Geometry, Part};
 pub use light::{Light, LightKind};
 pub use material::{Alpha, Material, Wrap};
 pub use paint::{Paint, Paints};
+pub use texture::options::{TextureFill, TextureOptions};
 pub use views::NamedView;
 pub use warnings::Warnings;
 

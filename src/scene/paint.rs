@@ -1,15 +1,16 @@
 //! [`Paints`]: the colour of each triangle, where textures or vertex colours give it.
 //!
 //! A texture that is a palette, as low-polygon models have them, or colours painted on vertices
-//! part a material into areas of flat colour. They matter to fills only: lines know materials, and a
-//! change of paint within one is no material boundary.
+//! part a material into areas of flat colour; any other picture is painted in a few colours, point by point. They matter to
+//! fills only: lines know materials, and a change of paint within one is no material boundary.
 
 use glam::Vec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::swatches::swatches;
-use super::texture::Texture;
+use super::texture::options::{TextureFill, TextureOptions};
+use super::texture::swatches::{ALIKE, difference, mean, of_palette, swatches};
+use super::texture::{Painted, Texture};
 use super::{Geometry, Material, Scene, Warnings};
 use crate::math::colour::{Colour, linear};
 use crate::mesh::{MaterialId, PaintId};
@@ -27,18 +28,21 @@ pub struct Paint {
 #[derive(Debug, Clone, Default)]
 pub struct Paints {
     /// One for each material and for what has none, with their own ids and colours; then those of
-    /// textures and vertex colours, by material and then by colour.
+    /// textures and vertex colours, by material and then by colour. What shows a picture has a paint of its own, in the mean
+    /// colour of the picture.
     pub list: Vec<Paint>,
     /// Textures that could not be read.
     pub warnings: Warnings,
     /// Paint of each triangle of each geometry, or empty where each has that of its material.
     triangles: Vec<Vec<PaintId>>,
+    /// The pictures that are painted point by point, and the paint of the triangles that show them.
+    pub(crate) pictures: Vec<(PaintId, Painted)>,
 }
 
 impl Paints {
     /// Finds the paints of a scene; reads textures beside the model.
     #[must_use]
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of(scene: &Scene, options: &TextureOptions) -> Self {
         let without = Material::default();
         let materials: Vec<&Material> = scene.materials.iter().chain([&without]).collect();
         let mut paints = Self::default();
@@ -48,8 +52,10 @@ impl Paints {
                 .enumerate()
                 .map(|(id, material)| Paint { material: id.into(), colour: material.colour }),
         );
-        let textures: Vec<Option<Result<Texture, String>>> =
-            materials.par_iter().map(|material| Texture::of(scene, material)).collect();
+        let read = |material: &&Material| {
+            if options.fill == TextureFill::Off { None } else { Texture::of(scene, material) }
+        };
+        let textures: Vec<Option<Result<Texture, String>>> = materials.par_iter().map(read).collect();
         let textures: Vec<Option<Texture>> = textures
             .into_iter()
             .map(|texture| {
@@ -60,33 +66,40 @@ impl Paints {
             })
             .collect();
 
-        // Colours of all triangles that have one, with the material, geometry and triangle.
+        // Colours of all triangles that have one, by material.
         let mut coloured: Vec<Vec<Coloured>> = vec![Vec::new(); materials.len()];
         for (index, geometry) in scene.geometries.iter().enumerate() {
             let last = materials.len() - 1;
-            let material_of = |triangle: usize| {
-                let own = geometry.triangle_material.get(triangle).copied().or(geometry.material);
-                own.map_or(last, |id| (id as usize).min(last))
-            };
+            let material_of =
+                |triangle: usize| geometry.material_of(triangle).map_or(last, |id| (id as usize).min(last));
             let colour = |triangle: usize| {
                 let id = material_of(triangle);
                 let texture = textures.get(id).and_then(Option::as_ref);
-                let base = materials.get(id).map_or(Colour::WHITE, |material| material.colour);
-                Some((id, colour_of(geometry, triangle, texture, base, scene.format == "glTF")?))
+                Some((id, colour_of(geometry, index, triangle, texture)?))
             };
-            let found: Vec<Option<(usize, (Colour, bool))>> =
+            let found: Vec<Option<(usize, Coloured)>> =
                 (0..geometry.triangles.len()).into_par_iter().with_min_len(1 << 12).map(colour).collect();
-            for (triangle, (id, colour)) in
-                found.into_iter().enumerate().filter_map(|(triangle, found)| Some((triangle, found?)))
-            {
-                if let Some(list) = coloured.get_mut(id) {
-                    list.push((colour, index, triangle));
-                }
+            for (id, found) in found.into_iter().flatten() {
+                coloured[id].push(found);
             }
             paints.triangles.push(Vec::new());
         }
-        for (id, list) in coloured.iter().enumerate() {
-            paints.add(scene, id, list);
+        for (id, ((list, texture), material)) in coloured.iter().zip(textures).zip(materials).enumerate() {
+            let factor = Factor { base: material.colour, multiplies: scene.format == "glTF" };
+            // Where corners are tinted as well a triangle is of one colour.
+            let texture = texture.filter(|_| list.iter().all(|own| own.painted.is_none()));
+            match (texture, options.fill) {
+                (Some(texture), TextureFill::Regions) if !list.is_empty() => {
+                    paints.add_picture(scene, id, list, texture, options.colours, &factor);
+                }
+                (texture, fill) => {
+                    let colours: Vec<(Colour, bool)> =
+                        list.iter().map(|own| (factor.of(own), own.spread < ALIKE)).collect();
+                    let is_one = texture.is_some() && fill == TextureFill::Mean;
+                    let colours = if is_one { vec![mean(&colours); list.len()] } else { swatches(&colours) };
+                    paints.add(scene, id, &colours, list);
+                }
+            }
         }
         paints
     }
@@ -106,15 +119,77 @@ impl Paints {
         self.triangles.get(geometry).map_or(&[], Vec::as_slice)
     }
 
-    /// Adds the paints of a material's triangles.
-    fn add(&mut self, scene: &Scene, material: usize, triangles: &[Coloured]) {
-        let colours: Vec<(Colour, bool)> = triangles.iter().map(|(colour, ..)| *colour).collect();
-        let colours = swatches(&colours);
+    /// Adds the paints of a material's triangles, each in its colour.
+    fn add(&mut self, scene: &Scene, material: usize, colours: &[Colour], triangles: &[Coloured]) {
+        let known = self.of_colours(material, colours);
+        for (colour, own) in colours.iter().zip(triangles) {
+            if let Some(paint) = known.get(colour) {
+                self.paint(scene, own, *paint);
+            }
+        }
+    }
+
+    /// Adds the paints of a material whose triangles show a picture. Those that are of one colour of a palette have that; all
+    /// others are painted point by point.
+    fn add_picture(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        texture: Texture,
+        count: usize,
+        factor: &Factor,
+    ) {
+        let seen: Vec<(Colour, bool)> =
+            triangles.iter().filter_map(|own| Some((own.shown?, own.spread < ALIKE))).collect();
+        let shown = texture.shown(scene, material);
+        let swatches = of_palette(&seen);
+        let mut colours = match &swatches {
+            Some(swatches) => swatches.clone(),
+            None => texture.few(&shown, count),
+        };
+        colours.sort_unstable();
+        colours.dedup();
+        let tinted: Vec<Colour> = colours.iter().map(|colour| factor.tint(*colour)).collect();
+        let known = self.of_colours(material, &tinted);
+        let with_paint: Vec<(Colour, PaintId)> = colours
+            .iter()
+            .zip(&tinted)
+            .filter_map(|(own, tinted)| Some((*own, *known.get(tinted)?)))
+            .collect();
+        let paint_of = |colour: Colour| {
+            with_paint.iter().min_by_key(|(own, _)| difference(*own, colour)).map(|(_, paint)| *paint)
+        };
+        // What lies between colours is parted where the picture has it, not where its triangles meet.
+        let is_near =
+            |own: &Coloured| colours.iter().any(|c| own.shown.is_some_and(|s| difference(*c, s) <= SAME));
+        let is_whole = |own: &Coloured| {
+            with_paint.len() < 2 || (swatches.is_some() && own.spread <= SAME && is_near(own))
+        };
+        if triangles.iter().all(is_whole) {
+            for own in triangles {
+                if let Some(paint) = own.shown.and_then(paint_of) {
+                    self.paint(scene, own, paint);
+                }
+            }
+            return;
+        }
+        let picture = PaintId::from(self.list.len());
+        self.list.push(Paint { material: material.into(), colour: factor.tint(mean(&seen)) });
+        for own in triangles {
+            let own_paint = own.shown.filter(|_| is_whole(own)).and_then(paint_of);
+            self.paint(scene, own, own_paint.unwrap_or(picture));
+        }
+        self.pictures.push((picture, texture.painted(shown, &with_paint)));
+    }
+
+    /// The paints of a material in these colours.
+    fn of_colours(&mut self, material: usize, colours: &[Colour]) -> FxHashMap<Colour, PaintId> {
         // By colour, not by the triangle that shows it first.
-        let mut distinct = colours.clone();
+        let mut distinct = colours.to_vec();
         distinct.sort_unstable();
         distinct.dedup();
-        let mut known: FxHashMap<Colour, PaintId> = FxHashMap::default();
+        let mut known = FxHashMap::default();
         for colour in distinct {
             if self.list.get(material).is_some_and(|own| own.colour == colour) {
                 known.insert(colour, PaintId::from(material));
@@ -123,36 +198,49 @@ impl Paints {
                 self.list.push(Paint { material: material.into(), colour });
             }
         }
-        for (colour, &(_, geometry, triangle)) in colours.into_iter().zip(triangles) {
-            let Some(&paint) = known.get(&colour) else { continue };
-            let Some((paints, shape)) = self.triangles.get_mut(geometry).zip(scene.geometries.get(geometry))
-            else {
-                continue;
-            };
-            if paints.is_empty() {
-                let last = scene.materials.len() as u32;
-                let own = |i: usize| shape.triangle_material.get(i).copied().or(shape.material);
-                paints.extend((0..shape.triangles.len()).map(|i| PaintId(own(i).unwrap_or(last))));
-            }
-            if let Some(place) = paints.get_mut(triangle) {
-                *place = paint;
-            }
+        known
+    }
+
+    /// Gives a triangle its paint.
+    fn paint(&mut self, scene: &Scene, own: &Coloured, paint: PaintId) {
+        let Some((paints, shape)) =
+            self.triangles.get_mut(own.geometry).zip(scene.geometries.get(own.geometry))
+        else {
+            return;
+        };
+        if paints.is_empty() {
+            let last = scene.materials.len() as u32;
+            paints.extend((0..shape.triangles.len()).map(|i| PaintId(shape.material_of(i).unwrap_or(last))));
+        }
+        if let Some(place) = paints.get_mut(own.triangle) {
+            *place = paint;
         }
     }
 }
 
-/// The colour of a triangle and whether it is of one colour; its geometry and its number there.
-type Coloured = ((Colour, bool), usize, usize);
+/// Colours that differ by no more than this in any channel are one, but for how they were stored.
+const SAME: u32 = 8;
 
-/// The colour of a triangle and whether it is of one colour, where a texture or its corners give it. In glTF they multiply the
-/// material's, elsewhere they stand in for it.
+/// A triangle that has a colour other than its material's.
+#[derive(Debug, Clone, Copy)]
+struct Coloured {
+    geometry: usize,
+    triangle: usize,
+    /// What it shows of a texture.
+    shown: Option<Colour>,
+    /// How far colours within it differ.
+    spread: u32,
+    /// The linear light of the colours at its corners, where they are not white.
+    painted: Option<Vec3>,
+}
+
+/// The colours of a triangle, where a texture or its corners give it one.
 fn colour_of(
     geometry: &Geometry,
+    index: usize,
     triangle: usize,
     texture: Option<&Texture>,
-    base: Colour,
-    multiplies: bool,
-) -> Option<(Colour, bool)> {
+) -> Option<Coloured> {
     let uvs = geometry.corner_uvs.get(triangle).and_then(|corners| {
         let [a, b, c] = corners.map(|corner| geometry.uvs.get(corner as usize).copied());
         Some([a?, b?, c?])
@@ -164,18 +252,46 @@ fn colour_of(
         let [a, b, c] = [a?, b?, c?].map(|[r, g, b, _]| Vec3::new(r, g, b).as_dvec3());
         Some(((a + b + c) / 3.0).as_vec3())
     });
+    // White is no tint of a texture.
+    let painted = painted.filter(|light| shown.is_none() || *light != Vec3::ONE);
     if shown.is_none() && painted.is_none() {
         return None;
     }
-    let light = |colour: Colour| {
-        let [r, g, b] = [colour.r, colour.g, colour.b].map(|c| linear(f32::from(c) / 255.0));
-        Vec3::new(r, g, b)
-    };
-    let factors = [shown.map(|(colour, _)| light(colour)), painted, multiplies.then(|| light(base))];
-    let product = factors.into_iter().flatten().fold(Vec3::ONE, |product, factor| product * factor);
-    let opacity = f32::from(base.a) / 255.0;
-    let flat = shown.is_none_or(|(_, flat)| flat);
-    Some((Colour::from_linear([product.x, product.y, product.z, opacity]), flat))
+    let (shown, spread) = shown.map_or((None, 0), |(colour, spread)| (Some(colour), spread));
+    Some(Coloured { geometry: index, triangle, shown, spread, painted })
+}
+
+/// What the colour of a material does to those of its texture and its corners: in glTF it multiplies them, elsewhere they stand
+/// in for it.
+struct Factor {
+    base: Colour,
+    multiplies: bool,
+}
+
+impl Factor {
+    /// The colour of a triangle.
+    fn of(&self, own: &Coloured) -> Colour {
+        self.product([own.shown.map(light), own.painted])
+    }
+
+    /// The colour of what shows one of the colours of a texture.
+    fn tint(&self, colour: Colour) -> Colour {
+        self.product([Some(light(colour)), None])
+    }
+
+    fn product(&self, factors: [Option<Vec3>; 2]) -> Colour {
+        let base = self.multiplies.then(|| light(self.base));
+        let product =
+            factors.into_iter().chain([base]).flatten().fold(Vec3::ONE, |product, factor| product * factor);
+        let opacity = f32::from(self.base.a) / 255.0;
+        Colour::from_linear([product.x, product.y, product.z, opacity])
+    }
+}
+
+/// The linear light of a colour.
+fn light(colour: Colour) -> Vec3 {
+    let [r, g, b] = [colour.r, colour.g, colour.b].map(|c| linear(f32::from(c) / 255.0));
+    Vec3::new(r, g, b)
 }
 
 #[cfg(test)]
@@ -218,7 +334,7 @@ mod tests {
     #[test]
     fn palettes_give_triangles_their_paint() {
         let scene = scene("glTF", Colour::WHITE);
-        let paints = Paints::of(&scene);
+        let paints = Paints::of(&scene, &TextureOptions::default());
         assert_eq!(paints.list.len(), 5);
         let mesh = Mesh::build(scene.to_painted_soup(&paints));
         assert_eq!(paints.of_geometry(0), [4, 3, 0, 1].map(PaintId));
@@ -234,7 +350,7 @@ mod tests {
     #[test]
     fn textures_multiply_the_material_in_gltf_only() {
         let half = Colour::from_linear([0.5, 0.5, 0.5, 1.0]);
-        let colour = |format| Paints::of(&scene(format, half)).list[4].colour;
+        let colour = |format| Paints::of(&scene(format, half), &TextureOptions::default()).list[4].colour;
         assert_eq!(colour("glTF"), Colour::rgb(half.r, 0, 0));
         assert_eq!(colour("OBJ"), Colour::rgb(255, 0, 0));
     }
@@ -245,7 +361,7 @@ mod tests {
         scene.materials.clear();
         scene.geometries[0].triangle_material.clear();
         scene.geometries[0].colours = vec![[0.0, 1.0, 0.0, 1.0]; 6];
-        let paints = Paints::of(&scene);
+        let paints = Paints::of(&scene, &TextureOptions::default());
         let green = Paint { material: MaterialId(0), colour: Colour::rgb(0, 255, 0) };
         assert_eq!(paints.list[1..], [green]);
         assert_eq!(paints.of_geometry(0), [PaintId(1); 4]);
@@ -255,7 +371,7 @@ mod tests {
     fn broken_textures_leave_the_material() {
         let mut scene = scene("glTF", Colour::WHITE);
         scene.materials[0].picture = Some(Arc::from(&b"nothing"[..]));
-        let paints = Paints::of(&scene);
+        let paints = Paints::of(&scene, &TextureOptions::default());
         assert_eq!((paints.list.len(), paints.warnings.lines().len()), (3, 1));
         assert!(paints.of_geometry(0).is_empty());
     }

@@ -13,6 +13,7 @@ use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
 use crate::region::{RegionOptions, Seams};
+use crate::scene::{TextureFill, TextureOptions};
 
 /// The table `[fills]`.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -40,6 +41,9 @@ pub(super) struct FillsTable {
     underlap: Option<Length>,
     crumb: Option<Length>,
     fit_tolerance: Option<Length>,
+    texture: Option<TextureFill>,
+    #[serde(deserialize_with = "texture_colours")]
+    texture_colours: Option<usize>,
     material: Vec<MaterialTable>,
 }
 
@@ -84,7 +88,7 @@ impl FillsTable {
     }
 
     /// The options that the table stands for.
-    pub fn into_options(self) -> (ToneOptions, RegionOptions) {
+    pub fn into_options(self) -> (ToneOptions, RegionOptions, TextureOptions) {
         let tones = ToneOptions::default();
         let region = RegionOptions::default();
         let gooch = Some(self.gooch).filter(|gooch| gooch.enabled);
@@ -106,7 +110,12 @@ impl FillsTable {
             crumb: self.crumb.unwrap_or(region.crumb),
             fit_tolerance: self.fit_tolerance.unwrap_or(region.fit_tolerance),
         };
-        (tones, region)
+        let textures = TextureOptions::default();
+        let textures = TextureOptions {
+            fill: self.texture.unwrap_or(textures.fill),
+            colours: self.texture_colours.unwrap_or(textures.colours),
+        };
+        (tones, region, textures)
     }
 }
 
@@ -178,6 +187,19 @@ fn steps<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D:
         "{steps} is not a number of tones; write a whole number from 1 to {GREATEST_TONES}"
     )))
 }
+
+fn texture_colours<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
+    let count = u64::deserialize(deserializer)?;
+    if (1..=GREATEST_COLOURS).contains(&count) {
+        return Ok(Some(count as usize));
+    }
+    Err(D::Error::custom(format!(
+        "{count} is not a number of colours; write a whole number from 1 to {GREATEST_COLOURS}"
+    )))
+}
+
+/// More colours than this are no few.
+const GREATEST_COLOURS: u64 = 64;
 
 fn palette<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<Colour>>, D::Error> {
     let list = Vec::<Colour>::deserialize(deserializer)?;

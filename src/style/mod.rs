@@ -28,6 +28,7 @@ use crate::hatch::HatchOptions;
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
 use crate::region::RegionOptions;
+use crate::scene::TextureOptions;
 use crate::stroke::StrokeOptions;
 
 /// The options of every stage.
@@ -47,6 +48,8 @@ pub struct Style {
     pub light: LightOptions,
     /// Into which tones surfaces fall, and what colours they have.
     pub tones: ToneOptions,
+    /// How the pictures of materials are painted.
+    pub textures: TextureOptions,
     /// Whether regions of tones are painted, and how.
     pub region: RegionOptions,
     /// Into which bins of light hatched surfaces fall.

@@ -107,7 +107,7 @@ impl Sheet {
         let mut stroke = self.pen.into_options();
         stroke.rules.extend(self.rule);
         stroke.layers = self.layers;
-        let (tones, region) = self.fills.into_options();
+        let (tones, region, textures) = self.fills.into_options();
         let (shade, hatch) = self.hatching.into_options();
         Style {
             background: self.page.background,
@@ -117,6 +117,7 @@ impl Sheet {
             stroke,
             light: self.light,
             tones,
+            textures,
             region,
             shade,
             hatch,

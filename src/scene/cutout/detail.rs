@@ -1,10 +1,10 @@
 //! How closely the borders of a mask are followed: as a drawing shows them.
 
 use super::mask::Mask;
-use super::outline::Outline;
 use super::texels_of;
-use super::trace::Traced;
+use super::trace::trace;
 use crate::scene::Scene;
+use crate::scene::texels::outline::Outline;
 
 /// A drawing that is this many px across shows borders within [`FINE_PX`] of where they are.
 const ACROSS_PX: f64 = 4096.0;
@@ -45,14 +45,14 @@ pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Option<Out
     let size = scene.bounds().map_or(0.0, |(low, high)| (high - low).length());
     let texel: f64 = (in_space / in_texels).sqrt();
     let px_texels = size / ACROSS_PX / texel;
-    let [width, height] = mask.size();
+    let [width, height] = mask.texels.size;
     let [least, most] = TOLERANCES;
     let within =
         |px: f64, most: f64| if px_texels.is_finite() { (px * px_texels).clamp(least, most) } else { least };
     let mut tolerance = within(FINE_PX, most);
     let coarsest = within(COARSE_PX, most.max(width.min(height) as f64 / 16.0));
     let [times_shown, times_near] = [in_texels, in_boxes].map(|texels| texels / (width * height) as f64);
-    let traced = Traced::of(mask)?;
+    let traced = trace(mask)?;
     loop {
         let outline = Outline::new(&traced, tolerance);
         let count = outline.count() as f64;

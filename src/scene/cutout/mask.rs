@@ -3,22 +3,19 @@
 use glam::DVec2;
 
 use crate::math::picture::Picture;
-use crate::scene::material::{Alpha, Wrap};
+use crate::scene::material::Alpha;
+use crate::scene::texels::Texels;
 use crate::scene::texture;
 use crate::scene::{Material, Scene};
 
 /// How opaque a picture is, texel by texel, and from what on it counts as opaque.
 ///
-/// Its plane is that of the texels: the middle of the first lies at the origin, x runs along a row and y from the top row down.
 /// Between the middles of four texels opacity is bilinear, as when a texture is magnified.
 pub(super) struct Mask {
-    width: usize,
-    height: usize,
+    pub texels: Texels,
     opacity: Vec<u8>,
     /// Between two whole numbers, so that no texel lies upon it.
     level: f64,
-    wrap: [Wrap; 2],
-    upward: bool,
 }
 
 /// What a material is without a look at each of its triangles.
@@ -59,9 +56,7 @@ impl Masked {
         if f64::from(most) < level || most == 0 {
             return Ok(Self::Everywhere);
         }
-        let (width, height) = (picture.width, picture.height);
-        let upward = scene.format != "glTF";
-        Ok(Self::Where(Mask { width, height, opacity, level, wrap: material.wrap, upward }))
+        Ok(Self::Where(Mask { texels: Texels::of(scene, material, &picture), opacity, level }))
     }
 }
 
@@ -78,43 +73,9 @@ fn opacities(picture: &Picture, is_own: bool) -> Vec<u8> {
 }
 
 impl Mask {
-    /// Where a pair of texture coordinates lies in the plane of the texels; none if it is no place.
-    pub fn place(&self, [u, v]: [f32; 2]) -> Option<DVec2> {
-        let v = if self.upward { 1.0 - f64::from(v) } else { f64::from(v) };
-        let place = DVec2::new(f64::from(u) * self.width as f64 - 0.5, v * self.height as f64 - 0.5);
-        // Beyond this many texels single precision no longer tells them apart.
-        (place.is_finite() && place.abs().max_element() < 1e9).then_some(place)
-    }
-
-    /// The same picture after this many texels, along x and along y; none where the border goes on instead.
-    pub fn periods(&self) -> [Option<usize>; 2] {
-        [(self.wrap[0], self.width), (self.wrap[1], self.height)].map(|(wrap, count)| match wrap {
-            Wrap::Repeat => Some(count),
-            Wrap::Mirror => Some(2 * count),
-            Wrap::Clamp => None,
-        })
-    }
-
-    /// Texels in a row and rows.
-    pub fn size(&self) -> [usize; 2] {
-        [self.width, self.height]
-    }
-
     /// By how much the texel at a whole number of steps is more opaque than it must be; never 0.
     pub fn texel(&self, column: i64, row: i64) -> f64 {
-        let at =
-            [(column, self.width, self.wrap[0]), (row, self.height, self.wrap[1])].map(|(k, count, wrap)| {
-                let count = count as i64;
-                match wrap {
-                    Wrap::Repeat => k.rem_euclid(count),
-                    Wrap::Clamp => k.clamp(0, count - 1),
-                    Wrap::Mirror => {
-                        let k = k.rem_euclid(2 * count);
-                        k.min(2 * count - 1 - k)
-                    }
-                }
-            });
-        let opacity = self.opacity.get(at[1] as usize * self.width + at[0] as usize);
+        let opacity = self.opacity.get(self.texels.index(column, row));
         opacity.map_or(-1.0, |o| f64::from(*o) - self.level)
     }
 
@@ -134,15 +95,16 @@ impl Mask {
 #[cfg(test)]
 impl Mask {
     /// A mask of given opacities that repeats, cut at half.
-    pub fn of_opacities(width: usize, opacity: Vec<u8>, wrap: Wrap) -> Self {
-        let height = opacity.len() / width;
-        Self { width, height, opacity, level: 127.5, wrap: [wrap; 2], upward: false }
+    pub fn of_opacities(width: usize, opacity: Vec<u8>, wrap: crate::scene::material::Wrap) -> Self {
+        let texels = Texels { size: [width, opacity.len() / width], wrap: [wrap; 2], upward: false };
+        Self { texels, opacity, level: 127.5 }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::material::Wrap;
 
     #[test]
     fn pictures_go_on_as_they_are_told() {
@@ -159,7 +121,5 @@ mod tests {
     fn opacity_is_bilinear_between_texels() {
         let mask = Mask::of_opacities(2, vec![255, 0, 255, 0], Wrap::Clamp);
         assert!(mask.is_opaque(DVec2::new(0.49, 0.7)) && !mask.is_opaque(DVec2::new(0.51, 0.7)));
-        assert_eq!(mask.place([0.25, 0.75]), Some(DVec2::new(0.0, 1.0)));
-        assert_eq!(mask.place([f32::NAN, 0.0]), None);
     }
 }

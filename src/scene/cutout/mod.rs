@@ -6,9 +6,7 @@
 
 mod detail;
 mod mask;
-mod outline;
 mod pieces;
-mod side;
 mod trace;
 mod triangle;
 
@@ -20,10 +18,10 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use self::mask::{Mask, Masked};
-use self::outline::{Outline, Segment};
 use self::pieces::Rebuilt;
-use self::side::{TexelSide, in_order, turn};
 use self::triangle::{Pieces, TexelTriangle};
+use super::texels::outline::{Outline, Segment};
+use super::texels::side::{TexelSide, in_order, turn};
 use super::{Geometry, Scene, Warnings};
 
 /// A scene without what the pictures of its materials leave clear.
@@ -87,7 +85,8 @@ enum Stencil {
 
 /// The corners of a triangle in the plane of the texels; none where it shows nothing of the picture.
 fn texels_of(geometry: &Geometry, triangle: usize, mask: &Mask) -> Option<[DVec2; 3]> {
-    let [a, b, c] = geometry.corner_uvs.get(triangle)?.map(|uv| mask.place(*geometry.uvs.get(uv as usize)?));
+    let [a, b, c] =
+        geometry.corner_uvs.get(triangle)?.map(|uv| mask.texels.place(*geometry.uvs.get(uv as usize)?));
     Some([a?, b?, c?])
 }
 

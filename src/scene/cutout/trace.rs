@@ -1,4 +1,4 @@
-//! [`Traced`]: the borders between what is opaque in a mask and what is clear, in the plane of its texels.
+//! [`trace`]: the borders between what is opaque in a mask and what is clear, in the plane of its texels.
 //!
 //! Source: Lorensen and Cline, "Marching cubes", SIGGRAPH 1987, in two dimensions; cells with two diagonals as Nielson
 //! and Hamann, "The asymptotic decider", 1991.
@@ -7,6 +7,7 @@ use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::mask::Mask;
+use crate::scene::texels::Traced;
 
 /// How far the pieces of a border lie beside it, texels.
 const STRAIGHT: f64 = 1e-3;
@@ -17,25 +18,10 @@ const MOST_CROSSINGS: usize = 1 << 22;
 /// A side between neighbouring texels: the column and row of the first, and whether the second lies below it.
 type Side = (u32, u32, bool);
 
-/// The borders of a mask, one period of them.
-pub(super) struct Traced {
-    /// End to end, with what is opaque on the left (x to the right, y upwards). Those that are no rings end where the mask is
-    /// repeated or goes on for ever.
-    pub lines: Vec<Vec<DVec2>>,
-    /// How far the cells between texels reach, along x and along y.
-    pub reach: [usize; 2],
-    /// Where the same comes again, along x and along y.
-    pub periods: [Option<usize>; 2],
-}
-
-impl Traced {
-    /// Traces the borders of a mask; none if there are too many.
-    pub fn of(mask: &Mask) -> Option<Self> {
-        let (size, periods) = (mask.size(), mask.periods());
-        // Where the border goes on for ever one cell is enough to see in which way.
-        let reach = [0, 1].map(|k| periods[k].unwrap_or((size[k] - 1).max(1)));
-        Some(Self { lines: lines(mask, reach)?, reach, periods })
-    }
+/// Traces the borders of a mask, with what is opaque on their left (x to the right, y upwards); none if there are too many.
+pub(super) fn trace(mask: &Mask) -> Option<Traced> {
+    let (reach, periods) = (mask.texels.reach(), mask.texels.periods());
+    Some(Traced { lines: lines(mask, reach)?, reach, periods })
 }
 
 /// The borders in the cells between so many texels and their neighbours, end to end.

@@ -4,8 +4,8 @@ use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
 use super::mask::Mask;
-use super::outline::Segment;
-use super::side::{TexelSide, turn};
+use crate::scene::texels::outline::Segment;
+use crate::scene::texels::side::{TexelSide, turn};
 
 /// Where a corner of a piece lies on the triangle that was cut.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,13 +8,12 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
-use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE, Role};
+use super::tone_edges::segment;
+use super::{FeatureLines, Lit, NO_FACE};
 use crate::field::SurfacePoint;
 use crate::math::tolerance;
-use crate::mesh::{FaceId, Mesh, PaintId};
-use crate::shape::Origin;
+use crate::mesh::{FaceId, PaintId};
 
 /// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow.
 pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
@@ -33,34 +32,9 @@ pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
             tracer.segments
         })
         .collect();
-    // Two faces compute the same point of their edge from the same numbers, so its bits name it.
-    let first = lit.mesh.positions.len();
-    let mut ids: FxHashMap<[u64; 3], u32> = FxHashMap::default();
-    for (face, ends) in found.into_iter().flatten() {
-        let ends = ends.map(|p| {
-            *ids.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
-                lines.points.push(p);
-                (first + lines.points.len() - 1) as u32
-            })
-        });
-        lines.segments.push(segment(lit.mesh, face, [face, NO_FACE], ends));
-    }
-}
-
-/// A piece of a tone border.
-pub(super) fn segment(mesh: &Mesh, face: u32, hosts: [u32; 2], ends: [u32; 2]) -> FeatureSegment {
-    FeatureSegment {
-        ends,
-        hosts,
-        kind: LineKind::Isophote,
-        both_seen: true,
-        smooth: hosts[1] == NO_FACE,
-        origin: Origin::default(),
-        role: Role::Line,
-        strength: 180.0,
-        part: mesh.face_part[face as usize],
-        material: mesh.face_material[face as usize],
-    }
+    lines.append_in_faces(lit.mesh, found.into_iter().flatten(), |face, ends| {
+        segment(lit.mesh, face, [face, NO_FACE], ends)
+    });
 }
 
 /// A corner of a piece of a face: its barycentric weights, its place in the image, its value.
@@ -156,7 +130,6 @@ impl<'a> Tracer<'a> {
 
     fn trace(&mut self, face: u32, shadowed: &[u32]) {
         let Lit { mesh, view, normals, shading, .. } = self.lit;
-        let paint = mesh.paint(FaceId(face));
         let corners = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
         let length = |i: usize, j: usize| {
             let way = corners[j].truncate() - corners[i].truncate();
@@ -173,9 +146,17 @@ impl<'a> Tracer<'a> {
         let n = normals.of(face);
         let turns = [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])];
         let is_flat = turns.iter().all(|turn| *turn == 0.0);
-        for channel in 0..shading.channels() {
-            let levels = shading.levels(paint, channel);
+        let own = [mesh.paint(FaceId(face))];
+        let shown = self.paints_shown(face);
+        let paints = shown.as_deref().unwrap_or(&own);
+        let bands = (0..shading.channels()).flat_map(|channel| {
+            paints.iter().enumerate().map(move |(k, paint)| (channel, k, shading.levels(*paint, channel)))
+        });
+        for (channel, k, levels) in bands {
             if levels.is_empty() || (is_flat && !shading.is_local(channel)) {
+                continue;
+            }
+            if paints[..k].iter().any(|paint| shading.levels(*paint, channel) == levels) {
                 continue;
             }
             for (shadow, shadowed) in shadowed.iter().enumerate() {
@@ -195,6 +176,16 @@ impl<'a> Tracer<'a> {
                 self.cut(&band, nodes, 0);
             }
         }
+    }
+
+    /// The paints that a face shows, if they differ in their levels.
+    fn paints_shown(&self, face: u32) -> Option<Vec<PaintId>> {
+        let Lit { mesh, shading, textures, .. } = self.lit;
+        let textured = textures.on(mesh, face)?;
+        let (first, others) = textured.palette().split_first()?;
+        let differs =
+            |channel| others.iter().any(|p| shading.levels(*p, channel) != shading.levels(*first, channel));
+        Some(if (0..shading.channels()).any(differs) { textured.paints() } else { vec![*first] })
     }
 
     /// A corner of a face.

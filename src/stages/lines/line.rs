@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
 use super::LineKind;
 use crate::mesh::{MaterialId, Mesh, PartId, Wire};
@@ -116,6 +117,28 @@ impl FeatureLines {
         let vertices = mesh.positions.len();
         if end < vertices { mesh.positions[end] } else { self.points[end - vertices] }
     }
+
+    /// Adds pieces of lines that run through faces, and makes segments of them. Two faces compute the same point of their edge
+    /// from the same numbers, so its bits name it.
+    pub(super) fn append_in_faces(
+        &mut self,
+        mesh: &Mesh,
+        pieces: impl Iterator<Item = (u32, [DVec3; 2])>,
+        segment: impl Fn(u32, [u32; 2]) -> FeatureSegment,
+    ) {
+        let first = mesh.positions.len();
+        let mut ids: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+        for (face, ends) in pieces {
+            let ends = ends.map(|p| {
+                *ids.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
+                    self.points.push(p);
+                    (first + self.points.len() - 1) as u32
+                })
+            });
+            self.segments.push(segment(face, ends));
+        }
+    }
+
     /// How strong the lines are at an end, 0 to 1.
     #[inline]
     #[must_use]

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::Textures;
 use crate::field::{ShadedNormals, Shading, SurfacePoint};
 use crate::math::tolerance;
 use crate::mesh::{FaceId, Mesh, PaintId};
@@ -20,11 +21,21 @@ pub struct Lit<'a> {
     pub shading: &'a Shading,
     /// How much of the sky each vertex of the mesh sees, or empty.
     pub openness: &'a [f64],
+    /// The pictures that are seen on it.
+    pub textures: &'a Textures,
     /// The parts nobody sees the inside of, by their number; none if empty.
     pub solid: &'a [bool],
 }
 
 impl Lit<'_> {
+    /// The paint at a point of a face.
+    #[must_use]
+    pub fn paint(&self, face: u32, at: DVec3) -> PaintId {
+        let shown = self.textures.on(self.mesh, face);
+        let shown = shown.and_then(|shown| shown.paint(self.mesh.weights(FaceId(face), at)));
+        shown.unwrap_or_else(|| self.mesh.paint(FaceId(face)))
+    }
+
     /// The point of a face with these barycentric weights, as light falls on the side that the eye
     /// sees. The same on both faces of an edge that share their normals.
     #[must_use]

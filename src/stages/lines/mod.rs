@@ -12,6 +12,8 @@ pub mod lit;
 pub mod options;
 pub mod smooth_contours;
 pub mod surface;
+pub mod texture_borders;
+pub mod textures;
 pub mod tone_edges;
 pub mod zero_set;
 
@@ -22,6 +24,7 @@ pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
 pub use lit::Lit;
 pub use options::{Contours, HiddenLines, LineOptions, Normals};
 pub use surface::Surface;
+pub use textures::Textures;
 
 use rayon::prelude::*;
 

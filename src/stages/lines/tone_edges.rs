@@ -4,26 +4,41 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
-use super::isophotes::segment;
-use super::{FeatureLines, FeatureSegment, Lit};
+use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE, Role};
 use crate::field::ShadedNormals;
 use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::scene::Paints;
+use crate::shape::Origin;
 
 /// Places along an edge where both its sides are looked at. What differs between them only ends
 /// there: the border runs on to the end of the edge, with the same look on both sides.
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// The edges across which a surface may look different, whatever the light: where parts, materials or
-/// normals differ. The same for all views.
+/// normals differ, or what is shown of pictures. The same for all views.
 #[must_use]
-pub fn candidates(mesh: &Mesh, normals: &ShadedNormals) -> EdgeSet {
+pub fn candidates(mesh: &Mesh, normals: &ShadedNormals, paints: &Paints) -> EdgeSet {
+    let mut has_picture = vec![false; paints.list.len()];
+    for (paint, _) in &paints.pictures {
+        if let Some(has_picture) = has_picture.get_mut(paint.index()) {
+            *has_picture = true;
+        }
+    }
+    let shows_picture =
+        |face: u32| has_picture.get(mesh.paint(FaceId(face)).index()).is_some_and(|shows| *shows);
+    let uv = |face: u32, v: u32| {
+        let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
+        mesh.uvs.get(mesh.corner_uvs.get(face as usize)?[corner] as usize)
+    };
     let differ = |[first, second]: [u32; 2], ends: [u32; 2]| {
         let owner = |face: u32| owner(mesh, face);
         let normal = |face: u32, v: u32| {
             let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
             normals.normals[normals.corners[face as usize][corner] as usize]
         };
-        owner(first) != owner(second) || ends.iter().any(|v| normal(first, *v) != normal(second, *v))
+        owner(first) != owner(second)
+            || ends.iter().any(|v| normal(first, *v) != normal(second, *v))
+            || (shows_picture(first) && ends.iter().any(|v| uv(first, *v) != uv(second, *v)))
     };
     EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
         EdgeFaces::One(_) => false,
@@ -42,6 +57,22 @@ pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut Featu
         let known: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
         found.retain(|segment| !known.contains(&segment.ends));
         lines.segments.extend(found);
+    }
+}
+
+/// A piece of a tone border.
+pub(super) fn segment(mesh: &Mesh, face: u32, hosts: [u32; 2], ends: [u32; 2]) -> FeatureSegment {
+    FeatureSegment {
+        ends,
+        hosts,
+        kind: LineKind::Isophote,
+        both_seen: true,
+        smooth: hosts[1] == NO_FACE,
+        origin: Origin::default(),
+        role: Role::Line,
+        strength: 180.0,
+        part: mesh.face_part[face as usize],
+        material: mesh.face_material[face as usize],
     }
 }
 
@@ -77,6 +108,9 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
         return true;
     }
     let corner = |face: u32, v: u32| mesh.triangles[face as usize].iter().position(|t| *t == v);
+    if show_different(lit, ends, faces) {
+        return true;
+    }
     let place = |face: u32| Some([corner(face, ends[0])?, corner(face, ends[1])?]);
     let (Some(a), Some(b)) = (place(faces[0]), place(faces[1])) else { return false };
     let normals = faces.map(|face| lit.normals.of(face));
@@ -93,3 +127,24 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
     let differs = |t: f64, shadowed: u32| look(faces[0], a, t, shadowed) != look(faces[1], b, t, shadowed);
     shadowed.iter().any(|shadowed| PLACES.iter().any(|t| differs(*t, *shadowed)))
 }
+
+/// Whether two faces show different colours of a picture anywhere along their edge.
+fn show_different(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> bool {
+    let shown = faces.map(|face| lit.textures.on(lit.mesh, face));
+    let [Some(a), Some(b)] = &shown else { return false };
+    let weights = |face: u32, t: f64| {
+        lit.mesh.triangles[face as usize].map(|v| match v {
+            v if v == ends[0] => 1.0 - t,
+            v if v == ends[1] => t,
+            _ => 0.0,
+        })
+    };
+    let steps = a.texels_along([0.0, 1.0].map(|t| weights(faces[0], t))).clamp(4.0, MOST_STEPS).ceil();
+    (0..steps as u32).any(|k| {
+        let t = (f64::from(k) + 0.5) / steps;
+        a.paint(weights(faces[0], t)) != b.paint(weights(faces[1], t))
+    })
+}
+
+/// Places along the edge of a picture that are compared, at most.
+const MOST_STEPS: f64 = 256.0;

@@ -11,7 +11,7 @@ use super::thin::{self, Segments};
 use crate::drawing::{Length, Unit};
 use crate::lines::{LineKind, Lit};
 use crate::math::tolerance;
-use crate::mesh::{FaceId, MaterialId, PaintId, PartId};
+use crate::mesh::{MaterialId, PaintId, PartId};
 use crate::viewmap::{ViewMap, front_faces};
 
 /// What a part of the page looks like.
@@ -180,7 +180,7 @@ fn looks_at(
 /// What a face looks like at a point of it.
 fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> Look {
     let mesh = lit.mesh;
-    let (material, paint) = (mesh.face_material[face as usize], mesh.paint(FaceId(face)));
+    let (material, paint) = (mesh.face_material[face as usize], lit.paint(face, at));
     let point = lit.at(face, at);
     let (tone_lit, bin_lit) = lit.tone_and_bin(paint, &point, 0);
     let (tone_dark, bin_dark) =

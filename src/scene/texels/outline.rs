@@ -1,14 +1,14 @@
-//! [`Outline`]: the borders of what a mask leaves, thinned to what is needed of them, by place.
+//! [`Outline`]: borders in the plane of a picture's texels, thinned to what is needed of them, by place.
 //!
 //! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points", 1973.
 
 use glam::DVec2;
 
-use super::trace::Traced;
+use super::Traced;
 use crate::math::grouped::{Grouped, grouped};
 
-/// A piece of border, with what is opaque on its left (x to the right, y upwards).
-pub(super) type Segment = [DVec2; 2];
+/// A piece of border, in the direction in which it was traced.
+pub(crate) type Segment = [DVec2; 2];
 
 /// How far the lines go on beyond a picture whose border is repeated for ever, texels.
 const FAR: f64 = 2e9;
@@ -22,8 +22,9 @@ const SPAN: usize = 512;
 /// Whoever asks for more pieces of border at once gets none.
 const MOST_SEGMENTS: usize = 100_000;
 
-/// The borders of a mask, one period of them, by place.
-pub(super) struct Outline {
+/// Borders, one period of them, by place.
+#[derive(Debug)]
+pub(crate) struct Outline {
     segments: Vec<Segment>,
     /// Where the same comes again, along x and along y.
     periods: [Option<f64>; 2],
@@ -33,7 +34,7 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// The borders of a mask, which may lie this far beside where they are exactly, texels.
+    /// Traced borders, which may lie this far beside where they are exactly, texels.
     pub fn new(traced: &Traced, tolerance: f64) -> Self {
         let Traced { lines, reach, periods } = traced;
         let (reach, periods) = (*reach, *periods);

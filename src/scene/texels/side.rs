@@ -1,4 +1,4 @@
-//! Where borders of a mask cross the sides of a triangle, the same for both triangles that share one.
+//! Where borders in a picture cross the sides of a triangle, the same for both triangles that share one.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};
@@ -9,14 +9,14 @@ use super::outline::Segment;
 const AT_END: f64 = 1e-9;
 
 /// Twice the area of a triangle, positive where it turns from x to y; the sign is exact.
-pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+pub(crate) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let at = |p: DVec2| Coord { x: p.x, y: p.y };
     orient2d(at(a), at(b), at(c))
 }
 
 /// A side of a triangle in the plane of the texels, from the end that comes first in space to the other.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct TexelSide {
+pub(crate) struct TexelSide {
     pub from: DVec2,
     pub to: DVec2,
     /// Whether the triangle itself lies where [`turn`] is not negative.
@@ -52,7 +52,7 @@ impl TexelSide {
 }
 
 /// The crossings of a side in order, each once.
-pub(super) fn in_order(parts: &mut Vec<f64>) {
+pub(crate) fn in_order(parts: &mut Vec<f64>) {
     parts.retain(|part| *part > 0.0 && *part < 1.0);
     parts.sort_unstable_by(f64::total_cmp);
     parts.dedup_by(|b, a| *b - *a < AT_END);

@@ -1,0 +1,246 @@
+//! [`Labels`]: which of a few colours each texel of a picture is painted with, and each point between them.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::painted::Guess;
+use crate::math::function;
+use crate::mesh::PaintId;
+use crate::scene::texels::Texels;
+
+/// Colours that have a share in a texel, at most.
+const SHARES: usize = 4;
+
+/// In [`Labels::mixed`]: all of the texel is of its colour.
+const PURE: u32 = u32::MAX;
+
+type Shares = [(u8, f32); SHARES];
+
+/// Which of a few colours each texel of a picture is painted with, and each point between them.
+///
+/// Every texel has a share of each colour, blurred a little, and is painted with the one of which it has most. Between two
+/// texels shares are linear, between four bilinear; where three colours meet, they meet in a point.
+#[derive(Debug, Clone)]
+pub(crate) struct Labels {
+    pub texels: Texels,
+    /// The paint of each colour.
+    pub paints: Vec<PaintId>,
+    winners: Vec<u8>,
+    /// Where the shares of each texel are found.
+    mixed: Vec<u32>,
+    shares: Vec<Shares>,
+}
+
+impl Labels {
+    /// The colours of texels from those they are near to, with shares blurred by a normal distribution of this deviation,
+    /// texels.
+    pub(super) fn of(texels: Texels, guesses: &[Guess], blur: f64, paints: Vec<PaintId>) -> Self {
+        let [width, height] = texels.size;
+        let reach = if blur < 0.3 { 0 } else { (2.5 * blur).ceil().min(4.0) as i64 };
+        let bell: Vec<f32> = (0..=reach)
+            .map(|k| function::exp(-((k * k) as f64) / (2.0 * blur * blur).max(1e-9)) as f32)
+            .collect();
+        let is_mixed = near_borders(&texels, guesses, reach);
+        let row = |j: usize| {
+            let mut sums = vec![0.0_f32; paints.len().max(1)];
+            let mut of = |i: usize| {
+                let own = guesses[j * width + i];
+                if !is_mixed[j * width + i] && (reach > 0 || own.way == 0.0) {
+                    return (own.nearest, None);
+                }
+                sums.fill(0.0);
+                for y in -reach..=reach {
+                    for x in -reach..=reach {
+                        let weight = bell[x.unsigned_abs() as usize] * bell[y.unsigned_abs() as usize];
+                        let Guess { nearest, second, way } =
+                            guesses[texels.index(i as i64 + x, j as i64 + y)];
+                        sums[nearest as usize] += weight * (1.0 - way);
+                        sums[second as usize] += weight * way;
+                    }
+                }
+                let shares = greatest(&sums);
+                (shares[0].0, Some(shares))
+            };
+            (0..width).map(&mut of).collect()
+        };
+        let rows: Vec<Vec<(u8, Option<Shares>)>> = (0..height).into_par_iter().map(row).collect();
+        let mut labels = Self { texels, paints, winners: Vec::new(), mixed: Vec::new(), shares: Vec::new() };
+        for (winner, shares) in rows.into_iter().flatten() {
+            labels.winners.push(winner);
+            labels.mixed.push(shares.map_or(PURE, |_| labels.shares.len() as u32));
+            labels.shares.extend(shares);
+        }
+        labels
+    }
+
+    /// The colour of a texel.
+    pub(super) fn winner(&self, texel: usize) -> u8 {
+        self.winners[texel]
+    }
+
+    /// Paints a texel with another colour.
+    pub(super) fn repaint(&mut self, texel: usize, colour: u8) {
+        self.winners[texel] = colour;
+        self.mixed[texel] = PURE;
+    }
+
+    /// How much more a texel has of a colour than of another.
+    pub(super) fn lead(&self, texel: usize, of: u8, before: u8) -> f64 {
+        let share = |colour: u8| match self.mixed[texel] {
+            PURE => f64::from(u8::from(self.winners[texel] == colour)),
+            at => self.shares[at as usize]
+                .iter()
+                .find(|(own, _)| *own == colour)
+                .map_or(0.0, |s| f64::from(s.1)),
+        };
+        share(of) - share(before)
+    }
+
+    /// The colour at a point of the plane.
+    pub fn at(&self, p: DVec2) -> u8 {
+        let (low, part) = (p.floor(), p - p.floor());
+        let cell = Cell::new(self, low.x as i64, low.y as i64);
+        cell.at(part)
+    }
+
+    /// The paint at a point of the plane.
+    pub fn paint_at(&self, p: DVec2) -> Option<PaintId> {
+        self.paints.get(self.at(p) as usize).copied()
+    }
+}
+
+/// Which texels have others of another colour within so many columns and rows.
+fn near_borders(texels: &Texels, guesses: &[Guess], reach: i64) -> Vec<bool> {
+    let differs = |texel: usize| {
+        texels.beside(texel).iter().any(|next| guesses[*next].nearest != guesses[texel].nearest)
+    };
+    let mut near: Vec<bool> = (0..guesses.len()).into_par_iter().with_min_len(1 << 12).map(differs).collect();
+    for _ in 0..reach {
+        let is_near = |texel: usize| near[texel] || texels.beside(texel).iter().any(|next| near[*next]);
+        near = (0..guesses.len()).into_par_iter().with_min_len(1 << 12).map(is_near).collect();
+    }
+    near
+}
+
+/// The greatest of some sums, by their numbers, as shares of all.
+fn greatest(sums: &[f32]) -> Shares {
+    let all: f32 = sums.iter().sum();
+    let mut shares: Shares = [(0, 0.0); SHARES];
+    for (colour, sum) in sums.iter().enumerate() {
+        let mut next = (colour as u8, sum / all);
+        for share in &mut shares {
+            if next.1 > share.1 {
+                std::mem::swap(&mut next, share);
+            }
+        }
+    }
+    shares
+}
+
+/// The square between the middles of four texels: round it from the first, to the right and down.
+pub(super) struct Cell<'a> {
+    labels: &'a Labels,
+    texels: [usize; 4],
+    pub colours: [u8; 4],
+}
+
+/// How a cell is parted.
+pub(super) enum Parting {
+    /// It is not.
+    Not,
+    /// By borders from side to side.
+    Across(Vec<[usize; 2]>),
+    /// By borders from sides to a point where all meet.
+    Meeting(DVec2),
+}
+
+/// Places on sides are rounded to this part of a texel, so that they are the same from both ends of a picture.
+const STEPS: f64 = (1u64 << 20) as f64;
+
+impl<'a> Cell<'a> {
+    pub fn new(labels: &'a Labels, i: i64, j: i64) -> Self {
+        let texels = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| labels.texels.index(i + x, j + y));
+        Self { labels, texels, colours: texels.map(|texel| labels.winner(texel)) }
+    }
+
+    /// Whether all of it has one colour.
+    pub fn is_even(&self) -> bool {
+        self.colours == [self.colours[0]; 4]
+    }
+
+    /// Where two colours meet on a side, counted from its first corner on, in the unit square.
+    pub fn crossing(&self, side: usize) -> Option<DVec2> {
+        let next = (side + 1) % 4;
+        let [a, b] = [self.colours[side], self.colours[next]];
+        if a == b {
+            return None;
+        }
+        // From the left or the upper end, whichever cell asks.
+        let (first, second) = if side < 2 { (side, next) } else { (next, side) };
+        let [a, b] = [self.colours[first], self.colours[second]];
+        let ahead = self.labels.lead(self.texels[first], a, b);
+        let behind = self.labels.lead(self.texels[second], b, a);
+        let part = if ahead + behind > 0.0 { (ahead / (ahead + behind)).clamp(0.0, 1.0) } else { 0.5 };
+        let part = (part * STEPS).round() / STEPS;
+        let [from, to] = [CORNERS[first], CORNERS[second]];
+        Some(from + (to - from) * part)
+    }
+
+    /// How it is parted.
+    pub fn parting(&self) -> Parting {
+        if self.is_even() {
+            return Parting::Not;
+        }
+        let crossed: Vec<usize> = (0..4).filter(|side| self.crossing(*side).is_some()).collect();
+        let [a, b, c, d] = self.colours;
+        match crossed[..] {
+            [first, second] => Parting::Across(vec![[first, second]]),
+            [_, _, _, _] if a == c && b == d => {
+                let [p, q, r, s] = self.texels.map(|texel| self.labels.lead(texel, a, b));
+                // The value where the bilinear lead has its saddle.
+                let joins_a = (p * r - q * s) / (p + r - q - s) >= 0.0;
+                Parting::Across(if joins_a { vec![[0, 1], [2, 3]] } else { vec![[3, 0], [1, 2]] })
+            }
+            _ => {
+                let all: DVec2 = crossed.iter().filter_map(|side| self.crossing(*side)).sum();
+                Parting::Meeting(all / crossed.len() as f64)
+            }
+        }
+    }
+
+    /// The colour of a point of the unit square.
+    fn at(&self, p: DVec2) -> u8 {
+        let [a, b, c, d] = self.colours;
+        match self.parting() {
+            Parting::Not => a,
+            Parting::Across(_) => {
+                let other = if b != a {
+                    b
+                } else if c != a {
+                    c
+                } else {
+                    d
+                };
+                let [k, l, m, n] = self.texels.map(|texel| self.labels.lead(texel, a, other));
+                let (top, bottom) = (k + (l - k) * p.x, n + (m - n) * p.x);
+                if top + (bottom - top) * p.y >= 0.0 { a } else { other }
+            }
+            Parting::Meeting(middle) => {
+                // From the middle, corners lie between the borders on both their sides.
+                let on_side = |side: usize| {
+                    self.crossing(side).unwrap_or((CORNERS[side] + CORNERS[(side + 1) % 4]) / 2.0) - middle
+                };
+                let way = p - middle;
+                let is_of = |corner: &usize| {
+                    let (from, to) = (on_side((corner + 3) % 4), on_side(*corner));
+                    from.perp_dot(way) >= 0.0 && way.perp_dot(to) >= 0.0
+                };
+                (0..4).find(is_of).map_or(a, |corner| self.colours[corner])
+            }
+        }
+    }
+}
+
+/// The corners of a cell.
+const CORNERS: [DVec2; 4] =
+    [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0), DVec2::new(0.0, 1.0)];

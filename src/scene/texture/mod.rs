@@ -1,0 +1,148 @@
+//! [`Texture`]: the picture of a base colour, and what of it is painted.
+
+mod labels;
+pub mod options;
+mod painted;
+mod palette;
+mod shown;
+mod specks;
+pub(super) mod swatches;
+mod trace;
+
+use std::path::Path;
+
+pub(crate) use labels::Labels;
+pub(crate) use painted::Painted;
+pub(crate) use trace::trace;
+
+use self::swatches::{ALIKE, difference};
+use super::beside::read_beside;
+use super::texels::Texels;
+use super::{Material, Scene};
+use crate::math::colour::Colour;
+use crate::math::oklab;
+use crate::math::picture::Picture;
+use crate::mesh::PaintId;
+
+/// The picture of a base colour.
+pub(super) struct Texture {
+    picture: Picture,
+    texels: Texels,
+}
+
+/// Places of a triangle that are looked at to tell whether it is of one colour, at most, along each of its sides.
+const LOOKS: f64 = 48.0;
+
+impl Texture {
+    /// The texture of a material; none if it has none or if it is not PNG or JPEG, an error if it
+    /// cannot be read.
+    pub fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
+        let picture = picture_of(scene, material)?;
+        Some(picture.map(|picture| {
+            let picture = picture.at_most(MOST_TEXELS);
+            Self { texels: Texels::of(scene, material, &picture), picture }
+        }))
+    }
+
+    /// The colour that stands for a triangle: of its centroid and three points between that and
+    /// its corners, the one that differs least from the others; and how far all of the triangle but its rim differs from it, up
+    /// to [`ALIKE`].
+    pub fn of_triangle(&self, corners: [[f32; 2]; 3]) -> (Colour, u32) {
+        let mut corners = corners;
+        // Whichever corner the triangle begins with, the points are the same to the last bit.
+        corners.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then_with(|| a[1].total_cmp(&b[1])));
+        let [a, b, c] = corners.map(|uv| self.texels.place(uv).unwrap_or_default());
+        let at = |wa: f64, wb: f64, wc: f64| self.at(a * wa + b * wb + c * wc);
+        let third = 1.0 / 3.0;
+        let samples = [at(third, third, third), at(0.8, 0.1, 0.1), at(0.1, 0.8, 0.1), at(0.1, 0.1, 0.8)];
+        let strange = |sample: &Colour| samples.iter().map(|other| difference(*sample, *other)).sum::<u32>();
+        let colour = samples.into_iter().min_by_key(strange).unwrap_or(samples[0]);
+        let mut far = samples.iter().map(|sample| difference(*sample, colour)).max().unwrap_or_default();
+        // Texel by texel, or in so many steps.
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        let steps = longest.min(LOOKS).ceil().max(1.0);
+        for i in 0..=steps as u32 {
+            for j in 0..=steps as u32 - i {
+                if far >= ALIKE {
+                    return (colour, ALIKE);
+                }
+                let (wa, wb) = (0.1 + 0.7 * f64::from(i) / steps, 0.1 + 0.7 * f64::from(j) / steps);
+                far = far.max(difference(at(wa, wb, 1.0 - wa - wb), colour));
+            }
+        }
+        (colour, far.min(ALIKE))
+    }
+
+    /// The nearest texel.
+    fn at(&self, place: glam::DVec2) -> Colour {
+        let nearest = (place + 0.5).floor();
+        let texel = self.texels.index(nearest.x as i64, nearest.y as i64);
+        self.picture.pixels[texel]
+    }
+
+    /// On how much of the surface of a material each texel is seen.
+    pub fn shown(&self, scene: &Scene, material: usize) -> Vec<f32> {
+        shown::shown(scene, material, &self.texels)
+    }
+
+    /// At most so many colours that stand for all that is seen.
+    pub fn few(&self, shown: &[f32], count: usize) -> Vec<Colour> {
+        palette::few(&self.picture.pixels, shown, count)
+    }
+
+    /// This texture in a few colours, each with its paint.
+    pub fn painted(self, shown: Vec<f32>, colours: &[(Colour, PaintId)]) -> Painted {
+        Painted {
+            texels: self.texels,
+            colours: self.picture.pixels,
+            shown,
+            palette: colours.iter().map(|(colour, _)| oklab::of(*colour)).collect(),
+            paints: colours.iter().map(|(_, paint)| *paint).collect(),
+        }
+    }
+}
+
+/// Larger pictures lose what no drawing shows.
+const MOST_TEXELS: usize = 1 << 22;
+
+/// The picture of a material's base colour; none if it has none, an error if it cannot be read.
+pub(super) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Picture, String>> {
+    match (&material.picture, &material.texture) {
+        (Some(bytes), _) => Some(Picture::decode(bytes)),
+        (None, Some(path)) => beside(scene, path),
+        (None, None) => None,
+    }
+}
+
+/// The picture in a file beside the model; none if the model is no file.
+pub(super) fn beside(scene: &Scene, path: &str) -> Option<Result<Picture, String>> {
+    scene.file.as_ref().map(|file| from_file(file, path))
+}
+
+fn from_file(model: &Path, path: &str) -> Result<Picture, String> {
+    let bytes = read_beside(model, path).map_err(|error| error.message)?;
+    Picture::decode(&bytes).map_err(|message| format!("{path} {message}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::material::Wrap;
+
+    #[test]
+    fn pixels_are_found_and_repeat() {
+        let (a, b, c, d) =
+            (Colour::rgb(1, 0, 0), Colour::rgb(2, 0, 0), Colour::rgb(3, 0, 0), Colour::rgb(4, 0, 0));
+        let picture = Picture { width: 2, height: 2, pixels: vec![a, b, c, d] };
+        let texels = Texels { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false };
+        let mut texture = Texture { picture, texels };
+        let at = |texture: &Texture, uv| texture.at(texture.texels.place(uv).unwrap());
+        assert_eq!([[0.1, 0.1], [0.9, 0.1], [1.1, -0.1]].map(|uv| at(&texture, uv)), [a, b, c]);
+        assert_eq!(texture.of_triangle([[f32::NAN; 2]; 3]), (a, 0));
+        texture.texels.upward = true;
+        assert_eq!([[0.1, 0.1], [0.9, 0.9]].map(|uv| at(&texture, uv)), [c, b]);
+        assert_eq!(texture.of_triangle([[0.6, 0.6], [0.9, 0.6], [0.6, 0.9]]), (b, 0));
+        // One corner beyond the border does not count.
+        assert_eq!(texture.of_triangle([[0.2, 0.6], [0.9, 0.6], [0.9, 0.9]]).0, b);
+    }
+}

@@ -1,0 +1,123 @@
+//! [`Painted`]: the texture of a material, to be painted in a few colours.
+
+use std::collections::VecDeque;
+
+use rayon::prelude::*;
+
+use super::labels::Labels;
+use super::palette::closest;
+use super::specks;
+use crate::math::colour::Colour;
+use crate::math::oklab::{self, Oklab, distance2, linear_table};
+use crate::mesh::PaintId;
+use crate::scene::texels::Texels;
+
+/// The texture of a material, to be painted in a few colours.
+#[derive(Debug, Clone)]
+pub(crate) struct Painted {
+    pub(super) texels: Texels,
+    pub(super) colours: Vec<Colour>,
+    /// On how much of the surface each texel is seen.
+    pub(super) shown: Vec<f32>,
+    /// The few colours.
+    pub(super) palette: Vec<Oklab>,
+    /// The paint of each of them.
+    pub(super) paints: Vec<PaintId>,
+}
+
+/// What is less wide than this many px is not drawn, and borders are rounded by about as much.
+const BLUR_PX: f64 = 0.7;
+
+/// Specks smaller than a square with this side, px, go to a neighbour.
+const SPECK_PX: f64 = 3.0;
+
+impl Painted {
+    /// Texels in a row and rows, and how they are repeated.
+    pub fn texels(&self) -> &Texels {
+        &self.texels
+    }
+
+    /// Which of the colours is where, as it can be seen where so many texels lie along a px.
+    pub fn labels(&self, texels_per_px: f64) -> Labels {
+        let scale = if texels_per_px.is_finite() { texels_per_px.max(1e-3) } else { 1.0 };
+        // As many as leave a px more than 0.7 texels, and less than 1.4.
+        let halvings = (0..14).take_while(|k| scale / f64::from(1 << k) >= std::f64::consts::SQRT_2).count();
+        let (texels, lights) = self.reduced(1 << halvings);
+        let per_px = scale * texels.size[0] as f64 / self.texels.size[0] as f64;
+        let guesses = self.guesses(&texels, &lights);
+        let mut labels = Labels::of(texels, &guesses, BLUR_PX * per_px, self.paints.clone());
+        specks::merge(&mut labels, (SPECK_PX * per_px).powi(2));
+        labels
+    }
+
+    /// The picture with so many times fewer texels along each side: their mean light where they are seen at all.
+    fn reduced(&self, times: usize) -> (Texels, Vec<Option<[f32; 3]>>) {
+        let table = linear_table();
+        let size = self.texels.size.map(|count| ((count + times / 2) / times).max(1));
+        let range = |k: usize, axis: usize| {
+            let [count, coarse] = [self.texels.size[axis], size[axis]];
+            k * count / coarse..((k + 1) * count / coarse).max(k * count / coarse + 1)
+        };
+        let mean = |texel: usize| {
+            let (mut sum, mut all) = ([0.0_f32; 3], 0.0_f32);
+            for j in range(texel / size[0], 1) {
+                for i in range(texel % size[0], 0) {
+                    let at = j * self.texels.size[0] + i;
+                    if self.shown[at] > 0.0 {
+                        let Colour { r, g, b, .. } = self.colours[at];
+                        sum.iter_mut().zip([r, g, b]).for_each(|(sum, c)| *sum += table[c as usize]);
+                        all += 1.0;
+                    }
+                }
+            }
+            (all > 0.0).then(|| sum.map(|sum| sum / all))
+        };
+        let lights = (0..size[0] * size[1]).into_par_iter().with_min_len(1 << 10).map(mean).collect();
+        (Texels { size, ..self.texels }, lights)
+    }
+
+    /// For each texel the colour it is nearest to, the next nearest, and how far it lies on the way to that, 0 to 1/2. What is
+    /// seen nowhere is like what is seen beside it.
+    fn guesses(&self, texels: &Texels, lights: &[Option<[f32; 3]>]) -> Vec<Guess> {
+        let of = |light: &Option<[f32; 3]>| Some(self.guess(oklab::of_linear((*light)?)));
+        let known: Vec<Option<Guess>> = lights.par_iter().with_min_len(1 << 12).map(of).collect();
+        let mut open: VecDeque<usize> = (0..known.len()).filter(|k| known[*k].is_some()).collect();
+        let mut guesses: Vec<Guess> = known
+            .iter()
+            .map(|guess| guess.unwrap_or(Guess { nearest: u8::MAX, second: 0, way: 0.0 }))
+            .collect();
+        while let Some(k) = open.pop_front() {
+            for next in texels.beside(k) {
+                if guesses[next].nearest == u8::MAX {
+                    guesses[next] = Guess { way: 0.0, ..guesses[k] };
+                    open.push_back(next);
+                }
+            }
+        }
+        guesses
+    }
+
+    fn guess(&self, lab: Oklab) -> Guess {
+        let nearest = closest(&self.palette, lab);
+        let mut second = (nearest, f32::INFINITY);
+        for (k, colour) in self.palette.iter().enumerate() {
+            let far = distance2(*colour, lab);
+            if k != nearest && far < second.1 {
+                second = (k, far);
+            }
+        }
+        let (a, b) = (self.palette[nearest], self.palette[second.0]);
+        let along: f32 = (0..3).map(|c| (lab[c] - a[c]) * (b[c] - a[c])).sum();
+        let way = if second.0 == nearest { 0.0 } else { (along / distance2(a, b)).clamp(0.0, 0.5) };
+        Guess { nearest: nearest as u8, second: second.0 as u8, way }
+    }
+}
+
+/// Between which colours that of a texel lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Guess {
+    pub nearest: u8,
+    pub second: u8,
+    /// How far on the way from the nearest to the second.
+    pub way: f32,
+}

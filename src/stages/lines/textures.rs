@@ -1,0 +1,155 @@
+//! [`Textures`]: the pictures that a view shows on its surfaces, each in the few colours it is painted in.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use crate::mesh::{FaceId, Mesh, PaintId};
+use crate::scene::Paints;
+use crate::scene::texels::outline::{Outline, Segment};
+use crate::scene::texture::{Labels, Painted, trace};
+use crate::view::View;
+
+/// The pictures that a view shows on its surfaces, each in the few colours it is painted in.
+#[derive(Debug, Default)]
+pub struct Textures {
+    /// By the number of the paint of what shows them.
+    of_paint: Vec<Option<Shown>>,
+    warnings: Vec<String>,
+}
+
+#[derive(Debug)]
+struct Shown {
+    labels: Labels,
+    borders: Outline,
+}
+
+/// How far borders may lie beside their place, px.
+const NEAR_PX: f64 = 0.15;
+
+/// A face that shows a picture.
+pub(super) struct Textured<'a> {
+    shown: &'a Shown,
+    /// Its corners in the plane of the texels.
+    pub corners: [DVec2; 3],
+}
+
+impl Textures {
+    /// The pictures as they are seen on a mesh, with a px of so many user units.
+    #[must_use]
+    pub fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64) -> Self {
+        let mut textures = Self::default();
+        let shown: Vec<(PaintId, Option<Shown>)> = paints
+            .pictures
+            .par_iter()
+            .map(|(paint, painted)| {
+                let texels_per_px = texels_per_px(mesh, view, *paint, painted, px);
+                let labels = painted.labels(texels_per_px);
+                let per_px = texels_per_px * labels.texels.size[0] as f64 / painted.texels().size[0] as f64;
+                let near = if per_px.is_finite() { (NEAR_PX * per_px).clamp(0.005, 0.5) } else { 0.1 };
+                let borders = trace(&labels).map(|traced| Outline::new(&traced, near));
+                (*paint, borders.map(|borders| Shown { labels, borders }))
+            })
+            .collect();
+        for (paint, shown) in shown {
+            if shown.is_none() {
+                textures
+                    .warnings
+                    .push("a texture has too much detail, and counts as its mean colour".to_owned());
+            }
+            textures.of_paint.resize_with(textures.of_paint.len().max(paint.index() + 1), || None);
+            textures.of_paint[paint.index()] = shown;
+        }
+        textures
+    }
+
+    /// What could not be painted.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Whether any face shows a picture.
+    pub(super) fn is_empty(&self) -> bool {
+        self.of_paint.iter().all(Option::is_none)
+    }
+
+    /// What a face shows; none if it is of one paint.
+    pub(super) fn on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
+        let shown = self.of_paint.get(mesh.paint(FaceId(face)).index())?.as_ref()?;
+        let corners = texels(mesh, face, |uv| shown.labels.texels.place(uv))?;
+        Some(Textured { shown, corners })
+    }
+}
+
+impl Textured<'_> {
+    /// The point of the plane of the texels that lies at a point of the face.
+    fn place(&self, weights: [f64; 3]) -> DVec2 {
+        let [a, b, c] = self.corners;
+        a * weights[0] + b * weights[1] + c * weights[2]
+    }
+
+    /// How many texels lie between two points of the face.
+    pub fn texels_along(&self, ends: [[f64; 3]; 2]) -> f64 {
+        self.place(ends[0]).distance(self.place(ends[1]))
+    }
+
+    /// The paint at a point of the face.
+    pub fn paint(&self, weights: [f64; 3]) -> Option<PaintId> {
+        self.shown.labels.paint_at(self.place(weights))
+    }
+
+    /// The paints of the picture.
+    pub fn palette(&self) -> &[PaintId] {
+        &self.shown.labels.paints
+    }
+
+    /// The borders between colours that may lie on the face.
+    pub fn borders(&self) -> Vec<Segment> {
+        let [a, b, c] = self.corners;
+        self.shown.borders.near(a.min(b).min(c), a.max(b).max(c)).unwrap_or_default()
+    }
+
+    /// The paints that may be seen on the face.
+    pub fn paints(&self) -> Vec<PaintId> {
+        let [a, b, c] = self.corners;
+        let beside = |[p, q]: Segment| {
+            let (middle, across) = ((p + q) / 2.0, (q - p).perp().normalize_or_zero() * 0.05);
+            [middle + across, middle - across]
+        };
+        let places =
+            [a, b, c, (a + b + c) / 3.0].into_iter().chain(self.borders().into_iter().flat_map(beside));
+        let mut paints: Vec<PaintId> = places.filter_map(|p| self.shown.labels.paint_at(p)).collect();
+        paints.sort_unstable();
+        paints.dedup();
+        paints
+    }
+}
+
+/// The corners of a face in the plane of the texels.
+fn texels(mesh: &Mesh, face: u32, place: impl Fn([f32; 2]) -> Option<DVec2>) -> Option<[DVec2; 3]> {
+    let corners = mesh.corner_uvs.get(face as usize)?;
+    let [a, b, c] = corners.map(|uv| place(*mesh.uvs.get(uv as usize)?));
+    Some([a?, b?, c?])
+}
+
+/// How many texels of a picture lie along a px where it turns to the eye, in the mean over what is seen of the page.
+fn texels_per_px(mesh: &Mesh, view: &View, paint: PaintId, painted: &Painted, px: f64) -> f64 {
+    let (width, height) = (view.frame.width, view.frame.height);
+    let of_face = |face: usize| -> Option<[f64; 2]> {
+        if mesh.paint(FaceId(face as u32)) != paint || !view.facing[face] {
+            return None;
+        }
+        let [p, q, r] = mesh.triangles[face].map(|v| view.points[v as usize]);
+        let is_out = |p: DVec3| p.is_nan() || p.x < 0.0 || p.y < 0.0 || p.x > width || p.y > height;
+        if is_out(p) && is_out(q) && is_out(r) {
+            return None;
+        }
+        let [a, b, c] = texels(mesh, face as u32, |uv| painted.texels().place(uv))?;
+        let on_page = (q - p).truncate().perp_dot((r - p).truncate()).abs();
+        let in_texels = (b - a).perp_dot(c - a).abs();
+        (on_page.is_finite()).then_some([in_texels, on_page / (px * px)])
+    };
+    let add = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+    // One after another, so that sums are the same with any number of threads.
+    let [texels, page] = (0..mesh.triangles.len()).filter_map(of_face).fold([0.0; 2], add);
+    if page > 0.0 { (texels / page).sqrt() } else { 1.0 }
+}
