@@ -22,6 +22,7 @@ mod obj;
 mod outline;
 mod part;
 mod patches;
+mod picnic;
 mod ply;
 mod polygon;
 mod pump;
@@ -92,6 +93,10 @@ fn main() -> std::io::Result<()> {
     write("street.glb", &glb::bytes("ligne make_models", &street::street()))?;
     write("shelf.ply", &ply::bytes("a scanned vase and a machined gear", &shelf::shelf(), &[]))?;
     write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))?;
+    write("picnic.obj", picnic::text().as_bytes())?;
+    write("picnic.mtl", picnic::library().as_bytes())?;
+    write("picnic-ball.png", &picnic::sectors())?;
+    write("picnic-cloth.png", &picnic::checks())?;
     write("trellis.obj", trellis::text().as_bytes())?;
     write("trellis.mtl", trellis::library().as_bytes())?;
     write("trellis-hole.png", &trellis::hole())?;

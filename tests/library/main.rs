@@ -37,6 +37,7 @@ mod stages;
 mod style;
 mod style_fills;
 mod testing;
+mod textures;
 mod visibility;
 mod visible_intersections;
 mod without;

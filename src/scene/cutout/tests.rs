@@ -132,7 +132,7 @@ fn what_is_left_is_what_the_mask_says_point_by_point() {
             for _ in 0..300 {
                 let p = DVec2::new(dice.roll(), dice.roll());
                 let (_, uvs, _) = triangles[usize::from(p.y > p.x)];
-                let corners = uvs.map(|uv| mask.place(uv).unwrap());
+                let corners = uvs.map(|uv| mask.texels.place(uv).unwrap());
                 let shares =
                     if p.y > p.x { [1.0 - p.y, p.x, p.y - p.x] } else { [1.0 - p.x, p.x - p.y, p.y] };
                 let texel = corners[0] * shares[0] + corners[1] * shares[1] + corners[2] * shares[2];

@@ -19,7 +19,7 @@ type Shares = [(u8, f32); SHARES];
 /// Which of a few colours each texel of a picture is painted with, and each point between them.
 ///
 /// Every texel has a share of each colour, blurred a little, and is painted with the one of which it has most. Between two
-/// texels shares are linear, between four bilinear; where three colours meet, they meet in a point.
+/// texels shares are linear; borders go straight from one such place to the next, or to the point where three colours meet.
 #[derive(Debug, Clone)]
 pub(crate) struct Labels {
     pub texels: Texels,
@@ -210,20 +210,21 @@ impl<'a> Cell<'a> {
 
     /// The colour of a point of the unit square.
     fn at(&self, p: DVec2) -> u8 {
-        let [a, b, c, d] = self.colours;
         match self.parting() {
-            Parting::Not => a,
-            Parting::Across(_) => {
-                let other = if b != a {
-                    b
-                } else if c != a {
-                    c
-                } else {
-                    d
+            Parting::Not => self.colours[0],
+            Parting::Across(ways) => {
+                // Whether the point lies on the side of the corner behind the first of two sides.
+                let is_behind = |[first, second]: &[usize; 2]| {
+                    let [Some(from), Some(to)] = [*first, *second].map(|side| self.crossing(side)) else {
+                        return false;
+                    };
+                    let turn = |q: DVec2| (to - from).perp_dot(q - from);
+                    turn(p) * turn(CORNERS[(first + 1) % 4]) > 0.0
                 };
-                let [k, l, m, n] = self.texels.map(|texel| self.labels.lead(texel, a, other));
-                let (top, bottom) = (k + (l - k) * p.x, n + (m - n) * p.x);
-                if top + (bottom - top) * p.y >= 0.0 { a } else { other }
+                match ways.iter().find(|way| is_behind(way)) {
+                    Some([first, _]) => self.colours[(first + 1) % 4],
+                    None => self.colours[ways[0][0]],
+                }
             }
             Parting::Meeting(middle) => {
                 // From the middle, corners lie between the borders on both their sides.
@@ -235,7 +236,7 @@ impl<'a> Cell<'a> {
                     let (from, to) = (on_side((corner + 3) % 4), on_side(*corner));
                     from.perp_dot(way) >= 0.0 && way.perp_dot(to) >= 0.0
                 };
-                (0..4).find(is_of).map_or(a, |corner| self.colours[corner])
+                (0..4).find(is_of).map_or(self.colours[0], |corner| self.colours[corner])
             }
         }
     }

@@ -1,5 +1,6 @@
 //! [`Texture`]: the picture of a base colour, and what of it is painted.
 
+mod blends;
 mod labels;
 pub mod options;
 mod painted;

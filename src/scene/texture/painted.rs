@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use rayon::prelude::*;
 
+use super::blends;
 use super::labels::Labels;
 use super::palette::closest;
 use super::specks;
@@ -28,6 +29,9 @@ pub(crate) struct Painted {
 /// What is less wide than this many px is not drawn, and borders are rounded by about as much.
 const BLUR_PX: f64 = 0.7;
 
+/// However large texels are seen, borders are rounded by about this much of one: steps of texels are not drawn.
+const BLUR_TEXELS: f64 = 0.8;
+
 /// Specks smaller than a square with this side, px, go to a neighbour.
 const SPECK_PX: f64 = 3.0;
 
@@ -44,8 +48,12 @@ impl Painted {
         let halvings = (0..14).take_while(|k| scale / f64::from(1 << k) >= std::f64::consts::SQRT_2).count();
         let (texels, lights) = self.reduced(1 << halvings);
         let per_px = scale * texels.size[0] as f64 / self.texels.size[0] as f64;
-        let guesses = self.guesses(&texels, &lights);
-        let mut labels = Labels::of(texels, &guesses, BLUR_PX * per_px, self.paints.clone());
+        let labs: Vec<Option<Oklab>> =
+            lights.into_par_iter().with_min_len(1 << 12).map(|light| light.map(oklab::of_linear)).collect();
+        let guesses = self.guesses(&texels, &labs);
+        let guesses = blends::settle(&texels, &self.palette, &labs, &guesses);
+        let blur = (BLUR_PX * per_px).max(BLUR_TEXELS);
+        let mut labels = Labels::of(texels, &guesses, blur, self.paints.clone());
         specks::merge(&mut labels, (SPECK_PX * per_px).powi(2));
         labels
     }
@@ -78,9 +86,9 @@ impl Painted {
 
     /// For each texel the colour it is nearest to, the next nearest, and how far it lies on the way to that, 0 to 1/2. What is
     /// seen nowhere is like what is seen beside it.
-    fn guesses(&self, texels: &Texels, lights: &[Option<[f32; 3]>]) -> Vec<Guess> {
-        let of = |light: &Option<[f32; 3]>| Some(self.guess(oklab::of_linear((*light)?)));
-        let known: Vec<Option<Guess>> = lights.par_iter().with_min_len(1 << 12).map(of).collect();
+    fn guesses(&self, texels: &Texels, labs: &[Option<Oklab>]) -> Vec<Guess> {
+        let of = |lab: &Option<Oklab>| Some(self.guess((*lab)?));
+        let known: Vec<Option<Guess>> = labs.par_iter().with_min_len(1 << 12).map(of).collect();
         let mut open: VecDeque<usize> = (0..known.len()).filter(|k| known[*k].is_some()).collect();
         let mut guesses: Vec<Guess> = known
             .iter()

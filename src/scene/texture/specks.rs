@@ -74,3 +74,34 @@ fn merge_once(labels: &mut Labels, least: f64) -> bool {
     }
     is_changed
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::PaintId;
+    use crate::scene::material::Wrap;
+    use crate::scene::texels::Texels;
+    use crate::scene::texture::painted::Guess;
+
+    #[test]
+    fn specks_take_the_colour_around_them_over_seams_too() {
+        // A speck of four on the corners of the picture, which hang together, one of two, and a patch of nine.
+        let colour = |k: usize| match (k % 12, k / 12) {
+            (0 | 11, 0 | 11) => 1,
+            (5, 5 | 6) => 2,
+            (8..=10, 2..=4) => 1,
+            _ => 0,
+        };
+        let guesses: Vec<Guess> =
+            (0..144).map(|k| Guess { nearest: colour(k), second: 0, way: 0.0 }).collect();
+        let texels = Texels { size: [12, 12], wrap: [Wrap::Repeat; 2], upward: false };
+        let merged = |least: f64| {
+            let mut labels = Labels::of(texels, &guesses, 0.0, (0..3).map(PaintId).collect());
+            merge(&mut labels, least);
+            [0, 5 * 12 + 5, 3 * 12 + 9].map(|texel| labels.winner(texel))
+        };
+        assert_eq!(merged(4.0), [1, 0, 1]);
+        assert_eq!(merged(5.0), [0, 0, 1]);
+        assert_eq!(merged(10.0), [0, 0, 0]);
+    }
+}

@@ -100,3 +100,94 @@ fn linked(pieces: &[[(Place, DVec2); 2]]) -> Vec<Vec<DVec2>> {
     (0..pieces.len()).for_each(|number| follow(number, false));
     lines
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::PaintId;
+    use crate::scene::material::Wrap;
+    use crate::scene::texels::Texels;
+    use crate::scene::texture::painted::Guess;
+
+    fn labels(size: [usize; 2], wrap: Wrap, blur: f64, of: impl Fn(DVec2) -> (u8, u8, f32)) -> Labels {
+        let at = |k: usize| DVec2::new((k % size[0]) as f64, (k / size[0]) as f64);
+        let guess = |k: usize| {
+            let (nearest, second, way) = of(at(k));
+            Guess { nearest, second, way }
+        };
+        let guesses: Vec<Guess> = (0..size[0] * size[1]).map(guess).collect();
+        let texels = Texels { size, wrap: [wrap; 2], upward: false };
+        Labels::of(texels, &guesses, blur, (0..3).map(PaintId).collect())
+    }
+
+    /// A disc in the middle of 48 texels, softened over one, as colour 1 on 0.
+    fn disc(p: DVec2) -> (u8, u8, f32) {
+        let share = (p.distance(DVec2::splat(23.5)) - 15.2 + 0.5).clamp(0.0, 1.0) as f32;
+        if share < 0.5 { (1, 0, share) } else { (0, 1, 1.0 - share) }
+    }
+
+    #[test]
+    fn a_disc_is_one_ring_where_its_border_is() {
+        for blur in [0.0, 0.8] {
+            let traced = trace(&labels([48, 48], Wrap::Repeat, blur, disc)).unwrap();
+            assert_eq!(traced.lines.len(), 1);
+            let ring = &traced.lines[0];
+            assert_eq!(ring.first(), ring.last());
+            let off = ring.iter().map(|p| (p.distance(DVec2::splat(23.5)) - 15.2).abs()).fold(0.0, f64::max);
+            assert!(off < 0.12, "{off} texels off, blurred by {blur}");
+        }
+    }
+
+    #[test]
+    fn three_colours_meet_in_a_point() {
+        let third = |p: DVec2| match (p.x < 4.0, p.y < 4.0) {
+            (true, _) => (0, 0, 0.0),
+            (false, true) => (1, 1, 0.0),
+            (false, false) => (2, 2, 0.0),
+        };
+        let traced = trace(&labels([8, 8], Wrap::Clamp, 0.0, third)).unwrap();
+        assert_eq!(traced.lines.len(), 3);
+        let meeting = DVec2::new(3.5, 3.5);
+        let ends = |line: &Vec<DVec2>| [line[0], line[line.len() - 1]];
+        assert!(traced.lines.iter().all(|line| ends(line).iter().any(|end| end.distance(meeting) < 0.2)));
+    }
+
+    #[test]
+    fn colours_differ_on_both_sides_of_borders_and_nowhere_else() {
+        // Patches without order, of three colours, over the seams too.
+        let patch = |p: DVec2| {
+            let dice =
+                (p.x as u64 / 3 * 7919 + p.y as u64 / 3 * 104_729).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;
+            ((dice % 3) as u8, 0, 0.0)
+        };
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            let labels = labels([21, 18], wrap, 0.6, patch);
+            let traced = trace(&labels).unwrap();
+            assert!(traced.lines.len() > 5, "{}", traced.lines.len());
+            let beside = |a: DVec2, b: DVec2| {
+                let across = (b - a).perp().normalize_or_zero() * 1e-4;
+                [(a + b) / 2.0 + across, (a + b) / 2.0 - across].map(|p| labels.at(p))
+            };
+            let pieces = || traced.lines.iter().flat_map(|line| line.windows(2));
+            let wrong = pieces().filter(|pair| {
+                let [left, right] = beside(pair[0], pair[1]);
+                pair[0].distance(pair[1]) > 0.05 && left == right
+            });
+            assert_eq!(wrong.count(), 0, "{wrap:?}");
+            // Along a line of sight, colours change as often as borders are crossed, or both less often by pairs.
+            for row in 0..170 {
+                let y = f64::from(row) * 0.1 + 0.043;
+                let at = |k: u32| DVec2::new(f64::from(k) * 0.002 + 0.0007, y);
+                let changes = (0..10_000).filter(|k| labels.at(at(*k)) != labels.at(at(*k + 1))).count();
+                let crossed = pieces()
+                    .filter(|pair| {
+                        let part = (y - pair[0].y) / (pair[1].y - pair[0].y);
+                        let x = pair[0].x + (pair[1].x - pair[0].x) * part;
+                        (pair[0].y > y) != (pair[1].y > y) && x > at(0).x && x < at(10_000).x
+                    })
+                    .count();
+                assert_eq!(changes % 2, crossed % 2, "along y = {y}, {wrap:?}");
+            }
+        }
+    }
+}

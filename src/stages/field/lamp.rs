@@ -19,6 +19,8 @@ pub(super) struct Lamp {
     pub weight: f64,
     /// Tint, channels as written.
     pub colour: [f64; 3],
+    /// The number of its tint among those of all lights.
+    pub hue: usize,
     /// Whether it may cast shadows.
     pub shadows: bool,
     /// Its bit among those that cast shadows.
@@ -79,14 +81,14 @@ impl Lamp {
     /// Parallel light.
     pub fn parallel(towards: DVec3, brightness: f64, colour: [f64; 3]) -> Self {
         let reach = Reach::Parallel { towards };
-        Self { reach, brightness, weight: brightness, colour, shadows: true, caster: None }
+        Self { reach, brightness, weight: brightness, colour, hue: 0, shadows: true, caster: None }
     }
 
     /// Light from a point that halves at a distance.
     pub fn point(position: DVec3, half_at: Option<f64>, brightness: f64, colour: [f64; 3]) -> Self {
         let falloff = half_at.map_or(FallOff::None, FallOff::Half);
         let reach = Reach::Point { position, falloff, cone: None };
-        Self { reach, brightness, weight: brightness, colour, shadows: true, caster: None }
+        Self { reach, brightness, weight: brightness, colour, hue: 0, shadows: true, caster: None }
     }
 
     /// The lights of a model, scaled together such that the brightest gives 1 where the

@@ -43,10 +43,46 @@ pub struct SurfacePoint {
     pub openness: f64,
 }
 
+/// Which lights count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    All,
+    /// The one of this number.
+    Lamp(usize),
+    /// Those of this tint, by its number.
+    Hue(usize),
+}
+
+/// Tints that differ by less than this in every channel look alike.
+const ONE_HUE: f64 = 0.125;
+
+/// Gives each light the number of its tint, and says what these are: of lights that look alike the mean by their weights.
+fn part_by_hue(lamps: &mut [Lamp]) -> Vec<[f64; 3]> {
+    let mut firsts: Vec<[f64; 3]> = Vec::new();
+    let mut sums: Vec<([f64; 3], f64)> = Vec::new();
+    for lamp in lamps.iter_mut() {
+        let is_like = |first: &[f64; 3]| first.iter().zip(lamp.colour).all(|(a, b)| (a - b).abs() < ONE_HUE);
+        lamp.hue = firsts.iter().position(is_like).unwrap_or(firsts.len());
+        if lamp.hue == firsts.len() {
+            firsts.push(lamp.colour);
+            sums.push(([0.0; 3], 0.0));
+        }
+        let (sum, all) = &mut sums[lamp.hue];
+        sum.iter_mut().zip(lamp.colour).for_each(|(sum, c)| *sum += c * lamp.weight);
+        *all += lamp.weight;
+    }
+    let mean = |(first, (sum, all)): ([f64; 3], ([f64; 3], f64))| {
+        if all > 0.0 { sum.map(|c| c / all) } else { first }
+    };
+    firsts.into_iter().zip(sums).map(mean).collect()
+}
+
 /// The lights of a drawing in local space, and how much of each reaches a point.
 #[derive(Debug, Clone)]
 pub struct Lighting {
     lamps: Vec<Lamp>,
+    /// The tints of the lights, those that look alike as one.
+    hues: Vec<[f64; 3]>,
     casters: Vec<Caster>,
     frame: Option<Frame>,
     wrap: f64,
@@ -94,7 +130,8 @@ impl Lighting {
             warnings.push(format!("{count} lights would cast shadows; only the first {GREATEST_CASTERS} do"));
             casters.truncate(GREATEST_CASTERS);
         }
-        Self { lamps, casters, frame: Some(*frame), wrap: options.wrap, occlusion: options.occlusion }
+        let hues = part_by_hue(&mut lamps);
+        Self { lamps, hues, casters, frame: Some(*frame), wrap: options.wrap, occlusion: options.occlusion }
     }
 
     /// One parallel white light, with shadows and without highlights.
@@ -103,7 +140,7 @@ impl Lighting {
         let towards = towards_light.normalize_or_zero();
         let lamp = Lamp { caster: Some(0), ..Lamp::parallel(towards, 1.0, [1.0; 3]) };
         let casters = vec![Caster::Directional { towards }];
-        Self { lamps: vec![lamp], casters, frame: None, wrap: 0.0, occlusion: 0.0 }
+        Self { lamps: vec![lamp], hues: vec![[1.0; 3]], casters, frame: None, wrap: 0.0, occlusion: 0.0 }
     }
 
     /// The lights that cast shadows; the index of each is its bit in `shadowed`.
@@ -142,21 +179,31 @@ impl Lighting {
         [0, 1, 2].map(|c| channel(c) / total)
     }
 
-    /// Diffuse light of all lights that are not `shadowed`: the sum of brightness, fall-off and
+    /// The tints of the lights, those that look alike as one.
+    #[must_use]
+    pub fn hues(&self) -> &[[f64; 3]] {
+        &self.hues
+    }
+
+    /// Diffuse light of some of the lights that are not `shadowed`: the sum of brightness, fall-off and
     /// max(L·n, 0).
     #[must_use]
-    pub fn diffuse(&self, point: &SurfacePoint, shadowed: u32) -> f64 {
+    pub(super) fn diffuse(&self, of: Of, point: &SurfacePoint, shadowed: u32) -> f64 {
         let normal = self.normal(point);
-        let light: f64 = self.lit(shadowed).map(|lamp| self.diffuse_of(lamp, point.position, normal)).sum();
+        let lamps = self.chosen(of, shadowed);
+        let light: f64 = lamps.map(|lamp| self.diffuse_of(lamp, point.position, normal)).sum();
         light * self.open(point)
     }
 
-    /// Diffuse light of one light; 0 where there is no light of this number.
-    #[must_use]
-    pub fn diffuse_by(&self, lamp: usize, point: &SurfacePoint, shadowed: u32) -> f64 {
-        let lamp = self.lamps.get(lamp).filter(|lamp| !lamp.is_shadowed(shadowed));
-        let light = lamp.map_or(0.0, |lamp| self.diffuse_of(lamp, point.position, self.normal(point)));
-        light * self.open(point)
+    /// Some of the lights that are not `shadowed`.
+    fn chosen(&self, of: Of, shadowed: u32) -> impl Iterator<Item = &Lamp> {
+        let is_chosen = move |(k, lamp): &(usize, &Lamp)| match of {
+            Of::All => true,
+            Of::Lamp(own) => own == *k,
+            Of::Hue(hue) => hue == lamp.hue,
+        };
+        let chosen = self.lamps.iter().enumerate().filter(is_chosen).map(|(_, lamp)| lamp);
+        chosen.filter(move |lamp| !lamp.is_shadowed(shadowed))
     }
 
     /// Strength of the highlight: the sum of brightness, fall-off and (n·h)^exponent over the
@@ -174,10 +221,10 @@ impl Lighting {
         self.lit(shadowed).map(of).sum()
     }
 
-    /// Bounds of the diffuse light of all lights or one of them; see [`super::Shading::range`].
+    /// Bounds of the diffuse light of some of the lights; see [`super::Shading::range`].
     pub(super) fn diffuse_range(
         &self,
-        lamp: Option<usize>,
+        of: Of,
         point: &SurfacePoint,
         shadowed: u32,
         turn: f64,
@@ -186,10 +233,7 @@ impl Lighting {
         let normal = self.normal(point);
         let lambert = |angle: f64| ((cos(angle) + self.wrap) / (1.0 + self.wrap)).max(0.0);
         let (mut low, mut high) = (0.0, 0.0);
-        for (k, own) in self.lamps.iter().enumerate() {
-            if lamp.is_some_and(|lamp| lamp != k) || own.is_shadowed(shadowed) {
-                continue;
-            }
+        for own in self.chosen(of, shadowed) {
             let Some(near) = own.near(point.position, extent) else { return ANYTHING };
             let angle = acos(near.towards.dot(normal).clamp(-1.0, 1.0));
             let turn = turn + near.turn;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::ShadeOptions;
 use super::light_options::LightOptions;
-use super::lighting::{Caster, Lighting, SurfacePoint};
+use super::lighting::{Caster, Lighting, Of, SurfacePoint};
 use super::tone_options::{Scale, ToneOptions};
 use super::tones::{Channel, Look, Tones};
 use crate::math::colour::Colour;
@@ -19,7 +19,8 @@ use crate::view::Frame;
 /// levels, and where one of them is crossed the tone may change.
 ///
 /// Channel 0 is the diffuse light of all lights. Where a material asks for a table of two lights,
-/// the next two channels are the light of the first and of the second one alone; where one asks for
+/// the next two channels are the light of the first and of the second one alone; where lights have several tints, the next are
+/// the light of each tint; where one asks for
 /// highlights, the next is their strength; where surfaces are hatched, the last is the diffuse light with
 /// the bins of hatching as its levels.
 #[derive(Debug, Clone)]
@@ -64,6 +65,8 @@ impl Shading {
                 warnings.push("a table of tones is for two lights, but there is one".to_owned());
             }
         }
+        let hues = if (2..=MOST_HUES).contains(&lighting.hues().len()) { lighting.hues() } else { &[] };
+        channels.extend((0..hues.len()).map(Channel::Hue));
         if materials.iter().any(|(own, ..)| own.highlight.enabled) {
             channels.push(Channel::Highlight);
         }
@@ -71,7 +74,7 @@ impl Shading {
         let of = |index: usize, colour: Option<Colour>| {
             let (own, material, instead) = materials.get(index).or(materials.last())?;
             let colour = instead.or(colour).unwrap_or(material.colour);
-            let look = Look { colour, emissive: material.emissive, ambient: light.ambient, tint };
+            let look = Look { colour, emissive: material.emissive, ambient: light.ambient, tint, hues };
             Some(Tones::new(own, &look, &channels))
         };
         let tones_of_paints = if paints.is_empty() {
@@ -119,7 +122,7 @@ impl Shading {
         let options = ToneOptions { scale: Scale::Thresholds(levels), ..ToneOptions::default() };
         let Material { colour, emissive, .. } = Material::default();
         let ambient = LightOptions::default().ambient;
-        let look = Look { colour, emissive, ambient, tint: lighting.tint() };
+        let look = Look { colour, emissive, ambient, tint: lighting.tint(), hues: &[] };
         let tones = vec![Tones::new(&options, &look, &channels)];
         Self { lighting, channels, exponent: options.highlight.exponent, tones }
     }
@@ -158,9 +161,10 @@ impl Shading {
         let lighting = &self.lighting;
         match self.channels.get(channel) {
             Some(Channel::Diffuse | Channel::Shade) => {
-                lighting.diffuse_range(None, point, shadowed, turn, extent)
+                lighting.diffuse_range(Of::All, point, shadowed, turn, extent)
             }
-            Some(Channel::Light(lamp)) => lighting.diffuse_range(Some(*lamp), point, shadowed, turn, extent),
+            Some(Channel::Light(k)) => lighting.diffuse_range(Of::Lamp(*k), point, shadowed, turn, extent),
+            Some(Channel::Hue(k)) => lighting.diffuse_range(Of::Hue(*k), point, shadowed, turn, extent),
             Some(Channel::Highlight) => lighting.specular_range(point, self.exponent, shadowed, turn, extent),
             None => (0.0, 0.0),
         }
@@ -184,8 +188,9 @@ impl Shading {
     #[must_use]
     pub fn value(&self, channel: usize, _paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
-            Some(Channel::Diffuse | Channel::Shade) => self.lighting.diffuse(point, shadowed),
-            Some(Channel::Light(lamp)) => self.lighting.diffuse_by(*lamp, point, shadowed),
+            Some(Channel::Diffuse | Channel::Shade) => self.lighting.diffuse(Of::All, point, shadowed),
+            Some(Channel::Light(k)) => self.lighting.diffuse(Of::Lamp(*k), point, shadowed),
+            Some(Channel::Hue(k)) => self.lighting.diffuse(Of::Hue(*k), point, shadowed),
             Some(Channel::Highlight) => self.lighting.specular(point, self.exponent, shadowed),
             None => 0.0,
         }
@@ -207,3 +212,6 @@ impl Shading {
         self.tones.get(paint.index()).or(self.tones.last())
     }
 }
+
+/// Tones are cut for the lights of each tint where there are no more tints than this.
+const MOST_HUES: usize = 3;

@@ -21,6 +21,8 @@ pub(super) enum Channel {
     Diffuse,
     /// The diffuse light of one light alone, by its number.
     Light(usize),
+    /// The diffuse light of the lights of one tint, by its number.
+    Hue(usize),
     /// The strength of the highlight.
     Highlight,
     /// The diffuse light of all lights again, for hatching: its bins are not those of the tones.
@@ -29,7 +31,7 @@ pub(super) enum Channel {
 
 /// How a surface looks and is lit, as far as it gives tones their colours.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Look {
+pub(super) struct Look<'a> {
     /// Base colour.
     pub colour: Colour,
     /// Light of its own: no tone is darker.
@@ -38,6 +40,8 @@ pub(super) struct Look {
     pub ambient: Factor,
     /// Tint of the lights together.
     pub tint: [f64; 3],
+    /// Tints of the lights one by one, if tones are to be cut for each.
+    pub hues: &'a [[f64; 3]],
 }
 
 /// The levels and colours of one material.
@@ -51,12 +55,18 @@ pub(super) struct Tones {
     plain: usize,
     /// The table that two channels look tones up in.
     table: Option<Table>,
+    /// Where lights have several tints: how they mix.
+    mixture: Option<Mixture>,
 }
 
 impl Tones {
     /// The tones of a material, with levels for these channels.
     pub fn new(options: &ToneOptions, look: &Look, channels: &[Channel]) -> Self {
-        let mut colours = plain_colours(options, look);
+        let mixture = Mixture::of(options, look.hues);
+        let mut colours = match &mixture {
+            Some(mixture) => mixture.shares.iter().map(|shares| lake(options, look, *shares, true)).collect(),
+            None => plain_colours(options, look),
+        };
         let plain = colours.len();
         let highlight = Some(&options.highlight).filter(|highlight| highlight.enabled);
         if let (Some(highlight), Some(brightest)) = (highlight, colours.last().copied()) {
@@ -67,13 +77,14 @@ impl Tones {
             _ => None,
         };
         let levels = channels.iter().map(|channel| match (channel, &table) {
-            (Channel::Diffuse, None) => diffuse_levels(&options.scale),
+            (Channel::Diffuse, None) if mixture.is_none() => diffuse_levels(&options.scale),
+            (Channel::Hue(_), None) if mixture.is_some() => diffuse_levels(&options.scale),
             (Channel::Light(0), Some(table)) => table.columns.clone(),
             (Channel::Light(1), Some(table)) => table.rows.clone(),
             (Channel::Highlight, _) => highlight.map_or(Vec::new(), |h| h.thresholds.clone()),
             _ => Vec::new(),
         });
-        Self { levels: levels.collect(), colours, plain, table }
+        Self { levels: levels.collect(), colours, plain, table, mixture }
     }
 
     /// Adds levels for one more channel to the tones.
@@ -95,7 +106,10 @@ impl Tones {
         let last = |count: usize| count.saturating_sub(1) as u16;
         match (band(Channel::Highlight), &self.table) {
             (0, Some(table)) => table.tone(band(Channel::Light(0)), band(Channel::Light(1))),
-            (0, None) => band(Channel::Diffuse).min(last(self.plain)),
+            (0, None) => match &self.mixture {
+                Some(mixture) => mixture.tone(|hue| band(Channel::Hue(hue))),
+                None => band(Channel::Diffuse).min(last(self.plain)),
+            },
             (highlight, _) => last(self.plain).saturating_add(highlight).min(last(self.colours.len())),
         }
     }
@@ -133,7 +147,7 @@ fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
     let shares = if options.tones.is_empty() { &even[..] } else { &options.tones };
     let share = |k: usize| spread(shares, k, count, |a, b, t| a + (b - a) * t).unwrap_or(1.0);
     let colours = (0..count).map(|k| match &options.colours {
-        Colours::Material => lake(options, look, share(k), count > 1),
+        Colours::Material => lake(options, look, look.tint.map(|c| c * share(k)), count > 1),
         Colours::Palette(palette) => {
             spread(palette, k, count, |a, b, t| a.mix(b, t)).unwrap_or(Colour::WHITE)
         }
@@ -146,9 +160,9 @@ fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
     }
 }
 
-/// Lake's eq. 1 with `share` in place of max(L·n, 0): ambient light of the scene and of the
+/// Lake's eq. 1 with tinted shares in place of max(L·n, 0): ambient light of the scene and of the
 /// light, and the light's diffuse share, all times the material.
-fn lake(options: &ToneOptions, look: &Look, share: f64, toned: bool) -> Colour {
+fn lake(options: &ToneOptions, look: &Look, shares: [f64; 3], toned: bool) -> Colour {
     let mut material = look.colour.channels();
     let greatest = material.into_iter().fold(0.0, f64::max);
     if toned && greatest < LEAST_LIT {
@@ -156,11 +170,69 @@ fn lake(options: &ToneOptions, look: &Look, share: f64, toned: bool) -> Colour {
     }
     let (a_g, a_l, lit) = (look.ambient.0, options.shadow.0, options.lit.0);
     let own = look.emissive.channels();
-    let channel = |c: usize| {
-        let d_l = (lit[c] - a_l[c]) * look.tint[c];
-        ((a_g[c] + a_l[c] + share * d_l) * material[c]).max(own[c])
-    };
+    let channel = |c: usize| ((a_g[c] + a_l[c] + shares[c] * (lit[c] - a_l[c])) * material[c]).max(own[c]);
     Colour { a: look.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
+}
+
+/// How lights of several tints mix: each falls into tones of its own, and each set of these is a tone.
+///
+/// Source: Ishaya, the table of two lights, with as many as there are tints.
+#[derive(Debug, Clone)]
+struct Mixture {
+    /// Tones of each tint.
+    count: usize,
+    /// The tinted light of each tone, the darkest first.
+    shares: Vec<[f64; 3]>,
+    /// The tone of each set; the first tint counts in ones, the next in tones of the first, and so on.
+    order: Vec<u16>,
+}
+
+/// More tones than this do not come of mixing lights: a gradient has the mean tint.
+const MOST_MIXED: usize = 64;
+
+impl Mixture {
+    /// How lights of these tints mix; none where their mean counts.
+    fn of(options: &ToneOptions, hues: &[[f64; 3]]) -> Option<Self> {
+        if hues.len() < 2 || !matches!(options.colours, Colours::Material) {
+            return None;
+        }
+        let count = match &options.scale {
+            Scale::Thresholds(_) | Scale::Steps(_) => diffuse_levels(&options.scale).len() + 1,
+            Scale::Ramp(_) | Scale::Table(_) => return None,
+        };
+        let all = count.checked_pow(hues.len() as u32).filter(|all| (2..=MOST_MIXED).contains(all))?;
+        let even = [0.0, 1.0];
+        let shares = if options.tones.is_empty() { &even[..] } else { &options.tones };
+        let share = |k: usize| spread(shares, k, count, |a, b, t| a + (b - a) * t).unwrap_or(1.0);
+        let brightest = share(count - 1).max(1.0);
+        let light_of = |mut set: usize| {
+            let mut light = [0.0; 3];
+            for hue in hues {
+                let share = share(set % count);
+                light.iter_mut().zip(hue).for_each(|(light, c)| *light = (*light + c * share).min(brightest));
+                set /= count;
+            }
+            light
+        };
+        let luma = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let lights: Vec<[f64; 3]> = (0..all).map(light_of).collect();
+        let mut ranked: Vec<usize> = (0..all).collect();
+        ranked.sort_by(|a, b| luma(lights[*a]).total_cmp(&luma(lights[*b])));
+        let mut order = vec![0; all];
+        ranked.iter().enumerate().for_each(|(tone, set)| order[*set] = tone as u16);
+        Some(Self { count, shares: ranked.iter().map(|set| lights[*set]).collect(), order })
+    }
+
+    /// The tone where each light reaches so many of its levels.
+    fn tone(&self, band: impl Fn(usize) -> u16) -> u16 {
+        let (mut set, mut worth, mut hue) = (0, 1, 0);
+        while worth < self.order.len() {
+            set += usize::from(band(hue)).min(self.count - 1) * worth;
+            worth *= self.count;
+            hue += 1;
+        }
+        self.order[set]
+    }
 }
 
 /// Gooch's blend of k_cool = k_blue + α k_d and k_warm = k_yellow + β k_d.

@@ -80,9 +80,13 @@ struct Ready {
     values: Vec<Vec<[Vec<f64>; 2]>>,
 }
 
+/// A CSS px in user units, on a page of the usual size.
+pub(super) fn page_px(lit: &Lit) -> f64 {
+    lit.view.frame.width.max(lit.view.frame.height) / PAGE_PX
+}
+
 impl Ready {
     fn new(lit: &Lit, shadowed: &[u32]) -> Self {
-        let frame = &lit.view.frame;
         // Values are the same for all paints.
         let paint = PaintId(0);
         let value = |channel: usize, normal: DVec3, shadowed: u32| {
@@ -100,7 +104,7 @@ impl Ready {
         };
         let channels = 0..lit.shading.channels();
         Self {
-            px: frame.width.max(frame.height) / PAGE_PX,
+            px: page_px(lit),
             values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
         }
     }

@@ -112,6 +112,60 @@ fn coloured_light_tints_what_is_lit() {
     assert_eq!(colours(&tinted, FIRST, 2), [Colour::rgb(100, 100, 100), Colour::rgb(200, 100, 100)]);
 }
 
+/// Lights from two sides, in these colours.
+fn from_both_sides(colours: [Colour; 2]) -> LightOptions {
+    let source = |x: f64, colour: Colour| LightSource {
+        kind: SourceKind::Directional { direction: DVec3::new(x, -1.0, 0.0) },
+        space: Space::World,
+        colour,
+        ..LightSource::default()
+    };
+    LightOptions {
+        sources: vec![source(1.0, colours[0]), source(-1.0, colours[1])],
+        ..LightOptions::default()
+    }
+}
+
+#[test]
+fn lights_of_two_colours_show_as_two_and_mix() {
+    let light = from_both_sides([Colour::rgb(255, 0, 0), Colour::rgb(0, 0, 255)]);
+    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let (mixed, _) = shading(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
+    let seen = |normal: DVec3| {
+        let at = point(DVec3::ZERO, normal);
+        let value = |channel: usize| mixed.value(channel, FIRST, &at, 0);
+        let levels = |channel: usize| mixed.levels(FIRST, channel);
+        let bands: Vec<u16> = (0..mixed.channels())
+            .map(|channel| levels(channel).iter().filter(|level| **level <= value(channel)).count() as u16)
+            .collect();
+        mixed.colour(FIRST, mixed.tone(FIRST, &bands))
+    };
+    assert_eq!(seen(DVec3::X), Colour::rgb(200, 100, 100));
+    assert_eq!(seen(DVec3::NEG_X), Colour::rgb(100, 100, 200));
+    assert_eq!(seen(DVec3::NEG_Y), Colour::rgb(200, 100, 200));
+    assert_eq!(seen(DVec3::Y), Colour::rgb(100, 100, 100));
+    // The darkest tone is the first; red is lighter than blue.
+    let tones = colours(&mixed, FIRST, 4);
+    assert_eq!(
+        tones.iter().map(|c| (c.r, c.b)).collect::<Vec<_>>(),
+        [(100, 100), (100, 200), (200, 100), (200, 200)]
+    );
+}
+
+#[test]
+fn lights_that_look_alike_are_one_light() {
+    let cream = Colour::rgb(255, 240, 230);
+    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let scene = scene(&[("", Colour::rgb(200, 200, 200))]);
+    let channels = |light: &LightOptions, options: &ToneOptions| shading(&scene, light, options).0.channels();
+    assert_eq!(channels(&from_both_sides([Colour::WHITE, cream]), &options), 1);
+    let red = from_both_sides([Colour::WHITE, Colour::rgb(255, 0, 0)]);
+    assert_eq!(channels(&red, &options), 3);
+    // A gradient has the mean of their tints.
+    let (gradient, _) = shading(&scene, &red, &grey(0.5, Scale::Steps(128)));
+    assert!(gradient.levels(FIRST, 1).is_empty() && gradient.levels(FIRST, 0).len() == 127);
+}
+
 #[test]
 fn highlights_are_tones_above_the_others() {
     let direction = DVec3::new(0.0, -1.0, 1.0);

@@ -1,0 +1,126 @@
+//! Pictures become regions of a few colours: point by point what the picture shows there, whatever the view.
+
+use glam::{DVec2, DVec3};
+use kurbo::{Point, Shape as _};
+use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
+use ligne::math::colour::Colour;
+use ligne::math::function::{acos, atan2};
+use ligne::render::render;
+use ligne::scene::{Camera, Scene};
+use ligne::style::Style;
+
+use crate::support::eye::Eye;
+
+const CREAM: [u8; 3] = [246, 239, 224];
+const SECTORS: [[u8; 3]; 6] = [[214, 66, 52], CREAM, [240, 180, 41], CREAM, [45, 110, 178], CREAM];
+const CLOTH: [[u8; 3]; 3] = [[52, 122, 84], [148, 190, 160], [250, 247, 238]];
+
+/// The ball on the cloth, from `examples/models`.
+fn picnic() -> Scene {
+    Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/picnic.obj")).unwrap()
+}
+
+/// One tone for all, in the colour of the material, and no ink.
+fn plain(changes: &[&str]) -> Style {
+    let mut all =
+        vec!["lines.enabled=false", "fills.thresholds=[]", "fills.tones=[1.0]", "light.from_model=false"];
+    all.extend(changes);
+    Style::load("toon", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
+}
+
+fn fills(drawing: &Drawing) -> Vec<(&Mark, Colour)> {
+    let colour = |mark: &Mark| match &mark.paint {
+        Paint::Fill(colour) => Some(*colour),
+        _ => None,
+    };
+    let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
+    marks.filter_map(|mark| Some((mark, colour(mark)?))).collect()
+}
+
+/// What a line of sight meets of a ball of radius 1/4 on a square cloth of side 1: the colour that its picture has there.
+fn truth(eye: &Eye, p: Point) -> Option<[u8; 3]> {
+    let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+    let way = (far - near).normalize();
+    let middle = DVec3::new(0.0, 0.25, 0.0);
+    let along = (middle - near).dot(way);
+    let off2 = (near + way * along - middle).length_squared();
+    if off2 < 0.0625 {
+        let at = (near + way * (along - (0.0625 - off2).sqrt()) - middle) / 0.25;
+        let down = acos(at.y) / std::f64::consts::PI;
+        let turn = (atan2(-at.z, at.x) / std::f64::consts::TAU).rem_euclid(1.0);
+        let is_cap = !(1.0 / 12.0..11.0 / 12.0).contains(&down);
+        return Some(if is_cap { CREAM } else { SECTORS[(turn * 6.0) as usize % 6] });
+    }
+    let at = near - way * (near.y / way.y);
+    let place = DVec2::new(at.x + 0.5, 0.5 - at.z);
+    if place.min_element() < 0.0 || place.max_element() > 1.0 {
+        return None;
+    }
+    // The first row of the picture is that of the greatest v.
+    let checks = place * 5.0 - (place * 5.0).floor();
+    let stripes = usize::from(checks.x < 0.5) + usize::from(checks.y > 0.5);
+    Some(CLOTH[2 - stripes])
+}
+
+#[test]
+fn every_point_is_painted_as_its_picture_is_there() {
+    let scene = picnic();
+    for [azimuth, elevation] in [[30.0, 25.0], [-75.0, 50.0], [160.0, 12.0]] {
+        let camera = Camera::azimuth_elevation(azimuth, elevation, scene.up).fit(&scene);
+        let eye = Eye::new(&camera);
+        let drawing = render(&scene, &camera, &plain(&[])).unwrap();
+        let fills = fills(&drawing);
+        assert!(fills.len() < 120, "{} regions: colours are cut up", fills.len());
+        let mut seen = 0;
+        for k in 0..200 * 200 {
+            let p = Point::new((k % 200) as f64 + 0.5, (k / 200) as f64 + 0.5);
+            let p = Point::new(p.x * camera.width / 200.0, p.y * camera.height / 200.0);
+            // Not beside a border: the ball is a polyhedron, and borders have round corners.
+            let round = (0..8).map(|k| std::f64::consts::TAU * f64::from(k) / 8.0);
+            let mut near = round.map(|t| p + kurbo::Vec2::from_angle(t) * 2.0);
+            let Some(own) = truth(&eye, p).filter(|own| near.all(|q| truth(&eye, q) == Some(*own))) else {
+                continue;
+            };
+            let top = fills.iter().rev().find(|(mark, _)| mark.path.winding(p) != 0);
+            let [r, g, b] = own;
+            let off = top.map(|(_, c)| c.r.abs_diff(r).max(c.g.abs_diff(g)).max(c.b.abs_diff(b)));
+            assert!(
+                off.is_some_and(|off| off <= 4),
+                "{p} is {:?}, not {own:?}",
+                top.map(|(_, colour)| colour)
+            );
+            seen += 1;
+        }
+        assert!(seen > 6000, "{seen} points");
+    }
+}
+
+#[test]
+fn a_picture_can_count_as_its_mean_or_not_at_all() {
+    let scene = picnic();
+    let camera = Camera::three_quarter().fit(&scene);
+    let colours = |changes: &[&str]| {
+        let drawing = render(&scene, &camera, &plain(changes)).unwrap();
+        let mut colours: Vec<Colour> = fills(&drawing).into_iter().map(|(_, colour)| colour).collect();
+        colours.sort_unstable();
+        colours.dedup();
+        colours
+    };
+    assert_eq!(colours(&["fills.texture='off'"]), [Colour::WHITE]);
+    assert_eq!(colours(&["fills.texture='mean'"]).len(), 2);
+    assert_eq!(colours(&[]).len(), 6);
+    // The ball's picture is a palette, and keeps its colours.
+    assert_eq!(colours(&["fills.texture_colours=2"]).len(), 5);
+}
+
+#[test]
+fn lines_are_the_same_with_and_without_pictures() {
+    let scene = picnic();
+    let camera = Camera::three_quarter().fit(&scene);
+    let ink = |change: &str| {
+        let style = Style::load("toon", &[change.to_owned()]).unwrap();
+        let drawing = render(&scene, &camera, &style).unwrap();
+        drawing.layers.into_iter().find(|layer| layer.kind == LayerKind::Lines)
+    };
+    assert_eq!(ink("fills.texture='regions'"), ink("fills.texture='off'"));
+}
