@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use kurbo::Vec2;
 
-use crate::drawing::{Layer, Length, Page, Unit};
+use crate::drawing::{Layer, Page};
 use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
@@ -25,6 +25,11 @@ use crate::viewmap::ViewMap;
 /// Whether a style asks for light on the surface: for colours, or for hatching.
 pub(super) fn is_lit(style: &Style) -> bool {
     style.region.enabled || style.hatch.enabled
+}
+
+/// Whether a style asks what is painted on the surface: for that, or for lines between painted colours.
+pub(super) fn asks_surface(style: &Style) -> bool {
+    is_lit(style) || (style.lines.enabled && style.lines.kinds.contains(&LineKind::Artist))
 }
 
 /// What shadows that things cast are to darken.
@@ -102,6 +107,13 @@ impl Paintable {
     }
 }
 
+/// What is painted on a surface.
+#[derive(Clone, Copy)]
+pub(super) struct Colours<'a> {
+    pub paints: &'a Paints,
+    pub textures: &'a Textures,
+}
+
 /// A lit surface on its way to regions.
 pub(super) struct Fills<'a> {
     surface: &'a Surface,
@@ -115,7 +127,7 @@ pub(super) struct Fills<'a> {
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
     paints: &'a [Paint],
-    textures: Textures,
+    textures: &'a Textures,
     darkened: Darkened,
 }
 
@@ -125,14 +137,11 @@ impl<'a> Fills<'a> {
         paintable: &'a Paintable,
         view: &'a View,
         scene: &Scene,
-        paints: &'a Paints,
+        Colours { paints, textures }: Colours<'a>,
         style: &Style,
-        unit: Unit,
         warnings: &mut Vec<String>,
     ) -> Self {
         let (mesh, frame) = (&surface.mesh, &view.frame);
-        let textures = Textures::new(mesh, view, paints, Length::px(1.0).in_unit(unit));
-        warnings.extend_from_slice(textures.warnings());
         let mut shading =
             Shading::new(scene, &paints.list, mesh, frame, &style.light, &tones(style), warnings);
         if style.hatch.enabled {
@@ -183,7 +192,7 @@ impl<'a> Fills<'a> {
             normals: &self.paintable.normals,
             shading: &self.shading,
             openness: &self.openness,
-            textures: &self.textures,
+            textures: self.textures,
             solid: if is_cut { &[] } else { &self.paintable.solid },
         }
     }

@@ -37,10 +37,10 @@ pub use report::{Report, Stopwatch};
 pub use stage::Stage;
 
 use crate::chain;
-use crate::drawing::{Drawing, Layer, Page, Unit};
+use crate::drawing::{Drawing, Layer, Length, Page, Unit};
 use crate::error::Error;
 use crate::hatch::Hatched;
-use crate::lines::{self, FeatureLines, LineOptions, Surface};
+use crate::lines::{self, FeatureLines, LineOptions, Surface, Textures};
 
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
@@ -51,7 +51,7 @@ use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, Ahead, ViewMap};
 use beside::Beside;
-use fills::{Fills, Paintable};
+use fills::{Colours, Fills, Paintable};
 use hatching::Hatching;
 use late_search::LateSearch;
 use stages::Made;
@@ -135,15 +135,17 @@ impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        let needs_paints = fills::is_lit(style) || under::asks_colours(style);
+        let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
         let mut paints = needs_paints.then(|| Paints::of(scene, &style.textures));
         let cutout::Cut { scene, origins, warnings } = cutout::cut(scene);
         paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
         let surface = Surface::new(mesh, &sought);
-        let paintable =
-            paints.as_ref().filter(|_| fills::is_lit(style)).map(|paints| Paintable::new(&surface, paints));
+        let paintable = paints
+            .as_ref()
+            .filter(|_| fills::asks_surface(style))
+            .map(|paints| Paintable::new(&surface, paints));
         Self { scene, warnings, style, sought, paints, surface, paintable, search: LateSearch::default() }
     }
 
@@ -186,7 +188,7 @@ impl<'a> Prepared<'a> {
 
         let refined = self.surface.refined_for(camera);
         let surface = refined.as_ref().unwrap_or(&self.surface);
-        let own = refined.as_ref().zip(paints.as_ref()).filter(|_| fills::is_lit(style));
+        let own = refined.as_ref().zip(paints.as_ref()).filter(|_| fills::asks_surface(style));
         let own = own.map(|(surface, paints)| Paintable::new(surface, paints));
         let paintable = own.as_ref().or(self.paintable.as_ref());
         let view = View::new(&surface.mesh, camera);
@@ -196,9 +198,15 @@ impl<'a> Prepared<'a> {
         let search = if refined.is_none() { self.search.of_next_view(surface) } else { None };
         let mut lines = lines::extract_with(surface, search, &view, sought);
         let mut warnings = Vec::new();
-        let fills = paintable.zip(paints.as_ref()).map(|(paintable, paints)| {
-            Fills::new(surface, paintable, &view, scene, paints, style, unit, &mut warnings)
+        let px = Length::px(1.0).in_unit(unit);
+        let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
+        let textures = paints.as_ref().map(of);
+        let colours = paints.as_ref().zip(textures.as_ref());
+        let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {
+            let colours = Colours { paints, textures };
+            Fills::new(surface, paintable, &view, scene, colours, style, &mut warnings)
         });
+        warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
         if let Some(fills) = &fills {
             fills.add_tone_borders(&mut lines);
         }
@@ -206,16 +214,17 @@ impl<'a> Prepared<'a> {
 
         let map = viewmap::build(&surface.mesh, &view, &lines, sought);
         report.stages_ms.visibility = watch.lap_ms();
-        let (view, lines, fills) = (&view, &lines, fills.as_ref());
-        call(OnView { surface, view, lines, fills, map, report, watch, warnings })
+        let (view, lines, fills, textures) = (&view, &lines, fills.as_ref(), textures.as_ref());
+        call(OnView { surface, view, lines, textures, fills, map, report, watch, warnings })
     }
 
     fn drawn(&self, on_view: OnView, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
         let Self { scene, style, paints, .. } = self;
-        let OnView { surface, view, lines, fills, mut map, mut report, mut watch, warnings } = on_view;
+        let OnView { surface, view, lines, textures, fills, mut map, mut report, mut watch, warnings } =
+            on_view;
         let mut layers: Vec<Layer> = hatching::paper(&page, style).into_iter().collect();
         let mut blacks = None;
-        if let Some(fills) = fills {
+        if let Some(fills) = fills.filter(|_| fills::is_lit(style)) {
             let seen = fills.see(&map, &page);
             if style.region.enabled {
                 let (painted, regions) = fills.paint(&seen, &page, camera, style);
@@ -230,6 +239,8 @@ impl<'a> Prepared<'a> {
                 report.stages_ms.hatching = watch.lap_ms();
             }
             blacks = hatching.black_ground(&seen);
+        }
+        if fills.is_some() {
             fills::keep_inked(&mut map, style);
         }
         centre_on_page(&mut map, camera, &page);
@@ -249,7 +260,8 @@ impl<'a> Prepared<'a> {
         let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
         beside::ask(&mut chains, &beside);
         let paints = paints.as_ref();
-        under::ask(&mut chains, &beside, lines, paints.map_or(&[], |paints| &paints.list), blacks.as_ref());
+        let colours = paints.zip(textures).map(|(paints, textures)| Colours { paints, textures });
+        under::ask(&mut chains, &beside, lines, colours, blacks.as_ref());
         let names = beside::names(lines, surface, &style.stroke);
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =
@@ -300,6 +312,8 @@ struct OnView<'a> {
     surface: &'a Surface,
     view: &'a View,
     lines: &'a FeatureLines,
+    /// Where lines or surfaces have colours.
+    textures: Option<&'a Textures>,
     /// Where surfaces are painted or hatched.
     fills: Option<&'a Fills<'a>>,
     map: ViewMap,

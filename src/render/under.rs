@@ -5,14 +5,13 @@
 use glam::DVec2;
 
 use super::beside::{BESIDE_PX, Beside, NEARER_OF_FRAME, STEP_PX, across, fill};
-use super::fills::paint_colours;
+use super::fills::{Colours, paint_colours};
 use crate::chain::Chain;
 use crate::drawing::Length;
 use crate::lines::FeatureLines;
 use crate::math::colour::Colour;
 use crate::mesh::FaceId;
 use crate::region::Ground;
-use crate::scene::Paint;
 use crate::stroke::{Ink, Pen};
 use crate::style::Style;
 use crate::viewmap::{Front, front_faces};
@@ -35,19 +34,20 @@ pub(super) fn ask(
     chains: &mut [Chain],
     beside: &Beside,
     lines: &FeatureLines,
-    paints: &[Paint],
+    colours: Option<Colours>,
     blacks: Option<&Ground>,
 ) {
     let px = Length::px(1.0).in_unit(beside.unit);
-    let asks = asks_colours(beside.style) && !paints.is_empty();
+    let colours = colours.filter(|_| asks_colours(beside.style));
+    let asks = colours.is_some();
     if asks || blacks.is_some() {
         let step = if blacks.is_some() { BLACK_STEP_PX } else { STEP_PX };
         for chain in chains.iter_mut() {
             fill(chain, step * px, beside.view.frame.perspective);
         }
     }
-    if asks {
-        ask_colours(chains, beside, lines, &paint_colours(paints, beside.scene, beside.style), px);
+    if let Some(colours) = colours {
+        ask_colours(chains, beside, lines, colours, px);
     }
     if let Some(blacks) = blacks {
         let most = widest(beside) * beside.style.hatch.parting;
@@ -85,9 +85,14 @@ fn ask_blacks(chains: &mut [Chain], blacks: &Ground, rings: u32, px: f64) {
 }
 
 /// Tells chains, point by point, the colour of the surface that they belong to.
-fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, colours: &[Colour], px: f64) {
+fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, painted: Colours, px: f64) {
     let mesh = &beside.surface.mesh;
+    let colours = paint_colours(&painted.paints.list, beside.scene, beside.style);
     let colour_of = |face: u32| colours.get(mesh.paint(FaceId(face)).index()).copied();
+    let colour_at = |(front, p): (Front, DVec2)| {
+        let at = beside.view.frame.local_from_image(p.extend(front.nearness));
+        colours.get(painted.textures.paint(mesh, front.face, at).index()).copied()
+    };
     let mut places: Vec<DVec2> = Vec::new();
     for chain in chains.iter().filter(|chain| chain.invisibility == 0) {
         for i in 0..chain.points.len() {
@@ -99,7 +104,7 @@ fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, colo
         }
     }
     let fronts = front_faces(mesh, beside.view, &places);
-    let mut pairs = fronts.chunks_exact(2);
+    let mut pairs = fronts.chunks_exact(2).zip(places.chunks_exact(2));
     for chain in chains.iter_mut() {
         // What is hidden, or belongs to no surface that is seen beside it, has the colour of a face that meets in it.
         let hosts = lines.segments.get(chain.segment as usize).map_or([u32::MAX; 2], |s| s.hosts);
@@ -107,23 +112,23 @@ fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, colo
         let own = hosts.into_iter().find(is_own).and_then(colour_of);
         for sample in &mut chain.samples {
             let seen = if chain.invisibility == 0 { pairs.next() } else { None };
-            let sides = seen.map_or([None; 2], |pair| [pair[0], pair[1]]);
-            let sides = sides.map(|front| front.filter(|front| is_own(&front.face)));
-            let nearer = nearer(sides, |front| {
+            let side = |k: usize| seen.and_then(|(fronts, places)| Some((fronts[k]?, places[k])));
+            let sides = [0, 1].map(|k| side(k).filter(|(front, _)| is_own(&front.face)));
+            let nearer = nearer(sides, |(front, _)| {
                 let depth = beside.view.frame.depth_of(front.nearness);
                 depth
                     / (beside.view.frame.side_at(beside.view.frame.focus) * NEARER_OF_FRAME)
                         .max(f64::MIN_POSITIVE)
             });
             let faces = nearer.into_iter().flatten();
-            let darkest = faces.filter_map(|front| colour_of(front.face)).min_by_key(|c| (weight(*c), *c));
+            let darkest = faces.filter_map(colour_at).min_by_key(|c| (weight(*c), *c));
             sample.under.colour = darkest.or(own);
         }
     }
 }
 
 /// Of what is seen on both sides that which is clearly nearer, or both.
-fn nearer(sides: [Option<Front>; 2], depth: impl Fn(Front) -> f64) -> [Option<Front>; 2] {
+fn nearer<T: Copy>(sides: [Option<T>; 2], depth: impl Fn(T) -> f64) -> [Option<T>; 2] {
     let [Some(left), Some(right)] = sides else { return sides };
     let apart = depth(right) - depth(left);
     if apart > 1.0 {

@@ -7,9 +7,12 @@ use ligne::math::colour::Colour;
 use ligne::math::function::{acos, atan2};
 use ligne::render::render;
 use ligne::scene::{Camera, Scene};
+use ligne::stages::lines::LineKind;
 use ligne::style::Style;
 
 use crate::support::eye::Eye;
+use crate::support::ink::Ink;
+use crate::support::judge::{axis, ink_marks};
 
 const CREAM: [u8; 3] = [246, 239, 224];
 const SECTORS: [[u8; 3]; 6] = [[214, 66, 52], CREAM, [240, 180, 41], CREAM, [45, 110, 178], CREAM];
@@ -123,4 +126,43 @@ fn lines_are_the_same_with_and_without_pictures() {
         drawing.layers.into_iter().find(|layer| layer.kind == LayerKind::Lines)
     };
     assert_eq!(ink("fills.texture='regions'"), ink("fills.texture='off'"));
+}
+
+#[test]
+fn artist_lines_run_where_painted_colours_change() {
+    let scene = picnic();
+    let camera = Camera::azimuth_elevation(30.0, 25.0, scene.up).fit(&scene);
+    let eye = Eye::new(&camera);
+    let round = |p: Point, radius: f64| {
+        (0..16)
+            .map(move |k| p + kurbo::Vec2::from_angle(std::f64::consts::TAU * f64::from(k) / 16.0) * radius)
+    };
+    for style in ["ink", "toon"] {
+        let change = "lines.kinds=['contour','border','artist']".to_owned();
+        let style = Style::load(style, &[change]).unwrap();
+        let drawing = render(&scene, &camera, &style).unwrap();
+        let is_artist = |mark: &&Mark| mark.provenance.classes.contains(&LineKind::Artist.name());
+        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).filter(is_artist).flat_map(axis).collect();
+        assert!(drawn.len() > 50, "{} pieces", drawn.len());
+        for [a, b] in &drawn {
+            let p = a.midpoint(*b);
+            let mut seen: Vec<_> = round(p, 2.5).map(|q| truth(&eye, q)).collect();
+            seen.dedup();
+            assert!(seen.len() > 1, "a line at {p}, where nothing changes");
+        }
+        let all: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
+        let ink = Ink::new(all, 4.0);
+        let step = camera.width / 300.0;
+        for k in 0..300 * 300 {
+            let p = Point::new((k % 300) as f64 * step, (k / 300) as f64 * step);
+            if p.y < camera.height && truth(&eye, p) != truth(&eye, p + kurbo::Vec2::new(1.0, 0.0)) {
+                assert!(ink.distance(p) < 3.0, "no line at {p}");
+            }
+        }
+    }
+    // Colours that are near to each other have no line between them.
+    let far =
+        Style::load("ink", &["lines.kinds=['artist']".to_owned(), "lines.artist_tolerance=1".to_owned()])
+            .unwrap();
+    assert_eq!(ink_marks(&render(&scene, &camera, &far).unwrap()).count(), 0);
 }

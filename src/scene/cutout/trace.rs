@@ -21,7 +21,7 @@ type Side = (u32, u32, bool);
 /// Traces the borders of a mask, with what is opaque on their left (x to the right, y upwards); none if there are too many.
 pub(super) fn trace(mask: &Mask) -> Option<Traced> {
     let (reach, periods) = (mask.texels.reach(), mask.texels.periods());
-    Some(Traced { lines: lines(mask, reach)?, reach, periods })
+    Some(Traced { lines: lines(mask, reach)?, parted: Vec::new(), reach, periods })
 }
 
 /// The borders in the cells between so many texels and their neighbours, end to end.

@@ -96,6 +96,8 @@ fn wrapped(at: i64, count: i64, wrap: Wrap) -> usize {
 pub(crate) struct Traced {
     /// End to end. Those that are no rings end where three meet, or where the picture is repeated or goes on for ever.
     pub lines: Vec<Vec<DVec2>>,
+    /// The numbers of the two colours that each line parts, or empty.
+    pub parted: Vec<[u8; 2]>,
     /// How far the cells between texels reach, along x and along y.
     pub reach: [usize; 2],
     /// Where the same comes again, along x and along y.

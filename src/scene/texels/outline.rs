@@ -26,6 +26,8 @@ const MOST_SEGMENTS: usize = 100_000;
 #[derive(Debug)]
 pub(crate) struct Outline {
     pub segments: Vec<Segment>,
+    /// The numbers of the two colours that each of them parts.
+    parted: Vec<[u8; 2]>,
     /// Where the same comes again, along x and along y.
     periods: [Option<f64>; 2],
     across: [usize; 2],
@@ -36,18 +38,19 @@ pub(crate) struct Outline {
 impl Outline {
     /// Traced borders, which may lie this far beside where they are exactly, texels.
     pub fn new(traced: &Traced, tolerance: f64) -> Self {
-        let Traced { lines, reach, periods } = traced;
+        let Traced { lines, parted: of_lines, reach, periods } = traced;
         let (reach, periods) = (*reach, *periods);
-        let mut segments = Vec::new();
-        for line in lines {
+        let (mut segments, mut parted) = (Vec::new(), Vec::new());
+        for (number, line) in lines.iter().enumerate() {
             let mut line = thinned(line, tolerance);
             extend(&mut line, reach, periods);
             segments.extend(line.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[a, b]| a != b));
+            parted.resize(segments.len(), of_lines.get(number).copied().unwrap_or_default());
         }
         let across = reach.map(|count| (count / 4).clamp(1, MOST_CELLS));
         let cell = DVec2::new(reach[0] as f64 / across[0] as f64, reach[1] as f64 / across[1] as f64);
         let periods = periods.map(|period| period.map(|count| count as f64));
-        let mut outline = Self { segments, periods, across, cell, cells: Grouped::default() };
+        let mut outline = Self { segments, parted, periods, across, cell, cells: Grouped::default() };
         outline.cells = grouped(across[0] * across[1], |put| {
             for (number, [a, b]) in outline.segments.iter().enumerate() {
                 outline.each_cell(a.min(*b), a.max(*b), |cell| put(cell, number as u32));
@@ -75,6 +78,17 @@ impl Outline {
 
     /// The pieces of border that may lie in a box; none if there are too many.
     pub fn near(&self, low: DVec2, high: DVec2) -> Option<Vec<Segment>> {
+        self.near_as(low, high, |segment, _| segment)
+    }
+
+    /// The pieces of border that may lie in a box, each made something of together with the numbers of the two colours that it
+    /// parts; none if there are too many.
+    pub fn near_as<T>(
+        &self,
+        low: DVec2,
+        high: DVec2,
+        make: impl Fn(Segment, [u8; 2]) -> T,
+    ) -> Option<Vec<T>> {
         let turns = |axis: usize| match self.periods[axis] {
             Some(period) => ((low[axis] / period).floor() as i64, (high[axis] / period).floor() as i64),
             None => (0, 0),
@@ -100,8 +114,9 @@ impl Outline {
                 found.extend(
                     numbers
                         .iter()
-                        .map(|n| self.segments[*n as usize].map(|p| p + moved))
-                        .filter(|[a, b]| a.min(*b).cmple(high).all() && a.max(*b).cmpge(low).all()),
+                        .map(|n| (self.segments[*n as usize].map(|p| p + moved), self.parted[*n as usize]))
+                        .filter(|([a, b], _)| a.min(*b).cmple(high).all() && a.max(*b).cmpge(low).all())
+                        .map(|(segment, parted)| make(segment, parted)),
                 );
                 if found.len() > MOST_SEGMENTS {
                     return None;

@@ -20,7 +20,7 @@ enum Place {
 /// Traces the borders between colours; none if there are too many.
 pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
     let (reach, periods) = (labels.texels.reach(), labels.texels.periods());
-    let mut pieces: Vec<[(Place, DVec2); 2]> = Vec::new();
+    let mut pieces: Vec<Piece> = Vec::new();
     let columns: Vec<usize> = (0..=reach[0] as i64).map(|i| labels.texels.index(i, 0)).collect();
     for j in 0..reach[1] as u32 {
         let rows = [0, 1].map(|down| labels.texels.index(0, i64::from(j) + down));
@@ -39,14 +39,24 @@ pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
                 _ => Place::Side(i, j, true),
             };
             let end = |side: usize| Some((place(side), at + cell.crossing(side)?));
+            let parted = |side: usize| {
+                let [a, b] = [cell.colours[side], cell.colours[(side + 1) % 4]];
+                [a.min(b), a.max(b)]
+            };
             match cell.parting() {
                 Parting::Not => {}
                 Parting::Across(ways) => {
-                    pieces.extend(ways.iter().filter_map(|way| Some([end(way[0])?, end(way[1])?])));
+                    pieces.extend(ways.iter().filter_map(|way| {
+                        Some(Piece { ends: [end(way[0])?, end(way[1])?], parted: parted(way[0]) })
+                    }));
                 }
                 Parting::Meeting(middle) => {
                     let middle = (Place::Middle(i, j), at + middle);
-                    pieces.extend((0..4).filter_map(|side| Some([end(side)?, middle])));
+                    pieces.extend(
+                        (0..4).filter_map(|side| {
+                            Some(Piece { ends: [end(side)?, middle], parted: parted(side) })
+                        }),
+                    );
                 }
             }
         }
@@ -54,24 +64,32 @@ pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
             return None;
         }
     }
-    Some(Traced { lines: linked(&pieces), reach, periods })
+    let (lines, parted) = linked(&pieces);
+    Some(Traced { lines, parted, reach, periods })
 }
 
-/// Pieces end to end, from where three meet, or none goes on, to the next such place.
-fn linked(pieces: &[[(Place, DVec2); 2]]) -> Vec<Vec<DVec2>> {
+/// A piece of border in a cell.
+struct Piece {
+    ends: [(Place, DVec2); 2],
+    /// The two colours that it parts.
+    parted: [u8; 2],
+}
+
+/// Pieces end to end, from where three meet, or none goes on, to the next such place; and which colours each line parts.
+fn linked(pieces: &[Piece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
     let mut at: FxHashMap<Place, Vec<u32>> = FxHashMap::default();
     for (number, piece) in pieces.iter().enumerate() {
-        for (place, _) in piece {
-            at.entry(*place).or_default().push(number as u32);
+        for (place, _) in piece.ends {
+            at.entry(place).or_default().push(number as u32);
         }
     }
     let mut used = vec![false; pieces.len()];
-    let mut lines = Vec::new();
+    let (mut lines, mut parted) = (Vec::new(), Vec::new());
     let mut follow = |first: usize, backward: bool| {
         let mut line = Vec::new();
         let (mut number, mut backward) = (first, backward);
         while !std::mem::replace(&mut used[number], true) {
-            let piece = pieces[number];
+            let piece = pieces[number].ends;
             let [from, to] = if backward { [piece[1], piece[0]] } else { piece };
             if line.is_empty() {
                 line.push(from.1);
@@ -83,22 +101,23 @@ fn linked(pieces: &[[(Place, DVec2); 2]]) -> Vec<Vec<DVec2>> {
             };
             let Some(next) = next else { break };
             number = next as usize;
-            backward = pieces[number][0].0 != to.0;
+            backward = pieces[number].ends[0].0 != to.0;
         }
         if line.len() > 1 {
             lines.push(line);
+            parted.push(pieces[first].parted);
         }
     };
     // Lines that end anywhere first, then rings.
     for (number, piece) in pieces.iter().enumerate() {
-        for (end, (place, _)) in piece.iter().enumerate() {
+        for (end, (place, _)) in piece.ends.iter().enumerate() {
             if at.get(place).is_some_and(|there| there.len() != 2) {
                 follow(number, end == 1);
             }
         }
     }
     (0..pieces.len()).for_each(|number| follow(number, false));
-    lines
+    (lines, parted)
 }
 
 #[cfg(test)]
@@ -169,6 +188,13 @@ mod tests {
                 [(a + b) / 2.0 + across, (a + b) / 2.0 - across].map(|p| labels.at(p))
             };
             let pieces = || traced.lines.iter().flat_map(|line| line.windows(2));
+            // Every line knows its two colours.
+            for (line, parted) in traced.lines.iter().zip(&traced.parted) {
+                let long = line.windows(2).find(|pair| pair[0].distance(pair[1]) > 0.05);
+                let mut seen = long.map_or(*parted, |pair| beside(pair[0], pair[1]));
+                seen.sort_unstable();
+                assert_eq!(seen, *parted);
+            }
             let wrong = pieces().filter(|pair| {
                 let [left, right] = beside(pair[0], pair[1]);
                 pair[0].distance(pair[1]) > 0.05 && left == right

@@ -10,7 +10,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::tone_edges::segment;
-use super::{FeatureLines, Lit, NO_FACE};
+use super::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::field::SurfacePoint;
 use crate::math::tolerance;
 use crate::mesh::{FaceId, PaintId};
@@ -32,8 +32,9 @@ pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
             tracer.segments
         })
         .collect();
-    lines.append_in_faces(lit.mesh, found.into_iter().flatten(), |face, ends| {
-        segment(lit.mesh, face, [face, NO_FACE], ends)
+    let found = found.into_iter().flatten().map(|(face, ends)| (face, LineKind::Isophote, ends));
+    lines.append_in_faces(lit.mesh, found, |face, kind, ends| {
+        segment(lit.mesh, face, [face, NO_FACE], kind, ends)
     });
 }
 

@@ -123,19 +123,19 @@ impl FeatureLines {
     pub(super) fn append_in_faces(
         &mut self,
         mesh: &Mesh,
-        pieces: impl Iterator<Item = (u32, [DVec3; 2])>,
-        segment: impl Fn(u32, [u32; 2]) -> FeatureSegment,
+        pieces: impl Iterator<Item = (u32, LineKind, [DVec3; 2])>,
+        segment: impl Fn(u32, LineKind, [u32; 2]) -> FeatureSegment,
     ) {
         let first = mesh.positions.len();
         let mut ids: FxHashMap<[u64; 3], u32> = FxHashMap::default();
-        for (face, ends) in pieces {
+        for (face, kind, ends) in pieces {
             let ends = ends.map(|p| {
                 *ids.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
                     self.points.push(p);
                     (first + self.points.len() - 1) as u32
                 })
             });
-            self.segments.push(segment(face, ends));
+            self.segments.push(segment(face, kind, ends));
         }
     }
 

@@ -31,9 +31,7 @@ impl Lit<'_> {
     /// The paint at a point of a face.
     #[must_use]
     pub fn paint(&self, face: u32, at: DVec3) -> PaintId {
-        let shown = self.textures.on(self.mesh, face);
-        let shown = shown.and_then(|shown| shown.paint(self.mesh.weights(FaceId(face), at)));
-        shown.unwrap_or_else(|| self.mesh.paint(FaceId(face)))
+        self.textures.paint(self.mesh, face, at)
     }
 
     /// The point of a face with these barycentric weights, as light falls on the side that the eye

@@ -59,6 +59,10 @@ pub struct LineOptions {
     /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
     #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
+    /// Painted colours that are nearer to each other than this have no artist line between them: their distance in Oklab, in
+    /// which black and white are 1 apart. Default: 0.05.
+    #[serde(deserialize_with = "tolerance")]
+    pub artist_tolerance: f64,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
     /// How suggestive contours, ridges and valleys are found.
@@ -80,9 +84,20 @@ impl Default for LineOptions {
             contours: Contours::Auto,
             normals: Normals::Auto,
             crease_deg: 40.0,
+            artist_tolerance: 0.05,
             hidden: HiddenLines::None,
             inside: InsideOptions::default(),
         }
+    }
+}
+
+/// A distance of colours.
+fn tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let distance = f64::deserialize(deserializer)?;
+    if (0.0..=2.0).contains(&distance) {
+        Ok(distance)
+    } else {
+        Err(D::Error::custom(format!("{distance} is no distance of colours; write a number from 0 to 2")))
     }
 }
 

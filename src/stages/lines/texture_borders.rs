@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::isophotes::page_px;
 use super::textures::Textured;
 use super::tone_edges::segment;
-use super::{FeatureLines, Lit, NO_FACE};
+use super::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::mesh::FaceId;
 use crate::scene::texels::side::{TexelSide, turn};
 
@@ -18,28 +18,27 @@ pub fn find(lit: &Lit, lines: &mut FeatureLines) {
     const CHUNK: usize = 1 << 11;
     let px = page_px(lit);
     let count = lit.mesh.triangles.len();
-    let found: Vec<Vec<(u32, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
+    let found: Vec<Vec<(u32, LineKind, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
             let mut pieces = Vec::new();
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
                 let face = face as u32;
-                if lit.may_be_seen(face as usize) && !lit.mesh.is_degenerate(FaceId(face)) {
-                    if let Some(textured) = lit.textures.on(lit.mesh, face) {
-                        pieces.extend(on_face(lit, face, &textured, px).into_iter().map(|ends| (face, ends)));
-                    }
+                let is_seen = lit.may_be_seen(face as usize) && !lit.mesh.is_degenerate(FaceId(face));
+                if let Some(textured) = lit.textures.on(lit.mesh, face).filter(|_| is_seen) {
+                    pieces.extend(on_face(lit, face, &textured, px));
                 }
             }
             pieces
         })
         .collect();
-    lines.append_in_faces(lit.mesh, found.into_iter().flatten(), |face, ends| {
-        segment(lit.mesh, face, [face, NO_FACE], ends)
+    lines.append_in_faces(lit.mesh, found.into_iter().flatten(), |face, kind, ends| {
+        segment(lit.mesh, face, [face, NO_FACE], kind, ends)
     });
 }
 
 /// What lies on a face of the borders of its picture.
-fn on_face(lit: &Lit, face: u32, textured: &Textured, px: f64) -> Vec<[DVec3; 2]> {
+fn on_face(lit: &Lit, face: u32, textured: &Textured, px: f64) -> Vec<(u32, LineKind, [DVec3; 2])> {
     let corners = textured.corners;
     let vertices = lit.mesh.triangles[face as usize];
     // Both faces of a side cut it from the same end on.
@@ -55,7 +54,7 @@ fn on_face(lit: &Lit, face: u32, textured: &Textured, px: f64) -> Vec<[DVec3; 2]
     });
     let mut pieces = Vec::new();
     let mut met: Vec<(f64, [f64; 3])> = Vec::new();
-    for border in textured.borders() {
+    for (border, [a, b]) in textured.borders() {
         met.clear();
         for (side, [from, to]) in sides.iter().zip(ends) {
             if let Some((part, along)) = side.crossing(border) {
@@ -75,7 +74,9 @@ fn on_face(lit: &Lit, face: u32, textured: &Textured, px: f64) -> Vec<[DVec3; 2]
         }
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
         let at = |weights: [f64; 3]| lit.lifted(face, weights, px);
-        pieces.extend(met.chunks_exact(2).map(|pair| [at(pair[0].1), at(pair[1].1)]).filter(|[a, b]| a != b));
+        let found = met.chunks_exact(2).map(|pair| [at(pair[0].1), at(pair[1].1)]).filter(|[a, b]| a != b);
+        let kind = lit.textures.parting(a, b);
+        pieces.extend(found.map(|ends| (face, kind, ends)));
     }
     pieces
 }

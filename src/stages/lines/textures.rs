@@ -3,6 +3,8 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::{LineKind, LineOptions};
+use crate::math::oklab::{self, Oklab, distance2};
 use crate::mesh::{FaceId, Mesh, PaintId};
 use crate::scene::Paints;
 use crate::scene::texels::outline::{Outline, Segment};
@@ -14,6 +16,8 @@ use crate::view::View;
 pub struct Textures {
     /// By the number of the paint of what shows them.
     of_paint: Vec<Option<Shown>>,
+    /// How paints look, and how far two are apart that have a line between them; none where no such lines are wanted.
+    artist: Option<(Vec<Oklab>, f32)>,
     warnings: Vec<String>,
 }
 
@@ -36,8 +40,12 @@ pub(super) struct Textured<'a> {
 impl Textures {
     /// The pictures as they are seen on a mesh, with a px of so many user units.
     #[must_use]
-    pub fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64) -> Self {
+    pub fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64, options: &LineOptions) -> Self {
         let mut textures = Self::default();
+        if options.enabled && options.kinds.contains(&LineKind::Artist) {
+            let colours = paints.list.iter().map(|paint| oklab::of(paint.colour)).collect();
+            textures.artist = Some((colours, options.artist_tolerance as f32));
+        }
         let shown: Vec<(PaintId, Option<Shown>)> = paints
             .pictures
             .par_iter()
@@ -65,6 +73,21 @@ impl Textures {
     /// What could not be painted.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// The paint at a point of a face.
+    #[must_use]
+    pub fn paint(&self, mesh: &Mesh, face: u32, at: DVec3) -> PaintId {
+        let shown = self.on(mesh, face);
+        let shown = shown.and_then(|shown| shown.paint(mesh.weights(FaceId(face), at)));
+        shown.unwrap_or_else(|| mesh.paint(FaceId(face)))
+    }
+
+    /// What a line is that parts two paints of one material.
+    pub(super) fn parting(&self, a: PaintId, b: PaintId) -> LineKind {
+        let Some((colours, tolerance)) = &self.artist else { return LineKind::Isophote };
+        let [a, b] = [a, b].map(|paint| colours.get(paint.index()).copied().unwrap_or_default());
+        if distance2(a, b) > tolerance * tolerance { LineKind::Artist } else { LineKind::Isophote }
     }
 
     /// Whether any face shows a picture.
@@ -102,22 +125,21 @@ impl Textured<'_> {
         &self.shown.labels.paints
     }
 
-    /// The borders between colours that may lie on the face.
-    pub fn borders(&self) -> Vec<Segment> {
+    /// The borders between colours that may lie on the face, and the paints that each parts.
+    pub fn borders(&self) -> Vec<(Segment, [PaintId; 2])> {
         let [a, b, c] = self.corners;
-        self.shown.borders.near(a.min(b).min(c), a.max(b).max(c)).unwrap_or_default()
+        let paints = &self.shown.labels.paints;
+        let make =
+            |segment: Segment, parted: [u8; 2]| (segment, parted.map(|colour| paints[colour as usize]));
+        self.shown.borders.near_as(a.min(b).min(c), a.max(b).max(c), make).unwrap_or_default()
     }
 
     /// The paints that may be seen on the face.
     pub fn paints(&self) -> Vec<PaintId> {
         let [a, b, c] = self.corners;
-        let beside = |[p, q]: Segment| {
-            let (middle, across) = ((p + q) / 2.0, (q - p).perp().normalize_or_zero() * 0.05);
-            [middle + across, middle - across]
-        };
-        let places =
-            [a, b, c, (a + b + c) / 3.0].into_iter().chain(self.borders().into_iter().flat_map(beside));
-        let mut paints: Vec<PaintId> = places.filter_map(|p| self.shown.labels.paint_at(p)).collect();
+        let within = [a, b, c, (a + b + c) / 3.0].map(|p| self.shown.labels.paint_at(p));
+        let parted = self.borders().into_iter().flat_map(|(_, paints)| paints);
+        let mut paints: Vec<PaintId> = within.into_iter().flatten().chain(parted).collect();
         paints.sort_unstable();
         paints.dedup();
         paints

@@ -60,12 +60,18 @@ pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut Featu
     }
 }
 
-/// A piece of a tone border.
-pub(super) fn segment(mesh: &Mesh, face: u32, hosts: [u32; 2], ends: [u32; 2]) -> FeatureSegment {
+/// A piece of a line between two tones or paints.
+pub(super) fn segment(
+    mesh: &Mesh,
+    face: u32,
+    hosts: [u32; 2],
+    kind: LineKind,
+    ends: [u32; 2],
+) -> FeatureSegment {
     FeatureSegment {
         ends,
         hosts,
-        kind: LineKind::Isophote,
+        kind,
         both_seen: true,
         smooth: hosts[1] == NO_FACE,
         origin: Origin::default(),
@@ -92,7 +98,19 @@ fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<FeatureSegment> {
     };
     let faces = [first, second];
     let parts = faces.iter().all(is_real) && differ(lit, ends, faces, shadowed);
-    parts.then(|| segment(mesh, first, faces, ends))
+    parts.then(|| segment(mesh, first, faces, parting_kind(lit, ends, faces), ends))
+}
+
+/// What the line is on an edge that parts two faces.
+fn parting_kind(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> LineKind {
+    let mesh = lit.mesh;
+    let is_within = |[a, b]: [u32; 2]| {
+        mesh.face_part[a as usize] == mesh.face_part[b as usize]
+            && mesh.face_material[a as usize] == mesh.face_material[b as usize]
+    };
+    let middle = (mesh.positions[ends[0] as usize] + mesh.positions[ends[1] as usize]) / 2.0;
+    let [a, b] = faces.map(|face| lit.paint(face, middle));
+    if is_within(faces) { lit.textures.parting(a, b) } else { LineKind::Isophote }
 }
 
 /// What a face belongs to, and its paint.

@@ -121,7 +121,7 @@ fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
     segments.extend(parting.map(|edge| {
         let ends = [edge.start, edge.end].map(|end| on_grid(map.vertices[end.index()].position));
         let inside = |p: GridPoint| [p[0].clamp(0, right), p[1].clamp(0, bottom)];
-        let border = match (edge.kind == LineKind::Isophote, edge.smooth) {
+        let border = match (matches!(edge.kind, LineKind::Isophote | LineKind::Artist), edge.smooth) {
             (false, false) => Border::Hard,
             (false, true) => Border::Soft,
             (true, false) => Border::HardTone,
@@ -135,8 +135,8 @@ fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
 
 /// Whether the surface may look different on both sides of lines of a kind.
 fn may_part(kind: LineKind) -> bool {
-    use LineKind::{Border, Contour, Crease, Intersection, Isophote, Material};
-    matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote)
+    use LineKind::{Artist, Border, Contour, Crease, Intersection, Isophote, Material};
+    matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote | Artist)
 }
 
 /// What is seen at points of the image: for each a number in the table of looks, whose first entry
