@@ -11,6 +11,7 @@ use super::{pipeline, print};
 use crate::error::Error;
 use crate::math::colour::Colour;
 use crate::scene::framing::{bounds, world_points};
+use crate::scene::texture::picture_of;
 use crate::scene::{Alpha, LightKind, Projection, Scene, UpAxis};
 
 /// Entries of a list that are shown to people; programs get all.
@@ -53,6 +54,8 @@ struct PartInfo {
     name: String,
     triangles: u64,
     wires: u64,
+    /// Whether the file says where pictures lie on it.
+    texture_coordinates: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -60,6 +63,9 @@ struct MaterialInfo {
     name: String,
     colour: Colour,
     texture: Option<String>,
+    /// Pixels along x and y of the texture, if it can be read; also of one inside the model's file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    texture_size: Option<[usize; 2]>,
     /// `opaque`, `mask` or `blend`.
     alpha: &'static str,
     /// The least alpha that a mask leaves.
@@ -111,6 +117,7 @@ impl Info {
                     name: part.name.clone(),
                     triangles: geometry.map_or(0, |geometry| geometry.triangles.len() as u64),
                     wires: geometry.map_or(0, |geometry| geometry.wires.len() as u64),
+                    texture_coordinates: geometry.is_some_and(|geometry| !geometry.corner_uvs.is_empty()),
                 }
             })
             .collect();
@@ -126,7 +133,7 @@ impl Info {
             triangles: parts.iter().map(|part| part.triangles).sum(),
             vertices: points.len() as u64,
             parts,
-            materials: scene.materials.iter().map(MaterialInfo::of).collect(),
+            materials: scene.materials.iter().map(|material| MaterialInfo::of(scene, material)).collect(),
             lights: scene
                 .lights
                 .iter()
@@ -178,7 +185,7 @@ impl PartInfo {
 }
 
 impl MaterialInfo {
-    fn of(material: &crate::scene::Material) -> Self {
+    fn of(scene: &Scene, material: &crate::scene::Material) -> Self {
         let (alpha, cutoff) = match material.alpha {
             Alpha::Mask { cutoff } => ("mask", Some(cutoff)),
             Alpha::Blend => ("blend", None),
@@ -188,6 +195,9 @@ impl MaterialInfo {
             name: material.name.clone(),
             colour: material.colour,
             texture: material.texture.clone(),
+            texture_size: picture_of(scene, material)
+                .and_then(Result::ok)
+                .map(|picture| [picture.width, picture.height]),
             alpha,
             cutoff,
             opacity_map: material.opacity_map.clone(),
@@ -195,7 +205,12 @@ impl MaterialInfo {
     }
 
     fn line(&self) -> String {
-        let texture = self.texture.as_ref().map_or(String::new(), |file| format!(", texture {file}"));
+        let texture = match (&self.texture, self.texture_size) {
+            (Some(file), Some([width, height])) => format!(", texture {file}, {width} x {height} px"),
+            (Some(file), None) => format!(", texture {file}"),
+            (None, Some([width, height])) => format!(", texture inside the file, {width} x {height} px"),
+            (None, None) => String::new(),
+        };
         let alpha = match (self.alpha, self.cutoff) {
             (_, Some(cutoff)) => format!(", cut out below alpha {cutoff}"),
             ("blend", _) => ", blended".to_owned(),

@@ -1,4 +1,4 @@
-//! [`Picture`]: the pixels of a PNG or JPEG file.
+//! [`Picture`]: the pixels of a PNG, JPEG or WebP file.
 
 use std::io::Cursor;
 
@@ -27,7 +27,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Reads a PNG or JPEG file's bytes, whichever they are.
+    /// Reads a PNG, JPEG or WebP file's bytes, whichever they are; of one that moves, the first picture.
     ///
     /// # Errors
     /// Says in a few words what is wrong with the bytes.
@@ -36,8 +36,10 @@ impl Picture {
             decode_png(bytes)
         } else if bytes.starts_with(&JPEG) {
             decode_jpeg(bytes)
+        } else if is_webp(bytes) {
+            decode_webp(bytes)
         } else {
-            return Err("is neither PNG nor JPEG".to_owned());
+            return Err("is neither PNG, JPEG nor WebP".to_owned());
         };
         let picture = decoded.map_err(|error| format!("cannot be read as a picture ({error})"))?;
         if picture.width == 0 || picture.height == 0 {
@@ -106,6 +108,10 @@ impl Picture {
 const PNG: [u8; 4] = *b"\x89PNG";
 const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
 
+fn is_webp(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP")
+}
+
 fn is_too_large(width: usize, height: usize) -> bool {
     let side = GREATEST_SIDE as usize;
     width > side || height > side || width * height * 4 > GREATEST_MEMORY
@@ -139,6 +145,17 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Picture, String> {
     decoder.set_options(decoder.options().jpeg_set_out_colorspace(space));
     let samples = decoder.decode().map_err(|error| error.to_string())?;
     Picture::of_samples(width, height, &samples, channels)
+}
+
+fn decode_webp(bytes: &[u8]) -> Result<Picture, String> {
+    let mut decoder = image_webp::WebPDecoder::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
+    decoder.set_memory_limit(GREATEST_MEMORY);
+    let (width, height) = decoder.dimensions();
+    let (width, height) = (width as usize, height as usize);
+    let size = decoder.output_buffer_size().filter(|_| !is_too_large(width, height));
+    let mut samples = vec![0; size.ok_or("it is too large")?];
+    decoder.read_image(&mut samples).map_err(|error| error.to_string())?;
+    Picture::of_samples(width, height, &samples, if decoder.has_alpha() { 4 } else { 3 })
 }
 
 #[cfg(test)]
@@ -201,6 +218,16 @@ mod tests {
     }
 
     #[test]
+    fn pixels_of_a_webp() {
+        let mut bytes = Vec::new();
+        let encoder = image_webp::WebPEncoder::new(&mut bytes);
+        encoder.encode(&[9, 8, 7, 255, 250, 1, 2, 60], 2, 1, image_webp::ColorType::Rgba8).unwrap();
+        let picture = Picture::decode(&bytes).unwrap();
+        assert_eq!(picture.row(0), [Colour::rgb(9, 8, 7), Colour { r: 250, g: 1, b: 2, a: 60 }]);
+        assert!(Picture::decode(&bytes[..bytes.len() / 2]).unwrap_err().starts_with("cannot be read"));
+    }
+
+    #[test]
     fn pngs_of_every_depth_have_eight_bits() {
         let encoded = |colour: png::ColorType, depth: png::BitDepth, palette: &[u8], pixels: &[u8]| {
             let mut bytes = Vec::new();
@@ -231,7 +258,7 @@ mod tests {
 
     #[test]
     fn what_is_no_picture_is_named() {
-        assert_eq!(Picture::decode(b"hello").unwrap_err(), "is neither PNG nor JPEG");
+        assert_eq!(Picture::decode(b"hello").unwrap_err(), "is neither PNG, JPEG nor WebP");
         let whole = png(64, 64, &[7; 64 * 64 * 3]);
         assert!(Picture::decode(&whole[..whole.len() / 2]).unwrap_err().starts_with("cannot be read"));
     }

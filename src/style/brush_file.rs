@@ -101,5 +101,5 @@ fn outlines(bytes: &[u8]) -> Result<BezPath, String> {
 fn unfit(path: &Path, message: impl fmt::Display) -> Error {
     Error::new(format!("the brush {message}"))
         .in_file(path)
-        .remedy("give an SVG file with a filled path, or a PNG or JPEG picture of a stroke")
+        .remedy("give an SVG file with a filled path, or a PNG, JPEG or WebP picture of a stroke")
 }

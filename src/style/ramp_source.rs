@@ -102,7 +102,7 @@ fn picture(path: &Path) -> Result<Picture, Error> {
 fn unfit(path: &Path, message: impl fmt::Display) -> Error {
     Error::new(format!("the picture of tones {message}"))
         .in_file(path)
-        .remedy("give a small PNG or JPEG whose pixels are tones")
+        .remedy("give a small PNG, JPEG or WebP whose pixels are tones")
 }
 
 impl<'de> Deserialize<'de> for RampSource {

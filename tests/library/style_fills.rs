@@ -167,5 +167,5 @@ fn mistakes_are_named() {
     assert!(error.contains("tones/lost.png: cannot read the picture of tones"), "{error}");
     folder.write("tones/lost.png", b"GIF89a");
     let error = Style::load(&sheet, &[]).unwrap_err().to_string();
-    assert!(error.contains("neither PNG nor JPEG"), "{error}");
+    assert!(error.contains("neither PNG, JPEG nor WebP"), "{error}");
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 /// The top level.
 #[derive(Debug, Default, Deserialize)]
@@ -281,6 +282,7 @@ pub struct Material {
     pub name: Option<String>,
     pub pbr_metallic_roughness: Pbr,
     pub emissive_factor: [f32; 3],
+    pub emissive_texture: Option<IgnoredAny>,
     pub double_sided: bool,
     pub alpha_mode: Option<String>,
     pub alpha_cutoff: Option<f32>,

@@ -20,7 +20,9 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
         let texture = base_texture(material).and_then(|texture| image(texture, buffers, fetch, warnings));
         let (texture, picture) = texture.unwrap_or_default();
         let base = base_colour(material);
-        let [r, g, b] = material.emissive_factor;
+        // What is lit from within by a picture is dark elsewhere, and a picture of lights is not read.
+        let [r, g, b] =
+            material.emissive_factor.map(|c| if material.emissive_texture.is_some() { 0.0 } else { c });
         Material {
             name: material.name.clone().unwrap_or_default(),
             colour: Colour::from_linear(with_alpha_mode(base, material)),
@@ -169,6 +171,8 @@ mod tests {
         assert!(materials[1].double_sided);
         assert_eq!(materials[2].colour, Colour { r: 0, g: 0, b: 255, a: 128 });
         assert_eq!(materials[2].emissive, Colour::rgb(0, 255, 0));
+        let (lamps, _) = read(r#"{"materials":[{"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}}]}"#);
+        assert_eq!(lamps[0].emissive, Colour::BLACK);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::painted::Guess;
+use super::guess::Guess;
 use crate::math::oklab::{Oklab, distance2};
 use crate::scene::texels::Texels;
 

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::painted::Guess;
+use super::guess::Guess;
 use crate::math::function;
 use crate::mesh::PaintId;
 use crate::scene::texels::Texels;

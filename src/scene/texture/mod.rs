@@ -1,6 +1,7 @@
 //! [`Texture`]: the picture of a base colour, and what of it is painted.
 
 mod blends;
+mod guess;
 mod labels;
 pub mod options;
 mod painted;
@@ -19,7 +20,7 @@ pub(crate) use trace::trace;
 use self::swatches::{ALIKE, difference};
 use super::beside::read_beside;
 use super::texels::Texels;
-use super::{Material, Scene};
+use super::{Alpha, Material, Scene};
 use crate::math::colour::Colour;
 use crate::math::oklab;
 use crate::math::picture::Picture;
@@ -35,7 +36,7 @@ pub(super) struct Texture {
 const LOOKS: f64 = 48.0;
 
 impl Texture {
-    /// The texture of a material; none if it has none or if it is not PNG or JPEG, an error if it
+    /// The texture of a material; none if it has none or if it is not PNG, JPEG or WebP, an error if it
     /// cannot be read.
     pub fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
         let picture = picture_of(scene, material)?;
@@ -81,9 +82,20 @@ impl Texture {
         self.picture.pixels[texel]
     }
 
-    /// On how much of the surface of a material each texel is seen.
+    /// On how much of the surface of a material each texel is seen: none of those that are clear.
     pub fn shown(&self, scene: &Scene, material: usize) -> Vec<f32> {
-        shown::shown(scene, material, &self.texels)
+        let mut shown = shown::shown(scene, material, &self.texels);
+        let least = match scene.materials.get(material).map(|material| material.alpha) {
+            Some(Alpha::Mask { cutoff }) => cutoff * 255.0,
+            Some(Alpha::Blend) => 127.5,
+            Some(Alpha::Opaque) | None => return shown,
+        };
+        for (shown, colour) in shown.iter_mut().zip(&self.picture.pixels) {
+            if f32::from(colour.a) < least {
+                *shown = 0.0;
+            }
+        }
+        shown
     }
 
     /// At most so many colours that stand for all that is seen.
@@ -107,7 +119,7 @@ impl Texture {
 const MOST_TEXELS: usize = 1 << 22;
 
 /// The picture of a material's base colour; none if it has none, an error if it cannot be read.
-pub(super) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Picture, String>> {
+pub(crate) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Picture, String>> {
     match (&material.picture, &material.texture) {
         (Some(bytes), _) => Some(Picture::decode(bytes)),
         (None, Some(path)) => beside(scene, path),

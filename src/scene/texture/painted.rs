@@ -5,11 +5,11 @@ use std::collections::VecDeque;
 use rayon::prelude::*;
 
 use super::blends;
+use super::guess::Guess;
 use super::labels::Labels;
-use super::palette::closest;
 use super::specks;
 use crate::math::colour::Colour;
-use crate::math::oklab::{self, Oklab, distance2, linear_table};
+use crate::math::oklab::{self, Oklab, linear_table};
 use crate::mesh::PaintId;
 use crate::scene::texels::Texels;
 
@@ -87,7 +87,7 @@ impl Painted {
     /// For each texel the colour it is nearest to, the next nearest, and how far it lies on the way to that, 0 to 1/2. What is
     /// seen nowhere is like what is seen beside it.
     fn guesses(&self, texels: &Texels, labs: &[Option<Oklab>]) -> Vec<Guess> {
-        let of = |lab: &Option<Oklab>| Some(self.guess((*lab)?));
+        let of = |lab: &Option<Oklab>| Some(Guess::of((*lab)?, &self.palette));
         let known: Vec<Option<Guess>> = labs.par_iter().with_min_len(1 << 12).map(of).collect();
         let mut open: VecDeque<usize> = (0..known.len()).filter(|k| known[*k].is_some()).collect();
         let mut guesses: Vec<Guess> = known
@@ -104,28 +104,4 @@ impl Painted {
         }
         guesses
     }
-
-    fn guess(&self, lab: Oklab) -> Guess {
-        let nearest = closest(&self.palette, lab);
-        let mut second = (nearest, f32::INFINITY);
-        for (k, colour) in self.palette.iter().enumerate() {
-            let far = distance2(*colour, lab);
-            if k != nearest && far < second.1 {
-                second = (k, far);
-            }
-        }
-        let (a, b) = (self.palette[nearest], self.palette[second.0]);
-        let along: f32 = (0..3).map(|c| (lab[c] - a[c]) * (b[c] - a[c])).sum();
-        let way = if second.0 == nearest { 0.0 } else { (along / distance2(a, b)).clamp(0.0, 0.5) };
-        Guess { nearest: nearest as u8, second: second.0 as u8, way }
-    }
-}
-
-/// Between which colours that of a texel lies.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Guess {
-    pub nearest: u8,
-    pub second: u8,
-    /// How far on the way from the nearest to the second.
-    pub way: f32,
 }

@@ -81,7 +81,7 @@ mod tests {
     use crate::mesh::PaintId;
     use crate::scene::material::Wrap;
     use crate::scene::texels::Texels;
-    use crate::scene::texture::painted::Guess;
+    use crate::scene::texture::guess::Guess;
 
     #[test]
     fn specks_take_the_colour_around_them_over_seams_too() {

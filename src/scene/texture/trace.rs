@@ -126,7 +126,7 @@ mod tests {
     use crate::mesh::PaintId;
     use crate::scene::material::Wrap;
     use crate::scene::texels::Texels;
-    use crate::scene::texture::painted::Guess;
+    use crate::scene::texture::guess::Guess;
 
     fn labels(size: [usize; 2], wrap: Wrap, blur: f64, of: impl Fn(DVec2) -> (u8, u8, f32)) -> Labels {
         let at = |k: usize| DVec2::new((k % size[0]) as f64, (k / size[0]) as f64);

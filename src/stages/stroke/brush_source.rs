@@ -40,7 +40,7 @@ impl BrushChange {
 /// A brush in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BrushSource {
-    /// An SVG file, whose paths are the brush, or a PNG or JPEG picture.
+    /// An SVG file, whose paths are the brush, or a PNG, JPEG or WebP picture.
     pub file: PathBuf,
     /// Whether it is a picture.
     pub is_image: bool,
