@@ -98,7 +98,13 @@ pub const BIN_PX: f64 = 0.3;
 /// Between two tones of a hatching the light may be off by this much.
 pub const BIN_VALUE: f64 = 1e-3;
 
-/// How far points are left out of borders that only hatching has, px.
+/// With more levels than this tones are a gradient, whose steps nobody sees one by one.
+pub const FEW_LEVELS: usize = 16;
+
+/// Where a tone of a gradient is this near to a level, its border is found.
+pub const GRADIENT_VALUE: f64 = 1e-5;
+
+/// How far points are left out of borders that only hatching has, or that are steps of a gradient, px.
 pub const THIN_BIN_PX: f64 = 0.1;
 
 /// Regions are cut on a grid of this many steps along the longer side of the frame.

@@ -107,11 +107,12 @@ impl Shading {
         self.channels.iter().position(|channel| *channel == Channel::Shade)
     }
 
-    /// Whether any surface falls into several tones, beside the bins of its hatching.
+    /// The most levels that any surface has in a channel, beside the bins of its hatching; 0 where none falls into several tones.
     #[must_use]
-    pub fn has_tones(&self) -> bool {
+    pub fn most_levels(&self) -> usize {
         let others = || (0..self.channels.len()).filter(|channel| self.bins() != Some(*channel));
-        self.tones.iter().any(|tones| others().any(|channel| !tones.levels(channel).is_empty()))
+        let of = |tones: &Tones| others().map(|channel| tones.levels(channel).len()).max();
+        self.tones.iter().filter_map(of).max().unwrap_or_default()
     }
 
     /// Light from one direction on light grey, with levels on max(L·n, 0).

@@ -172,6 +172,8 @@ impl<'a> Tracer<'a> {
                 // Strokes of a hatching end there, one by one: less will do.
                 let (near, exact) = if shading.bins() == Some(channel) {
                     (tolerance::BIN_PX, tolerance::BIN_VALUE)
+                } else if levels.len() > tolerance::FEW_LEVELS {
+                    (tolerance::BIN_PX, tolerance::GRADIENT_VALUE)
                 } else {
                     (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
                 };

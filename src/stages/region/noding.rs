@@ -9,6 +9,8 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use crate::math::grouped::{Grouped, grouped};
+
 /// A point of the grid.
 pub(super) type GridPoint = [i64; 2];
 
@@ -58,11 +60,11 @@ pub(super) struct Noded {
 /// one of both out.
 const MOST_ROUNDS: u32 = 16;
 
-/// Pieces in a tile, on average.
-const PIECES_A_TILE: usize = 4;
+/// Pieces in a tile, on average over the page, much of which is empty.
+const PIECES_A_TILE: usize = 1;
 
 /// Most tiles across.
-const MOST_TILES: usize = 400;
+const MOST_TILES: usize = 1000;
 
 /// A point this near to a piece (steps of the grid, squared) lies on it.
 const ON_PIECE: f64 = 0.5;
@@ -172,15 +174,19 @@ impl Noder {
     /// One round; whether anything was cut.
     fn cut(&mut self) -> bool {
         let tiles = Tiles::new(&self.points, &self.pieces);
-        let found: Vec<Vec<(u32, GridPoint)>> = tiles
-            .pieces
-            .par_iter()
+        let is_fresh = |piece: &u32| self.fresh[*piece as usize];
+        let found: Vec<Vec<(u32, GridPoint)>> = (0..tiles.pieces.count())
+            .into_par_iter()
             .with_min_len(256)
             .map(|tile| {
+                let tile = tiles.pieces.of(tile);
                 let mut cuts = Vec::new();
+                if !tile.iter().any(is_fresh) {
+                    return cuts;
+                }
                 for (k, i) in tile.iter().enumerate() {
                     for j in &tile[k + 1..] {
-                        if self.fresh[*i as usize] || self.fresh[*j as usize] {
+                        if is_fresh(i) || is_fresh(j) {
                             self.meet(*i, *j, &mut cuts);
                         }
                     }
@@ -286,7 +292,7 @@ fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint) {
 
 /// Pieces by the tiles of the page that they pass.
 struct Tiles {
-    pieces: Vec<Vec<u32>>,
+    pieces: Grouped<u32>,
     low: GridPoint,
     size: GridPoint,
     across: i64,
@@ -299,9 +305,8 @@ impl Tiles {
         let across = ((pieces.len() / PIECES_A_TILE) as f64).sqrt() as usize;
         let across = across.clamp(1, MOST_TILES) as i64;
         let size = [0, 1].map(|k| ((high[k] - low[k]) / across + 1).max(1));
-        let mut tiles = vec![Vec::new(); (across * across) as usize];
         let tile = |x: i64, k: usize| ((x - low[k]) / size[k]).clamp(0, across - 1);
-        for (i, piece) in pieces.iter().enumerate() {
+        let each_tile = |piece: &NodedPiece, call: &mut dyn FnMut(usize)| {
             let [mut a, mut b] = piece.ends.map(|end| points[end as usize]);
             if a[1] > b[1] {
                 std::mem::swap(&mut a, &mut b);
@@ -317,22 +322,27 @@ impl Tiles {
                 let (x, y) = if a[1] == b[1] { (a[0] as f64, b[0] as f64) } else { (at(top), at(bottom)) };
                 let from = tile(x.min(y).floor() as i64 - 2, 0);
                 for column in from..=tile(x.max(y).ceil() as i64 + 2, 0) {
-                    tiles[(row * across + column) as usize].push(i as u32);
+                    call((row * across + column) as usize);
                 }
             }
-        }
-        Self { pieces: tiles, low, size, across }
+        };
+        let pieces = grouped((across * across) as usize, |put| {
+            for (number, piece) in pieces.iter().enumerate() {
+                each_tile(piece, &mut |tile| put(tile, number as u32));
+            }
+        });
+        Self { pieces, low, size, across }
     }
 
     /// The tiles within `reach` of a point.
-    fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = &Vec<u32>> {
+    fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = &[u32]> {
         let reach = reach.ceil() as i64;
         let tile = |x: i64, k: usize| ((x - self.low[k]) / self.size[k]).clamp(0, self.across - 1);
         let range = |k: usize| tile(p[k] - reach, k)..=tile(p[k] + reach, k);
         let columns = range(0);
         let tiles =
             range(1).flat_map(move |row| columns.clone().map(move |column| row * self.across + column));
-        tiles.map(|tile| &self.pieces[tile as usize])
+        tiles.map(|tile| self.pieces.of(tile as usize))
     }
 }
 
