@@ -99,7 +99,7 @@ pub const BIN_PX: f64 = 0.3;
 pub const BIN_VALUE: f64 = 1e-3;
 
 /// With more levels than this tones are a gradient, whose steps nobody sees one by one.
-pub const FEW_LEVELS: usize = 16;
+pub const FEW_LEVELS: usize = 64;
 
 /// Where a tone of a gradient is this near to a level, its border is found.
 pub const GRADIENT_VALUE: f64 = 1e-5;
