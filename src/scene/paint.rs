@@ -142,7 +142,8 @@ impl Paints {
     ) {
         let seen: Vec<(Colour, bool)> =
             triangles.iter().filter_map(|own| Some((own.shown?, own.spread < ALIKE))).collect();
-        let shown = texture.shown(scene, material);
+        let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
+        let shown = texture.shown(scene, material, &places);
         let swatches = of_palette(&seen);
         let mut colours = match &swatches {
             Some(swatches) => swatches.clone(),

@@ -82,9 +82,10 @@ impl Texture {
         self.picture.pixels[texel]
     }
 
-    /// On how much of the surface of a material each texel is seen: none of those that are clear.
-    pub fn shown(&self, scene: &Scene, material: usize) -> Vec<f32> {
-        let mut shown = shown::shown(scene, material, &self.texels);
+    /// On how much of the surface of a material each texel is seen: none of those that are clear. `triangles` are those that
+    /// show the picture: the geometry of each, in ascending order, and its number there.
+    pub fn shown(&self, scene: &Scene, material: usize, triangles: &[[usize; 2]]) -> Vec<f32> {
+        let mut shown = shown::shown(scene, triangles, &self.texels);
         let least = match scene.materials.get(material).map(|material| material.alpha) {
             Some(Alpha::Mask { cutoff }) => cutoff * 255.0,
             Some(Alpha::Blend) => 127.5,

@@ -8,9 +8,9 @@ use crate::scene::texels::Texels;
 /// No more texels are visited one by one; the rest of the surface counts for all alike.
 const MOST_VISITS: usize = 1 << 26;
 
-/// For each texel the area of the surface of a material on which it shows, in world units; zero for those that are seen
-/// nowhere.
-pub(super) fn shown(scene: &Scene, material: usize, texels: &Texels) -> Vec<f32> {
+/// For each texel the area of the surface on which it shows, in world units; zero for those that are seen nowhere. `triangles`
+/// are those that show the picture: the geometry of each, in ascending order, and its number there.
+pub(super) fn shown(scene: &Scene, triangles: &[[usize; 2]], texels: &Texels) -> Vec<f32> {
     let count = texels.size[0] * texels.size[1];
     let mut shown = vec![0.0_f32; count];
     let mut everywhere = 0.0;
@@ -20,11 +20,10 @@ pub(super) fn shown(scene: &Scene, material: usize, texels: &Texels) -> Vec<f32>
         let position = |corner: u32| {
             geometry.positions.get(corner as usize).map(|p| part.world_from_part.transform_point3(*p))
         };
-        for (triangle, uvs) in geometry.corner_uvs.iter().enumerate() {
-            let own = geometry.material_of(triangle).map_or(scene.materials.len(), |id| id as usize);
-            if own != material {
-                continue;
-            }
+        let first = triangles.partition_point(|[own, _]| *own < part.geometry);
+        let own = triangles[first..].iter().take_while(|[own, _]| *own == part.geometry);
+        for triangle in own.map(|[_, triangle]| *triangle) {
+            let Some(uvs) = geometry.corner_uvs.get(triangle) else { continue };
             let [a, b, c] = uvs.map(|uv| texels.place(*geometry.uvs.get(uv as usize)?));
             let (Some(a), Some(b), Some(c)) = (a, b, c) else { continue };
             let [p, q, r] = geometry.triangles[triangle].map(position);

@@ -13,23 +13,18 @@ pub(super) fn merge(labels: &mut Labels, least: f64) {
     }
 }
 
-const UNKNOWN: u32 = u32::MAX;
-
 fn merge_once(labels: &mut Labels, least: f64) -> bool {
     let texels = labels.texels;
     let count = texels.size[0] * texels.size[1];
-    let mut set = vec![UNKNOWN; count];
+    let mut is_known = vec![false; count];
     let mut small: Vec<Vec<usize>> = Vec::new();
-    let mut sizes: Vec<usize> = Vec::new();
     let mut open = Vec::new();
     let mut own = Vec::new();
     for first in 0..count {
-        if set[first] != UNKNOWN {
+        if std::mem::replace(&mut is_known[first], true) {
             continue;
         }
-        let number = sizes.len() as u32;
         let colour = labels.winner(first);
-        set[first] = number;
         open.push(first);
         own.clear();
         let mut size = 0;
@@ -39,13 +34,12 @@ fn merge_once(labels: &mut Labels, least: f64) -> bool {
                 own.push(texel);
             }
             for next in texels.beside(texel) {
-                if set[next] == UNKNOWN && labels.winner(next) == colour {
-                    set[next] = number;
+                if !is_known[next] && labels.winner(next) == colour {
+                    is_known[next] = true;
                     open.push(next);
                 }
             }
         }
-        sizes.push(size);
         if (size as f64) < least {
             small.push(own.clone());
         }

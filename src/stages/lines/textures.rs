@@ -46,11 +46,15 @@ impl Textures {
             let colours = paints.list.iter().map(|paint| oklab::of(paint.colour)).collect();
             textures.artist = Some((colours, options.artist_tolerance as f32));
         }
+        if paints.pictures.is_empty() {
+            return textures;
+        }
+        let scales = texels_per_px(mesh, view, &paints.pictures, px);
         let shown: Vec<(PaintId, Option<Shown>)> = paints
             .pictures
             .par_iter()
-            .map(|(paint, painted)| {
-                let texels_per_px = texels_per_px(mesh, view, *paint, painted, px);
+            .zip(scales)
+            .map(|((paint, painted), texels_per_px)| {
                 let labels = painted.labels(texels_per_px);
                 let per_px = texels_per_px * labels.texels.size[0] as f64 / painted.texels().size[0] as f64;
                 let near = if per_px.is_finite() { (NEAR_PX * per_px).clamp(0.005, 0.5) } else { 0.1 };
@@ -153,11 +157,17 @@ fn texels(mesh: &Mesh, face: u32, place: impl Fn([f32; 2]) -> Option<DVec2>) -> 
     Some([a?, b?, c?])
 }
 
-/// How many texels of a picture lie along a px where it turns to the eye, in the mean over what is seen of the page.
-fn texels_per_px(mesh: &Mesh, view: &View, paint: PaintId, painted: &Painted, px: f64) -> f64 {
+/// How many texels of each picture lie along a px where it turns to the eye, in the mean over what is seen of the page.
+fn texels_per_px(mesh: &Mesh, view: &View, pictures: &[(PaintId, Painted)], px: f64) -> Vec<f64> {
     let (width, height) = (view.frame.width, view.frame.height);
-    let of_face = |face: usize| -> Option<[f64; 2]> {
-        if mesh.paint(FaceId(face as u32)) != paint || !view.facing[face] {
+    let last = pictures.iter().map(|(paint, _)| paint.index()).max().unwrap_or_default();
+    let mut of_paint = vec![None; last + 1];
+    for (number, (paint, _)) in pictures.iter().enumerate() {
+        of_paint[paint.index()] = Some(number);
+    }
+    let of_face = |face: usize| -> Option<(usize, [f64; 2])> {
+        let number = (*of_paint.get(mesh.paint(FaceId(face as u32)).index())?)?;
+        if !view.facing[face] {
             return None;
         }
         let [p, q, r] = mesh.triangles[face].map(|v| view.points[v as usize]);
@@ -165,13 +175,15 @@ fn texels_per_px(mesh: &Mesh, view: &View, paint: PaintId, painted: &Painted, px
         if is_out(p) && is_out(q) && is_out(r) {
             return None;
         }
-        let [a, b, c] = texels(mesh, face as u32, |uv| painted.texels().place(uv))?;
+        let [a, b, c] = texels(mesh, face as u32, |uv| pictures[number].1.texels().place(uv))?;
         let on_page = (q - p).truncate().perp_dot((r - p).truncate()).abs();
         let in_texels = (b - a).perp_dot(c - a).abs();
-        (on_page.is_finite()).then_some([in_texels, on_page / (px * px)])
+        (on_page.is_finite()).then_some((number, [in_texels, on_page / (px * px)]))
     };
-    let add = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+    let mut sums = vec![[0.0_f64; 2]; pictures.len()];
     // One after another, so that sums are the same with any number of threads.
-    let [texels, page] = (0..mesh.triangles.len()).filter_map(of_face).fold([0.0; 2], add);
-    if page > 0.0 { (texels / page).sqrt() } else { 1.0 }
+    for (number, areas) in (0..mesh.triangles.len()).filter_map(of_face) {
+        sums[number].iter_mut().zip(areas).for_each(|(sum, area)| *sum += area);
+    }
+    sums.iter().map(|[texels, page]| if *page > 0.0 { (texels / page).sqrt() } else { 1.0 }).collect()
 }
