@@ -7,7 +7,7 @@ use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{number, pipeline, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
-use crate::render::{Report, Stopwatch, render_reported};
+use crate::render::{MapFiles, Prepared, Report, Stopwatch};
 use crate::scene::Scene;
 
 /// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
@@ -22,6 +22,7 @@ struct Drawn {
     report: Report,
     /// One an output, in their order.
     encoded: Vec<Vec<u8>>,
+    maps: Option<MapFiles>,
 }
 
 /// Draws, and says so in one line an output.
@@ -32,6 +33,12 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     }
     if let Some(report) = request.report.as_ref().filter(|path| !is_stdout(path)) {
         check_place(report)?;
+    }
+    if let Some(folder) = request.maps.as_ref().filter(|folder| !folder.is_dir()) {
+        check_place(folder)?;
+        if folder.exists() {
+            return Err(Error::new("this is no folder").in_file(folder).remedy("name a folder for the maps"));
+        }
     }
     let mut drawn = pipeline::in_threads(request.threads, || draw(request, &mut watch))??;
     refuse_warnings(request, &drawn.report)?;
@@ -64,8 +71,13 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     progress.step("drawing");
     let Viewpoint { camera, paper, warning } = viewpoint(&request.view, &request.sheet, &scene)?;
     let page = Page { background: style.background, ..paper.page() };
-    let (drawing, mut report) = render_reported(&scene, &camera, &style, page, request.stage)?;
+    watch.lap_ms();
+    let prepared = Prepared::new(&scene, &style);
+    let preparing_ms = watch.lap_ms();
+    let (drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
     report.stages_ms.load = load_ms;
+    report.stages_ms.topology += preparing_ms;
+    let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
     report.counts.triangles = triangles(&scene);
     report.counts.paths = paths(&drawing);
     for warning in scene.warnings.lines().into_iter().chain(warning) {
@@ -92,7 +104,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
         })
     });
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
-    Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded })
+    Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded, maps })
 }
 
 fn default_dpi(unit: Unit) -> f64 {
@@ -135,6 +147,12 @@ fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Res
     }
     drawn.report.counts.bytes_out = drawn.encoded.iter().map(|bytes| bytes.len() as u64).sum();
     drawn.report.stages_ms.write = watch.lap_ms();
+    if let (Some(folder), Some(maps)) = (&request.maps, &drawn.maps) {
+        staging.make_folder(folder)?;
+        for (name, bytes) in maps.named() {
+            staging.add(&folder.join(name), bytes)?;
+        }
+    }
     let mut printed = None;
     if let Some(path) = &request.report {
         let json = drawn.report.to_json();
@@ -190,6 +208,7 @@ mod tests {
             seen: View::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
             report: Report { counts, ..Report::default() },
             encoded: Vec::new(),
+            maps: None,
         };
         assert_eq!(
             summary(&drawn, 18_249, 0.031),

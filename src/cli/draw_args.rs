@@ -38,6 +38,11 @@ pub(super) struct DrawArgs {
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) report: Option<PathBuf>,
 
+    /// Write the maps of the view that lines in the image are found in, into this folder: normal.png, depth.png (16 bits),
+    /// edges.png and parts.png
+    #[arg(long, value_name = "FOLDER", help_heading = "Output")]
+    pub(super) maps: Option<PathBuf>,
+
     /// Draw what a stage of the pipeline made, each thing in its own colour: docs/stages.md
     #[arg(long, value_name = "NAME", help_heading = "Output",
         value_parser = PossibleValuesParser::new(Stage::ALL.map(Stage::name))

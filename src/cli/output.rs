@@ -93,6 +93,8 @@ pub(super) fn check_place(path: &Path) -> Result<(), Error> {
 #[derive(Debug, Default)]
 pub(super) struct Staging {
     files: Vec<Staged>,
+    /// Folders that were not there before.
+    folders: Vec<PathBuf>,
 }
 
 #[derive(Debug)]
@@ -133,6 +135,15 @@ impl Staging {
         Ok(())
     }
 
+    /// Makes a folder, unless it is there already.
+    pub(super) fn make_folder(&mut self, path: &Path) -> Result<(), Error> {
+        if !path.is_dir() {
+            fs::create_dir(path).map_err(|error| cannot_write(path, error))?;
+            self.folders.push(path.to_path_buf());
+        }
+        Ok(())
+    }
+
     /// Puts all files in their places.
     pub(super) fn commit(mut self) -> Result<(), Error> {
         while let Some(file) = self.files.first() {
@@ -148,6 +159,10 @@ impl Drop for Staging {
         for file in &self.files {
             // Nothing more can be done about a file that cannot be removed.
             let _ = fs::remove_file(&file.written);
+        }
+        for folder in &self.folders {
+            // One that holds files stays.
+            let _ = fs::remove_dir(folder);
         }
     }
 }
@@ -225,6 +240,24 @@ mod tests {
         drop(staging);
         assert_eq!(fs::read(&old)?, b"before");
         assert_eq!(names(&folder)?, ["old.svg"]);
+        fs::remove_dir_all(folder)?;
+        Ok(())
+    }
+
+    #[test]
+    fn a_folder_made_for_nothing_goes_again() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = folder("made")?;
+        let made = folder.join("maps");
+        let mut staging = Staging::default();
+        staging.make_folder(&made)?;
+        staging.add(&made.join("a.png"), b"a")?;
+        drop(staging);
+        assert!(!made.exists());
+        let mut staging = Staging::default();
+        staging.make_folder(&made)?;
+        staging.add(&made.join("a.png"), b"a")?;
+        staging.commit()?;
+        assert_eq!(names(&made)?, ["a.png"]);
         fs::remove_dir_all(folder)?;
         Ok(())
     }

@@ -8,7 +8,7 @@ use super::viewpoint::{Lens, Sheet, View};
 use crate::drawing::Unit;
 use crate::error::Error;
 use crate::math::colour::Colour;
-use crate::render::Stage;
+use crate::render::{MapFiles, Stage};
 use crate::scene::UpAxis;
 
 /// One drawing to be made, in one or several formats.
@@ -18,6 +18,8 @@ pub(super) struct DrawRequest {
     /// At least one; no two to the same place.
     pub(super) outputs: Vec<Output>,
     pub(super) report: Option<PathBuf>,
+    /// A folder for the maps of the view.
+    pub(super) maps: Option<PathBuf>,
     pub(super) style: String,
     pub(super) sets: Vec<String>,
     /// In place of the style's, which `None` leaves.
@@ -56,9 +58,9 @@ impl DrawRequest {
             paths.push(beside_here(&args.model));
         }
         let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
-        check_apart(&args.model, &outputs, args.report.as_deref())?;
+        check_apart(&args.model, &outputs, args.report.as_deref(), args.maps.as_deref())?;
         let request = Self::of_model(args.model, args.how)?;
-        Ok(Self { outputs, report: args.report, stage: args.stage, ..request })
+        Ok(Self { outputs, report: args.report, maps: args.maps, stage: args.stage, ..request })
     }
 
     /// What is meant by a model and how it is drawn: SVG on standard output.
@@ -88,6 +90,7 @@ impl DrawRequest {
             model,
             outputs: vec![Output { path: PathBuf::from("-"), format: Format::SvgToStdout }],
             report: None,
+            maps: None,
             style: args.style,
             sets: args.sets.into_iter().chain(args.seed.map(|seed| format!("seed={seed}"))).collect(),
             background: args.background.map(|background| background.0),
@@ -117,11 +120,19 @@ fn beside_here(model: &Path) -> PathBuf {
 }
 
 /// Refuses files that would be written twice, or over the model.
-fn check_apart(model: &Path, outputs: &[Output], report: Option<&Path>) -> Result<(), Error> {
+fn check_apart(
+    model: &Path,
+    outputs: &[Output],
+    report: Option<&Path>,
+    maps: Option<&Path>,
+) -> Result<(), Error> {
     let mut taken: Vec<PathBuf> = Vec::new();
     let files = outputs.iter().filter(|output| output.format != Format::SvgToStdout);
     let report_file = report.filter(|path| !is_stdout(path));
-    for path in files.map(|output| output.path.as_path()).chain(report_file) {
+    let in_folder: Vec<PathBuf> =
+        maps.into_iter().flat_map(|folder| MapFiles::NAMES.map(|name| folder.join(name))).collect();
+    let paths = files.map(|output| output.path.as_path()).chain(report_file);
+    for path in paths.chain(in_folder.iter().map(PathBuf::as_path)) {
         if same_file(path, model) {
             return Err(Error::new("the drawing would overwrite the model")
                 .in_file(path)
@@ -203,6 +214,7 @@ mod tests {
             "m.stl - -o -",
             "m.stl a.svg --report a.svg",
             "m.stl - --report -",
+            "m.stl maps/depth.png --maps maps",
             "m.svg m.svg",
             "m.stl --view iso --azimuth 3",
             "m.stl --view sideways",

@@ -10,7 +10,8 @@ use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
 use crate::lines::{
-    FeatureLines, LineKind, LineOptions, Lit, Surface, Textures, isophotes, texture_borders, tone_edges,
+    FeatureLines, LineKind, LineOptions, Lit, Source, Surface, Textures, isophotes, texture_borders,
+    tone_edges,
 };
 use crate::math::colour::Colour;
 use crate::mesh::EdgeSet;
@@ -58,6 +59,9 @@ const PARTING: [LineKind; 4] =
 /// part them.
 pub(super) fn sought(style: &Style) -> LineOptions {
     let mut options = style.lines.clone();
+    if options.source == Source::Image {
+        options.kinds.clear();
+    }
     if !is_lit(style) {
         return options;
     }
@@ -67,10 +71,8 @@ pub(super) fn sought(style: &Style) -> LineOptions {
     }
     // Strokes of a hatching end at creases too.
     let creases = style.hatch.enabled.then_some(LineKind::Crease);
-    let missing = PARTING
-        .into_iter()
-        .chain(creases)
-        .filter(|kind| !style.lines.kinds.contains(kind) || !style.lines.enabled);
+    let missing =
+        PARTING.into_iter().chain(creases).filter(|kind| !options.kinds.contains(kind)).collect::<Vec<_>>();
     options.kinds.extend(missing);
     options
 }
@@ -86,7 +88,9 @@ pub(super) fn paint_colours(paints: &[Paint], scene: &Scene, style: &Style) -> V
 
 /// Leaves only lines that are drawn.
 pub(super) fn keep_inked(map: &mut ViewMap, style: &Style) {
-    map.edges.retain(|edge| style.lines.enabled && style.lines.kinds.contains(&edge.kind));
+    let lines = &style.lines;
+    let on_surface = lines.enabled && lines.source != Source::Image;
+    map.edges.retain(|edge| on_surface && lines.kinds.contains(&edge.kind));
 }
 
 /// What regions need of a surface beside its lines; the same for all views.

@@ -22,7 +22,9 @@ mod beside;
 pub mod defects;
 mod fills;
 mod hatching;
+mod image;
 mod late_search;
+mod maps;
 pub mod report;
 pub mod stage;
 mod stages;
@@ -33,6 +35,7 @@ use std::sync::Arc;
 
 use kurbo::{PathEl, Vec2};
 
+pub use maps::MapFiles;
 pub use report::{Report, Stopwatch};
 pub use stage::Stage;
 
@@ -164,6 +167,19 @@ impl<'a> Prepared<'a> {
         Ok(self.on_view(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
     }
 
+    /// The maps of a view that lines in the image are found in, whether the style seeks any or not. `unit` is that of the page.
+    ///
+    /// # Errors
+    /// If the camera can take no picture: see [`Camera::validate`].
+    pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
+        camera.validate()?;
+        let refined = self.surface.refined_for(camera);
+        let surface = refined.as_ref().unwrap_or(&self.surface);
+        let view = View::new(&surface.mesh, camera);
+        let maps = image::maps(surface, &view, self.style, unit);
+        MapFiles::new(&surface.mesh, &maps, &self.style.lines.image)
+    }
+
     /// What a view is hatched on, and the strokes of each layer of its hatching, each with what it is
     /// known by. `None` if the style hatches nothing, or the camera can take no picture.
     #[must_use]
@@ -243,6 +259,7 @@ impl<'a> Prepared<'a> {
         if fills.is_some() {
             fills::keep_inked(&mut map, style);
         }
+        let lines = &*image::joined(&mut map, lines, surface, view, style, page.unit);
         centre_on_page(&mut map, camera, &page);
 
         let ahead = Ahead {

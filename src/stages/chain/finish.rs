@@ -9,6 +9,7 @@ use super::resample::resample;
 use super::simplify::{simplify, straighten};
 use super::smooth::smooth;
 use super::unfold::unfold;
+use crate::math::plane::length;
 
 /// Options in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +19,8 @@ pub(super) struct Tolerances {
     pub smooth: f64,
     pub simplify: f64,
     pub tidy: f64,
+    /// Whether the line turns at a vertex only where what it shows does: no noise of triangles.
+    pub clean: bool,
     /// 0 when curves are not fitted.
     pub fit: f64,
 }
@@ -28,15 +31,22 @@ const SPACING_PX: f64 = 1.0;
 /// Length over which a turn must last to be a corner, px.
 const CORNER_PX: f64 = 6.0;
 
+/// Length over which a turn of a line without noise is measured, px.
+const SHARP_PX: f64 = 2.0;
+
+/// Cosine of the turn (35 degrees) over that length that makes a corner.
+const SHARP_COSINE: f64 = 0.82;
+
 /// A finished line and its path.
 pub(super) fn finish(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     if t.smooth <= 0.0 || !raw.is_soft() {
         return exact(raw, t);
     }
     if raw.closed {
-        return match raw.soft.iter().position(|soft| !*soft) {
+        let parts = |i: usize| !raw.soft[i] || is_sharp(raw, i, t);
+        return match (0..raw.len()).find(|i| parts(*i)) {
             None => closed(raw, t),
-            // Begins with a stretch that is not smoothed, so that no smooth stretch is cut.
+            // Begins with a stretch that is not smoothed, or at a corner, so that no smooth stretch is cut.
             Some(hard) => {
                 let (mut line, mut path) = open(&raw.opened_at(hard), t);
                 close(&mut line);
@@ -108,7 +118,8 @@ fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     let mut i = 0;
     while i < sides {
         let soft = raw.soft[i];
-        let run = raw.soft[i..sides].iter().take_while(|s| **s == soft).count();
+        let more = raw.soft[i + 1..sides].iter().enumerate();
+        let run = 1 + more.take_while(|(k, s)| **s == soft && !is_sharp(raw, i + 1 + k, t)).count();
         let stretch = raw.slice(i, i + run);
         let (part, drawn) = if soft { soft_stretch(&stretch, t) } else { exact(&stretch, t) };
         append(&mut line, &part);
@@ -119,6 +130,29 @@ fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
         append(&mut line, raw);
     }
     (line, path)
+}
+
+/// Whether a line without noise has a corner at a vertex.
+fn is_sharp(raw: &Line, i: usize, t: Tolerances) -> bool {
+    if !t.clean {
+        return false;
+    }
+    let n = raw.len();
+    // The chord to where the line is so far away, one way round or the other.
+    let chord = |step: usize| {
+        let ends_at = |k: usize| !raw.closed && (if step == 1 { i + k == n - 1 } else { i == k });
+        let at = |k: usize| raw.points[(i + k * step) % n];
+        let far = (1..n).find(|k| length(at(*k) - raw.points[i]) >= SHARP_PX * t.px || ends_at(*k))?;
+        let (before, behind) = (at(far - 1), at(far));
+        let (short, long) = (length(before - raw.points[i]), length(behind - raw.points[i]));
+        let share = ((SHARP_PX * t.px - short) / (long - short).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        Some(before.lerp(behind, share) - raw.points[i])
+    };
+    if !raw.closed && (i == 0 || i + 1 >= n) {
+        return false;
+    }
+    let (Some(ahead), Some(back)) = (chord(1), chord(n - 1)) else { return false };
+    -ahead.dot(back) < SHARP_COSINE * length(ahead) * length(back)
 }
 
 /// A smooth open stretch: cut at its corners, each part smoothed.

@@ -130,6 +130,7 @@ fn link_with(
         smooth: options.smooth.in_unit(unit).max(0.0),
         simplify: options.simplify.in_unit(unit).max(0.0),
         tidy: options.tidy.in_unit(unit).max(0.0),
+        clean: false,
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
     };
     let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, ahead, bin);
@@ -153,6 +154,7 @@ pub(crate) fn curve(
         smooth: options.smooth.in_unit(unit).max(0.0),
         simplify: options.simplify.in_unit(unit).max(0.0),
         tidy: 0.0,
+        clean: false,
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
     };
     let sample = Sample::new(0.0, 1.0);
@@ -167,9 +169,16 @@ pub(crate) fn curve(
 /// times farther.
 const INSIDE_SMOOTH: f64 = 3.0;
 
+/// Lines found in the image were pulled taut: smoothing may move them this many times farther.
+const IMAGE_SMOOTH: f64 = 0.5;
+
 fn chain(raw: Raw, mut t: Tolerances) -> Chain {
     if raw.class.kind.is_inside() {
         t.smooth *= INSIDE_SMOOTH;
+    }
+    if raw.class.kind == LineKind::Image {
+        t.smooth *= IMAGE_SMOOTH;
+        t.clean = true;
     }
     let (line, path) = finish(&raw.line, t);
     Chain {

@@ -3,6 +3,7 @@
 pub mod edge_lines;
 pub mod edge_search;
 mod folds;
+pub mod image;
 pub mod inside;
 pub mod intersections;
 pub mod isophotes;
@@ -18,6 +19,7 @@ pub mod tone_edges;
 pub mod zero_set;
 
 pub use edge_search::EdgeSearch;
+pub use image::{ImageOptions, Source};
 pub use inside::InsideOptions;
 pub use kind::LineKind;
 pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};

@@ -3,7 +3,7 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{InsideOptions, LineKind};
+use super::{ImageOptions, InsideOptions, LineKind, Source};
 
 /// What becomes of lines behind surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -50,6 +50,8 @@ pub enum Normals {
 pub struct LineOptions {
     /// Draw lines at all. Default: true.
     pub enabled: bool,
+    /// Where lines are sought: those of `kinds` on the surface, those of kind `image` in maps of normals and depth. Default: object.
+    pub source: Source,
     /// Kinds that are drawn. Default: contour, border, crease, material, intersection, wire.
     pub kinds: Vec<LineKind>,
     /// Where contours lie. Default: auto.
@@ -67,12 +69,15 @@ pub struct LineOptions {
     pub hidden: HiddenLines,
     /// How suggestive contours, ridges and valleys are found.
     pub inside: InsideOptions,
+    /// How lines are found in the image.
+    pub image: ImageOptions,
 }
 
 impl Default for LineOptions {
     fn default() -> Self {
         Self {
             enabled: true,
+            source: Source::Object,
             kinds: vec![
                 LineKind::Contour,
                 LineKind::Border,
@@ -87,6 +92,7 @@ impl Default for LineOptions {
             artist_tolerance: 0.05,
             hidden: HiddenLines::None,
             inside: InsideOptions::default(),
+            image: ImageOptions::default(),
         }
     }
 }

@@ -1,9 +1,12 @@
 //! Buffers of a view: they propose, exact geometry decides.
 
 pub mod face_buffer;
+mod hairlines;
+pub mod maps;
 pub mod painter;
 pub mod screen;
 pub mod strangers;
 
 pub use face_buffer::FaceBuffer;
+pub use maps::{Maps, NO_FRONT};
 pub use screen::Screen;

@@ -70,6 +70,12 @@ impl<'a> Screen<'a> {
     /// The screen of a view, about a thousand pixels along the longer side of the frame.
     #[must_use]
     pub fn new(mesh: &'a Mesh, view: &'a View) -> Self {
+        Self::of_side(mesh, view, LONGER_SIDE)
+    }
+
+    /// The screen of a view with so many pixels along the longer side of the frame.
+    #[must_use]
+    pub fn of_side(mesh: &'a Mesh, view: &'a View, longer_side: f64) -> Self {
         const TASK: usize = 1 << 14;
         let none = || (f64::INFINITY, f64::NEG_INFINITY);
         // Comparisons with NaN fail, so that points cut off take no part.
@@ -81,8 +87,8 @@ impl<'a> Screen<'a> {
                 (if p.z < low { p.z } else { low }, if p.z > high { p.z } else { high })
             })
             .reduce(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let scale = LONGER_SIDE / view.frame.width.max(view.frame.height);
-        let pixels = |length: f64| (length * scale).ceil().clamp(1.0, LONGER_SIDE) as usize;
+        let scale = longer_side / view.frame.width.max(view.frame.height);
+        let pixels = |length: f64| (length * scale).ceil().clamp(1.0, longer_side.ceil()) as usize;
         let mut screen = Self {
             mesh,
             view,
@@ -100,6 +106,29 @@ impl<'a> Screen<'a> {
     fn point(&self, p: DVec3) -> ScreenPoint {
         let x = if p.z.is_nan() { f64::NAN } else { p.x * self.scale };
         [x as f32, (p.y * self.scale) as f32, ((p.z - self.farthest) * self.per_nearness) as f32]
+    }
+
+    /// Pixels per user unit.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The least and the greatest depth of what is in the view, world units; none if nothing is.
+    #[must_use]
+    pub fn depths(&self) -> Option<[f64; 2]> {
+        let nearest = self.farthest + 1.0 / self.per_nearness;
+        let nearest = if self.per_nearness > 0.0 { nearest } else { self.farthest };
+        let frame = &self.view.frame;
+        self.farthest.is_finite().then(|| [frame.depth_of(nearest), frame.depth_of(self.farthest)])
+    }
+
+    /// Image-space nearness of a nearness on the screen.
+    #[inline]
+    #[must_use]
+    pub fn image_nearness(&self, nearness: f32) -> f64 {
+        let range = if self.per_nearness > 0.0 { f64::from(nearness) / self.per_nearness } else { 0.0 };
+        self.farthest + range
     }
 
     /// Number of triangles: those of the mesh, then those left of faces that the near plane cuts.

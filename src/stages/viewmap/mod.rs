@@ -7,6 +7,7 @@ pub mod doubles;
 pub mod front;
 pub mod graph;
 pub mod grid;
+pub mod image;
 pub mod layers;
 pub mod limits;
 pub mod occlude;

@@ -1,0 +1,27 @@
+//! Which jumps are the crest of an edge, and which its foothills.
+
+/// A jump that alone is no more than this part of an edge is taken for noise.
+const LEAST: f32 = 0.3;
+
+/// How far from where something jumps a surface that turns away may bend faster than elsewhere, pixels.
+const ECHO: usize = 10;
+
+/// What jumps by less than this part of what jumps so near is its echo: the surface bends most just before it turns away.
+const ECHO_SHARE: f32 = 0.35;
+
+/// What jumps by more than so many edges is none: a bend of 16 degrees.
+pub(super) const NO_ECHO: f32 = 8.0;
+
+/// Whether a jump is the largest in its row or column, where it is number `at` of `count` and `step` is from one to the next.
+pub(super) fn is_crest(jumps: &[f32], id: usize, step: usize, at: usize, count: usize) -> bool {
+    let own = jumps[id];
+    if own <= LEAST {
+        return false;
+    }
+    let before = |far: usize| if at >= far { jumps[id - far * step] } else { 0.0 };
+    let behind = |far: usize| if at + far < count { jumps[id + far * step] } else { 0.0 };
+    if own <= before(1) || own < behind(1) {
+        return false;
+    }
+    own > NO_ECHO || (2..=ECHO).all(|far| own >= ECHO_SHARE * before(far).max(behind(far)))
+}
