@@ -21,6 +21,7 @@ mod golden;
 mod halftone;
 mod hard_edges;
 mod hatching;
+mod image_lines;
 mod inked_lines;
 mod intersections;
 mod lines_inside;

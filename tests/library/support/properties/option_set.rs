@@ -38,6 +38,7 @@ pub const SMOOTH_LINES: OptionSet = OptionSet { name: "smooth lines", from: From
 pub const INK: OptionSet = sheet("ink");
 pub const INK_MESH: OptionSet = changed("ink, contours along the mesh", "ink", &["lines.contours=mesh"]);
 pub const INK_SMOOTH: OptionSet = changed("ink, smooth contours", "ink", &["lines.contours=smooth"]);
+pub const IMAGE: OptionSet = changed("ink found in the image", "ink", &["lines.source=both"]);
 pub const TECHNICAL: OptionSet = sheet("technical");
 pub const TOON: OptionSet = sheet("toon");
 pub const GOOCH: OptionSet = sheet("gooch");

@@ -14,7 +14,8 @@ pub const CAMERAS: [&str; 3] = ["perspective", "orthographic", "cutting"];
 
 /// Contours along the mesh, by default, and all smooth.
 const INKS: [OptionSet; 3] = [INK_MESH, INK, INK_SMOOTH];
-const STYLES: [OptionSet; 9] = [INK, TECHNICAL, TOON, COMIC, PENCIL, PEN, SUGGESTIVE, ENGRAVING, STIPPLE];
+const STYLES: [OptionSet; 10] =
+    [INK, IMAGE, TECHNICAL, TOON, COMIC, PENCIL, PEN, SUGGESTIVE, ENGRAVING, STIPPLE];
 
 type Changes = &'static [(Change, &'static [Bound])];
 
@@ -223,7 +224,7 @@ pub const ROWS: &[Row] = &[
     },
     Row { options: &[INK_SMOOTH], subjects: || subject::round(1), unchanged_by: THREADS, least: 40 },
     Row {
-        options: &[PENCIL, ENGRAVING],
+        options: &[PENCIL, ENGRAVING, IMAGE],
         subjects: || vec![subject::ring()],
         unchanged_by: THREADS,
         least: 40,
