@@ -68,6 +68,9 @@ struct MaterialInfo {
     texture_size: Option<[usize; 2]>,
     /// `opaque`, `mask` or `blend`.
     alpha: &'static str,
+    /// How opaque it is, 0 to 1, where one sees through it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    opacity: Option<f64>,
     /// The least alpha that a mask leaves.
     #[serde(skip_serializing_if = "Option::is_none")]
     cutoff: Option<f32>,
@@ -199,6 +202,7 @@ impl MaterialInfo {
                 .and_then(Result::ok)
                 .map(|picture| [picture.width, picture.height]),
             alpha,
+            opacity: Some(material.opacity()).filter(|own| *own < 1.0),
             cutoff,
             opacity_map: material.opacity_map.clone(),
         }
@@ -216,8 +220,9 @@ impl MaterialInfo {
             ("blend", _) => ", blended".to_owned(),
             _ => String::new(),
         };
+        let clear = self.opacity.map_or(String::new(), |own| format!(", {} % opaque", plain(own * 100.0, 0)));
         let map = self.opacity_map.as_ref().map_or(String::new(), |file| format!(", cut out by {file}"));
-        format!("{}: {}{texture}{alpha}{map}", named(&self.name), String::from(self.colour))
+        format!("{}: {}{texture}{alpha}{clear}{map}", named(&self.name), String::from(self.colour))
     }
 }
 

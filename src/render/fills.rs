@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use kurbo::Vec2;
+use kurbo::{BezPath, Vec2};
 
-use crate::drawing::{Layer, Page};
+use crate::drawing::{Layer, Page, Provenance};
 use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
@@ -14,9 +14,9 @@ use crate::lines::{
     tone_edges,
 };
 use crate::math::colour::Colour;
-use crate::mesh::EdgeSet;
 use crate::mesh::solid::solid_parts;
-use crate::region::{self, Darkened, Regions, Seen, paint::PaintContext};
+use crate::mesh::{EdgeSet, Mesh};
+use crate::region::{self, Darkened, Look, Region, Regions, Seen, paint::PaintContext};
 use crate::scene::{Camera, Paint, Scene, paint::Paints};
 use crate::shadow::Shadows;
 use crate::style::Style;
@@ -121,6 +121,8 @@ pub(super) struct Colours<'a> {
 /// A lit surface on its way to regions.
 pub(super) struct Fills<'a> {
     surface: &'a Surface,
+    /// What casts shadows.
+    casting: &'a Mesh,
     paintable: &'a Paintable,
     view: &'a View,
     shading: Shading,
@@ -136,8 +138,11 @@ pub(super) struct Fills<'a> {
 }
 
 impl<'a> Fills<'a> {
+    /// `casting` is the mesh that casts shadows: that of the surface, but that some faces may hide nothing.
+    #[expect(clippy::too_many_arguments, reason = "it is called once, and each is another thing")]
     pub fn new(
         surface: &'a Surface,
+        casting: &'a Mesh,
         paintable: &'a Paintable,
         view: &'a View,
         scene: &Scene,
@@ -151,12 +156,13 @@ impl<'a> Fills<'a> {
         if style.hatch.enabled {
             shading = shading.with_bins(scene, &paints.list, &style.shade);
         }
-        let shadows = Shadows::new(mesh, shading.casters());
+        let shadows = Shadows::new(casting, shading.casters());
         let dims = style.light.occlusion > 0.0;
         let nook = |at: DVec3| frame.side_at(frame.depth(at)) * NOOK_OF_FRAME;
         let openness = if dims { openness(mesh, nook) } else { Vec::new() };
         Self {
             surface,
+            casting,
             paintable,
             view,
             masks: masks(shading.casters().len() as u32),
@@ -215,9 +221,45 @@ impl<'a> Fills<'a> {
         region::see(&self.lit(), map, |points| self.shadowed(points), self.darkened, page.unit)
     }
 
+    /// What the eye sees with another mesh before it, which has the same faces but hides less.
+    pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
+        let lit = Lit { mesh: clear, ..self.lit() };
+        region::see(&lit, map, |points| self.shadowed(points), self.darkened, page.unit)
+    }
+
+    /// The outlines of regions that look as `pick` says, with their colours and where they are from.
+    pub fn outlines(
+        &self,
+        seen: &Seen,
+        page: &Page,
+        camera: &Camera,
+        style: &Style,
+        pick: impl Fn(&Look) -> bool,
+    ) -> Vec<(BezPath, Colour, Look, Provenance)> {
+        let regions = region::gather(seen, &style.region, &style.chain, page.unit);
+        let context = self.paint_context(page, camera);
+        region::paint::outlines(&regions, context.offset, 0.0, |region| pick(&region.look))
+            .into_iter()
+            .map(|(path, Region { look, .. })| {
+                let provenance = region::paint::provenance(look, &context);
+                (path, self.shading.colour(look.paint, look.tone), look, provenance)
+            })
+            .collect()
+    }
+
+    fn paint_context(&self, page: &Page, camera: &Camera) -> PaintContext<'_> {
+        PaintContext {
+            unit: page.unit,
+            offset: Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0,
+            parts: &self.parts,
+            materials: &self.materials,
+            shading: &self.shading,
+        }
+    }
+
     /// Which lights do not reach points of faces.
     fn shadowed(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
-        self.shadows.shadowed(&self.surface.mesh, points)
+        self.shadows.shadowed(self.casting, points)
     }
 
     /// Which lights do not reach each point, as hatching has it: none where it knows no cast shadows.
@@ -228,14 +270,7 @@ impl<'a> Fills<'a> {
     /// The painted regions.
     pub fn paint(&self, seen: &Seen, page: &Page, camera: &Camera, style: &Style) -> (Vec<Layer>, Regions) {
         let regions = region::gather(seen, &style.region, &style.chain, page.unit);
-        let context = PaintContext {
-            unit: page.unit,
-            offset: Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0,
-            parts: &self.parts,
-            materials: &self.materials,
-            shading: &self.shading,
-        };
-        (region::paint(&regions, &context, &style.region), regions)
+        (region::paint(&regions, &self.paint_context(page, camera), &style.region), regions)
     }
 }
 

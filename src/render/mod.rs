@@ -21,6 +21,7 @@
 mod beside;
 pub mod defects;
 mod fills;
+mod glass;
 mod hatching;
 mod image;
 mod late_search;
@@ -55,6 +56,7 @@ use crate::view::View;
 use crate::viewmap::{self, Ahead, ViewMap};
 use beside::Beside;
 use fills::{Colours, Fills, Paintable};
+use glass::Behind;
 use hatching::Hatching;
 use late_search::LateSearch;
 use stages::Made;
@@ -139,8 +141,9 @@ impl<'a> Prepared<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
         let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
-        let mut paints = needs_paints.then(|| Paints::of(scene, &style.textures));
-        let cutout::Cut { scene, origins, warnings } = cutout::cut(scene);
+        let left = glass::left(scene, style);
+        let mut paints = needs_paints.then(|| Paints::of(&left, &style.textures));
+        let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
         paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
@@ -186,11 +189,12 @@ impl<'a> Prepared<'a> {
     pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(Ground, Vec<Hatched>)> {
         camera.validate().ok()?;
         self.on_view(camera, page.unit, |on_view| {
-            let OnView { fills, map, .. } = on_view;
+            let OnView { fills, map, behind, .. } = on_view;
             let fills = fills.filter(|_| self.style.hatch.enabled)?;
             let (scene, style) = (self.scene.as_ref(), self.style);
             let hatching = Hatching { fills, scene, page: &page, camera, style };
-            Some(hatching.strokes(&fills.see(&map, &page)))
+            let seen = behind.map_or_else(|| fills.see(&map, &page), |behind| behind.see(fills, &page));
+            Some(hatching.strokes(&seen))
         })
     }
 
@@ -218,9 +222,12 @@ impl<'a> Prepared<'a> {
         let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
         let textures = paints.as_ref().map(of);
         let colours = paints.as_ref().zip(textures.as_ref());
+        let panes = glass::Panes::of(surface, scene, style);
+        // What one sees through casts no shadow.
+        let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
         let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {
             let colours = Colours { paints, textures };
-            Fills::new(surface, paintable, &view, scene, colours, style, &mut warnings)
+            Fills::new(surface, casting, paintable, &view, scene, colours, style, &mut warnings)
         });
         warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
         if let Some(fills) = &fills {
@@ -230,21 +237,26 @@ impl<'a> Prepared<'a> {
 
         let map = viewmap::build(&surface.mesh, &view, &lines, sought);
         report.stages_ms.visibility = watch.lap_ms();
+        let behind = panes.as_ref().map(|panes| panes.look_behind(&surface.mesh, &view, &lines, sought));
         let (view, lines, fills, textures) = (&view, &lines, fills.as_ref(), textures.as_ref());
-        call(OnView { surface, view, lines, textures, fills, map, report, watch, warnings })
+        call(OnView { surface, view, lines, textures, fills, map, behind, report, watch, warnings })
     }
 
     fn drawn(&self, on_view: OnView, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
         let Self { scene, style, paints, .. } = self;
-        let OnView { surface, view, lines, textures, fills, mut map, mut report, mut watch, warnings } =
-            on_view;
+        let OnView { surface, view, lines, textures, fills, mut map, .. } = on_view;
+        let OnView { mut behind, mut report, mut watch, warnings, .. } = on_view;
         let mut layers: Vec<Layer> = hatching::paper(&page, style).into_iter().collect();
         let mut blacks = None;
         if let Some(fills) = fills.filter(|_| fills::is_lit(style)) {
-            let seen = fills.see(&map, &page);
+            let seen =
+                behind.as_ref().map_or_else(|| fills.see(&map, &page), |behind| behind.see(fills, &page));
             if style.region.enabled {
-                let (painted, regions) = fills.paint(&seen, &page, camera, style);
+                let (mut painted, regions) = fills.paint(&seen, &page, camera, style);
                 report.counts.regions = regions.regions.len() as u64;
+                if let Some(behind) = &behind {
+                    behind.paint(fills, &map, (&page, camera, style), &mut painted);
+                }
                 layers.extend(painted);
             }
             report.counts.leaks = seen.leaks;
@@ -271,6 +283,12 @@ impl<'a> Prepared<'a> {
             moved: margin(camera, &page),
         };
         let mut chains = chain::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
+        if let Some(behind) = &mut behind {
+            chains.extend(behind.chains(style, page.unit, |veiled| {
+                fills::keep_inked(veiled, style);
+                centre_on_page(veiled, camera, &page);
+            }));
+        }
         report.stages_ms.chains = watch.lap_ms();
 
         let margin = margin(camera, &page);
@@ -288,6 +306,7 @@ impl<'a> Prepared<'a> {
             parts: &parts,
             materials: &materials,
             hidden: style.lines.hidden,
+            behind_glass: style.glass.width,
             seed: style.seed,
             painted: style.region.enabled,
             depths: view.frame.depths(),
@@ -334,6 +353,8 @@ struct OnView<'a> {
     /// Where surfaces are painted or hatched.
     fills: Option<&'a Fills<'a>>,
     map: ViewMap,
+    /// What is seen through materials that are not opaque.
+    behind: Option<Behind<'a>>,
     report: Report,
     watch: Stopwatch,
     warnings: Vec<String>,

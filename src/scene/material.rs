@@ -22,6 +22,8 @@ pub struct Material {
     pub picture: Option<Arc<[u8]>>,
     /// What becomes of the alpha of the base colour and of its texture.
     pub alpha: Alpha,
+    /// How much light goes through it, 0 to 1, beside what its alpha says.
+    pub transmission: f32,
     /// Path of a picture that says how opaque the material is, relative to the model (`map_d` in MTL).
     pub opacity_map: Option<String>,
     /// How the texture goes on beyond its borders, along u and along v.
@@ -68,6 +70,7 @@ impl Default for Material {
             texture: None,
             picture: None,
             alpha: Alpha::Opaque,
+            transmission: 0.0,
             opacity_map: None,
             wrap: [Wrap::Repeat; 2],
         }

@@ -19,6 +19,7 @@ pub(crate) mod cutout;
 pub mod flatten;
 pub mod framing;
 pub mod geometry;
+pub mod glass;
 pub mod light;
 pub mod material;
 pub mod paint;
@@ -34,6 +35,7 @@ use glam::{DAffine3, DVec3};
 
 pub use camera::{Camera, Projection};
 pub use geometry::{Geometry, Part};
+pub use glass::{GlassDraw, GlassOptions};
 pub use light::{Light, LightKind};
 pub use material::{Alpha, Material, Wrap};
 pub use paint::{Paint, Paints};

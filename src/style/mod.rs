@@ -28,7 +28,7 @@ use crate::hatch::HatchOptions;
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
 use crate::region::RegionOptions;
-use crate::scene::TextureOptions;
+use crate::scene::{GlassOptions, TextureOptions};
 use crate::stroke::StrokeOptions;
 
 /// The options of every stage.
@@ -56,6 +56,8 @@ pub struct Style {
     pub shade: ShadeOptions,
     /// Whether surfaces are hatched, and how.
     pub hatch: HatchOptions,
+    /// What becomes of materials that one sees through.
+    pub glass: GlassOptions,
     /// The hand: seeds everything that varies by chance, and changes nothing else. Default: 0.
     pub seed: u64,
 }

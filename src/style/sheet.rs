@@ -13,6 +13,7 @@ use crate::error::Error;
 use crate::field::LightOptions;
 use crate::lines::{LineKind, LineOptions};
 use crate::math::colour::Colour;
+use crate::scene::GlassOptions;
 use crate::stroke::fraction::fraction;
 use crate::stroke::pen::dash;
 use crate::stroke::{
@@ -35,6 +36,7 @@ pub(super) struct Sheet {
     light: LightOptions,
     pub fills: FillsTable,
     hatching: HatchingTable,
+    glass: GlassOptions,
 }
 
 /// The table `[page]`.
@@ -121,6 +123,7 @@ impl Sheet {
             region,
             shade,
             hatch,
+            glass: self.glass,
             seed: self.seed,
         }
     }

@@ -192,6 +192,29 @@ fn stages_can_be_drawn() {
 }
 
 #[test]
+fn maps_go_into_a_folder_all_or_none() {
+    let folder = Folder::with_cubes("maps");
+    folder.ligne("draw cubes.obj a.svg --size 90x60 --maps maps --set lines.image.samples=2").done();
+    folder.ligne("draw cubes.obj b.svg --size 90x60 --maps maps").done();
+    for name in ["normal", "depth", "edges", "parts"] {
+        let bytes = folder.read(&format!("maps/{name}.png"));
+        assert!(bytes.starts_with(b"\x89PNG"), "{name}");
+        // Width and height in the header of the file.
+        assert_eq!(bytes[16..24], [0, 0, 0, 180, 0, 0, 0, 120], "{name}");
+    }
+    assert_eq!(folder.text("a.svg"), folder.text("b.svg"));
+    for (line, word) in [
+        ("draw cubes.obj c.svg --maps a.svg", "no folder"),
+        ("draw cubes.obj c.svg --maps none/maps", "there is no folder none"),
+        ("draw cubes.obj maps/depth.png --maps maps", "given twice"),
+    ] {
+        let run = folder.ligne(line);
+        run.ends(2).says(word);
+    }
+    assert_eq!(folder.names(), ["a.svg", "b.svg", "cubes.obj", "maps"]);
+}
+
+#[test]
 fn warnings_are_named_and_strict_refuses_them() {
     let folder = Folder::with_cubes("warnings");
     // A face given twice is dropped once.

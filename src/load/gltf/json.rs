@@ -301,6 +301,14 @@ pub struct Pbr {
 pub struct MaterialExtensions {
     #[serde(rename = "KHR_materials_pbrSpecularGlossiness")]
     pub specular_glossiness: Option<SpecularGlossiness>,
+    #[serde(rename = "KHR_materials_transmission")]
+    pub transmission: Option<Transmission>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub struct Transmission {
+    pub transmission_factor: f32,
 }
 
 #[derive(Debug, Default, Deserialize)]

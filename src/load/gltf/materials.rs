@@ -31,6 +31,11 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
             texture,
             picture,
             alpha: alpha(base[3], material),
+            transmission: material
+                .extensions
+                .transmission
+                .as_ref()
+                .map_or(0.0, |own| own.transmission_factor.clamp(0.0, 1.0)),
             opacity_map: None,
             wrap: base_texture(material).map_or([Wrap::Repeat; 2], |texture| wrap(buffers.root, texture)),
         }

@@ -57,6 +57,8 @@ pub struct Chain {
     /// Number of surfaces that hide it; 0 = visible. Hidden pieces of different number join, and
     /// the chain has the smallest.
     pub invisibility: u16,
+    /// Whether it is seen through a material that is not opaque, and only so.
+    pub veiled: bool,
     /// Whether both surfaces that meet in it face the eye.
     pub both_seen: bool,
     /// Part it belongs to.
@@ -188,6 +190,7 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
         kind: raw.class.kind,
         silhouette: raw.class.silhouette,
         invisibility: raw.invisibility,
+        veiled: false,
         both_seen: raw.class.both_seen,
         part: raw.class.part,
         material: raw.class.material,

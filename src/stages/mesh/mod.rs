@@ -84,6 +84,18 @@ impl Mesh {
         self.face_paint.get(face.index()).copied().unwrap_or(self.face_material[face.index()].into())
     }
 
+    /// The same mesh, but that some faces count as degenerate, and hide nothing.
+    #[must_use]
+    pub fn seen_through(&self, clear: impl Fn(FaceId) -> bool) -> Self {
+        let mut mesh = self.clone();
+        for (face, normal) in mesh.face_normals.iter_mut().enumerate() {
+            if clear(FaceId(face as u32)) {
+                *normal = [0.0; 3];
+            }
+        }
+        mesh
+    }
+
     /// Leaves out the file's normals of some faces.
     pub fn forget_normals(&mut self, wrong: impl Fn(u32) -> bool) {
         for (face, corners) in self.corner_normals.iter_mut().enumerate() {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
 use rayon::prelude::*;
 
-use super::{Region, RegionOptions, Regions, Seams};
+use super::{Look, Region, RegionOptions, Regions, Seams};
 use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, Unit};
 use crate::field::Shading;
 
@@ -103,18 +103,20 @@ fn length(path: &BezPath) -> f64 {
 
 fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
     let look = region.look;
+    let paint = Paint::Fill(context.shading.colour(look.paint, look.tone));
+    Mark { path, paint, provenance: provenance(look, context) }
+}
+
+/// Where a region that looks so is from.
+pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
-    Mark {
-        path,
-        paint: Paint::Fill(context.shading.colour(look.paint, look.tone)),
-        provenance: Provenance {
-            classes: Vec::new(),
-            tone: Some(look.tone),
-            part: context.parts.get(look.part.index()).and_then(name),
-            material: context.materials.get(look.material.index()).and_then(name),
-            invisibility: 0,
-            note: None,
-        },
+    Provenance {
+        classes: Vec::new(),
+        tone: Some(look.tone),
+        part: context.parts.get(look.part.index()).and_then(name),
+        material: context.materials.get(look.material.index()).and_then(name),
+        invisibility: 0,
+        note: None,
     }
 }
 

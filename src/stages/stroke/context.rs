@@ -17,6 +17,8 @@ pub struct InkContext<'a> {
     pub materials: &'a [(Arc<str>, Colour)],
     /// What becomes of hidden chains.
     pub hidden: HiddenLines,
+    /// The part of their pen's width that veiled chains have.
+    pub behind_glass: f64,
     /// The hand: seeds all that varies by chance.
     pub seed: u64,
     /// Whether surfaces are painted under the lines, so that lines must not leave their borders.

@@ -216,6 +216,9 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
     if chain.silhouette {
         classes.push("silhouette");
     }
+    if chain.veiled {
+        classes.push("veiled");
+    }
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         classes,

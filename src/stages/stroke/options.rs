@@ -84,6 +84,8 @@ pub struct LayerOptions {
 /// The rules with their name patterns already tried on the names of the scene.
 pub(super) struct Selection<'a> {
     options: &'a StrokeOptions,
+    /// The part of their pen's width that veiled lines have.
+    behind_glass: f64,
     /// For each rule, whether each part fits.
     parts: Vec<Vec<bool>>,
     /// For each rule, whether each material fits.
@@ -99,6 +101,7 @@ impl StrokeOptions {
             |rule: &Rule| context.materials.iter().map(|(name, _)| fits(&rule.when.material, name)).collect();
         Selection {
             options: self,
+            behind_glass: context.behind_glass,
             parts: self.rules.iter().map(parts).collect(),
             materials: self.rules.iter().map(materials).collect(),
         }
@@ -109,6 +112,7 @@ impl Selection<'_> {
     /// The pen of a chain.
     pub(super) fn pen(&self, chain: &Chain) -> Pen {
         let mut pen = self.options.pen.clone();
+        let behind = if chain.veiled { self.behind_glass } else { 1.0 };
         let named = |table: &[bool], index: usize, glob: &Option<Glob>| {
             table.get(index).copied().unwrap_or(glob.is_none())
         };
@@ -124,6 +128,7 @@ impl Selection<'_> {
                 rule.pen.apply(&mut pen);
             }
         }
+        pen.width.value *= behind;
         pen
     }
 }

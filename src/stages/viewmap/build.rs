@@ -4,12 +4,12 @@ use kurbo::Point;
 
 use super::doubles;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
-use super::layers::Layer;
+use super::layers::{self, Layer};
 use super::limits::Limits;
 use super::occlude::Interval;
 use super::project::{ImageSegment, project};
 use super::rounded::{self, Rounded};
-use super::visibility::decide;
+use super::visibility::{self, Visibility, decide};
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -29,52 +29,134 @@ enum HiddenPieces {
 /// Builds the view map of all feature lines.
 #[must_use]
 pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptions) -> ViewMap {
-    let limits = Limits::new(&view.frame);
-    let segments = project(mesh, view, lines);
-    let hidden = if options.hidden == HiddenLines::None { HiddenPieces::Contours } else { HiddenPieces::All };
-    let counting = hidden == HiddenPieces::All;
-    // Smooth contours are not asked themselves.
-    let asked: Vec<u32> =
-        (0..segments.len() as u32).filter(|i| segments[*i as usize].role != Role::Curve).collect();
-    let questions: Vec<ImageSegment> = asked.iter().map(|i| segments[*i as usize]).collect();
-    let seen = decide(mesh, view, &questions, &limits, counting);
-    let is_rounded = segments.iter().any(|s| s.role != Role::Line);
-    let rounded = if is_rounded {
-        rounded::decide(mesh, view, lines, &segments, (&seen, &asked), &limits, counting)
-    } else {
-        Rounded::default()
-    };
-    let mut builder = Builder {
-        mesh,
-        view,
-        lines,
-        map: ViewMap::default(),
-        vertex_of_end: vec![UNSET; mesh.positions.len() + lines.points.len()],
-        hidden,
-    };
-    let (mut layers, mut beside): (Vec<Layer>, Vec<Interval>) = (Vec::new(), Vec::new());
-    let mut question = 0;
-    for (i, segment) in segments.iter().enumerate() {
-        let seen_here = if segment.role == Role::Line {
-            Seen { hidden: seen.hidden(question), backed: seen.backed(question) }
-        } else {
-            layers.clear();
-            layers.extend(rounded.hidden(i as u32));
-            beside.clear();
-            beside.extend(rounded.backed(i as u32));
-            Seen { hidden: &layers, backed: &beside }
-        };
-        if segment.role == Role::Line || rounded.is_drawn(i as u32, segment.role) {
-            builder.add(segment, seen_here, limits.piece);
-        }
-        question += usize::from(segment.role != Role::Curve);
+    let asked = Asked::new(mesh, view, lines, options);
+    let told = asked.decide(mesh);
+    asked.map(&told, None)
+}
+
+/// Builds the view map of all feature lines in front of a mesh some of whose faces one sees through, and that of what is seen of
+/// them through these faces alone: `clear` is the same mesh, but that those faces hide nothing.
+#[must_use]
+pub fn build_through(
+    mesh: &Mesh,
+    clear: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    options: &LineOptions,
+) -> [ViewMap; 2] {
+    let options = LineOptions { hidden: HiddenLines::None, ..options.clone() };
+    let asked = Asked::new(mesh, view, lines, &options);
+    let (front, behind) = (asked.decide(mesh), asked.decide(clear));
+    [asked.map(&behind, None), asked.map(&behind, Some(&front))]
+}
+
+/// Lines in the image, of which visibility is asked.
+struct Asked<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    lines: &'a FeatureLines,
+    limits: Limits,
+    segments: Vec<ImageSegment>,
+    /// Those that are asked themselves: not smooth contours.
+    questions: Vec<u32>,
+    hidden: HiddenPieces,
+}
+
+/// What is seen of them, with a mesh before them.
+struct Told {
+    seen: Visibility,
+    rounded: Rounded,
+}
+
+impl<'a> Asked<'a> {
+    fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines, options: &LineOptions) -> Self {
+        let segments = project(mesh, view, lines);
+        let questions =
+            (0..segments.len() as u32).filter(|i| segments[*i as usize].role != Role::Curve).collect();
+        let none = options.hidden == HiddenLines::None;
+        let hidden = if none { HiddenPieces::Contours } else { HiddenPieces::All };
+        Self { mesh, view, lines, limits: Limits::new(&view.frame), segments, questions, hidden }
     }
-    let mut map = builder.map;
-    map.tests = seen.tests;
-    map.contours = rounded.counts;
-    map.seen_contours = rounded.seen;
-    doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
-    map
+
+    fn decide(&self, mesh: &Mesh) -> Told {
+        let Self { view, lines, limits, segments, questions, .. } = self;
+        let counting = self.hidden == HiddenPieces::All;
+        let asked: Vec<ImageSegment> = questions.iter().map(|i| segments[*i as usize]).collect();
+        let seen = decide(mesh, view, &asked, limits, counting);
+        let rounded = if segments.iter().any(|s| s.role != Role::Line) {
+            rounded::decide(self.mesh, view, lines, segments, (&seen, questions), limits, counting)
+        } else {
+            Rounded::default()
+        };
+        Told { seen, rounded }
+    }
+
+    /// The map of what is seen; or of what is seen so, but not with another mesh before it.
+    fn map(&self, told: &Told, but: Option<&Told>) -> ViewMap {
+        let Self { mesh, view, lines, limits, .. } = self;
+        let mut builder = Builder {
+            mesh,
+            view,
+            lines,
+            map: ViewMap::default(),
+            vertex_of_end: vec![UNSET; mesh.positions.len() + lines.points.len()],
+            hidden: self.hidden,
+        };
+        let (mut layers, mut beside): (Vec<Layer>, Vec<Interval>) = (Vec::new(), Vec::new());
+        let (mut others, mut unused) = (Vec::new(), Vec::new());
+        let mut question = 0;
+        for (i, segment) in self.segments.iter().enumerate() {
+            let seen = told.of(i, segment.role, question, &mut layers, &mut beside);
+            let mut drawn = told.draws(i, segment.role);
+            let left;
+            let seen = match but {
+                None => seen,
+                Some(but) => {
+                    let front = but.of(i, segment.role, question, &mut others, &mut unused);
+                    let front = if but.draws(i, segment.role) { front.hidden } else { &visibility::BURIED };
+                    drawn &= !front.is_empty();
+                    left = layers::only_behind(front, seen.hidden);
+                    Seen { hidden: &left, backed: seen.backed }
+                }
+            };
+            if drawn {
+                builder.add(segment, seen, limits.piece, but.is_some());
+            }
+            question += usize::from(segment.role != Role::Curve);
+        }
+        let mut map = builder.map;
+        map.tests = told.seen.tests;
+        map.contours = told.rounded.counts;
+        map.seen_contours = told.rounded.seen.clone();
+        doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
+        map
+    }
+}
+
+impl Told {
+    /// Whether anything of a segment may be drawn.
+    fn draws(&self, segment: usize, role: Role) -> bool {
+        role == Role::Line || self.rounded.is_drawn(segment as u32, role)
+    }
+
+    /// What is known of a segment, number `question` of those that were asked.
+    fn of<'a>(
+        &'a self,
+        segment: usize,
+        role: Role,
+        question: usize,
+        layers: &'a mut Vec<Layer>,
+        beside: &'a mut Vec<Interval>,
+    ) -> Seen<'a> {
+        if role == Role::Line {
+            return Seen { hidden: self.seen.hidden(question), backed: self.seen.backed(question) };
+        }
+        layers.clear();
+        layers.extend(self.rounded.hidden(segment as u32));
+        beside.clear();
+        beside.extend(self.rounded.backed(segment as u32));
+        Seen { hidden: layers, backed: beside }
+    }
 }
 
 struct Builder<'a> {
@@ -103,11 +185,13 @@ struct SegmentPart {
 }
 
 impl Builder<'_> {
-    fn add(&mut self, segment: &ImageSegment, seen: Seen, shortest: f64) {
+    /// Adds what is seen of a segment, and unless `only_seen` what is hidden as far as it is kept.
+    fn add(&mut self, segment: &ImageSegment, seen: Seen, shortest: f64, only_seen: bool) {
         let source = &self.lines.segments[segment.source as usize];
         let is_witness = matches!(segment.role, Role::Witness { .. });
-        let keeps_hidden =
-            !is_witness && (self.hidden == HiddenPieces::All || source.kind == LineKind::Contour);
+        let keeps_hidden = !is_witness
+            && !only_seen
+            && (self.hidden == HiddenPieces::All || source.kind == LineKind::Contour);
         let pieces = pieces(segment, seen, source.kind == LineKind::Contour, shortest);
         if !keeps_hidden && pieces.iter().all(|p| p.invisibility > 0) {
             return;

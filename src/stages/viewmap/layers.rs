@@ -26,6 +26,33 @@ pub fn sweep(hidden: &mut [Interval], shortest: f64, counting: bool, layers: &mu
     }
 }
 
+/// What is not hidden behind one thing alone: all but where `front` hides a segment and `behind` does not. Both are ascending.
+pub fn only_behind(front: &[Layer], behind: &[Layer]) -> Vec<Layer> {
+    let mut hidden = Vec::new();
+    let mut push = |start: (f64, ViewVertexKind), end: (f64, ViewVertexKind)| {
+        if end.0 > start.0 {
+            let interval = Interval { start: start.0, end: end.0, start_kind: start.1, end_kind: end.1 };
+            hidden.push(Layer { interval, count: 1 });
+        }
+    };
+    let begin = (0.0, ViewVertexKind::TJunction);
+    // Where what is hidden, one way or the other, has begun that goes on.
+    let mut from = begin;
+    for layer in front {
+        let Interval { start, end, start_kind, end_kind } = layer.interval;
+        push(from, (start, start_kind));
+        let mut at = start;
+        for other in behind.iter().map(|layer| layer.interval).filter(|o| o.end > start && o.start < end) {
+            let (low, high) = (other.start.max(at), other.end.min(end));
+            push((low, other.start_kind), (high, other.end_kind));
+            at = high.max(at);
+        }
+        from = (end, end_kind);
+    }
+    push(from, (1.0, ViewVertexKind::TJunction));
+    hidden
+}
+
 fn sweep_union(hidden: &mut [Interval], shortest: f64, layers: &mut Vec<Layer>) {
     hidden.sort_by(|a, b| a.start.total_cmp(&b.start).then(b.end.total_cmp(&a.end)));
     let mut run = hidden[0];

@@ -22,6 +22,6 @@ pub mod visibility;
 mod witnesses;
 
 pub use ahead::{Ahead, Way};
-pub use build::build;
+pub use build::{build, build_through};
 pub use front::{Front, front_faces};
 pub use graph::{ContourCounts, SeenContour, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};

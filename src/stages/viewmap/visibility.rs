@@ -34,7 +34,7 @@ use crate::view::View;
 const WHOLE_SLACK: f64 = 1e-9;
 
 /// Hidden from end to end.
-const BURIED: [Layer; 1] = [whole(0.0, 1.0)];
+pub(super) const BURIED: [Layer; 1] = [whole(0.0, 1.0)];
 
 const fn whole(start: f64, end: f64) -> Layer {
     let kind = ViewVertexKind::TJunction;
