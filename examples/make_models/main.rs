@@ -17,6 +17,7 @@ mod glb;
 mod goose;
 mod helmet;
 mod horn;
+mod jar;
 mod knot;
 mod obj;
 mod outline;
@@ -90,6 +91,10 @@ fn main() -> std::io::Result<()> {
     let title = "A helmet, one part of four materials";
     write("helmet.obj", obj::text(title, Some("helmet.mtl"), &helmet, &normals).as_bytes())?;
     write("helmet.mtl", obj::library(title, &helmet).as_bytes())?;
+    let title = "A jar of marbles, in cm";
+    let jar = jar::parts();
+    write("jar.obj", obj::text(title, Some("jar.mtl"), &jar, &[]).as_bytes())?;
+    write("jar.mtl", jar::library(title, &jar).as_bytes())?;
     write("street.glb", &glb::bytes("ligne make_models", &street::street()))?;
     write("shelf.ply", &ply::bytes("a scanned vase and a machined gear", &shelf::shelf(), &[]))?;
     write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))?;

@@ -16,6 +16,7 @@ mod dual_tree;
 mod example_models;
 mod export;
 mod fmt;
+mod glass;
 mod gltf;
 mod golden;
 mod halftone;
