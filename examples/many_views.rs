@@ -34,6 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         parts: &parts,
         materials: &materials,
         hidden,
+        behind_glass: style.glass.width,
         seed: style.seed,
         painted: false,
         depths: [0.0, 1.0],
