@@ -22,12 +22,23 @@ pub struct Material {
     pub picture: Option<Arc<[u8]>>,
     /// What becomes of the alpha of the base colour and of its texture.
     pub alpha: Alpha,
+    /// How it shines, if its file says so.
+    pub gloss: Option<Gloss>,
     /// How much light goes through it, 0 to 1, beside what its alpha says.
     pub transmission: f32,
     /// Path of a picture that says how opaque the material is, relative to the model (`map_d` in MTL).
     pub opacity_map: Option<String>,
     /// How the texture goes on beyond its borders, along u and along v.
     pub wrap: [Wrap; 2],
+}
+
+/// How a material shines, by its file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gloss {
+    /// The exponent of its highlights (Blinn-Phong): `Ns` of MTL; of a roughness r in glTF 2/r⁴ − 2.
+    pub exponent: f32,
+    /// How strong they are, 0 to 1: the greatest channel of `Ks` in MTL, 1 − roughness in glTF.
+    pub strength: f32,
 }
 
 /// What becomes of alpha.
@@ -70,6 +81,7 @@ impl Default for Material {
             texture: None,
             picture: None,
             alpha: Alpha::Opaque,
+            gloss: None,
             transmission: 0.0,
             opacity_map: None,
             wrap: [Wrap::Repeat; 2],

@@ -3,12 +3,13 @@
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
+use super::highlight::{HighlightRule, HighlightTable};
 use super::ramp_source::{RampSource, TableSource};
 use crate::drawing::Length;
 use crate::error::Error;
 use crate::field::ToneOptions;
 use crate::field::ramp::GREATEST_TONES;
-use crate::field::tone_options::{Colours, Gooch, Highlight, MaterialChange, Scale, thresholds};
+use crate::field::tone_options::{Colours, Gooch, MaterialChange, Scale, thresholds};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
@@ -35,7 +36,7 @@ pub(super) struct FillsTable {
     lit: Option<Factor>,
     #[serde(deserialize_with = "modulate")]
     modulate: Option<f64>,
-    highlight: Highlight,
+    highlight: HighlightTable,
     cast_shadows: bool,
     seams: Option<Seams>,
     underlap: Option<Length>,
@@ -68,12 +69,15 @@ struct MaterialTable {
     lit: Option<Factor>,
     #[serde(default, deserialize_with = "modulate")]
     modulate: Option<f64>,
-    highlight: Option<bool>,
+    highlight: Option<HighlightRule>,
 }
 
 impl FillsTable {
     /// Reads the pictures that ramps and tables name.
     pub fn read_pictures(&mut self) -> Result<(), Error> {
+        self.highlight.read_pictures()?;
+        let own = self.material.iter_mut().filter_map(|material| material.highlight.as_mut());
+        own.into_iter().try_for_each(HighlightRule::read_pictures)?;
         let own = (&mut self.ramp, &mut self.table);
         let materials = self.material.iter_mut().map(|material| (&mut material.ramp, &mut material.table));
         for (ramp, table) in std::iter::once(own).chain(materials) {
@@ -99,7 +103,7 @@ impl FillsTable {
             shadow: self.shadow.unwrap_or(tones.shadow),
             lit: self.lit.unwrap_or(tones.lit),
             modulate: self.modulate.or(tones.modulate),
-            highlight: self.highlight,
+            highlight: self.highlight.into_options(),
             cast_shadows: self.cast_shadows,
             materials: self.material.into_iter().map(MaterialTable::into_change).collect(),
         };
@@ -132,7 +136,7 @@ impl MaterialTable {
             shadow: self.shadow,
             lit: self.lit,
             modulate: self.modulate,
-            highlight: self.highlight,
+            highlight: self.highlight.map(HighlightRule::into_change).unwrap_or_default(),
         }
     }
 }

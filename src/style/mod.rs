@@ -14,6 +14,7 @@ mod brush_file;
 pub(crate) mod fault;
 mod fills;
 mod hatching;
+mod highlight;
 mod load;
 mod ramp_source;
 mod sheet;
@@ -70,7 +71,7 @@ impl Default for Style {
 }
 
 /// The built-in sheets, by name: the file styles/NAME.toml.
-const BUILT_IN: [(&str, &str); 22] = [
+const BUILT_IN: [(&str, &str); 23] = [
     ("blueprint", include_str!("../../styles/blueprint.toml")),
     ("comic", include_str!("../../styles/comic.toml")),
     ("comic-flats", include_str!("../../styles/comic-flats.toml")),
@@ -92,6 +93,7 @@ const BUILT_IN: [(&str, &str); 22] = [
     ("technical", include_str!("../../styles/technical.toml")),
     ("toon", include_str!("../../styles/toon.toml")),
     ("toon-highlight", include_str!("../../styles/toon-highlight.toml")),
+    ("toon-three", include_str!("../../styles/toon-three.toml")),
     ("woodcut", include_str!("../../styles/woodcut.toml")),
 ];
 

@@ -70,6 +70,7 @@ fn every_built_in_style_loads_and_states_its_idea() {
             "technical",
             "toon",
             "toon-highlight",
+            "toon-three",
             "woodcut",
         ]
     );

@@ -294,6 +294,7 @@ pub struct Material {
 pub struct Pbr {
     pub base_color_factor: Option<[f32; 4]>,
     pub base_color_texture: Option<TextureUse>,
+    pub roughness_factor: Option<f32>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -6,6 +6,7 @@ use super::buffers::{Buffers, Fetch};
 use super::json;
 use super::uri;
 use crate::math::colour::Colour;
+use crate::scene::material::Gloss;
 use crate::scene::{Alpha, Material, Warnings, Wrap};
 
 /// The path of a texture beside the model, or its bytes.
@@ -31,6 +32,7 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
             texture,
             picture,
             alpha: alpha(base[3], material),
+            gloss: gloss(material),
             transmission: material
                 .extensions
                 .transmission
@@ -54,6 +56,13 @@ fn base_colour(material: &json::Material) -> [f32; 4] {
     let glossy = material.extensions.specular_glossiness.as_ref();
     let metallic = material.pbr_metallic_roughness.base_color_factor;
     metallic.or_else(|| glossy.and_then(|glossy| glossy.diffuse_factor)).unwrap_or([1.0; 4])
+}
+
+/// How a material shines: as Blinn-Phong has what is so rough.
+fn gloss(material: &json::Material) -> Option<Gloss> {
+    let roughness = material.pbr_metallic_roughness.roughness_factor?.clamp(0.0, 1.0);
+    let exponent = (2.0 / roughness.max(0.1).powi(4) - 2.0).max(1.0);
+    Some(Gloss { exponent, strength: 1.0 - roughness })
 }
 
 fn alpha(factor: f32, material: &json::Material) -> Alpha {

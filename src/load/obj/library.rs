@@ -4,7 +4,11 @@ use crate::load::text::{Cursor, decode, utf8};
 use crate::math::colour::Colour;
 use crate::scene::Material;
 use crate::scene::beside::stays_inside;
+use crate::scene::material::Gloss;
 use crate::scene::warnings::Warnings;
+
+/// The exponent of a material that says how strongly it shines, but no more.
+const DEFAULT_EXPONENT: f32 = 40.0;
 
 /// Adds the materials of a library; `folder` is where it lies as seen from the model, empty or
 /// with a slash at the end. Colours are taken as sRGB, as most programs do.
@@ -33,6 +37,19 @@ pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, w
             b"Kd" => {
                 if let Some([r, g, b]) = channels(&mut cursor) {
                     material.colour = Colour { r, g, b, ..material.colour };
+                }
+            }
+            b"Ks" => {
+                if let Some(of) = channels(&mut cursor) {
+                    let strength = f32::from(of.into_iter().max().unwrap_or_default()) / 255.0;
+                    let exponent = material.gloss.map_or(DEFAULT_EXPONENT, |gloss| gloss.exponent);
+                    material.gloss = Some(Gloss { exponent, strength });
+                }
+            }
+            b"Ns" => {
+                if let Some(exponent) = cursor.number().filter(|exponent| exponent.is_finite()) {
+                    let strength = material.gloss.map_or(1.0, |gloss| gloss.strength);
+                    material.gloss = Some(Gloss { exponent: exponent as f32, strength });
                 }
             }
             b"Ke" => {
@@ -150,6 +167,16 @@ mod tests {
             (Colour { r: 51, g: 51, b: 51, a: 51 }, Colour::rgb(255, 255, 0))
         );
         assert_eq!(read("newmtl halo\nd -halo 0.5").0[0].colour.a, 128);
+    }
+
+    #[test]
+    fn materials_shine() {
+        let (materials, _) =
+            read("newmtl a\nNs 250\nKs 0.5 0.2 0.1\nnewmtl b\nKs 0 0 0\nnewmtl c\nKd 1 1 1\n");
+        let gloss: Vec<_> = materials.iter().map(|material| material.gloss).collect();
+        let first = Gloss { exponent: 250.0, strength: 128.0 / 255.0 };
+        let second = Gloss { exponent: DEFAULT_EXPONENT, strength: 0.0 };
+        assert_eq!(gloss, [Some(first), Some(second), None]);
     }
 
     #[test]

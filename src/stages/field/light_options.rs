@@ -166,7 +166,7 @@ impl TryFrom<SourceTable> for LightSource {
 }
 
 /// A number from 0 to 1.
-pub(super) fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+pub(crate) fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if (0.0..=1.0).contains(&value) {
         Ok(value)

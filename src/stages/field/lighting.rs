@@ -87,6 +87,8 @@ pub struct Lighting {
     frame: Option<Frame>,
     wrap: f64,
     occlusion: f64,
+    /// How far from what the camera looks at the eye and parallel lights stand for highlights, if not where they are.
+    near: Option<f64>,
 }
 
 impl Lighting {
@@ -131,7 +133,16 @@ impl Lighting {
             casters.truncate(GREATEST_CASTERS);
         }
         let hues = part_by_hue(&mut lamps);
-        Self { lamps, hues, casters, frame: Some(*frame), wrap: options.wrap, occlusion: options.occlusion }
+        let (wrap, occlusion) = (options.wrap, options.occlusion);
+        Self { lamps, hues, casters, frame: Some(*frame), wrap, occlusion, near: None }
+    }
+
+    /// The same with the eye and parallel lights so many sides of the frame from what the camera looks at, where highlights are
+    /// asked; 0 leaves them where they are.
+    #[must_use]
+    pub fn near_for_highlights(self, sides: f64) -> Self {
+        let far = self.frame.map(|frame| sides * frame.side_at(frame.focus)).filter(|far| *far > 0.0);
+        Self { near: far, ..self }
     }
 
     /// One parallel white light, with shadows and without highlights.
@@ -140,7 +151,15 @@ impl Lighting {
         let towards = towards_light.normalize_or_zero();
         let lamp = Lamp { caster: Some(0), ..Lamp::parallel(towards, 1.0, [1.0; 3]) };
         let casters = vec![Caster::Directional { towards }];
-        Self { lamps: vec![lamp], hues: vec![[1.0; 3]], casters, frame: None, wrap: 0.0, occlusion: 0.0 }
+        Self {
+            lamps: vec![lamp],
+            hues: vec![[1.0; 3]],
+            casters,
+            frame: None,
+            wrap: 0.0,
+            occlusion: 0.0,
+            near: None,
+        }
     }
 
     /// The lights that cast shadows; the index of each is its bit in `shadowed`.
@@ -211,10 +230,12 @@ impl Lighting {
     #[must_use]
     pub fn specular(&self, point: &SurfacePoint, exponent: f64, shadowed: u32) -> f64 {
         let Some(frame) = &self.frame else { return 0.0 };
-        let to_eye = frame.to_eye(point.position);
+        let (to_eye, _) = self.eye_of_highlights(frame, point.position);
         let normal = self.normal(point);
         let of = |lamp: &Lamp| {
             let (towards, amount) = lamp.at(point.position);
+            let towards =
+                self.towards_for_highlights(frame, lamp, point.position).map_or(towards, |(to, _)| to);
             let fade = (towards.dot(normal) / HIGHLIGHT_FADE_COSINE).clamp(0.0, 1.0);
             amount * fade * specular::blinn_phong(normal, towards, to_eye, exponent)
         };
@@ -253,16 +274,21 @@ impl Lighting {
         extent: f64,
     ) -> (f64, f64) {
         let Some(frame) = &self.frame else { return (0.0, 0.0) };
-        let to_eye = frame.to_eye(point.position);
-        let way = frame.eye.distance(point.position);
-        if frame.perspective && extent > LARGEST_EXTENT * way {
+        let (to_eye, way) = self.eye_of_highlights(frame, point.position);
+        if extent > LARGEST_EXTENT * way {
             return ANYTHING;
         }
-        let eye_turn = if frame.perspective { EXTENT_TO_TURN * extent / way } else { 0.0 };
+        let eye_turn = EXTENT_TO_TURN * extent / way;
         let normal = self.normal(point);
         let mut high = 0.0;
         for lamp in self.lit(shadowed) {
-            let Some(near) = lamp.near(point.position, extent) else { return ANYTHING };
+            let Some(mut near) = lamp.near(point.position, extent) else { return ANYTHING };
+            if let Some((towards, way)) = self.towards_for_highlights(frame, lamp, point.position) {
+                if extent > LARGEST_EXTENT * way {
+                    return ANYTHING;
+                }
+                (near.towards, near.turn) = (towards, EXTENT_TO_TURN * extent / way);
+            }
             let half = (near.towards + to_eye).normalize_or_zero();
             // Half-way between two directions turns as far as both together, at most, while these lie
             // within a right angle; beyond it there is no telling.
@@ -273,6 +299,25 @@ impl Lighting {
             high += near.amount * near.factor * pow(cos(angle.clamp(0.0, PI / 2.0)).max(0.0), exponent);
         }
         (0.0, high)
+    }
+
+    /// The direction to the eye and how far away it is, as highlights have it; infinitely far in parallel views.
+    fn eye_of_highlights(&self, frame: &Frame, position: DVec3) -> (DVec3, f64) {
+        match self.near {
+            Some(near) => {
+                let way = frame.target() - frame.forward * near - position;
+                (way.normalize_or_zero(), way.length())
+            }
+            None if frame.perspective => (frame.to_eye(position), frame.eye.distance(position)),
+            None => (frame.to_eye(position), f64::INFINITY),
+        }
+    }
+
+    /// The direction to a parallel light that stands near where highlights are asked, and how far away it is.
+    fn towards_for_highlights(&self, frame: &Frame, lamp: &Lamp, position: DVec3) -> Option<(DVec3, f64)> {
+        let Reach::Parallel { towards } = lamp.reach else { return None };
+        let way = frame.target() + towards * self.near? - position;
+        Some((way.normalize_or_zero(), way.length()))
     }
 
     fn lit(&self, shadowed: u32) -> impl Iterator<Item = &Lamp> {

@@ -27,7 +27,6 @@ use crate::view::Frame;
 pub struct Shading {
     lighting: Lighting,
     channels: Vec<Channel>,
-    exponent: f64,
     /// Tones of each paint.
     // The last stand in for paints that are unknown.
     tones: Vec<Tones>,
@@ -74,7 +73,8 @@ impl Shading {
         let of = |index: usize, colour: Option<Colour>| {
             let (own, material, instead) = materials.get(index).or(materials.last())?;
             let colour = instead.or(colour).unwrap_or(material.colour);
-            let look = Look { colour, emissive: material.emissive, ambient: light.ambient, tint, hues };
+            let Material { emissive, gloss, .. } = **material;
+            let look = Look { colour, emissive, ambient: light.ambient, tint, gloss, hues };
             Some(Tones::new(own, &look, &channels))
         };
         let tones_of_paints = if paints.is_empty() {
@@ -82,8 +82,11 @@ impl Shading {
         } else {
             paints.iter().filter_map(|paint| of(paint.material.index(), Some(paint.colour))).collect()
         };
-        let exponent = tones.highlight.exponent;
-        Self { tones: tones_of_paints, lighting, channels, exponent }
+        Self {
+            tones: tones_of_paints,
+            lighting: lighting.near_for_highlights(tones.highlight.near),
+            channels,
+        }
     }
 
     /// This shading with bins for hatching; `paints` as they were given before.
@@ -123,9 +126,9 @@ impl Shading {
         let options = ToneOptions { scale: Scale::Thresholds(levels), ..ToneOptions::default() };
         let Material { colour, emissive, .. } = Material::default();
         let ambient = LightOptions::default().ambient;
-        let look = Look { colour, emissive, ambient, tint: lighting.tint(), hues: &[] };
+        let look = Look { colour, emissive, ambient, tint: lighting.tint(), gloss: None, hues: &[] };
         let tones = vec![Tones::new(&options, &look, &channels)];
-        Self { lighting, channels, exponent: options.highlight.exponent, tones }
+        Self { lighting, channels, tones }
     }
 
     /// The lights that cast shadows, at most 8, local space; the index of each is its bit in
@@ -154,6 +157,7 @@ impl Shading {
     pub fn range(
         &self,
         channel: usize,
+        paint: PaintId,
         point: &SurfacePoint,
         shadowed: u32,
         turn: f64,
@@ -166,7 +170,9 @@ impl Shading {
             }
             Some(Channel::Light(k)) => lighting.diffuse_range(Of::Lamp(*k), point, shadowed, turn, extent),
             Some(Channel::Hue(k)) => lighting.diffuse_range(Of::Hue(*k), point, shadowed, turn, extent),
-            Some(Channel::Highlight) => lighting.specular_range(point, self.exponent, shadowed, turn, extent),
+            Some(Channel::Highlight) => {
+                lighting.specular_range(point, self.exponent(paint), shadowed, turn, extent)
+            }
             None => (0.0, 0.0),
         }
     }
@@ -187,12 +193,12 @@ impl Shading {
     /// The value of a channel at a point that those lights do not reach whose bits are set in
     /// `shadowed`.
     #[must_use]
-    pub fn value(&self, channel: usize, _paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
+    pub fn value(&self, channel: usize, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
             Some(Channel::Diffuse | Channel::Shade) => self.lighting.diffuse(Of::All, point, shadowed),
             Some(Channel::Light(k)) => self.lighting.diffuse(Of::Lamp(*k), point, shadowed),
             Some(Channel::Hue(k)) => self.lighting.diffuse(Of::Hue(*k), point, shadowed),
-            Some(Channel::Highlight) => self.lighting.specular(point, self.exponent, shadowed),
+            Some(Channel::Highlight) => self.lighting.specular(point, self.exponent(paint), shadowed),
             None => 0.0,
         }
     }
@@ -207,6 +213,11 @@ impl Shading {
     #[must_use]
     pub fn colour(&self, paint: PaintId, tone: u16) -> Colour {
         self.tones_of(paint).map_or(Colour::WHITE, |tones| tones.colour(tone))
+    }
+
+    /// The exponent of the highlights of a paint.
+    fn exponent(&self, paint: PaintId) -> f64 {
+        self.tones_of(paint).map_or(1.0, |tones| tones.exponent)
     }
 
     fn tones_of(&self, paint: PaintId) -> Option<&Tones> {

@@ -7,6 +7,7 @@ use super::ramp::{GREATEST_TONES, Strip, Table};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
+use crate::scene::material::Gloss;
 
 /// Into which tones the surface of a material falls, and what colours they have.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,23 +82,77 @@ pub struct Gooch {
 }
 
 /// Highlights: where a surface mirrors a light into the eye.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Highlight {
     /// Whether there are any. Default: false.
     pub enabled: bool,
     /// Rising thresholds of (n·h)^exponent. Default: 0.5.
-    #[serde(deserialize_with = "thresholds")]
     pub thresholds: Vec<f64>,
     /// The higher, the smaller. Default: 40.
-    #[serde(deserialize_with = "exponent")]
     pub exponent: f64,
     /// The colour that the brightest tone of the material is mixed with. Default: white.
     pub colour: Colour,
     /// How much of it the brightest highlight has, 0 to 1; weaker ones have less. Default: 0.7.
-    #[serde(deserialize_with = "fraction")]
     pub strength: f64,
+    /// Light over its strength from 0 to 1, added to the brightest tone of the material, in place of thresholds, colour and strength.
+    /// Default: none.
+    pub ramp: Option<Strip>,
+    /// Whether exponent and strength are those of the material where its file has any. Default: false.
+    pub material: bool,
+    /// Where highlights are asked, the eye and parallel lights stand so many sides of the frame from what the camera looks at, so that
+    /// flat faces have a spot and not all or nothing; 0 = where they are. Default: 0.
+    pub near: f64,
 }
+
+/// What is different about highlights for some materials.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HighlightChange {
+    /// Whether there are any.
+    pub enabled: Option<bool>,
+    /// Rising thresholds of (n·h)^exponent.
+    pub thresholds: Option<Vec<f64>>,
+    /// The higher, the smaller.
+    pub exponent: Option<f64>,
+    /// The colour that the brightest tone is mixed with.
+    pub colour: Option<Colour>,
+    /// How much of it the brightest highlight has.
+    pub strength: Option<f64>,
+    /// Light over its strength.
+    pub ramp: Option<Strip>,
+    /// Whether the material says how it shines.
+    pub material: Option<bool>,
+}
+
+impl Highlight {
+    /// Applies a change. Numbers of its own stand in for those of the material.
+    pub fn change(&mut self, change: HighlightChange) {
+        let HighlightChange { enabled, thresholds, exponent, colour, strength, ramp, material } = change;
+        self.enabled = enabled.unwrap_or(self.enabled);
+        self.material = material.unwrap_or(self.material && exponent.is_none() && strength.is_none());
+        if thresholds.is_some() || colour.is_some() || strength.is_some() {
+            self.ramp = None;
+        }
+        self.thresholds = thresholds.unwrap_or(std::mem::take(&mut self.thresholds));
+        self.exponent = exponent.unwrap_or(self.exponent);
+        self.colour = colour.unwrap_or(self.colour);
+        self.strength = strength.unwrap_or(self.strength);
+        self.ramp = ramp.or(self.ramp.take());
+    }
+
+    /// The highlights of a material that shines so; none if it has none.
+    #[must_use]
+    pub fn of(&self, gloss: Option<Gloss>) -> Option<Self> {
+        let mut own = self.clone();
+        if let Some(gloss) = gloss.filter(|_| self.material) {
+            own.exponent = f64::from(gloss.exponent).clamp(LEAST_EXPONENT, GREATEST_EXPONENT);
+            own.strength *= f64::from(gloss.strength).clamp(0.0, 1.0);
+        }
+        (own.enabled && (own.strength > 0.0 || own.ramp.is_some())).then_some(own)
+    }
+}
+
+const LEAST_EXPONENT: f64 = 1.0;
+const GREATEST_EXPONENT: f64 = 10_000.0;
 
 /// What is different for the materials whose name fits a pattern: `[[fills.material]]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,8 +173,8 @@ pub struct MaterialChange {
     pub lit: Option<Factor>,
     /// How palette, ramp or table multiply the material.
     pub modulate: Option<f64>,
-    /// Whether there are highlights.
-    pub highlight: Option<bool>,
+    /// What is different about highlights.
+    pub highlight: HighlightChange,
 }
 
 impl Default for ToneOptions {
@@ -152,7 +207,16 @@ impl Default for Gooch {
 
 impl Default for Highlight {
     fn default() -> Self {
-        Self { enabled: false, thresholds: vec![0.5], exponent: 40.0, colour: Colour::WHITE, strength: 0.7 }
+        Self {
+            enabled: false,
+            thresholds: vec![0.5],
+            exponent: 40.0,
+            colour: Colour::WHITE,
+            strength: 0.7,
+            ramp: None,
+            material: false,
+            near: 0.0,
+        }
     }
 }
 
@@ -176,7 +240,7 @@ impl ToneOptions {
             own.shadow = change.shadow.unwrap_or(own.shadow);
             own.lit = change.lit.unwrap_or(own.lit);
             own.modulate = change.modulate.or(own.modulate);
-            own.highlight.enabled = change.highlight.unwrap_or(own.highlight.enabled);
+            own.highlight.change(change.highlight);
         }
         (own, colour)
     }
@@ -195,9 +259,13 @@ pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>
     Err(serde::de::Error::custom("thresholds are rising numbers above 0; write such as [0.3, 0.7]"))
 }
 
-fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+/// The exponent of a highlight.
+///
+/// # Errors
+/// Says what it may be.
+pub fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
-    if (1.0..=10_000.0).contains(&value) {
+    if (LEAST_EXPONENT..=GREATEST_EXPONENT).contains(&value) {
         return Ok(value);
     }
     Err(serde::de::Error::custom(format!(

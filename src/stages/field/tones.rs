@@ -9,6 +9,7 @@ use super::ramp::Table;
 use super::tone_options::{Colours, Gooch, Highlight, Scale, ToneOptions};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
+use crate::scene::material::Gloss;
 
 /// The greatest channel of a material in toned colours is at least this: on blacker ones neither
 /// tones nor lines could be told apart.
@@ -40,6 +41,8 @@ pub(super) struct Look<'a> {
     pub ambient: Factor,
     /// Tint of the lights together.
     pub tint: [f64; 3],
+    /// How it shines, if its file says so.
+    pub gloss: Option<Gloss>,
     /// Tints of the lights one by one, if tones are to be cut for each.
     pub hues: &'a [[f64; 3]],
 }
@@ -53,6 +56,8 @@ pub(super) struct Tones {
     colours: Vec<Colour>,
     /// How many of them are no highlights, at least 1.
     plain: usize,
+    /// The exponent of its highlights.
+    pub exponent: f64,
     /// The table that two channels look tones up in.
     table: Option<Table>,
     /// Where lights have several tints: how they mix.
@@ -68,8 +73,8 @@ impl Tones {
             None => plain_colours(options, look),
         };
         let plain = colours.len();
-        let highlight = Some(&options.highlight).filter(|highlight| highlight.enabled);
-        if let (Some(highlight), Some(brightest)) = (highlight, colours.last().copied()) {
+        let highlight = options.highlight.of(look.gloss);
+        if let (Some(highlight), Some(brightest)) = (&highlight, colours.last().copied()) {
             colours.extend(highlight_colours(highlight, brightest));
         }
         let table = match &options.scale {
@@ -81,10 +86,12 @@ impl Tones {
             (Channel::Hue(_), None) if mixture.is_some() => diffuse_levels(&options.scale),
             (Channel::Light(0), Some(table)) => table.columns.clone(),
             (Channel::Light(1), Some(table)) => table.rows.clone(),
-            (Channel::Highlight, _) => highlight.map_or(Vec::new(), |h| h.thresholds.clone()),
+            (Channel::Highlight, _) => highlight.as_ref().map_or(Vec::new(), highlight_levels),
             _ => Vec::new(),
         });
-        Self { levels: levels.collect(), colours, plain, table, mixture }
+        let levels = levels.collect();
+        let exponent = highlight.as_ref().unwrap_or(&options.highlight).exponent;
+        Self { levels, colours, plain, exponent, table, mixture }
     }
 
     /// Adds levels for one more channel to the tones.
@@ -253,10 +260,24 @@ fn modulated(colour: Colour, factor: f64, look: &Look) -> Colour {
     Colour { a: look.colour.a.min(colour.a), ..Colour::from_channels(channels) }
 }
 
+/// Rising strengths at which highlights begin or change.
+fn highlight_levels(highlight: &Highlight) -> Vec<f64> {
+    highlight.ramp.as_ref().map_or_else(|| highlight.thresholds.clone(), |strip| strip.levels.clone())
+}
+
 /// Colours of highlights, weakest first.
-fn highlight_colours(highlight: &Highlight, brightest: Colour) -> impl Iterator<Item = Colour> {
+fn highlight_colours(highlight: &Highlight, brightest: Colour) -> Vec<Colour> {
+    if let Some(strip) = &highlight.ramp {
+        let (below, a) = (brightest.channels(), brightest.a);
+        let added = |light: &Colour| {
+            let light = light.channels();
+            Colour { a, ..Colour::from_channels([0, 1, 2].map(|c| (below[c] + light[c]).min(1.0))) }
+        };
+        return strip.colours.iter().skip(1).map(added).collect();
+    }
     let count = highlight.thresholds.len();
-    (1..=count).map(move |k| brightest.mix(highlight.colour, highlight.strength * k as f64 / count as f64))
+    let of = |k: usize| brightest.mix(highlight.colour, highlight.strength * k as f64 / count as f64);
+    (1..=count).map(of).collect()
 }
 
 /// The k-th of `count` values spread evenly over a list, its ends included; of one alone the last.

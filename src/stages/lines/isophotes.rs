@@ -262,7 +262,8 @@ impl<'a> Tracer<'a> {
         let shading = self.lit.shading;
         let (low, high) = if shading.is_local(band.channel) {
             let point = self.lit.point(band.face, nodes[0].weights);
-            shading.range(band.channel, &point, band.shadowed, turn, most(&band.spans))
+            let paint = self.lit.mesh.paint(FaceId(band.face));
+            shading.range(band.channel, paint, &point, band.shadowed, turn, most(&band.spans))
         } else {
             let off = turn * shading.steepness();
             let values = nodes.iter().map(|node| node.value);

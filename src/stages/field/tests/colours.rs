@@ -4,12 +4,13 @@ use glam::DVec3;
 
 use super::{frame, mesh, near, point, shading};
 use crate::field::ramp::{Strip, Table};
-use crate::field::tone_options::{Colours, Gooch, Highlight, MaterialChange, Scale};
+use crate::field::tone_options::{Colours, Gooch, Highlight, HighlightChange, MaterialChange, Scale};
 use crate::field::{LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
 use crate::mesh::{MaterialId, PaintId};
+use crate::scene::material::Gloss;
 use crate::scene::{Material, Paint, Scene};
 
 const FIRST: PaintId = PaintId(0);
@@ -42,7 +43,7 @@ fn unchanged(name: &str) -> MaterialChange {
         shadow: None,
         lit: None,
         modulate: None,
-        highlight: None,
+        highlight: HighlightChange::default(),
     }
 }
 
@@ -193,6 +194,80 @@ fn highlights_are_tones_above_the_others() {
     assert_eq!(gloss.colour(FIRST, 3), Colour::WHITE);
 }
 
+/// A material that shines so.
+fn glossy(name: &str, exponent: f32, strength: f32) -> Material {
+    let gloss = Some(Gloss { exponent, strength });
+    Material { name: name.to_owned(), colour: ORANGE, gloss, ..Material::default() }
+}
+
+#[test]
+fn materials_shine_as_their_file_says_or_a_rule() {
+    let scene = Scene {
+        materials: vec![glossy("steel", 100.0, 1.0), glossy("wood", 10.0, 0.5), glossy("chalk", 1.0, 0.0)],
+        ..Scene::default()
+    };
+    let highlight = Highlight { enabled: true, strength: 1.0, material: true, ..Highlight::default() };
+    let own = HighlightChange { exponent: Some(7.0), ..HighlightChange::default() };
+    let rule = MaterialChange { highlight: own, ..unchanged("st*") };
+    let plain = ToneOptions { highlight, ..ToneOptions::default() };
+    let ruled = ToneOptions { materials: vec![rule], ..plain.clone() };
+    let [by_file, by_rule] = [plain, ruled].map(|options| {
+        let direction = DVec3::new(0.0, -1.0, 1.0);
+        let kind = SourceKind::Directional { direction };
+        let source = LightSource { kind, space: Space::World, ..LightSource::default() };
+        shading(&scene, &LightOptions { sources: vec![source], ..LightOptions::default() }, &options).0
+    });
+    let normal = DVec3::new(0.3, -1.0, 0.5);
+    let half = (DVec3::new(0.0, -1.0, 1.0).normalize() + DVec3::NEG_Y).normalize();
+    let cosine: f64 = normal.normalize().dot(half);
+    let value = |shading: &Shading, k: u32| shading.value(1, PaintId(k), &point(DVec3::ZERO, normal), 0);
+    near(value(&by_file, 0), crate::math::function::pow(cosine, 100.0));
+    near(value(&by_file, 1), crate::math::function::pow(cosine, 10.0));
+    near(value(&by_rule, 0), crate::math::function::pow(cosine, 7.0));
+    // What does not shine has no highlight, what shines less a weaker one.
+    assert!(by_file.levels(PaintId(2), 1).is_empty() && !by_file.levels(PaintId(1), 1).is_empty());
+    assert_eq!(by_file.colour(PaintId(1), 2), by_file.colour(PaintId(1), 1).mix(Colour::WHITE, 0.5));
+}
+
+#[test]
+fn a_ramp_of_highlights_adds_light() {
+    let grey = |value: u8| Colour::rgb(value, value, value);
+    let strip = Strip::of_columns(&[grey(0), grey(20), grey(60), grey(60)]).unwrap();
+    let highlight = Highlight { enabled: true, ramp: Some(strip), ..Highlight::default() };
+    let gloss = toned(&ToneOptions { highlight, ..ToneOptions::default() });
+    assert_eq!(gloss.levels(FIRST, 1), [0.25, 0.5]);
+    let wanted = [ORANGE, Colour::rgb(220, 140, 60), Colour::rgb(255, 180, 100)];
+    assert_eq!([1, 2, 3].map(|tone| gloss.colour(FIRST, tone)), wanted);
+}
+
+#[test]
+fn near_highlights_are_spots_on_flat_faces_within_their_bounds() {
+    let at = |near: f64| {
+        let highlight = Highlight { enabled: true, exponent: 60.0, near, ..Highlight::default() };
+        let direction = DVec3::new(0.0, -1.0, 0.2);
+        let kind = SourceKind::Directional { direction };
+        let source = LightSource { kind, space: Space::World, ..LightSource::default() };
+        let light = LightOptions { sources: vec![source], ..LightOptions::default() };
+        let options = ToneOptions { highlight, ..ToneOptions::default() };
+        shading(&scene(&[("body", ORANGE)]), &light, &options).0
+    };
+    let (far, spot) = (at(0.0), at(0.5));
+    let on_face = |x: f64, z: f64| point(DVec3::new(x, 0.0, z), DVec3::new(0.0, -1.0, 0.1));
+    let value = |shading: &Shading, x: f64, z: f64| shading.value(1, FIRST, &on_face(x, z), 0);
+    near(value(&far, 0.0, 0.0), value(&far, 0.9, -0.9));
+    assert!(value(&spot, 0.0, 0.0) > 0.9 && value(&spot, 0.9, 0.0) < 0.1 && value(&spot, 0.0, -0.9) < 0.1);
+    for k in 0..40 {
+        let (x, z) = (f64::from(k) / 20.0 - 1.0, f64::from(k * 7 % 40) / 20.0 - 1.0);
+        for extent in [0.01, 0.1, 0.3] {
+            let (low, high) = spot.range(1, FIRST, &on_face(x, z), 0, 0.0, extent);
+            for (dx, dz) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.0, 0.0)] {
+                let found = value(&spot, x + dx * extent, z + dz * extent);
+                assert!(low <= found && found <= high, "{x} {z} {extent}: {found} is not in {low} to {high}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_table_is_looked_up_by_two_lights() {
     let of = |direction: DVec3, brightness: f64| LightSource {
@@ -236,7 +311,11 @@ fn a_strip_brings_levels_and_colours() {
 fn materials_are_changed_by_name() {
     let mut options = grey(0.5, Scale::Thresholds(vec![0.5]));
     options.materials = vec![
-        MaterialChange { scale: Some(Scale::Steps(4)), highlight: Some(true), ..unchanged("glass*") },
+        MaterialChange {
+            scale: Some(Scale::Steps(4)),
+            highlight: HighlightChange { enabled: Some(true), ..HighlightChange::default() },
+            ..unchanged("glass*")
+        },
         MaterialChange { colour: Some(Colour::WHITE), ..unchanged("*blue") },
     ];
     let scene = scene(&[("body", ORANGE), ("glass blue", ORANGE)]);
