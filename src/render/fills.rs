@@ -15,7 +15,7 @@ use crate::lines::{
 };
 use crate::math::colour::Colour;
 use crate::mesh::solid::solid_parts;
-use crate::mesh::{EdgeSet, Mesh};
+use crate::mesh::{EdgeSet, Mesh, PaintId};
 use crate::region::{self, Darkened, Look, Region, Regions, Seen, paint::PaintContext};
 use crate::scene::{Camera, Paint, Scene, paint::Paints};
 use crate::shadow::Shadows;
@@ -175,6 +175,11 @@ impl<'a> Fills<'a> {
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
         }
+    }
+
+    /// How many tones a paint has.
+    pub fn tone_count(&self, paint: PaintId) -> u16 {
+        self.shading.tone_count(paint)
     }
 
     /// The paints of the scene.

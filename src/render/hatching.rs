@@ -195,11 +195,7 @@ fn fixed(
     let spacing = power_of_two_below(in_model) / FINER;
     let angle = layer.angle.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
-    let up = match scene.up {
-        UpAxis::Y => DVec3::Y,
-        UpAxis::Z => DVec3::Z,
-    };
-    let across = up * cosine + (DVec3::X + up.cross(DVec3::X) * SLANT).normalize() * sine;
+    let across = cut_of(scene, angle);
     let cut = |face: u32| Some(mesh.corners(FaceId(face)).map(|p| (p + mesh.origin).dot(across) / spacing));
     let texels = if layer.direction == Direction::Uv { texture_scales(mesh) } else { Vec::new() };
     let woven = |face: u32| {
@@ -227,6 +223,15 @@ fn fixed(
         hash(names.get(part.index()).copied().unwrap_or_default(), &[x, y, z])
     };
     Some(cuts::guides(ground, &curves, seen, name, pitch, seed))
+}
+
+/// The normal of the planes that cut a model: level at 0, turned by an angle in radians.
+pub(super) fn cut_of(scene: &Scene, angle: f64) -> DVec3 {
+    let up = match scene.up {
+        UpAxis::Y => DVec3::Y,
+        UpAxis::Z => DVec3::Z,
+    };
+    up * cos(angle) + (DVec3::X + up.cross(DVec3::X) * SLANT).normalize() * sin(angle)
 }
 
 /// Sets of cuts are this much closer than strokes lie on a surface that faces the eye.

@@ -26,6 +26,7 @@ mod hatching;
 mod image;
 mod late_search;
 mod maps;
+mod patterns;
 pub mod report;
 pub mod stage;
 mod stages;
@@ -41,7 +42,7 @@ pub use report::{Report, Stopwatch};
 pub use stage::Stage;
 
 use crate::chain;
-use crate::drawing::{Drawing, Layer, Length, Page, Unit};
+use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
 use crate::error::Error;
 use crate::hatch::Hatched;
 use crate::lines::{self, FeatureLines, LineOptions, Surface, Textures};
@@ -251,6 +252,7 @@ impl<'a> Prepared<'a> {
         if let Some(fills) = fills.filter(|_| fills::is_lit(style)) {
             let seen =
                 behind.as_ref().map_or_else(|| fills.see(&map, &page), |behind| behind.see(fills, &page));
+            let mut patterned = Vec::new();
             if style.region.enabled {
                 let (mut painted, regions) = fills.paint(&seen, &page, camera, style);
                 report.counts.regions = regions.regions.len() as u64;
@@ -258,12 +260,19 @@ impl<'a> Prepared<'a> {
                     behind.paint(fills, &map, (&page, camera, style), &mut painted);
                 }
                 layers.extend(painted);
+                patterned = patterns::marks(fills, &seen, scene, (&page, camera, style));
             }
             report.counts.leaks = seen.leaks;
             report.stages_ms.regions = watch.lap_ms();
             let hatching = Hatching { fills, scene, page: &page, camera, style };
+            let mut hatched = if style.hatch.enabled { hatching.layer(&seen) } else { None };
+            if !patterned.is_empty() {
+                patterned.extend(hatched.take().into_iter().flat_map(|layer| layer.marks));
+                hatched =
+                    Some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks: patterned });
+            }
+            layers.extend(hatched);
             if style.hatch.enabled {
-                layers.extend(hatching.layer(&seen));
                 report.stages_ms.hatching = watch.lap_ms();
             }
             blacks = hatching.black_ground(&seen);

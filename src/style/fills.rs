@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::field::ToneOptions;
 use crate::field::ramp::GREATEST_TONES;
 use crate::field::tone_options::{Colours, Gooch, MaterialChange, Scale, thresholds};
+use crate::hatch::Pattern;
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
@@ -46,6 +47,7 @@ pub(super) struct FillsTable {
     #[serde(deserialize_with = "texture_colours")]
     texture_colours: Option<usize>,
     material: Vec<MaterialTable>,
+    pattern: Vec<Pattern>,
 }
 
 /// A table `[[fills.material]]`.
@@ -92,7 +94,7 @@ impl FillsTable {
     }
 
     /// The options that the table stands for.
-    pub fn into_options(self) -> (ToneOptions, RegionOptions, TextureOptions) {
+    pub fn into_options(self) -> (ToneOptions, RegionOptions, TextureOptions, Vec<Pattern>) {
         let tones = ToneOptions::default();
         let region = RegionOptions::default();
         let gooch = Some(self.gooch).filter(|gooch| gooch.enabled);
@@ -119,7 +121,7 @@ impl FillsTable {
             fill: self.texture.unwrap_or(textures.fill),
             colours: self.texture_colours.unwrap_or(textures.colours),
         };
-        (tones, region, textures)
+        (tones, region, textures, self.pattern)
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) use load::placed_change;
 use crate::chain::ChainOptions;
 use crate::error::Error;
 use crate::field::{LightOptions, ShadeOptions, ToneOptions};
-use crate::hatch::HatchOptions;
+use crate::hatch::{HatchOptions, Pattern};
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
 use crate::region::RegionOptions;
@@ -51,6 +51,8 @@ pub struct Style {
     pub tones: ToneOptions,
     /// How the pictures of materials are painted.
     pub textures: TextureOptions,
+    /// What is laid over tones.
+    pub patterns: Vec<Pattern>,
     /// Whether regions of tones are painted, and how.
     pub region: RegionOptions,
     /// Into which bins of light hatched surfaces fall.

@@ -109,7 +109,7 @@ impl Sheet {
         let mut stroke = self.pen.into_options();
         stroke.rules.extend(self.rule);
         stroke.layers = self.layers;
-        let (tones, region, textures) = self.fills.into_options();
+        let (tones, region, textures, patterns) = self.fills.into_options();
         let (shade, hatch) = self.hatching.into_options();
         Style {
             background: self.page.background,
@@ -120,6 +120,7 @@ impl Sheet {
             light: self.light,
             tones,
             textures,
+            patterns,
             region,
             shade,
             hatch,

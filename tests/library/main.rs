@@ -30,6 +30,7 @@ mod loading;
 mod locality;
 mod marked_edges;
 mod models;
+mod patterns;
 mod properties;
 mod regions;
 mod shadows;

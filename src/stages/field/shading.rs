@@ -209,6 +209,12 @@ impl Shading {
         self.tones_of(paint).map_or(0, |tones| tones.tone(&self.channels, bands))
     }
 
+    /// How many tones a paint has, highlights counted.
+    #[must_use]
+    pub fn tone_count(&self, paint: PaintId) -> u16 {
+        self.tones_of(paint).map_or(1, Tones::count)
+    }
+
     /// The colour of a tone on a paint.
     #[must_use]
     pub fn colour(&self, paint: PaintId, tone: u16) -> Colour {

@@ -121,6 +121,11 @@ impl Tones {
         }
     }
 
+    /// How many tones there are, highlights counted.
+    pub fn count(&self) -> u16 {
+        self.colours.len() as u16
+    }
+
     /// The colour of a tone; the brightest where there is no such tone.
     pub fn colour(&self, tone: u16) -> Colour {
         let colour = self.colours.get(usize::from(tone)).or(self.colours.last());

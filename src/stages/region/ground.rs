@@ -60,6 +60,17 @@ impl Ground {
         Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
     }
 
+    /// The ground to an eye that tells tones and colours apart, but no bins of hatching.
+    #[must_use]
+    pub fn toned(seen: &Seen, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+        let (looks, table) = seen.seen_as(|look| Look { bin: 0, ..*look });
+        let (facet_of, _) = seen.cut.flooded(|triangle, side, next| {
+            seen.cut.borders[triangle][side].is_none_or(|border| border.is_tone())
+                && looks[triangle] == looks[next]
+        });
+        Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
+    }
+
     /// The ground under a coarser eye, by which different looks may count as one; all of it is one facet.
     pub(crate) fn coarse(
         seen: &Seen,

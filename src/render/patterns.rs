@@ -1,0 +1,85 @@
+//! Patterns over the tones of a view.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use kurbo::Vec2;
+
+use super::fills::Fills;
+use super::hatching::cut_of;
+use crate::drawing::{Mark, Page};
+use crate::hatch::{self, Guide, HatchContext, Pattern, PatternFixed, PatternKind, cuts};
+use crate::math::colour::Colour;
+use crate::mesh::FaceId;
+use crate::region::level_curves::{are_seen, level_curves};
+use crate::region::{Ground, Seen};
+use crate::scene::{Camera, Scene};
+use crate::style::Style;
+
+/// Lines of a pattern that cover more of the surface than this are left out: where it turns from the eye they would fill it.
+const DENSEST: f64 = 0.7;
+
+/// The marks of all patterns of a style.
+pub(super) fn marks(
+    fills: &Fills,
+    seen: &Seen,
+    scene: &Scene,
+    (page, camera, style): (&Page, &Camera, &Style),
+) -> Vec<Mark> {
+    if style.patterns.is_empty() {
+        return Vec::new();
+    }
+    let offset = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
+    let ground = Ground::toned(seen, style.region.crumb, page.unit, offset);
+    let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect();
+    let materials: Vec<(Arc<str>, Colour)> =
+        scene.materials.iter().map(|own| (Arc::from(own.name.as_str()), own.colour)).collect();
+    let context = HatchContext {
+        unit: page.unit,
+        seed: style.seed,
+        parts: &parts,
+        materials: &materials,
+        paints: &fills.paint_colours(scene, style),
+        tones: &[],
+        samples: None,
+        paper: style.background.unwrap_or(Colour::WHITE),
+        flows: &[],
+        fixed: &[],
+    };
+    let of = |own: &Pattern| {
+        let guides = guides(fills, &ground, scene, own, page, offset);
+        let tones = |look: &crate::region::Look| fills.tone_count(look.paint);
+        hatch::pattern(&ground, &context, own, tones, guides.as_deref())
+    };
+    style.patterns.iter().flat_map(of).collect()
+}
+
+/// The lines of a pattern that is fixed to the surface: cuts through the model as far apart as they are on the page where the camera
+/// looks.
+fn guides(
+    fills: &Fills,
+    ground: &Ground,
+    scene: &Scene,
+    own: &Pattern,
+    page: &Page,
+    offset: Vec2,
+) -> Option<Vec<Guide>> {
+    if own.fixed == PatternFixed::Page || !matches!(own.kind, PatternKind::Lines | PatternKind::Crosses) {
+        return None;
+    }
+    let lit = fills.lit();
+    let frame = &lit.view.frame;
+    let [size, width] = [own.size, own.width].map(|length| length.in_unit(page.unit));
+    let spacing = size / frame.scale * if frame.perspective { frame.focus } else { 1.0 };
+    let turns = if own.kind == PatternKind::Crosses { &[0.0, 90.0][..] } else { &[0.0] };
+    let of = |turn: &f64| {
+        let across = cut_of(scene, (own.angle + turn).to_radians());
+        let mesh = lit.mesh;
+        let cut = |face: u32| {
+            Some(mesh.corners(FaceId(face)).map(|p: DVec3| (p + mesh.origin).dot(across) / spacing))
+        };
+        let curves = level_curves(&lit, offset, cut, |_, density| density * width < DENSEST);
+        cuts::guides(ground, &curves, |points| are_seen(&lit, offset, points), |_, _| 0, size, 0)
+    };
+    Some(turns.iter().flat_map(of).collect())
+}
