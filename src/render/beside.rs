@@ -77,7 +77,7 @@ impl Wanted {
 /// Numbers of feature segments that last while the eye moves, where there are any: of segments on edges of
 /// the mesh, from the places of their vertices. 0 for all others. None if no pen has a hand.
 pub(super) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOptions) -> Vec<u64> {
-    let has_hand = |pen: &Pen| pen.hand.is_on();
+    let has_hand = |pen: &Pen| pen.hand.is_on() || pen.swell.chance > 0.0;
     let changed = options.rules.iter().any(|rule| {
         let mut pen = Pen::default();
         rule.pen.apply(&mut pen);

@@ -73,7 +73,7 @@ impl Default for Style {
 }
 
 /// The built-in sheets, by name: the file styles/NAME.toml.
-const BUILT_IN: [(&str, &str); 23] = [
+const BUILT_IN: [(&str, &str); 24] = [
     ("blueprint", include_str!("../../styles/blueprint.toml")),
     ("comic", include_str!("../../styles/comic.toml")),
     ("comic-flats", include_str!("../../styles/comic-flats.toml")),
@@ -86,6 +86,7 @@ const BUILT_IN: [(&str, &str); 23] = [
     ("patent", include_str!("../../styles/patent.toml")),
     ("pen", include_str!("../../styles/pen.toml")),
     ("pencil", include_str!("../../styles/pencil.toml")),
+    ("pencil-object", include_str!("../../styles/pencil-object.toml")),
     ("pencil-plain", include_str!("../../styles/pencil-plain.toml")),
     ("plotter", include_str!("../../styles/plotter.toml")),
     ("rim", include_str!("../../styles/rim.toml")),

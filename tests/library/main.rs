@@ -32,6 +32,7 @@ mod marked_edges;
 mod models;
 mod patterns;
 mod properties;
+mod random_widths;
 mod regions;
 mod shadows;
 mod smooth_contours;

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use kurbo::{Point, Shape};
 use ligne::drawing::{Drawing, LayerKind, Mark, Page, Paint, Unit};
+use ligne::math::function::{cos, sin};
 use ligne::render::{render, render_reported};
 use ligne::scene::{Camera, Material, Scene};
 use ligne::style::Style;
@@ -87,7 +88,7 @@ fn dots_and_lines_are_as_dense_and_as_turned_as_asked() {
         for [a, b] in lines {
             // Counter-clockwise as the page is seen, y down.
             let along = (b - a).normalize();
-            let turn = kurbo::Vec2::new(angle.to_radians().cos(), -angle.to_radians().sin());
+            let turn = kurbo::Vec2::new(cos(angle.to_radians()), -sin(angle.to_radians()));
             assert!(along.cross(turn).abs() < 1e-6, "{angle}");
             let row = a.to_vec2().dot(kurbo::Vec2::new(turn.y, -turn.x)) / 8.0;
             assert!((row - row.round()).abs() < 1e-6, "lines keep their place on the page");
@@ -133,7 +134,7 @@ fn what_is_fixed_to_the_surface_turns_with_it_and_what_is_fixed_to_the_page_does
             .count()
     };
     // Rolled about the line of sight: the same face, turned on the page.
-    let rolled = Camera { up: DVec3::new(0.4, 1.0, 0.0).normalize(), ..camera.clone() };
+    let rolled = Camera { up: DVec3::new(0.4, 1.0, 0.0).normalize(), ..camera };
     assert_eq!(count(&camera, "surface"), count(&rolled, "surface"));
     assert!(count(&rolled, "page") > count(&camera, "page") + 3);
 }

@@ -61,6 +61,7 @@ fn every_built_in_style_loads_and_states_its_idea() {
             "patent",
             "pen",
             "pencil",
+            "pencil-object",
             "pencil-plain",
             "plotter",
             "rim",

@@ -39,6 +39,9 @@ const SAME_WIDTH: f64 = 1e-6;
 /// hand, where nothing in the model tells them apart.
 const CELL_PX: f64 = 96.0;
 
+/// Sets the chance of widths apart from all others.
+const WIDTH: u64 = 0x7769_6474;
+
 /// What is painted for a piece of a chain.
 #[derive(Debug, Clone)]
 pub(super) enum Shape {
@@ -73,14 +76,14 @@ impl Inked<'_> {
     /// The shapes of the line and their colours, pass by pass.
     pub fn shapes(&self, context: &InkContext) -> Vec<(Shape, Colour)> {
         let (hand, px) = (&self.pen.hand, context.px());
-        let seed = hash(context.seed, &[self.identity(context)]);
+        let seed = hash(context.seed, &[identity(self.chain, self.identities, context)]);
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
         let lifts = hand.overshoot.value > 0.0;
         let ends = [0, 1].map(|side| End {
             tapers: self.joined[side].is_none(),
             runs_on: self.joined[side].is_none() && !self.chain.covered[side],
         });
-        let setting = setting(self.chain, self.pen, self.depths, context);
+        let setting = setting(self.chain, self.pen, self.depths, self.identities, context);
         let mut axis = self.axis.clone();
         let mut thick = self.thick.to_vec();
         if self.pen.swell.is_on() && !axis.closed {
@@ -199,25 +202,35 @@ impl Inked<'_> {
             width,
         })
     }
+}
 
-    /// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where
-    /// it runs along them, elsewhere from about where it begins.
-    fn identity(&self, context: &InkContext) -> u64 {
-        let chain = self.chain;
-        let known = context.names.get(chain.segment as usize).copied().unwrap_or(0);
-        let begins = || {
-            let cell = |x: f64| ((x / (CELL_PX * context.px())).floor() as i64).cast_unsigned();
-            let p = chain.points.first().copied().unwrap_or_default();
-            hash(1, &[cell(p.x), cell(p.y)])
-        };
-        let place = if known == 0 { begins() } else { known };
-        let part = self.identities.get(chain.part.index()).copied().unwrap_or_default();
-        hash(place, &[chain.kind as u64, part])
-    }
+/// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where it runs along them,
+/// elsewhere from about where it begins. `identities` tell parts apart.
+fn identity(chain: &Chain, identities: &[u64], context: &InkContext) -> u64 {
+    let known = context.names.get(chain.segment as usize).copied().unwrap_or(0);
+    let begins = || {
+        let cell = |x: f64| ((x / (CELL_PX * context.px())).floor() as i64).cast_unsigned();
+        let p = chain.points.first().copied().unwrap_or_default();
+        hash(1, &[cell(p.x), cell(p.y)])
+    };
+    let place = if known == 0 { begins() } else { known };
+    let part = identities.get(chain.part.index()).copied().unwrap_or_default();
+    hash(place, &[chain.kind as u64, part])
 }
 
 /// What the widths of a chain follow.
-pub(super) fn setting(chain: &Chain, pen: &Pen, depths: [f64; 2], context: &InkContext) -> Setting {
+pub(super) fn setting(
+    chain: &Chain,
+    pen: &Pen,
+    depths: [f64; 2],
+    identities: &[u64],
+    context: &InkContext,
+) -> Setting {
+    let chance = if pen.swell.chance > 0.0 {
+        1.0 - pen.swell.chance * unit(hash(context.seed, &[identity(chain, identities, context), WIDTH]))
+    } else {
+        1.0
+    };
     let covers = context.painted && chain.invisibility == 0 && bounds(chain.kind);
     let to_side = if chain.smooth { OVER_SMOOTH_BORDER_PX } else { OVER_BORDER_PX };
     Setting {
@@ -227,6 +240,7 @@ pub(super) fn setting(chain: &Chain, pen: &Pen, depths: [f64; 2], context: &InkC
         px: context.px(),
         depths,
         bend_radius: pen.swell.bend_radius.in_unit(context.unit),
+        chance,
         covers: covers.then_some(context.px() * to_side),
     }
 }

@@ -113,7 +113,7 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
     let joined = ends::joined(chains, &axes);
     let thick_of: Vec<Vec<f64>> = (0..chains.len())
         .into_par_iter()
-        .map(|i| widths::widths(&axes[i], &inked::setting(chains[i], &pens[i], depths, context)))
+        .map(|i| widths::widths(&axes[i], &inked::setting(chains[i], &pens[i], depths, &identities, context)))
         .collect();
     let of_chain = |i: usize| -> Vec<Mark> {
         let (chain, pen) = (chains[i], &pens[i]);

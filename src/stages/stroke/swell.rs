@@ -29,6 +29,8 @@ pub struct Swell {
     /// The part of the width that is lost where what lies behind the line touches it, 0 to 1; before background
     /// none is. Default: 0.
     pub gap: f64,
+    /// The part of the width that a line loses by chance at most, 0 to 1: each its own part. Default: 0.
+    pub chance: f64,
 }
 
 impl Default for Swell {
@@ -41,6 +43,7 @@ impl Default for Swell {
             lit: 0.0,
             near: 0.0,
             gap: 0.0,
+            chance: 0.0,
         }
     }
 }
@@ -49,7 +52,8 @@ impl Swell {
     /// Whether the width varies at all.
     #[must_use]
     pub fn is_on(&self) -> bool {
-        self.taper.value > 0.0 || [self.bend, self.lit, self.near, self.gap].iter().any(|part| *part > 0.0)
+        self.taper.value > 0.0
+            || [self.bend, self.lit, self.near, self.gap, self.chance].iter().any(|part| *part > 0.0)
     }
 
     /// Whether the width follows anything that has to be asked beside the line.
@@ -82,6 +86,9 @@ pub struct SwellChange {
     /// What is lost without a gap in depth.
     #[serde(deserialize_with = "fraction")]
     pub gap: Option<f64>,
+    /// What is lost by chance at most.
+    #[serde(deserialize_with = "fraction")]
+    pub chance: Option<f64>,
 }
 
 impl SwellChange {
@@ -95,6 +102,7 @@ impl SwellChange {
             lit: self.lit.unwrap_or(swell.lit),
             near: self.near.unwrap_or(swell.near),
             gap: self.gap.unwrap_or(swell.gap),
+            chance: self.chance.unwrap_or(swell.chance),
         };
     }
 }

@@ -40,6 +40,8 @@ pub(super) struct Setting {
     pub depths: [f64; 2],
     /// User units in which bends count by half.
     pub bend_radius: f64,
+    /// The part of its width that the line has by chance.
+    pub chance: f64,
     /// How far to either side the line has to cover the border of something painted, user units.
     pub covers: Option<f64>,
 }
@@ -71,7 +73,8 @@ pub(super) fn widths(axis: &Axis, setting: &Setting) -> Vec<f64> {
     let factor = |i: usize| {
         let sample = &axis.samples[i];
         let far = ((sample.depth - nearest) / range).clamp(0.0, 1.0);
-        (1.0 - setting.fade * (1.0 - sample.strength))
+        setting.chance
+            * (1.0 - setting.fade * (1.0 - sample.strength))
             * (1.0 - swell.lit * sample.light.clamp(0.0, 1.0))
             * (1.0 - swell.near * far)
             * (1.0 - swell.gap * (1.0 - sample.gap.clamp(0.0, 1.0)))
