@@ -42,6 +42,7 @@ mod style;
 mod style_fills;
 mod testing;
 mod textures;
+mod turning_strokes;
 mod visibility;
 mod visible_intersections;
 mod without;

@@ -12,6 +12,7 @@ use super::outline::{Nib, outline};
 use super::widths::mean;
 use crate::chain::fit::unit;
 use crate::drawing::{Length, Unit};
+use crate::math::function::cos;
 use crate::math::plane::length;
 
 /// A shape along a line. Its x runs along the line from 0 to 1; its y lies across it, -0.5 on the left edge
@@ -24,6 +25,22 @@ pub struct Brush {
     pub repeats: bool,
     /// Length of one of those, about; 0: as long as it is in proportion to the pen's width.
     pub length: Length,
+    /// What is drawn in its place where the line turns, if it is drawn again and again.
+    pub turns: Option<Turns>,
+}
+
+/// Shapes for pieces of a line that turn, by the angle from a piece to its successor.
+///
+/// Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D animation, 2000, section
+/// 4.3, equation 3: straight, leftward and rightward strokes; there the pieces are edges of the mesh, here they are as long as the brush.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turns {
+    /// Where the line turns to the left, as it runs.
+    pub left: BezPath,
+    /// Where it turns to the right.
+    pub right: BezPath,
+    /// Turns of no more than this many degrees are straight.
+    pub degrees: f64,
 }
 
 /// The shape of a brush.
@@ -102,7 +119,8 @@ pub(super) fn drawn(
             let map = Map { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
             let mut path = BezPath::new();
             for copy in 0..copies as usize {
-                map.add(shape, copy, nib.px, &mut path);
+                let own = brush.turns.as_ref().and_then(|turns| map.turned(turns, copy));
+                map.add(own.unwrap_or(shape), copy, nib.px, &mut path);
             }
             use kurbo::Shape;
             let area = path.area();
@@ -169,6 +187,26 @@ impl Map<'_> {
         let reach = (self.thick[i] / 2.0 * TURN / self.step).ceil().max(2.0) as isize;
         let k = i as isize;
         unit(self.axis.point(k + reach) - self.axis.point(k - reach))
+    }
+
+    /// The shape of a copy that turns towards its successor; none of one that does not.
+    fn turned<'b>(&self, turns: &'b Turns, copy: usize) -> Option<&'b BezPath> {
+        let copies = self.copies as usize;
+        let chord = |copy: usize| {
+            let end = |k: usize| self.at(Point::new(k as f64, 0.0));
+            end(copy + 1) - end(copy)
+        };
+        let next = match (copy + 1 < copies, self.axis.closed) {
+            (true, _) => copy + 1,
+            (false, true) => 0,
+            (false, false) => return None,
+        };
+        let (own, next) = (unit(chord(copy)), unit(chord(next)));
+        if own.dot(next) >= cos(turns.degrees.to_radians()) {
+            return None;
+        }
+        // With y down the page a turn to the right is positive.
+        Some(if own.cross(next) > 0.0 { &turns.right } else { &turns.left })
     }
 
     /// Adds a copy of the brush to a path.

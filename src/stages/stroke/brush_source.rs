@@ -8,7 +8,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use super::brush::{Brush, BrushShape};
+use super::brush::{Brush, BrushShape, Turns};
 use crate::drawing::Length;
 use crate::math::picture::Picture;
 
@@ -63,7 +63,7 @@ impl Brush {
         }
         let to_unit = Affine::new([1.0 / width, 0.0, 0.0, 1.0 / height, 0.0, 0.0])
             * Affine::translate((-bounds.x0, -bounds.center().y));
-        Ok(Self { shape: BrushShape::Path(to_unit * path, width / height), repeats, length })
+        Ok(Self { shape: BrushShape::Path(to_unit * path, width / height), repeats, length, turns: None })
     }
 
     /// A brush from a picture of a stroke, dark on light or on nothing, that runs from left to right: each column
@@ -92,7 +92,8 @@ impl Brush {
         }
         let height = picture.height as f64;
         let profile = reaches.into_iter().map(|sides| sides.map(|reach| reach.max(0.0) / height)).collect();
-        Ok(Self { shape: BrushShape::Profile(profile, picture.width as f64 / height), repeats, length })
+        let shape = BrushShape::Profile(profile, picture.width as f64 / height);
+        Ok(Self { shape, repeats, length, turns: None })
     }
 }
 
@@ -106,7 +107,13 @@ struct BrushTable {
     #[serde(default)]
     mode: Mode,
     length: Option<Length>,
+    left: Option<String>,
+    right: Option<String>,
+    turn: Option<f64>,
 }
+
+/// Turns of no more than this many degrees are straight, unless a brush says otherwise.
+const TURN_DEG: f64 = 10.0;
 
 #[derive(Deserialize, Default, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
@@ -122,11 +129,33 @@ impl TryFrom<BrushTable> for BrushChange {
     fn try_from(table: BrushTable) -> Result<Self, String> {
         let repeats = table.mode == Mode::Repeat;
         let length = table.length.unwrap_or(Length::px(0.0));
+        let turned = table.left.is_some() || table.right.is_some() || table.turn.is_some();
+        if turned && !(repeats && table.path.is_some()) {
+            return Err(
+                "`left`, `right` and `turn` go with a `path` that is repeated: add mode = \"repeat\""
+                    .to_owned(),
+            );
+        }
+        let degrees = table.turn.unwrap_or(TURN_DEG);
+        if !(0.0..=180.0).contains(&degrees) {
+            return Err(format!("{degrees} is no turn; write degrees from 0 to 180"));
+        }
         match (table.path, table.file, table.image) {
             (Some(text), None, None) => {
-                let path =
-                    BezPath::from_svg(&text).map_err(|e| format!("the brush is no SVG path data: {e}"))?;
-                let brush = Brush::of_path(&path, repeats, length).map_err(|e| format!("the brush {e}"))?;
+                let of_text = |text: &str| {
+                    let path =
+                        BezPath::from_svg(text).map_err(|e| format!("the brush is no SVG path data: {e}"))?;
+                    Brush::of_path(&path, repeats, length).map_err(|e| format!("the brush {e}"))
+                };
+                let mut brush = of_text(&text)?;
+                if turned {
+                    let shape = |own: Option<String>| match of_text(own.as_ref().unwrap_or(&text))?.shape {
+                        BrushShape::Path(path, _) => Ok::<_, String>(path),
+                        BrushShape::Profile(..) => Ok(BezPath::new()),
+                    };
+                    let (left, right) = (shape(table.left)?, shape(table.right)?);
+                    brush.turns = Some(Turns { left, right, degrees });
+                }
                 Ok(Self::Brush(Arc::new(brush)))
             }
             (None, Some(file), None) => {

@@ -30,7 +30,7 @@ use kurbo::BezPath;
 use rayon::prelude::*;
 
 pub use crate::math::glob::Glob;
-pub use brush::{Brush, BrushShape};
+pub use brush::{Brush, BrushShape, Turns};
 pub use brush_source::{BrushChange, BrushSource};
 pub use context::{InkContext, Parting};
 pub use hand::{Hand, HandChange};
