@@ -30,6 +30,23 @@ pub struct Material {
     pub opacity_map: Option<String>,
     /// How the texture goes on beyond its borders, along u and along v.
     pub wrap: [Wrap; 2],
+    /// Where the texture lies on its coordinates (`-s` and `-o` in MTL).
+    pub placing: Placing,
+}
+
+/// Where a texture lies on its coordinates: it is looked up at (u, v) · scale + offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placing {
+    /// How often it comes along u and along v where it came once.
+    pub scale: [f32; 2],
+    /// By how much it is shifted back, as parts of it.
+    pub offset: [f32; 2],
+}
+
+impl Default for Placing {
+    fn default() -> Self {
+        Self { scale: [1.0; 2], offset: [0.0; 2] }
+    }
 }
 
 /// How a material shines, by its file.
@@ -85,6 +102,7 @@ impl Default for Material {
             transmission: 0.0,
             opacity_map: None,
             wrap: [Wrap::Repeat; 2],
+            placing: Placing::default(),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::buffers::{Buffers, Fetch};
 use super::json;
 use super::uri;
 use crate::math::colour::Colour;
-use crate::scene::material::Gloss;
+use crate::scene::material::{Gloss, Placing};
 use crate::scene::{Alpha, Material, Warnings, Wrap};
 
 /// The path of a texture beside the model, or its bytes.
@@ -39,6 +39,7 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
                 .as_ref()
                 .map_or(0.0, |own| own.transmission_factor.clamp(0.0, 1.0)),
             opacity_map: None,
+            placing: Placing::default(),
             wrap: base_texture(material).map_or([Wrap::Repeat; 2], |texture| wrap(buffers.root, texture)),
         }
     };

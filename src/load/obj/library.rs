@@ -3,8 +3,9 @@
 use crate::load::text::{Cursor, decode, utf8};
 use crate::math::colour::Colour;
 use crate::scene::Material;
+use crate::scene::Wrap;
 use crate::scene::beside::stays_inside;
-use crate::scene::material::Gloss;
+use crate::scene::material::{Gloss, Placing};
 use crate::scene::warnings::Warnings;
 
 /// The exponent of a material that says how strongly it shines, but no more.
@@ -73,8 +74,11 @@ pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, w
                 }
             }
             b"map_Kd" => {
-                if let Some(path) = texture_path(cursor.rest_of_line(), folder, warnings) {
+                let statement = cursor.rest_of_line();
+                if let Some(path) = texture_path(statement, folder, warnings) {
                     material.texture = Some(path);
+                    let texture = texture(statement);
+                    (material.placing, material.wrap) = (texture.placing, texture.wrap);
                 }
             }
             b"map_d" => {
@@ -107,7 +111,7 @@ fn byte(channel: f64) -> u8 {
 
 /// Where the file of a texture statement lies as seen from the model; none, with a warning, if outside of its folder.
 fn texture_path(statement: &[u8], folder: &str, warnings: &mut Warnings) -> Option<String> {
-    let name = texture(statement);
+    let name = texture(statement).name;
     if name.is_empty() {
         return None;
     }
@@ -119,10 +123,19 @@ fn texture_path(statement: &[u8], folder: &str, warnings: &mut Warnings) -> Opti
     None
 }
 
-/// The file name after the options of a texture statement; it may hold blanks.
-fn texture(statement: &[u8]) -> String {
+/// A texture statement.
+struct Texture {
+    /// The file name, which may hold blanks.
+    name: String,
+    placing: Placing,
+    wrap: [Wrap; 2],
+}
+
+/// Reads the options of a texture statement and the file name after them.
+fn texture(statement: &[u8]) -> Texture {
     let text = decode(statement);
     let mut rest = text.trim();
+    let mut own = Texture { name: String::new(), placing: Placing::default(), wrap: [Wrap::Repeat; 2] };
     while let Some((option, after)) = rest.split_once(char::is_whitespace).filter(|(o, _)| o.starts_with('-'))
     {
         rest = after.trim_start();
@@ -132,17 +145,28 @@ fn texture(statement: &[u8]) -> String {
             "-mm" => (0, 2),
             "-o" | "-s" | "-t" => (0, 3),
             // A file whose name begins with a dash.
-            _ => return format!("{option} {rest}"),
+            _ => return Texture { name: format!("{option} {rest}"), ..own },
         };
+        let mut values = Vec::new();
         for i in 0..words + numbers {
             let Some((word, after)) = rest.split_once(char::is_whitespace) else { break };
             // Options take as many numbers as there are, up to three.
-            if i < words || word.parse::<f64>().is_ok() {
+            let value = word.parse::<f32>().ok().filter(|value| value.is_finite());
+            if i < words || value.is_some() {
+                own.wrap = if option == "-clamp" && word == "on" { [Wrap::Clamp; 2] } else { own.wrap };
+                values.extend(value);
                 rest = after.trim_start();
             }
         }
+        let along = |k: usize, other: f32| values.get(k).copied().unwrap_or(other);
+        match option {
+            "-s" => own.placing.scale = [along(0, 1.0), along(1, 1.0)],
+            "-o" => own.placing.offset = [along(0, 0.0), along(1, 0.0)],
+            _ => {}
+        }
     }
-    rest.to_owned()
+    rest.clone_into(&mut own.name);
+    own
 }
 
 #[cfg(test)]
@@ -205,6 +229,21 @@ mod tests {
             assert_eq!(materials[0].texture.as_deref(), Some(wanted));
             assert!(warnings.is_empty());
         }
+    }
+
+    #[test]
+    fn textures_are_placed_and_clamped() {
+        let of = |options: &str| {
+            let (materials, _) = read(&format!("newmtl m\nmap_Kd {options} a.png\n"));
+            (materials[0].placing, materials[0].wrap)
+        };
+        assert_eq!(of(""), (Placing::default(), [Wrap::Repeat; 2]));
+        let placing = Placing { scale: [2.0, 3.0], offset: [0.25, 0.0] };
+        assert_eq!(of("-s 2 3 1 -o 0.25 -clamp on"), (placing, [Wrap::Clamp; 2]));
+        assert_eq!(
+            of("-clamp off -s 4"),
+            (Placing { scale: [4.0, 1.0], offset: [0.0; 2] }, [Wrap::Repeat; 2])
+        );
     }
 
     #[test]

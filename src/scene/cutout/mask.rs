@@ -96,7 +96,12 @@ impl Mask {
 impl Mask {
     /// A mask of given opacities that repeats, cut at half.
     pub fn of_opacities(width: usize, opacity: Vec<u8>, wrap: crate::scene::material::Wrap) -> Self {
-        let texels = Texels { size: [width, opacity.len() / width], wrap: [wrap; 2], upward: false };
+        let texels = Texels {
+            size: [width, opacity.len() / width],
+            wrap: [wrap; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
         Self { texels, opacity, level: 127.5 }
     }
 }

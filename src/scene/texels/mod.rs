@@ -5,14 +5,14 @@ pub(crate) mod side;
 
 use glam::DVec2;
 
-use super::material::Wrap;
+use super::material::{Placing, Wrap};
 use super::{Material, Scene};
 use crate::math::picture::Picture;
 
 /// How the texels of a picture lie in the plane, and how the picture goes on beyond its borders.
 ///
 /// The middle of the first texel lies at the origin, x runs along a row and y from the top row down.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Texels {
     /// Texels in a row, and rows; at least 1.
     pub size: [usize; 2],
@@ -20,17 +20,23 @@ pub(crate) struct Texels {
     pub wrap: [Wrap; 2],
     /// Whether v grows from the bottom row up, as in OBJ and PLY, or from the top row down.
     pub upward: bool,
+    /// Where the material puts the picture on its coordinates.
+    pub placing: Placing,
 }
 
 impl Texels {
     /// Those of the picture of a material.
     pub fn of(scene: &Scene, material: &Material, picture: &Picture) -> Self {
         let size = [picture.width, picture.height];
-        Self { size, wrap: material.wrap, upward: scene.format != "glTF" }
+        let Material { wrap, placing, .. } = *material;
+        Self { size, wrap, upward: scene.format != "glTF", placing }
     }
 
     /// Where a pair of texture coordinates lies in the plane; none if it is no place.
-    pub fn place(&self, [u, v]: [f32; 2]) -> Option<DVec2> {
+    pub fn place(&self, uv: [f32; 2]) -> Option<DVec2> {
+        let Placing { scale, offset } = self.placing;
+        let [u, v] = [0, 1]
+            .map(|k| if self.placing == Placing::default() { uv[k] } else { uv[k] * scale[k] + offset[k] });
         let v = if self.upward { 1.0 - f64::from(v) } else { f64::from(v) };
         let [width, height] = self.size.map(|count| count as f64);
         let place = DVec2::new(f64::from(u) * width - 0.5, v * height - 0.5);
@@ -110,10 +116,13 @@ mod tests {
 
     #[test]
     fn middles_of_texels_are_whole_numbers() {
-        let texels = Texels { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false };
+        let texels =
+            Texels { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false, placing: Placing::default() };
         assert_eq!(texels.place([0.25, 0.75]), Some(DVec2::new(0.0, 1.0)));
         assert_eq!(texels.place([f32::NAN, 0.0]), None);
         assert_eq!(Texels { upward: true, ..texels }.place([0.25, 0.75]), Some(DVec2::ZERO));
+        let placing = Placing { scale: [2.0, 1.0], offset: [0.5, 0.0] };
+        assert_eq!(Texels { placing, ..texels }.place([0.25, 0.75]), Some(DVec2::new(1.5, 1.0)));
         assert_eq!([-1, 0, 1, 2].map(|k| texels.index(k, 1)), [3, 2, 3, 2]);
     }
 }

@@ -81,7 +81,12 @@ mod tests {
     #[test]
     fn a_rim_between_black_and_white_is_not_grey() {
         let palette = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.0, 0.0]];
-        let texels = Texels { size: [7, 4], wrap: [Wrap::Clamp; 2], upward: false };
+        let texels = Texels {
+            size: [7, 4],
+            wrap: [Wrap::Clamp; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
         let row = [0.0, 0.0, 0.0, 0.6, 1.0, 1.0, 1.0];
         let labs: Vec<Option<Oklab>> = (0..28).map(|k| Some([row[k % 7], 0.0, 0.0])).collect();
         let guess = |k: usize| match row[k % 7] {

@@ -148,7 +148,12 @@ mod tests {
         let (a, b, c, d) =
             (Colour::rgb(1, 0, 0), Colour::rgb(2, 0, 0), Colour::rgb(3, 0, 0), Colour::rgb(4, 0, 0));
         let picture = Picture { width: 2, height: 2, pixels: vec![a, b, c, d] };
-        let texels = Texels { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false };
+        let texels = Texels {
+            size: [2, 2],
+            wrap: [Wrap::Repeat; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
         let mut texture = Texture { picture, texels };
         let at = |texture: &Texture, uv| texture.at(texture.texels.place(uv).unwrap());
         assert_eq!([[0.1, 0.1], [0.9, 0.1], [1.1, -0.1]].map(|uv| at(&texture, uv)), [a, b, c]);

@@ -88,7 +88,12 @@ mod tests {
         };
         let guesses: Vec<Guess> =
             (0..144).map(|k| Guess { nearest: colour(k), second: 0, way: 0.0 }).collect();
-        let texels = Texels { size: [12, 12], wrap: [Wrap::Repeat; 2], upward: false };
+        let texels = Texels {
+            size: [12, 12],
+            wrap: [Wrap::Repeat; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
         let merged = |least: f64| {
             let mut labels = Labels::of(texels, &guesses, 0.0, (0..3).map(PaintId).collect());
             merge(&mut labels, least);

@@ -135,7 +135,12 @@ mod tests {
             Guess { nearest, second, way }
         };
         let guesses: Vec<Guess> = (0..size[0] * size[1]).map(guess).collect();
-        let texels = Texels { size, wrap: [wrap; 2], upward: false };
+        let texels = Texels {
+            size,
+            wrap: [wrap; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
         Labels::of(texels, &guesses, blur, (0..3).map(PaintId).collect())
     }
 
