@@ -116,11 +116,14 @@ impl<'a> Jumps<'a> {
         row_of.for_each(|(row, (across, down))| {
             for column in 0..columns {
                 let pixel = row * columns + column;
-                if column > 0 && (self.parts || edges[pixel]) {
+                // Nothing parts what is on one face, unless the test has it.
+                let faces = &self.maps.faces;
+                let may_part = |other: usize| edges[pixel] || (self.parts && faces[pixel] != faces[other]);
+                if column > 0 && may_part(pixel - 1) {
                     let are_edges = edges[pixel] && edges[pixel - 1];
                     across[column] = self.of(self.line_across(column, row), are_edges);
                 }
-                if row > 0 && (self.parts || edges[pixel]) {
+                if row > 0 && may_part(pixel - columns) {
                     let are_edges = edges[pixel] && edges[pixel - columns];
                     down[column] = self.of(self.line_down(column, row), are_edges);
                 }
