@@ -1,6 +1,6 @@
 //! Hairlines between faces that do not hold together: pixels through which one sees between them.
 
-use super::maps::Maps;
+use super::maps::{Maps, NO_FRONT};
 
 /// Gaps of more pixels are seen.
 const WIDEST: usize = 2;
@@ -13,12 +13,30 @@ impl Maps {
     /// between them.
     pub fn close_hairlines(&mut self, may_gap: impl Fn(u32) -> bool) {
         let (columns, rows) = (self.columns, self.rows);
-        for row in 0..rows {
+        let (in_rows, in_columns) = self.lines_with(&may_gap);
+        for row in (0..rows).filter(|row| in_rows[*row]) {
             self.close_along(row * columns, 1, columns, &may_gap);
         }
-        for column in 0..columns {
+        for column in (0..columns).filter(|column| in_columns[*column]) {
             self.close_along(column, columns, rows, &may_gap);
         }
+    }
+
+    /// The rows, and the columns, in which some face of a kind is in front. Closing gaps in rows brings such faces to columns
+    /// next to theirs, so these count too.
+    fn lines_with(&self, is_such: &impl Fn(u32) -> bool) -> (Vec<bool>, Vec<bool>) {
+        let (mut in_rows, mut found) = (vec![false; self.rows], vec![false; self.columns]);
+        for (row, faces) in self.faces.chunks(self.columns).enumerate() {
+            for (column, face) in faces.iter().enumerate() {
+                if *face != NO_FRONT && is_such(*face) {
+                    in_rows[row] = true;
+                    found[column] = true;
+                }
+            }
+        }
+        let near = |column: usize| column.saturating_sub(WIDEST)..(column + WIDEST + 1).min(self.columns);
+        let in_columns = (0..self.columns).map(|column| found[near(column)].contains(&true)).collect();
+        (in_rows, in_columns)
     }
 
     /// Closes gaps in one row or column of `count` pixels.

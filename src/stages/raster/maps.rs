@@ -25,6 +25,9 @@ pub const LONGEST_SIDE: f64 = 4096.0;
 const BEFORE: f64 = 0.15;
 const BEHIND: f64 = 0.1;
 
+/// Rows that are gone through by one task, one after the other.
+const BAND: usize = 16;
+
 /// What is in front at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Maps {
@@ -65,24 +68,27 @@ impl Maps {
         };
         let per_depth = 1.0 / (planes[1] - planes[0]);
         let frame = &view.frame;
-        let row_of = maps.faces.par_chunks_mut(columns).zip(maps.normals.par_chunks_mut(columns));
-        row_of.zip(maps.depths.par_chunks_mut(columns)).enumerate().for_each(
-            |(row, ((faces, normal_row), depths))| {
-                let mut shown: Option<(u32, FaceNormals)> = None;
-                for column in 0..columns {
-                    let pixel = row * columns + column;
-                    let (Some(face), Some(nearness)) = (buffer.front(pixel), buffer.nearness(pixel)) else {
-                        continue;
-                    };
-                    let on_face = match &shown {
-                        Some((last, on_face)) if *last == face => on_face,
-                        _ => &shown.insert((face, FaceNormals::new(mesh, view, face, normals(face)))).1,
-                    };
-                    let at = [column, row].map(|i| (i as f64 + 0.5) / maps.scale);
-                    let depth = frame.depth_of(screen.image_nearness(nearness));
-                    faces[column] = face;
-                    normal_row[column] = on_face.at(at);
-                    depths[column] = (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR);
+        let band = BAND * columns;
+        let bands = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
+        bands.zip(maps.depths.par_chunks_mut(band)).enumerate().for_each(
+            |(number, ((faces, band_normals), depths))| {
+                let mut shown = LastShown::new();
+                for (row, faces) in faces.chunks_mut(columns).enumerate() {
+                    let y = ((number * BAND + row) as f64 + 0.5) / maps.scale;
+                    for (column, face) in faces.iter_mut().enumerate() {
+                        let own = row * columns + column;
+                        let pixel = number * band + own;
+                        let (Some(front), Some(nearness)) = (buffer.front(pixel), buffer.nearness(pixel))
+                        else {
+                            continue;
+                        };
+                        let made = || FaceNormals::new(mesh, view, front, normals(front));
+                        let on_face = shown.of(front, made);
+                        let depth = frame.depth_of(screen.image_nearness(nearness));
+                        *face = front;
+                        band_normals[own] = on_face.at([(column as f64 + 0.5) / maps.scale, y]);
+                        depths[own] = (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR);
+                    }
                 }
             },
         );
@@ -102,6 +108,32 @@ fn planes(screen: &Screen, view: &View) -> [f64; 2] {
     // A flat thing seen square on has no depth of its own.
     let range = (far - near).max(view.frame.px_at(far)).max(f64::MIN_POSITIVE);
     [near - BEFORE * range, far + BEHIND * range]
+}
+
+/// What was last made of faces, as long as no other face takes its slot: the same faces come again in the next row.
+struct LastShown {
+    faces: Vec<u32>,
+    normals: Vec<FaceNormals>,
+}
+
+impl LastShown {
+    /// A power of two, and few enough for a near cache.
+    const SLOTS: usize = 1 << 10;
+
+    fn new() -> Self {
+        let none = FaceNormals { weights: [[0.0; 3]; 3], normals: [DVec3::ZERO; 3] };
+        Self { faces: vec![NO_FRONT; Self::SLOTS], normals: vec![none; Self::SLOTS] }
+    }
+
+    #[inline]
+    fn of(&mut self, face: u32, make: impl FnOnce() -> FaceNormals) -> &FaceNormals {
+        let slot = face as usize % Self::SLOTS;
+        if self.faces[slot] != face {
+            self.faces[slot] = face;
+            self.normals[slot] = make();
+        }
+        &self.normals[slot]
+    }
 }
 
 /// The normals of a face as the image has them: the weights of its corners, times 1/depth in perspective, are linear there.
