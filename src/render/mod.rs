@@ -280,7 +280,9 @@ impl<'a> Prepared<'a> {
         if fills.is_some() {
             fills::keep_inked(&mut map, style);
         }
+        report.stages_ms.chains = watch.lap_ms();
         let lines = &*image::joined(&mut map, lines, surface, view, style, page.unit);
+        report.stages_ms.features += watch.lap_ms();
         centre_on_page(&mut map, camera, &page);
 
         let ahead = Ahead {
@@ -298,7 +300,7 @@ impl<'a> Prepared<'a> {
                 centre_on_page(veiled, camera, &page);
             }));
         }
-        report.stages_ms.chains = watch.lap_ms();
+        report.stages_ms.chains += watch.lap_ms();
 
         let margin = margin(camera, &page);
         let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
