@@ -18,7 +18,8 @@ const HEAD: usize = 32;
 /// All materials of a file; whatever is wrong with their textures is only a warning.
 pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> Vec<Material> {
     let read = |material: &json::Material| {
-        let texture = base_texture(material).and_then(|texture| image(texture, buffers, fetch, warnings));
+        let texture =
+            base_texture(material).and_then(|texture| image(texture, material, buffers, fetch, warnings));
         let (texture, picture) = texture.unwrap_or_default();
         let base = base_colour(material);
         // What is lit from within by a picture is dark elsewhere, and a picture of lights is not read.
@@ -101,13 +102,15 @@ fn with_alpha_mode([r, g, b, a]: [f32; 4], material: &json::Material) -> [f32; 4
 /// there and begins as images do.
 fn image(
     texture: &json::TextureUse,
+    material: &json::Material,
     buffers: &Buffers,
     fetch: &Fetch,
     warnings: &mut Warnings,
 ) -> Option<TextureSource> {
     let root = buffers.root;
     let mut broken = |number: usize, what: String| {
-        warnings.note(format!("texture {number}: {what}; the plain colour is drawn instead"));
+        let of = material.name.as_ref().map_or_else(String::new, |name| format!(" of material `{name}`"));
+        warnings.note(format!("texture {number}{of}: {what}; the plain colour is drawn instead"));
         None
     };
     let number = texture.index;
@@ -194,7 +197,7 @@ mod tests {
     fn textures_are_only_looked_for() {
         let texture = |uri: &str| {
             read(&format!(
-                r#"{{"materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],
+                r#"{{"materials":[{{"name":"wood","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],
                 "textures":[{{"source":0}}],"images":[{{"uri":"{uri}"}}]}}"#
             ))
         };
@@ -203,6 +206,7 @@ mod tests {
         for bad in ["lost.png", "../here.png", "data:image/png;base64,iVBORw0KGgpub3QgcmVhbGx5"] {
             let (materials, warnings) = texture(bad);
             assert_eq!((&materials[0].texture, warnings.lines().len()), (&None, 1), "{bad}");
+            assert!(warnings.lines()[0].contains("material `wood`"), "{:?}", warnings.lines());
         }
     }
 }

@@ -75,14 +75,14 @@ pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, w
             }
             b"map_Kd" => {
                 let statement = cursor.rest_of_line();
-                if let Some(path) = texture_path(statement, folder, warnings) {
+                if let Some(path) = texture_path(statement, folder, &material.name, warnings) {
                     material.texture = Some(path);
                     let texture = texture(statement);
                     (material.placing, material.wrap) = (texture.placing, texture.wrap);
                 }
             }
             b"map_d" => {
-                if let Some(path) = texture_path(cursor.rest_of_line(), folder, warnings) {
+                if let Some(path) = texture_path(cursor.rest_of_line(), folder, &material.name, warnings) {
                     material.opacity_map = Some(path);
                 }
             }
@@ -110,7 +110,7 @@ fn byte(channel: f64) -> u8 {
 }
 
 /// Where the file of a texture statement lies as seen from the model; none, with a warning, if outside of its folder.
-fn texture_path(statement: &[u8], folder: &str, warnings: &mut Warnings) -> Option<String> {
+fn texture_path(statement: &[u8], folder: &str, material: &str, warnings: &mut Warnings) -> Option<String> {
     let name = texture(statement).name;
     if name.is_empty() {
         return None;
@@ -119,7 +119,9 @@ fn texture_path(statement: &[u8], folder: &str, warnings: &mut Warnings) -> Opti
     if stays_inside(&path) && !name.starts_with(['/', '\\']) {
         return Some(path);
     }
-    warnings.note(format!("texture {name} lies outside the model's folder and is left out"));
+    warnings.note(format!(
+        "texture {name} of material `{material}` lies outside the model's folder and is left out"
+    ));
     None
 }
 
