@@ -56,6 +56,8 @@ struct PartInfo {
     wires: u64,
     /// Whether the file says where pictures lie on it.
     texture_coordinates: bool,
+    /// Whether its vertices are painted.
+    vertex_colours: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -121,6 +123,7 @@ impl Info {
                     triangles: geometry.map_or(0, |geometry| geometry.triangles.len() as u64),
                     wires: geometry.map_or(0, |geometry| geometry.wires.len() as u64),
                     texture_coordinates: geometry.is_some_and(|geometry| !geometry.corner_uvs.is_empty()),
+                    vertex_colours: geometry.is_some_and(|geometry| !geometry.colours.is_empty()),
                 }
             })
             .collect();
@@ -183,7 +186,13 @@ impl Info {
 impl PartInfo {
     fn line(&self) -> String {
         let lines = if self.wires > 0 { format!(", {}", counted(self.wires, "line")) } else { String::new() };
-        format!("{}: {}{lines}", named(&self.name), counted(self.triangles, "triangle"))
+        let painted = match (self.texture_coordinates, self.vertex_colours) {
+            (true, true) => ", texture coordinates, coloured vertices",
+            (true, false) => ", texture coordinates",
+            (false, true) => ", coloured vertices",
+            (false, false) => "",
+        };
+        format!("{}: {}{lines}{painted}", named(&self.name), counted(self.triangles, "triangle"))
     }
 }
 
@@ -315,6 +324,20 @@ mod tests {
             "{text}"
         );
         assert!(!text.contains("camera") && !text.contains("light"));
+    }
+
+    #[test]
+    fn people_read_what_parts_are_painted_by() {
+        let mut scene = scene(1);
+        scene.geometries[0].corner_uvs = vec![[0; 3]];
+        assert!(
+            Info::of(&scene, "m.obj".to_owned())
+                .text()
+                .contains(": 1 triangle, 1 line, texture coordinates\n")
+        );
+        scene.geometries[0].colours = vec![[1.0; 4]; 3];
+        let text = Info::of(&scene, "m.obj".to_owned()).text();
+        assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
     }
 
     #[test]
