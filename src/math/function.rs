@@ -40,6 +40,12 @@ pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
 
+/// The natural logarithm.
+#[must_use]
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
 /// e to the power `x`.
 #[must_use]
 pub fn exp(x: f64) -> f64 {

@@ -30,7 +30,12 @@ pub(super) fn is_lit(style: &Style) -> bool {
 
 /// Whether a style asks what is painted on the surface: for that, or for lines between painted colours.
 pub(super) fn asks_surface(style: &Style) -> bool {
-    is_lit(style) || (style.lines.enabled && style.lines.kinds.contains(&LineKind::Artist))
+    is_lit(style) || asks_artist(style)
+}
+
+/// Whether a style draws lines between painted colours.
+pub(super) fn asks_artist(style: &Style) -> bool {
+    style.lines.enabled && style.lines.kinds.contains(&LineKind::Artist)
 }
 
 /// What shadows that things cast are to darken.
@@ -215,9 +220,9 @@ impl<'a> Fills<'a> {
     /// Adds where the tone changes to the lines whose visibility is decided.
     pub fn add_tone_borders(&self, lines: &mut FeatureLines) {
         let lit = self.lit();
-        tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
+        let seams = tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
         isophotes::find(&lit, &self.masks, lines);
-        texture_borders::find(&lit, lines);
+        texture_borders::find(&lit, seams, lines);
         self.shadows.lines.append_to(lit.mesh, lines);
     }
 
@@ -284,7 +289,7 @@ const NOOK_OF_FRAME: f64 = 0.15;
 
 /// With no more lights than this, tones are sought for every set of them that may be in shadow; with
 /// more, for none, each, and all.
-const FEW_LIGHTS: u32 = 2;
+const FEW_LIGHTS: u32 = 3;
 
 fn masks(lights: u32) -> Vec<u32> {
     let all = (1 << lights) - 1;

@@ -144,6 +144,10 @@ impl<'a> Prepared<'a> {
         let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
         let left = glass::left(scene, style);
         let mut paints = needs_paints.then(|| Paints::of(&left, &style.textures));
+        if fills::asks_artist(style) {
+            let pictures = &style.lines.artist_texture;
+            paints.iter_mut().for_each(|paints| paints.ink(&left, pictures, style.textures.colours));
+        }
         let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
         paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));

@@ -35,6 +35,9 @@ impl Scene {
                 append(&mut soup, geometry, &part.world_from_part, PartId::from(id), default_material);
                 if let Some(paints) = paints {
                     append_paints(&mut soup, paints.of_geometry(part.geometry));
+                    if paints.tinted {
+                        append_colours(&mut soup, geometry, part.world_from_part.matrix3.determinant() < 0.0);
+                    }
                 }
             }
         }
@@ -156,6 +159,18 @@ fn append_paints(soup: &mut Soup, paints: &[PaintId]) {
     let of = own.map(|(i, material)| paints.get(i).copied().unwrap_or((*material).into()));
     let of: Vec<PaintId> = of.collect();
     soup.triangle_paint.extend(of);
+}
+
+/// Appends the colours of the corners of the triangles that were appended last; white where they have none.
+fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
+    let white = [1.0; 4];
+    let colour = |v: u32| {
+        let [r, g, b, _] = from.colours.get(v as usize).copied().unwrap_or(white);
+        [r, g, b]
+    };
+    let missing = soup.triangles.len() - soup.corner_colours.len();
+    let of = |&[a, b, c]: &[u32; 3]| if turned { [a, c, b].map(colour) } else { [a, b, c].map(colour) };
+    soup.corner_colours.extend(from.triangles.iter().take(missing).map(of));
 }
 
 fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned: bool) {

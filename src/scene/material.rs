@@ -30,6 +30,8 @@ pub struct Material {
     pub opacity_map: Option<String>,
     /// How the texture goes on beyond its borders, along u and along v.
     pub wrap: [Wrap; 2],
+    /// What is between the texels of the texture.
+    pub filter: Filter,
     /// Where the texture lies on its coordinates (`-s` and `-o` in MTL).
     pub placing: Placing,
 }
@@ -88,6 +90,17 @@ pub enum Wrap {
     Mirror,
 }
 
+/// What is between the texels of a texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Filter {
+    /// They pass into each other.
+    #[default]
+    Smooth,
+    /// Nothing: each is a block of one colour.
+    Blocks,
+}
+
 impl Default for Material {
     fn default() -> Self {
         Self {
@@ -102,6 +115,7 @@ impl Default for Material {
             transmission: 0.0,
             opacity_map: None,
             wrap: [Wrap::Repeat; 2],
+            filter: Filter::Smooth,
             placing: Placing::default(),
         }
     }

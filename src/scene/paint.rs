@@ -4,15 +4,18 @@
 //! part a material into areas of flat colour; any other picture is painted in a few colours, point by point. They matter to
 //! fills only: lines know materials, and a change of paint within one is no material boundary.
 
-use glam::Vec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::coloured::{Coloured, Factor, light};
+use super::inked::ArtistTextures;
 use super::texture::options::{TextureFill, TextureOptions};
 use super::texture::swatches::{ALIKE, difference, mean, of_palette, swatches};
-use super::texture::{Painted, Texture};
-use super::{Geometry, Material, Scene, Warnings};
-use crate::math::colour::{Colour, linear};
+use super::texture::{self, Texture};
+use super::tints::{self, Tints};
+use super::varied::Varied;
+use super::{Material, Scene, Warnings};
+use crate::math::colour::Colour;
 use crate::mesh::{MaterialId, PaintId};
 
 /// A material in one of its colours.
@@ -33,10 +36,14 @@ pub struct Paints {
     pub list: Vec<Paint>,
     /// Textures that could not be read.
     pub warnings: Warnings,
+    /// The pictures that a style names for lines between colours, by material.
+    pub(crate) inked: Vec<(MaterialId, Varied)>,
     /// Paint of each triangle of each geometry, or empty where each has that of its material.
     triangles: Vec<Vec<PaintId>>,
-    /// The pictures that are painted point by point, and the paint of the triangles that show them.
-    pub(crate) pictures: Vec<(PaintId, Painted)>,
+    /// What is painted point by point, and the paint of the triangles on which it is.
+    pub(crate) varied: Vec<(PaintId, Varied)>,
+    /// Whether any of that takes its colours from vertices.
+    pub(crate) tinted: bool,
 }
 
 impl Paints {
@@ -75,7 +82,7 @@ impl Paints {
             let colour = |triangle: usize| {
                 let id = material_of(triangle);
                 let texture = textures.get(id).and_then(Option::as_ref);
-                Some((id, colour_of(geometry, index, triangle, texture)?))
+                Some((id, Coloured::of(geometry, index, triangle, texture)?))
             };
             let found: Vec<Option<(usize, Coloured)>> =
                 (0..geometry.triangles.len()).into_par_iter().with_min_len(1 << 12).map(colour).collect();
@@ -86,13 +93,21 @@ impl Paints {
         }
         for (id, ((list, texture), material)) in coloured.iter().zip(textures).zip(materials).enumerate() {
             let factor = Factor { base: material.colour, multiplies: scene.format == "glTF" };
-            // Where corners are tinted as well a triangle is of one colour.
-            let texture = texture.filter(|_| list.iter().all(|own| own.painted.is_none()));
+            let is_tinted = list.iter().any(|own| own.painted.is_some());
+            let texture = texture.filter(|_| !list.is_empty());
             match (texture, options.fill) {
-                (Some(texture), TextureFill::Regions) if !list.is_empty() => {
+                (Some(texture), TextureFill::Regions) if !is_tinted => {
                     paints.add_picture(scene, id, list, texture, options.colours, &factor);
                 }
+                (Some(texture), TextureFill::Regions) if !list.iter().all(Coloured::is_flat) => {
+                    paints.add_tinted_picture(scene, id, list, texture, options.colours, &factor);
+                }
+                (None, _) if list.iter().any(Coloured::varies) => {
+                    paints.add_tints(scene, id, list, options.colours, &factor);
+                }
                 (texture, fill) => {
+                    // Where a picture is one colour on each triangle, and its corners are too, so is their product.
+                    let texture = texture.filter(|_| !is_tinted);
                     let colours: Vec<(Colour, bool)> =
                         list.iter().map(|own| (factor.of(own), own.spread < ALIKE)).collect();
                     let is_one = texture.is_some() && fill == TextureFill::Mean;
@@ -102,6 +117,12 @@ impl Paints {
             }
         }
         paints
+    }
+
+    /// Lays pictures on the surfaces that are not painted: lines run where they change their colour, of which each has at most
+    /// so many.
+    pub(crate) fn ink(&mut self, scene: &Scene, pictures: &ArtistTextures, colours: usize) {
+        self.inked = pictures.on(scene, colours);
     }
 
     /// Gives pieces of triangles the paint of what they were cut out of: one triangle has one.
@@ -176,12 +197,95 @@ impl Paints {
             return;
         }
         let picture = PaintId::from(self.list.len());
-        self.list.push(Paint { material: material.into(), colour: factor.tint(mean(&seen)) });
+        let whole = texture.mean(&shown);
+        self.list.push(Paint { material: material.into(), colour: factor.tint(whole) });
         for own in triangles {
             let own_paint = own.shown.filter(|_| is_whole(own)).and_then(paint_of);
             self.paint(scene, own, own_paint.unwrap_or(picture));
         }
-        self.pictures.push((picture, texture.painted(shown, &with_paint)));
+        let (colours, mut paints): (Vec<Colour>, Vec<PaintId>) = with_paint.into_iter().unzip();
+        // Behind them what all looks like from afar.
+        paints.push(picture);
+        let painted = texture.painted(shown, &colours, whole);
+        self.varied.push((picture, Varied::new(Some(painted), None, paints)));
+    }
+
+    /// Adds the paints of a material whose corners have colours that pass into each other on its triangles. Where most triangles
+    /// are of one colour, those keep it, and others are parted between the same colours.
+    fn add_tints(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        count: usize,
+        factor: &Factor,
+    ) {
+        let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), own.is_flat())).collect();
+        let swatches = of_palette(&seen);
+        let opaque = |colour: Colour| Colour { a: factor.base.a, ..colour };
+        let mut colours = match &swatches {
+            Some(swatches) => swatches.clone(),
+            None => {
+                let (samples, areas) = tints::samples(scene, triangles, factor);
+                texture::few(&samples, &areas, count).into_iter().map(opaque).collect()
+            }
+        };
+        colours.sort_unstable();
+        colours.dedup();
+        if colours.is_empty() {
+            return;
+        }
+        let known = self.of_colours(material, &colours);
+        let varied = PaintId::from(self.list.len());
+        self.list.push(Paint { material: material.into(), colour: opaque(mean(&seen)) });
+        for (number, own) in triangles.iter().enumerate() {
+            let swatch = swatches.as_ref().map(|swatches| swatches[number]).filter(|_| own.is_flat());
+            self.paint(scene, own, swatch.and_then(|s| known.get(&s).copied()).unwrap_or(varied));
+        }
+        let paints = colours.iter().filter_map(|colour| known.get(colour).copied()).collect();
+        let tints = Tints::new(factor.light(), &colours);
+        self.varied.push((varied, Varied::new(None, Some(tints), paints)));
+        self.tinted = true;
+    }
+
+    /// Adds the paints of a material whose triangles show a picture that the colours of their corners multiply: each falls into
+    /// few colours by itself.
+    fn add_tinted_picture(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        texture: Texture,
+        count: usize,
+        factor: &Factor,
+    ) {
+        let places: Vec<[usize; 2]> = triangles
+            .iter()
+            .filter(|own| own.shown.is_some())
+            .map(|own| [own.geometry, own.triangle])
+            .collect();
+        let shown = texture.shown(scene, material, &places);
+        let of_picture = texture.few(&shown, count);
+        let plain = Factor { base: Colour::WHITE, multiplies: false };
+        let (samples, areas) = tints::samples(scene, triangles, &plain);
+        let of_tints = texture::few(&samples, &areas, count);
+        // Behind the colours of the picture what it looks like from afar, and what shows none of it.
+        let whole = texture.mean(&shown);
+        let rows = of_picture.iter().chain([&whole]).map(|colour| Some(light(*colour))).chain([None]);
+        let products: Vec<Colour> = rows
+            .flat_map(|row| of_tints.iter().map(move |tint| factor.product([row, Some(light(*tint))])))
+            .collect();
+        let known = self.of_colours(material, &products);
+        let varied = PaintId::from(self.list.len());
+        let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), false)).collect();
+        let colour = Colour { a: factor.base.a, ..mean(&seen) };
+        self.list.push(Paint { material: material.into(), colour });
+        triangles.iter().for_each(|own| self.paint(scene, own, varied));
+        let paints = products.iter().filter_map(|colour| known.get(colour).copied()).collect();
+        let painted = texture.painted(shown, &of_picture, whole);
+        let tints = Tints::new(glam::Vec3::ONE, &of_tints);
+        self.varied.push((varied, Varied::new(Some(painted), Some(tints), paints)));
+        self.tinted = true;
     }
 
     /// The paints of a material in these colours.
@@ -221,79 +325,6 @@ impl Paints {
 
 /// Colours that differ by no more than this in any channel are one, but for how they were stored.
 const SAME: u32 = 8;
-
-/// A triangle that has a colour other than its material's.
-#[derive(Debug, Clone, Copy)]
-struct Coloured {
-    geometry: usize,
-    triangle: usize,
-    /// What it shows of a texture.
-    shown: Option<Colour>,
-    /// How far colours within it differ.
-    spread: u32,
-    /// The linear light of the colours at its corners, where they are not white.
-    painted: Option<Vec3>,
-}
-
-/// The colours of a triangle, where a texture or its corners give it one.
-fn colour_of(
-    geometry: &Geometry,
-    index: usize,
-    triangle: usize,
-    texture: Option<&Texture>,
-) -> Option<Coloured> {
-    let uvs = geometry.corner_uvs.get(triangle).and_then(|corners| {
-        let [a, b, c] = corners.map(|corner| geometry.uvs.get(corner as usize).copied());
-        Some([a?, b?, c?])
-    });
-    let shown = texture.zip(uvs).map(|(texture, uvs)| texture.of_triangle(uvs));
-    let painted = geometry.triangles.get(triangle).and_then(|corners| {
-        let [a, b, c] = corners.map(|corner| geometry.colours.get(corner as usize).copied());
-        // Rounded once, so that it does not matter which corner comes first.
-        let [a, b, c] = [a?, b?, c?].map(|[r, g, b, _]| Vec3::new(r, g, b).as_dvec3());
-        Some(((a + b + c) / 3.0).as_vec3())
-    });
-    // White is no tint of a texture.
-    let painted = painted.filter(|light| shown.is_none() || *light != Vec3::ONE);
-    if shown.is_none() && painted.is_none() {
-        return None;
-    }
-    let (shown, spread) = shown.map_or((None, 0), |(colour, spread)| (Some(colour), spread));
-    Some(Coloured { geometry: index, triangle, shown, spread, painted })
-}
-
-/// What the colour of a material does to those of its texture and its corners: in glTF it multiplies them, elsewhere they stand
-/// in for it.
-struct Factor {
-    base: Colour,
-    multiplies: bool,
-}
-
-impl Factor {
-    /// The colour of a triangle.
-    fn of(&self, own: &Coloured) -> Colour {
-        self.product([own.shown.map(light), own.painted])
-    }
-
-    /// The colour of what shows one of the colours of a texture.
-    fn tint(&self, colour: Colour) -> Colour {
-        self.product([Some(light(colour)), None])
-    }
-
-    fn product(&self, factors: [Option<Vec3>; 2]) -> Colour {
-        let base = self.multiplies.then(|| light(self.base));
-        let product =
-            factors.into_iter().chain([base]).flatten().fold(Vec3::ONE, |product, factor| product * factor);
-        let opacity = f32::from(self.base.a) / 255.0;
-        Colour::from_linear([product.x, product.y, product.z, opacity])
-    }
-}
-
-/// The linear light of a colour.
-fn light(colour: Colour) -> Vec3 {
-    let [r, g, b] = [colour.r, colour.g, colour.b].map(|c| linear(f32::from(c) / 255.0));
-    Vec3::new(r, g, b)
-}
 
 #[cfg(test)]
 mod tests {

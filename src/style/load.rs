@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::Style;
+use super::artist_file::{place_artist_textures, read_artist_textures};
 use super::brush_file::place_brushes;
 use super::fault::{self, nearest};
 use super::fills::set_aside;
@@ -62,6 +63,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
         let folder = source.folder.as_deref().unwrap_or(Path::new(""));
         place_pictures(&mut table, folder);
         place_brushes(&mut table, folder);
+        place_artist_textures(&mut table, folder);
         sheets.push(table);
     }
     let mut merged = Table::new();
@@ -75,6 +77,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     let mut sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
     sheet.fills.read_pictures()?;
     sheet.read_brushes()?;
+    read_artist_textures(&mut sheet.lines.artist_texture)?;
     Ok(sheet.into_style())
 }
 
@@ -128,6 +131,7 @@ pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
     let mut table = change(set)?;
     place_pictures(&mut table, folder);
     place_brushes(&mut table, folder);
+    place_artist_textures(&mut table, folder);
     Ok(table.iter().map(|(key, value)| format!("{key}={value}")).collect())
 }
 

@@ -10,6 +10,7 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
+mod artist_file;
 mod brush_file;
 pub(crate) mod fault;
 mod fills;

@@ -28,7 +28,7 @@ pub(super) struct Sheet {
     pub extends: Option<String>,
     seed: u64,
     page: PageTable,
-    lines: LineOptions,
+    pub lines: LineOptions,
     chain: ChainOptions,
     pen: PenTable,
     rule: Vec<Rule>,

@@ -30,6 +30,7 @@ mod loading;
 mod locality;
 mod marked_edges;
 mod models;
+mod painted_surfaces;
 mod patterns;
 mod properties;
 mod random_widths;

@@ -7,7 +7,7 @@ use super::json;
 use super::uri;
 use crate::math::colour::Colour;
 use crate::scene::material::{Gloss, Placing};
-use crate::scene::{Alpha, Material, Warnings, Wrap};
+use crate::scene::{Alpha, Filter, Material, Warnings, Wrap};
 
 /// The path of a texture beside the model, or its bytes.
 type TextureSource = (Option<String>, Option<Arc<[u8]>>);
@@ -41,6 +41,7 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
                 .map_or(0.0, |own| own.transmission_factor.clamp(0.0, 1.0)),
             opacity_map: None,
             placing: Placing::default(),
+            filter: base_texture(material).map_or(Filter::Smooth, |texture| filter(buffers.root, texture)),
             wrap: base_texture(material).map_or([Wrap::Repeat; 2], |texture| wrap(buffers.root, texture)),
         }
     };
@@ -74,6 +75,15 @@ fn alpha(factor: f32, material: &json::Material) -> Alpha {
         Some("MASK") if material.alpha_cutoff.is_some_and(|cutoff| cutoff <= 0.0) => Alpha::Opaque,
         Some("MASK") => Alpha::Mask { cutoff: material.alpha_cutoff.unwrap_or(0.5) / factor },
         _ => Alpha::Opaque,
+    }
+}
+
+/// What is between the texels of a texture.
+fn filter(root: &json::Root, texture: &json::TextureUse) -> Filter {
+    let sampler = root.textures.get(texture.index).and_then(|texture| root.samplers.get(texture.sampler?));
+    match sampler.and_then(|sampler| sampler.mag_filter) {
+        Some(9728) => Filter::Blocks,
+        _ => Filter::Smooth,
     }
 }
 

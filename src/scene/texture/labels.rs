@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::guess::Guess;
 use crate::math::function;
-use crate::mesh::PaintId;
 use crate::scene::texels::Texels;
 
 /// Colours that have a share in a texel, at most.
@@ -23,18 +22,25 @@ type Shares = [(u8, f32); SHARES];
 #[derive(Debug, Clone)]
 pub(crate) struct Labels {
     pub texels: Texels,
-    /// The paint of each colour.
-    pub paints: Vec<PaintId>,
     winners: Vec<u8>,
     /// Where the shares of each texel are found.
     mixed: Vec<u32>,
     shares: Vec<Shares>,
+    /// Whether texels are blocks.
+    blocks: bool,
 }
 
 impl Labels {
-    /// The colours of texels from those they are near to, with shares blurred by a normal distribution of this deviation,
-    /// texels.
-    pub(super) fn of(texels: Texels, guesses: &[Guess], blur: f64, paints: Vec<PaintId>) -> Self {
+    /// Which colours texels have that are blocks: those that they are nearest to.
+    pub(super) fn blocks(texels: Texels, guesses: &[Guess]) -> Self {
+        let winners: Vec<u8> = guesses.iter().map(|guess| guess.nearest).collect();
+        let mixed = vec![PURE; winners.len()];
+        Self { texels, winners, mixed, shares: Vec::new(), blocks: true }
+    }
+
+    /// Which of so many colours texels have, from those they are near to, with shares blurred by a normal distribution of this
+    /// deviation, texels.
+    pub(super) fn of(texels: Texels, guesses: &[Guess], blur: f64, colours: usize) -> Self {
         let [width, height] = texels.size;
         let reach = if blur < 0.3 { 0 } else { (2.5 * blur).ceil().min(4.0) as i64 };
         let bell: Vec<f32> = (0..=reach)
@@ -42,7 +48,7 @@ impl Labels {
             .collect();
         let is_mixed = near_borders(&texels, guesses, reach);
         let row = |j: usize| {
-            let mut sums = vec![0.0_f32; paints.len().max(1)];
+            let mut sums = vec![0.0_f32; colours.max(1)];
             let mut of = |i: usize| {
                 let own = guesses[j * width + i];
                 if !is_mixed[j * width + i] && (reach > 0 || own.way == 0.0) {
@@ -64,7 +70,8 @@ impl Labels {
             (0..width).map(&mut of).collect()
         };
         let rows: Vec<Vec<(u8, Option<Shares>)>> = (0..height).into_par_iter().map(row).collect();
-        let mut labels = Self { texels, paints, winners: Vec::new(), mixed: Vec::new(), shares: Vec::new() };
+        let mut labels =
+            Self { texels, winners: Vec::new(), mixed: Vec::new(), shares: Vec::new(), blocks: false };
         for (winner, shares) in rows.into_iter().flatten() {
             labels.winners.push(winner);
             labels.mixed.push(shares.map_or(PURE, |_| labels.shares.len() as u32));
@@ -101,11 +108,6 @@ impl Labels {
         let (low, part) = (p.floor(), p - p.floor());
         let cell = Cell::new(self, low.x as i64, low.y as i64);
         cell.at(part)
-    }
-
-    /// The paint at a point of the plane.
-    pub fn paint_at(&self, p: DVec2) -> Option<PaintId> {
-        self.paints.get(self.at(p) as usize).copied()
     }
 }
 
@@ -190,6 +192,9 @@ impl<'a> Cell<'a> {
     pub fn parting(&self) -> Parting {
         if self.is_even() {
             return Parting::Not;
+        }
+        if self.labels.blocks {
+            return Parting::Meeting(DVec2::splat(0.5));
         }
         let crossed: Vec<usize> = (0..4).filter(|side| self.crossing(*side).is_some()).collect();
         let [a, b, c, d] = self.colours;

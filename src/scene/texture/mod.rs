@@ -15,21 +15,22 @@ use std::path::Path;
 
 pub(crate) use labels::Labels;
 pub(crate) use painted::Painted;
+pub(super) use palette::few;
 pub(crate) use trace::trace;
 
 use self::swatches::{ALIKE, difference};
 use super::beside::read_beside;
 use super::texels::Texels;
-use super::{Alpha, Material, Scene};
+use super::{Alpha, Filter, Material, Scene};
 use crate::math::colour::Colour;
 use crate::math::oklab;
 use crate::math::picture::Picture;
-use crate::mesh::PaintId;
 
 /// The picture of a base colour.
 pub(super) struct Texture {
     picture: Picture,
     texels: Texels,
+    filter: Filter,
 }
 
 /// Places of a triangle that are looked at to tell whether it is of one colour, at most, along each of its sides.
@@ -42,7 +43,7 @@ impl Texture {
         let picture = picture_of(scene, material)?;
         Some(picture.map(|picture| {
             let picture = picture.at_most(MOST_TEXELS);
-            Self { texels: Texels::of(scene, material, &picture), picture }
+            Self { texels: Texels::of(scene, material, &picture), picture, filter: material.filter }
         }))
     }
 
@@ -82,10 +83,21 @@ impl Texture {
         self.picture.pixels[texel]
     }
 
+    /// A picture laid on a material that need not know it.
+    pub fn showing(scene: &Scene, material: &Material, picture: &Picture) -> Self {
+        let picture = picture.clone().at_most(MOST_TEXELS);
+        Self { texels: Texels::of(scene, material, &picture), picture, filter: Filter::Smooth }
+    }
+
+    /// On how much of the surface each texel is seen, clear ones too; `triangles` as in [`Texture::shown`].
+    pub fn seen_on(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
+        shown::shown(scene, triangles, &self.texels)
+    }
+
     /// On how much of the surface of a material each texel is seen: none of those that are clear. `triangles` are those that
     /// show the picture: the geometry of each, in ascending order, and its number there.
     pub fn shown(&self, scene: &Scene, material: usize, triangles: &[[usize; 2]]) -> Vec<f32> {
-        let mut shown = shown::shown(scene, triangles, &self.texels);
+        let mut shown = self.seen_on(scene, triangles);
         let least = match scene.materials.get(material).map(|material| material.alpha) {
             Some(Alpha::Mask { cutoff }) => cutoff * 255.0,
             Some(Alpha::Blend) => 127.5,
@@ -104,14 +116,20 @@ impl Texture {
         palette::few(&self.picture.pixels, shown, count)
     }
 
-    /// This texture in a few colours, each with its paint.
-    pub fn painted(self, shown: Vec<f32>, colours: &[(Colour, PaintId)]) -> Painted {
+    /// What all that is seen looks like from afar.
+    pub fn mean(&self, shown: &[f32]) -> Colour {
+        palette::few(&self.picture.pixels, shown, 1).first().copied().unwrap_or(Colour::WHITE)
+    }
+
+    /// This texture in a few colours, and in the mean.
+    pub fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> Painted {
         Painted {
             texels: self.texels,
             colours: self.picture.pixels,
             shown,
-            palette: colours.iter().map(|(colour, _)| oklab::of(*colour)).collect(),
-            paints: colours.iter().map(|(_, paint)| *paint).collect(),
+            palette: colours.iter().map(|colour| oklab::of(*colour)).collect(),
+            mean: oklab::of(mean),
+            filter: self.filter,
         }
     }
 }
@@ -154,7 +172,7 @@ mod tests {
             upward: false,
             placing: crate::scene::material::Placing::default(),
         };
-        let mut texture = Texture { picture, texels };
+        let mut texture = Texture { picture, texels, filter: Filter::Smooth };
         let at = |texture: &Texture, uv| texture.at(texture.texels.place(uv).unwrap());
         assert_eq!([[0.1, 0.1], [0.9, 0.1], [1.1, -0.1]].map(|uv| at(&texture, uv)), [a, b, c]);
         assert_eq!(texture.of_triangle([[f32::NAN; 2]; 3]), (a, 0));

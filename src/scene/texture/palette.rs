@@ -23,7 +23,7 @@ struct Bin {
 }
 
 /// At most `count` colours for those of texels, each of which is seen on so much of the surface; the lightest first.
-pub(super) fn few(colours: &[Colour], shown: &[f32], count: usize) -> Vec<Colour> {
+pub(in crate::scene) fn few(colours: &[Colour], shown: &[f32], count: usize) -> Vec<Colour> {
     let bins = bins(colours, shown);
     let labs: Vec<Oklab> = bins.iter().map(|bin| oklab::of_linear(bin.light.map(|c| c as f32))).collect();
     // Small things are drawn too: what is seen on a hundredth of the surface counts for a tenth.

@@ -3,17 +3,18 @@
 use super::labels::Labels;
 
 /// Paints what hangs together on fewer texels than this like the neighbour with which it shares most of its border, small ones
-/// first.
-pub(super) fn merge(labels: &mut Labels, least: f64) {
+/// first. Gives the number of texels that were specks at first.
+pub(super) fn merge(labels: &mut Labels, least: f64) -> usize {
+    let first = merge_once(labels, least);
     // Specks may lie within specks.
-    for _ in 0..3 {
-        if !merge_once(labels, least) {
-            break;
-        }
+    if first > 0 && merge_once(labels, least) > 0 {
+        merge_once(labels, least);
     }
+    first
 }
 
-fn merge_once(labels: &mut Labels, least: f64) -> bool {
+/// Gives the number of texels that were painted anew.
+fn merge_once(labels: &mut Labels, least: f64) -> usize {
     let texels = labels.texels;
     let count = texels.size[0] * texels.size[1];
     let mut is_known = vec![false; count];
@@ -45,7 +46,7 @@ fn merge_once(labels: &mut Labels, least: f64) -> bool {
         }
     }
     small.sort_by_key(|speck| (speck.len(), speck[0]));
-    let mut is_changed = false;
+    let mut changed = 0;
     for speck in small {
         let colour = labels.winner(speck[0]);
         let mut shared: Vec<(u8, usize)> = Vec::new();
@@ -63,16 +64,15 @@ fn merge_once(labels: &mut Labels, least: f64) -> bool {
             shared.iter().max_by_key(|(other, length)| (*length, std::cmp::Reverse(*other)))
         {
             speck.iter().for_each(|texel| labels.repaint(*texel, *other));
-            is_changed = true;
+            changed += speck.len();
         }
     }
-    is_changed
+    changed
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::PaintId;
     use crate::scene::material::Wrap;
     use crate::scene::texels::Texels;
     use crate::scene::texture::guess::Guess;
@@ -95,7 +95,7 @@ mod tests {
             placing: crate::scene::material::Placing::default(),
         };
         let merged = |least: f64| {
-            let mut labels = Labels::of(texels, &guesses, 0.0, (0..3).map(PaintId).collect());
+            let mut labels = Labels::of(texels, &guesses, 0.0, 3);
             merge(&mut labels, least);
             [0, 5 * 12 + 5, 3 * 12 + 9].map(|texel| labels.winner(texel))
         };

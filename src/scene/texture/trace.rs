@@ -123,7 +123,6 @@ fn linked(pieces: &[Piece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::PaintId;
     use crate::scene::material::Wrap;
     use crate::scene::texels::Texels;
     use crate::scene::texture::guess::Guess;
@@ -141,7 +140,7 @@ mod tests {
             upward: false,
             placing: crate::scene::material::Placing::default(),
         };
-        Labels::of(texels, &guesses, blur, (0..3).map(PaintId).collect())
+        Labels::of(texels, &guesses, blur, 3)
     }
 
     /// A disc in the middle of 48 texels, softened over one, as colour 1 on 0.

@@ -413,7 +413,7 @@ fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 /// How far it is between two points of a face of which these are the sides (each opposite the corner
 /// of its number), at most; exact along a side.
-fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     let change = |k: usize| (a[k] - b[k]).abs();
     (0..3)
         .map(|k| (k, change((k + 1) % 3).min(change((k + 2) % 3))))
@@ -423,7 +423,7 @@ fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// A triangle cut at the middles of some of its sides (each opposite the corner of its number).
-fn pieces(n: [Node; 3], middles: [Option<Node>; 3]) -> [Option<[Node; 3]>; 4] {
+pub(super) fn pieces<N: Copy>(n: [N; 3], middles: [Option<N>; 3]) -> [Option<[N; 3]>; 4] {
     // Turned so that the cases below are all there are.
     let turned = |k: usize| {
         ([n[k], n[(k + 1) % 3], n[(k + 2) % 3]], [middles[k], middles[(k + 1) % 3], middles[(k + 2) % 3]])

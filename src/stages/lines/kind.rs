@@ -24,10 +24,10 @@ pub enum LineKind {
     Ridge,
     /// Where the smaller curvature has a minimum along its direction.
     Valley,
-    /// A tone border.
-    Isophote,
     /// Painted colours change.
     Artist,
+    /// A tone border.
+    Isophote,
     /// Found in the image, not on the surface.
     Image,
     /// A line of the model that belongs to no face.
@@ -47,8 +47,8 @@ impl LineKind {
         Self::Suggestive,
         Self::Ridge,
         Self::Valley,
-        Self::Isophote,
         Self::Artist,
+        Self::Isophote,
         Self::Image,
         Self::Wire,
         Self::Motion,
@@ -72,8 +72,8 @@ impl LineKind {
             Self::Suggestive => "suggestive",
             Self::Ridge => "ridge",
             Self::Valley => "valley",
-            Self::Isophote => "isophote",
             Self::Artist => "artist",
+            Self::Isophote => "isophote",
             Self::Image => "image",
             Self::Wire => "wire",
             Self::Motion => "motion",

@@ -125,18 +125,13 @@ impl FeatureLines {
         mesh: &Mesh,
         pieces: impl Iterator<Item = (u32, LineKind, [DVec3; 2])>,
         segment: impl Fn(u32, LineKind, [u32; 2]) -> FeatureSegment,
-    ) {
-        let first = mesh.positions.len();
-        let mut ids: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+    ) -> PointIds {
+        let mut ids = PointIds::default();
         for (face, kind, ends) in pieces {
-            let ends = ends.map(|p| {
-                *ids.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
-                    self.points.push(p);
-                    (first + self.points.len() - 1) as u32
-                })
-            });
+            let ends = ends.map(|p| ids.of(self, mesh, p));
             self.segments.push(segment(face, kind, ends));
         }
+        ids
     }
 
     /// How strong the lines are at an end, 0 to 1.
@@ -145,5 +140,19 @@ impl FeatureLines {
     pub fn strength(&self, mesh: &Mesh, end: u32) -> f32 {
         let point = (end as usize).checked_sub(mesh.positions.len());
         point.and_then(|point| self.strengths.get(point)).copied().unwrap_or(1.0)
+    }
+}
+
+/// The numbers of points that lines through faces share, by their bits.
+#[derive(Default)]
+pub(super) struct PointIds(FxHashMap<[u64; 3], u32>);
+
+impl PointIds {
+    /// The number of a point, which is added if it is new.
+    pub fn of(&mut self, lines: &mut FeatureLines, mesh: &Mesh, p: DVec3) -> u32 {
+        *self.0.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
+            lines.points.push(p);
+            (mesh.positions.len() + lines.points.len() - 1) as u32
+        })
     }
 }

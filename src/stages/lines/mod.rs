@@ -1,5 +1,7 @@
 //! Feature lines: curves on the surface that may be drawn.
 
+mod colour_cells;
+mod drawn;
 pub mod edge_lines;
 pub mod edge_search;
 mod folds;
@@ -11,10 +13,14 @@ pub mod kind;
 pub mod line;
 pub mod lit;
 pub mod options;
+mod painted_face;
 pub mod smooth_contours;
 pub mod surface;
 pub mod texture_borders;
+mod texture_scale;
+mod textured;
 pub mod textures;
+mod tint_borders;
 pub mod tone_edges;
 pub mod zero_set;
 

@@ -4,6 +4,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{ImageOptions, InsideOptions, LineKind, Source};
+use crate::scene::ArtistTextures;
 
 /// What becomes of lines behind surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -65,6 +66,12 @@ pub struct LineOptions {
     /// which black and white are 1 apart. Default: 0.05.
     #[serde(deserialize_with = "tolerance")]
     pub artist_tolerance: f64,
+    /// Pictures that lie on the surfaces by their texture coordinates, and are not painted: on their materials `artist` lines run
+    /// where these change their colour, not where the surface does. Default: none.
+    pub artist_texture: ArtistTextures,
+    /// How much artist lines in pictures are smoothed, px: what is narrower is lost. Default: 0.7.
+    #[serde(deserialize_with = "smoothing")]
+    pub artist_smooth: f64,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
     /// How suggestive contours, ridges and valleys are found.
@@ -90,6 +97,8 @@ impl Default for LineOptions {
             normals: Normals::Auto,
             crease_deg: 40.0,
             artist_tolerance: 0.05,
+            artist_texture: ArtistTextures::default(),
+            artist_smooth: 0.7,
             hidden: HiddenLines::None,
             inside: InsideOptions::default(),
             image: ImageOptions::default(),
@@ -104,6 +113,16 @@ fn tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error
         Ok(distance)
     } else {
         Err(D::Error::custom(format!("{distance} is no distance of colours; write a number from 0 to 2")))
+    }
+}
+
+/// A width in px.
+fn smoothing<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let px = f64::deserialize(deserializer)?;
+    if (0.0..=100.0).contains(&px) {
+        Ok(px)
+    } else {
+        Err(D::Error::custom(format!("{px} px is no smoothing; write a number from 0 to 100")))
     }
 }
 

@@ -1,75 +1,88 @@
-//! [`Textures`]: the pictures that a view shows on its surfaces, each in the few colours it is painted in.
+//! [`Textures`]: the pictures and the colours of vertices that a view shows on its surfaces, in the few colours they are painted in.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
+use super::drawn::Drawn;
+use super::texture_scale::Seen;
+use super::textured::Textured;
 use super::{LineKind, LineOptions};
 use crate::math::oklab::{self, Oklab, distance2};
 use crate::mesh::{FaceId, Mesh, PaintId};
 use crate::scene::Paints;
-use crate::scene::texels::outline::{Outline, Segment};
-use crate::scene::texture::{Labels, Painted, trace};
+use crate::scene::tints::Tints;
+use crate::scene::varied::{PaintTable, Varied};
 use crate::view::View;
 
-/// The pictures that a view shows on its surfaces, each in the few colours it is painted in.
+/// The pictures and the colours of vertices that a view shows on its surfaces, in the few colours they are painted in.
 #[derive(Debug, Default)]
 pub struct Textures {
     /// By the number of the paint of what shows them.
     of_paint: Vec<Option<Shown>>,
-    /// How paints look, and how far two are apart that have a line between them; none where no such lines are wanted.
-    artist: Option<(Vec<Oklab>, f32)>,
+    /// Where lines are wanted between colours.
+    artist: Option<Artist>,
     warnings: Vec<String>,
 }
 
+/// Where lines are wanted between colours.
+#[derive(Debug)]
+struct Artist {
+    /// How paints look; none of those on whose materials lines run by another picture.
+    looks: Vec<Option<Oklab>>,
+    /// How far two are apart that have a line between them.
+    tolerance: f32,
+    /// By their number, the materials on which lines run by a picture that is not painted, and how its colours look.
+    inked: Vec<Option<(Shown, Vec<Oklab>)>>,
+}
+
+/// What is shown in one paint, or on one material, and varies.
 #[derive(Debug)]
 struct Shown {
-    labels: Labels,
-    borders: Outline,
+    picture: Option<Drawn>,
+    tints: Option<Tints>,
+    paints: PaintTable,
 }
 
-/// How far borders may lie beside their place, px.
-const NEAR_PX: f64 = 0.15;
-
-/// A face that shows a picture.
-pub(super) struct Textured<'a> {
-    shown: &'a Shown,
-    /// Its corners in the plane of the texels.
-    pub corners: [DVec2; 3],
-}
+/// The smoothing of pictures that the style asks for if it says nothing, px.
+const SMOOTH_PX: f64 = 0.7;
 
 impl Textures {
     /// The pictures as they are seen on a mesh, with a px of so many user units.
     #[must_use]
     pub fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64, options: &LineOptions) -> Self {
         let mut textures = Self::default();
-        if options.enabled && options.kinds.contains(&LineKind::Artist) {
-            let colours = paints.list.iter().map(|paint| oklab::of(paint.colour)).collect();
-            textures.artist = Some((colours, options.artist_tolerance as f32));
-        }
-        if paints.pictures.is_empty() {
-            return textures;
-        }
-        let scales = texels_per_px(mesh, view, &paints.pictures, px);
-        let shown: Vec<(PaintId, Option<Shown>)> = paints
-            .pictures
-            .par_iter()
-            .zip(scales)
-            .map(|((paint, painted), texels_per_px)| {
-                let labels = painted.labels(texels_per_px);
-                let per_px = texels_per_px * labels.texels.size[0] as f64 / painted.texels().size[0] as f64;
-                let near = if per_px.is_finite() { (NEAR_PX * per_px).clamp(0.005, 0.5) } else { 0.1 };
-                let borders = trace(&labels).map(|traced| Outline::new(&traced, near));
-                (*paint, borders.map(|borders| Shown { labels, borders }))
-            })
-            .collect();
-        for (paint, shown) in shown {
-            if shown.is_none() {
-                textures
-                    .warnings
-                    .push("a texture has too much detail, and counts as its mean colour".to_owned());
-            }
+        let has_artist = options.enabled && options.kinds.contains(&LineKind::Artist);
+        let smooth = if has_artist { options.artist_smooth / SMOOTH_PX } else { 1.0 };
+        let sight = Sight { mesh, view, px, smooth, crease_deg: options.crease_deg };
+        let number = |paint: PaintId| paints.varied.iter().position(|(own, _)| *own == paint);
+        let numbers: Vec<Option<usize>> = (0..paints.list.len()).map(|k| number(k.into())).collect();
+        let of_face = |face: u32| *numbers.get(mesh.paint(FaceId(face)).index())?;
+        let varied: Vec<&Varied> = paints.varied.iter().map(|(_, varied)| varied).collect();
+        let shown = sight.shown(&varied, of_face, &mut textures.warnings);
+        for ((paint, _), shown) in paints.varied.iter().zip(shown) {
             textures.of_paint.resize_with(textures.of_paint.len().max(paint.index() + 1), || None);
             textures.of_paint[paint.index()] = shown;
+        }
+        if has_artist {
+            let mut inked: Vec<Option<(Shown, Vec<Oklab>)>> = Vec::new();
+            let number = |face: u32| {
+                let material = mesh.face_material[face as usize];
+                paints.inked.iter().position(|(own, _)| *own == material)
+            };
+            let varied: Vec<&Varied> = paints.inked.iter().map(|(_, varied)| varied).collect();
+            let shown = sight.shown(&varied, number, &mut textures.warnings);
+            for ((material, varied), shown) in paints.inked.iter().zip(shown) {
+                inked.resize_with(inked.len().max(material.index() + 1), || None);
+                let looks = varied.picture.as_ref().map_or(&[][..], |painted| painted.palette());
+                inked[material.index()] = shown.map(|shown| (shown, looks.to_vec()));
+            }
+            let is_inked = |material: usize| inked.get(material).is_some_and(Option::is_some);
+            let look = |paint: &crate::scene::Paint| {
+                (!is_inked(paint.material.index())).then(|| oklab::of(paint.colour))
+            };
+            let looks = paints.list.iter().map(look).collect();
+            let tolerance = options.artist_tolerance as f32;
+            textures.artist = Some(Artist { looks, tolerance, inked });
         }
         textures
     }
@@ -89,101 +102,110 @@ impl Textures {
 
     /// What a line is that parts two paints of one material.
     pub(super) fn parting(&self, a: PaintId, b: PaintId) -> LineKind {
-        let Some((colours, tolerance)) = &self.artist else { return LineKind::Isophote };
-        let [a, b] = [a, b].map(|paint| colours.get(paint.index()).copied().unwrap_or_default());
-        if distance2(a, b) > tolerance * tolerance { LineKind::Artist } else { LineKind::Isophote }
+        let look = |paint: PaintId| self.artist.as_ref()?.looks.get(paint.index()).copied().flatten();
+        self.kind(look(a), look(b))
     }
 
-    /// Whether any face shows a picture.
+    /// What a line is that parts two colours of the picture by which lines run on a face.
+    pub(super) fn parting_ink(&self, mesh: &Mesh, face: u32, [a, b]: [PaintId; 2]) -> LineKind {
+        let inked = self.inked(mesh, face);
+        let look = |colour: PaintId| inked?.1.get(colour.index()).copied();
+        self.kind(look(a), look(b))
+    }
+
+    /// What a line is between two looks.
+    fn kind(&self, a: Option<Oklab>, b: Option<Oklab>) -> LineKind {
+        let Some((artist, a, b)) = self.artist.as_ref().zip(a).zip(b).map(|((artist, a), b)| (artist, a, b))
+        else {
+            return LineKind::Isophote;
+        };
+        let is_far = distance2(a, b) > artist.tolerance * artist.tolerance;
+        if is_far { LineKind::Artist } else { LineKind::Isophote }
+    }
+
+    /// Whether lines are wanted where painted colours change.
+    pub(super) fn has_artist(&self) -> bool {
+        self.artist.is_some()
+    }
+
+    /// Whether no face shows anything that varies.
     pub(super) fn is_empty(&self) -> bool {
         self.of_paint.iter().all(Option::is_none)
+            && self.artist.as_ref().is_none_or(|artist| artist.inked.iter().all(Option::is_none))
     }
 
     /// What a face shows; none if it is of one paint.
     pub(super) fn on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
-        let shown = self.of_paint.get(mesh.paint(FaceId(face)).index())?.as_ref()?;
-        let corners = texels(mesh, face, |uv| shown.labels.texels.place(uv))?;
-        Some(Textured { shown, corners })
+        self.of_paint.get(mesh.paint(FaceId(face)).index())?.as_ref()?.on(mesh, face)
+    }
+
+    /// What lies on a face of the picture by which lines run there, its colours as paints by their numbers.
+    pub(super) fn ink_on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
+        self.inked(mesh, face)?.0.on(mesh, face)
+    }
+
+    fn inked(&self, mesh: &Mesh, face: u32) -> Option<&(Shown, Vec<Oklab>)> {
+        self.artist.as_ref()?.inked.get(mesh.face_material[face as usize].index())?.as_ref()
     }
 }
 
-impl Textured<'_> {
-    /// The point of the plane of the texels that lies at a point of the face.
-    fn place(&self, weights: [f64; 3]) -> DVec2 {
-        let [a, b, c] = self.corners;
-        a * weights[0] + b * weights[1] + c * weights[2]
-    }
-
-    /// How many texels lie between two points of the face.
-    pub fn texels_along(&self, ends: [[f64; 3]; 2]) -> f64 {
-        self.place(ends[0]).distance(self.place(ends[1]))
-    }
-
-    /// The paint at a point of the face.
-    pub fn paint(&self, weights: [f64; 3]) -> Option<PaintId> {
-        self.shown.labels.paint_at(self.place(weights))
-    }
-
-    /// The paints of the picture.
-    pub fn palette(&self) -> &[PaintId] {
-        &self.shown.labels.paints
-    }
-
-    /// The borders between colours that may lie on the face, and the paints that each parts.
-    pub fn borders(&self) -> Vec<(Segment, [PaintId; 2])> {
-        let [a, b, c] = self.corners;
-        let paints = &self.shown.labels.paints;
-        let make =
-            |segment: Segment, parted: [u8; 2]| (segment, parted.map(|colour| paints[colour as usize]));
-        self.shown.borders.near_as(a.min(b).min(c), a.max(b).max(c), make).unwrap_or_default()
-    }
-
-    /// The paints that may be seen on the face.
-    pub fn paints(&self) -> Vec<PaintId> {
-        let [a, b, c] = self.corners;
-        let within = [a, b, c, (a + b + c) / 3.0].map(|p| self.shown.labels.paint_at(p));
-        let parted = self.borders().into_iter().flat_map(|(_, paints)| paints);
-        let mut paints: Vec<PaintId> = within.into_iter().flatten().chain(parted).collect();
-        paints.sort_unstable();
-        paints.dedup();
-        paints
+impl Shown {
+    /// What of it lies on a face.
+    fn on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
+        let picture = self.picture.as_ref().and_then(|drawn| {
+            let [a, b, c] = mesh.corner_uvs.get(face as usize)?.map(|uv| mesh.uvs.get(uv as usize).copied());
+            drawn.on(face, [a?, b?, c?])
+        });
+        let tints = self.tints.as_ref().zip(mesh.corner_colours.get(face as usize).copied());
+        (picture.is_some() || tints.is_some()).then_some(Textured { paints: &self.paints, picture, tints })
     }
 }
 
-/// The corners of a face in the plane of the texels.
-fn texels(mesh: &Mesh, face: u32, place: impl Fn([f32; 2]) -> Option<DVec2>) -> Option<[DVec2; 3]> {
-    let corners = mesh.corner_uvs.get(face as usize)?;
-    let [a, b, c] = corners.map(|uv| place(*mesh.uvs.get(uv as usize)?));
-    Some([a?, b?, c?])
+/// How surfaces are looked at.
+struct Sight<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    px: f64,
+    /// How much coarser than it is seen detail is drawn.
+    smooth: f64,
+    /// Surfaces go on across edges that turn by less than this.
+    crease_deg: f64,
 }
 
-/// How many texels of each picture lie along a px where it turns to the eye, in the mean over what is seen of the page.
-fn texels_per_px(mesh: &Mesh, view: &View, pictures: &[(PaintId, Painted)], px: f64) -> Vec<f64> {
-    let (width, height) = (view.frame.width, view.frame.height);
-    let last = pictures.iter().map(|(paint, _)| paint.index()).max().unwrap_or_default();
-    let mut of_paint = vec![None; last + 1];
-    for (number, (paint, _)) in pictures.iter().enumerate() {
-        of_paint[paint.index()] = Some(number);
-    }
-    let of_face = |face: usize| -> Option<(usize, [f64; 2])> {
-        let number = (*of_paint.get(mesh.paint(FaceId(face as u32)).index())?)?;
-        if !view.facing[face] {
-            return None;
+impl Sight<'_> {
+    /// What is shown of each of some things that vary; a function tells which of them a face shows. None where a picture has too
+    /// much detail.
+    fn shown(
+        &self,
+        varied: &[&Varied],
+        number: impl Fn(u32) -> Option<usize> + Sync,
+        warnings: &mut Vec<String>,
+    ) -> Vec<Option<Shown>> {
+        if varied.is_empty() {
+            return Vec::new();
         }
-        let [p, q, r] = mesh.triangles[face].map(|v| view.points[v as usize]);
-        let is_out = |p: DVec3| p.is_nan() || p.x < 0.0 || p.y < 0.0 || p.x > width || p.y > height;
-        if is_out(p) && is_out(q) && is_out(r) {
-            return None;
+        let texels: Vec<_> =
+            varied.iter().map(|own| own.picture.as_ref().map(|painted| *painted.texels())).collect();
+        let Self { mesh, view, px, .. } = *self;
+        let seen = Seen { mesh, view, px, number, texels: &texels };
+        let scales = seen.scales();
+        let shown: Vec<Option<Shown>> = varied
+            .par_iter()
+            .zip(scales)
+            .enumerate()
+            .map(|(picture, (varied, scale))| {
+                let (tints, paints) = (varied.tints.clone(), varied.paints().clone());
+                let Some(painted) = &varied.picture else {
+                    return Some(Shown { picture: None, tints, paints });
+                };
+                let densities = || seen.densities(picture, self.crease_deg);
+                let drawn = Drawn::new(painted, &scale, self.smooth, densities)?;
+                Some(Shown { picture: Some(drawn), tints, paints })
+            })
+            .collect();
+        for _ in shown.iter().filter(|shown| shown.is_none()) {
+            warnings.push("a texture has too much detail, and counts as its mean colour".to_owned());
         }
-        let [a, b, c] = texels(mesh, face as u32, |uv| pictures[number].1.texels().place(uv))?;
-        let on_page = (q - p).truncate().perp_dot((r - p).truncate()).abs();
-        let in_texels = (b - a).perp_dot(c - a).abs();
-        (on_page.is_finite()).then_some((number, [in_texels, on_page / (px * px)]))
-    };
-    let mut sums = vec![[0.0_f64; 2]; pictures.len()];
-    // One after another, so that sums are the same with any number of threads.
-    for (number, areas) in (0..mesh.triangles.len()).filter_map(of_face) {
-        sums[number].iter_mut().zip(areas).for_each(|(sum, area)| *sum += area);
+        shown
     }
-    sums.iter().map(|[texels, page]| if *page > 0.0 { (texels / page).sqrt() } else { 1.0 }).collect()
 }

@@ -64,6 +64,7 @@ impl Mesh {
             corner_normals: soup.corner_normals,
             uvs: soup.uvs,
             corner_uvs: soup.corner_uvs,
+            corner_colours: soup.corner_colours,
             edge_marks: soup.edge_marks,
             edges,
             wires: soup.wires,

@@ -32,6 +32,7 @@ pub(super) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     filter(&mut soup.triangle_paint, keep);
     filter(&mut soup.corner_normals, keep);
     filter(&mut soup.corner_uvs, keep);
+    filter(&mut soup.corner_colours, keep);
     filter(&mut soup.edge_marks, keep);
 }
 

@@ -59,6 +59,8 @@ pub struct Mesh {
     pub uvs: Vec<[f32; 2]>,
     /// Texture coordinates of the corners of each face (`u32::MAX` = none), or empty.
     pub corner_uvs: Vec<[u32; 3]>,
+    /// The linear light of the colours of the corners of each face, or empty where none varies within a face.
+    pub corner_colours: Vec<[[f32; 3]; 3]>,
     /// What the file says about the sides 0-1, 1-2, 2-0 of each face, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
     /// Which faces meet at which edge.

@@ -136,6 +136,7 @@ fn order_faces(soup: &mut Soup, new_id: &[u32]) {
     reorder(&mut soup.triangle_paint, &entries, |paint, _| paint);
     reorder(&mut soup.corner_normals, &entries, turned);
     reorder(&mut soup.corner_uvs, &entries, turned);
+    reorder(&mut soup.corner_colours, &entries, turned);
     reorder(&mut soup.edge_marks, &entries, turned);
 }
 
@@ -217,6 +218,7 @@ fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
         soup.edge_marks.get(face).map(|marks| turned(*marks, turn).map(|mark| mark as u8)),
         at_corners(&soup.corner_normals).map(normal),
         at_corners(&soup.corner_uvs).map(uv),
+        soup.corner_colours.get(face).map(|colours| turned(*colours, turn).map(|c| c.map(f32::to_bits))),
     )
 }
 

@@ -53,6 +53,8 @@ pub struct Soup {
     pub uvs: Vec<[f32; 2]>,
     /// For each triangle the texture coordinates of its corners (`u32::MAX` = none), or empty.
     pub corner_uvs: Vec<[u32; 3]>,
+    /// For each triangle the linear light of the colours of its corners, or empty where none varies within a triangle.
+    pub corner_colours: Vec<[[f32; 3]; 3]>,
     /// For each triangle the marks of its sides 0-1, 1-2, 2-0, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
     /// Lines without faces.

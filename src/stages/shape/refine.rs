@@ -245,6 +245,26 @@ impl Work {
         (uvs, corner_uvs)
     }
 
+    /// The colours of the corners of the finer mesh: on a piece of a face what the face has there.
+    fn colours(&self, mesh: &Mesh, kept: &[u32], done: &[Facet]) -> Vec<[[f32; 3]; 3]> {
+        if mesh.corner_colours.is_empty() {
+            return Vec::new();
+        }
+        let of_kept = kept.iter().map(|face| mesh.corner_colours[*face as usize]);
+        let of_piece = |piece: &Facet| {
+            let own = mesh.corner_colours[piece.face as usize];
+            piece.corners.map(|v| {
+                let at = self.positions[self.vertices[v as usize] as usize];
+                let weights = mesh.weights(crate::mesh::FaceId(piece.face), at);
+                [0, 1, 2].map(|k| {
+                    let exact: f64 = own.iter().zip(weights).map(|(c, w)| f64::from(c[k]) * w).sum();
+                    ((exact * UV_STEPS).round() / UV_STEPS) as f32
+                })
+            })
+        };
+        of_kept.chain(done.iter().map(of_piece)).collect()
+    }
+
     fn finish(
         self,
         mesh: &Mesh,
@@ -283,6 +303,7 @@ impl Work {
         let finer = Mesh {
             uvs,
             corner_uvs,
+            corner_colours: self.colours(mesh, kept, done),
             normals: mesh.normals.clone(),
             corner_normals,
             origin: mesh.origin,
@@ -312,7 +333,7 @@ impl Work {
     }
 }
 
-/// Texture coordinates of new corners are rounded to this part.
+/// Texture coordinates and colours of new corners are rounded to this part.
 const UV_STEPS: f64 = 65536.0;
 
 impl Facet {
