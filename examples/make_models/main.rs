@@ -11,6 +11,7 @@ mod castle_parts;
 mod cogs;
 mod creased;
 mod drum;
+mod easter;
 mod elbow;
 mod gear;
 mod glb;
@@ -102,6 +103,7 @@ fn main() -> std::io::Result<()> {
     write("picnic.mtl", picnic::library().as_bytes())?;
     write("picnic-ball.png", &picnic::sectors())?;
     write("picnic-cloth.png", &picnic::checks())?;
+    write("easter.obj", easter::text().as_bytes())?;
     write("trellis.obj", trellis::text().as_bytes())?;
     write("trellis.mtl", trellis::library().as_bytes())?;
     write("trellis-hole.png", &trellis::hole())?;

@@ -1,8 +1,9 @@
 //! [`Drawn`]: a picture as a view shows it, in a few colours, in one scale or in several.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
-use super::texture_scale::{Scale, density_of};
+use super::texture_scale::{Density, Scale, density_of};
 use crate::scene::texels::outline::{Outline, Segment};
 use crate::scene::texture::{Labels, Painted, trace};
 
@@ -12,9 +13,9 @@ pub(super) struct Drawn {
     /// With the finest first.
     levels: Vec<Level>,
     /// The densities of texels at which the next level begins.
-    ends: Vec<f64>,
+    ends: Vec<Density>,
     /// How dense texels are at the corners of each face, or empty where there is one level.
-    densities: Vec<[f64; 3]>,
+    densities: Vec<[Density; 3]>,
 }
 
 /// A picture in one scale.
@@ -33,7 +34,7 @@ impl Drawn {
         painted: &Painted,
         scale: &Scale,
         smooth: f64,
-        densities: impl FnOnce() -> Vec<[f64; 3]>,
+        densities: impl FnOnce() -> Vec<[Density; 3]>,
     ) -> Option<Self> {
         let of_one = |labels: Labels, texels_per_px: f64| {
             let per_px = texels_per_px * labels.texels.size[0] as f64 / painted.texels().size[0] as f64;
@@ -46,6 +47,7 @@ impl Drawn {
         };
         let texels_per_px = |power: i32| if power < 0 { 0.5_f64.powi(-power) } else { 2.0_f64.powi(power) };
         let levels: Option<Vec<Level>> = (first..=last)
+            .into_par_iter()
             .map(|power| {
                 let texels_per_px = texels_per_px(power);
                 of_one(painted.labels_or_mean(texels_per_px * smooth), texels_per_px)
@@ -69,7 +71,7 @@ pub(super) struct OnPicture<'a> {
     drawn: &'a Drawn,
     uvs: [[f32; 2]; 3],
     /// How dense texels lie at its corners.
-    densities: [f64; 3],
+    densities: [Density; 3],
 }
 
 impl OnPicture<'_> {
@@ -79,33 +81,61 @@ impl OnPicture<'_> {
         Some([a?, b?, c?])
     }
 
-    /// The level at a point of the face.
-    fn level(&self, weights: [f64; 3]) -> usize {
-        let density = self.density(weights);
-        self.drawn.ends.partition_point(|end| *end <= density)
-    }
-
-    /// How dense texels lie at a point of the face.
-    pub fn density(&self, weights: [f64; 3]) -> f64 {
-        let [a, b, c] = self.densities;
-        a * weights[0] + b * weights[1] + c * weights[2]
-    }
-
-    /// The densities at the corners.
-    pub fn densities(&self) -> [f64; 3] {
-        self.densities
-    }
-
-    /// The levels that the face shows, each with the densities at which it begins and ends.
-    pub fn levels(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
-        let Drawn { levels, ends, .. } = self.drawn;
-        let [a, b, c] = self.densities;
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let within = move |level: usize| {
-            let begins = level.checked_sub(1).map_or(f64::NEG_INFINITY, |before| ends[before]);
-            (level, [begins, ends.get(level).copied().unwrap_or(f64::INFINITY)])
+    /// The level at a point of the face: the coarser one that either density asks for.
+    pub fn level(&self, weights: [f64; 3]) -> usize {
+        let of = |which: usize| {
+            let density = self.density(which, weights);
+            self.drawn.ends.partition_point(|end| end[which] <= density)
         };
-        (0..levels.len()).map(within).filter(move |(_, [begins, ends])| high >= *begins && low < *ends)
+        of(0).max(of(1))
+    }
+
+    /// One of the densities at a point of the face.
+    fn density(&self, which: usize, weights: [f64; 3]) -> f64 {
+        (0..3).map(|k| self.densities[k][which] * weights[k]).sum()
+    }
+
+    /// The levels that the face may show.
+    pub fn levels(&self) -> std::ops::RangeInclusive<usize> {
+        let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|at| self.level(at));
+        // Between corners of different levels there is none that neither reaches: what is greatest somewhere is so at a corner,
+        // but the least may lie between two.
+        let least = |which: usize| {
+            let low = (0..3).map(|k| self.densities[k][which]).fold(f64::INFINITY, f64::min);
+            self.drawn.ends.partition_point(|end| end[which] <= low)
+        };
+        least(0).max(least(1))..=corners.into_iter().max().unwrap_or_default()
+    }
+
+    /// The parts of the way between two points of the face at which a level may end.
+    pub fn level_ends(&self, ends: [[f64; 3]; 2]) -> Vec<f64> {
+        let mut found = Vec::new();
+        for which in 0..2 {
+            let [a, b] = ends.map(|end| self.density(which, end));
+            let crossed = self.drawn.ends.iter().filter(|end| (a >= end[which]) != (b >= end[which]));
+            found.extend(crossed.map(|end| (end[which] - a) / (b - a)));
+        }
+        found.sort_by(f64::total_cmp);
+        found
+    }
+
+    /// The lines on the face along which a level may end, each between the sides `sides` (from a corner to another) that it crosses:
+    /// the numbers of the sides and how far along them.
+    pub fn level_lines(&self, sides: &[[usize; 2]; 3]) -> Vec<[(usize, f64); 2]> {
+        let levels = self.levels();
+        let mut found = Vec::new();
+        for end in &self.drawn.ends[*levels.start()..*levels.end()] {
+            for which in 0..2 {
+                let crossing = |(number, [from, to]): (usize, &[usize; 2])| {
+                    let [a, b] = [from, to].map(|k| self.densities[*k][which]);
+                    let is_crossed = (a >= end[which]) != (b >= end[which]);
+                    is_crossed.then(|| (number, (end[which] - a) / (b - a)))
+                };
+                let mut crossed = sides.iter().enumerate().filter_map(crossing);
+                found.extend(crossed.next().zip(crossed.next()).map(|(a, b)| [a, b]));
+            }
+        }
+        found
     }
 
     /// The number of the colour at a point of the face.

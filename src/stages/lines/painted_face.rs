@@ -28,7 +28,10 @@ pub(super) fn borders(lit: &Lit, face: u32, textured: &Textured) -> Vec<Piece> {
             pieces.extend(paints.map(|paints| Piece { ends, paints }));
         });
         let own = lit.mesh.paint(crate::mesh::FaceId(face));
-        pieces.extend(level_lines(lit, face, &on).into_iter().map(|ends| Piece { ends, paints: [own; 2] }));
+        let sides = side_ends(lit, face);
+        let lines = on.level_lines(&sides).into_iter();
+        let lines = lines.map(|line| line.map(|(side, part)| on_side(sides[side], part)));
+        pieces.extend(lines.map(|ends| Piece { ends, paints: [own; 2] }));
     }
     if let Some((tints, light)) = textured.tints {
         for (ends, parted) in TintedFace::new(lit, face, tints, light, page_px(lit)).borders() {
@@ -45,20 +48,15 @@ pub(super) fn changes_along(lit: &Lit, face: u32, textured: &Textured, ends: [u3
     let Some([from, to]) = corners_of(vertices, ends) else { return Vec::new() };
     let mut found = Vec::new();
     if let Some(on) = textured.picture {
-        for (level, [begins, stops]) in on.levels() {
+        for level in on.levels() {
             let Some(corners) = on.corners(level) else { continue };
             let side = side(corners, [from, to]);
-            for (border, _) in on.borders(level) {
-                if let Some((part, _)) = side.crossing(border) {
-                    let at = on_side([from, to], part);
-                    let density = on.density(at);
-                    if density >= begins && density < stops {
-                        found.push(at);
-                    }
-                }
-            }
-            found.extend(level_crossing(&on, [from, to], stops).map(|part| on_side([from, to], part)));
+            let parts = on.borders(level).into_iter().filter_map(|(border, _)| side.crossing(border));
+            let places = parts.map(|(part, _)| on_side([from, to], part));
+            found.extend(places.filter(|at| on.level(*at) == level));
         }
+        let whole = [on_side([from, to], 0.0), on_side([from, to], 1.0)];
+        found.extend(on.level_ends(whole).into_iter().map(|part| on_side([from, to], part)));
     }
     if let Some((tints, light)) = textured.tints {
         let borders = TintedFace::new(lit, face, tints, light, page_px(lit)).borders();
@@ -100,26 +98,10 @@ fn side_ends(lit: &Lit, face: u32) -> [[usize; 2]; 3] {
     })
 }
 
-/// How far along a side texels reach a density.
-fn level_crossing(on: &OnPicture, [from, to]: [usize; 2], density: f64) -> Option<f64> {
-    let [a, b] = [from, to].map(|k| on.densities()[k]);
-    ((a >= density) != (b >= density)).then(|| (density - a) / (b - a))
-}
-
-/// The lines on a face along which the scale of its picture changes.
-fn level_lines(lit: &Lit, face: u32, on: &OnPicture) -> Vec<[[f64; 3]; 2]> {
-    let sides = side_ends(lit, face);
-    let line = |(_, [_, stops]): (usize, [f64; 2])| {
-        let mut met = sides.iter().filter_map(|ends| Some(on_side(*ends, level_crossing(on, *ends, stops)?)));
-        Some([met.next()?, met.next()?])
-    };
-    on.levels().filter_map(line).collect()
-}
-
 /// What lies on a face of the borders of its picture.
 fn of_picture(lit: &Lit, face: u32, on: &OnPicture, mut put: impl FnMut([[f64; 3]; 2], [u8; 2])) {
     let ends = side_ends(lit, face);
-    for (level, range) in on.levels() {
+    for level in on.levels() {
         let Some(corners) = on.corners(level) else { continue };
         let whole = turn(corners[0], corners[1], corners[2]);
         let sides = ends.map(|ends| side(corners, ends));
@@ -140,36 +122,22 @@ fn of_picture(lit: &Lit, face: u32, on: &OnPicture, mut put: impl FnMut([[f64; 3
                 }
             }
             met.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let pieces = met.chunks_exact(2).filter_map(|pair| within(on, [pair[0].1, pair[1].1], range));
-            pieces.for_each(|ends| put(ends, parted));
+            for pair in met.chunks_exact(2) {
+                within(on, [pair[0].1, pair[1].1], level).into_iter().for_each(|ends| put(ends, parted));
+            }
         }
     }
 }
 
-/// The part of a piece of border where texels are as dense as this.
-fn within(on: &OnPicture, ends: [[f64; 3]; 2], [begins, stops]: [f64; 2]) -> Option<[[f64; 3]; 2]> {
-    let [a, b] = ends.map(|end| on.density(end));
-    let is_in = |density: f64| density >= begins && density < stops;
-    if is_in(a) && is_in(b) {
-        return Some(ends);
-    }
-    if a.max(b) < begins || a.min(b) >= stops {
-        return None;
-    }
-    let at = |density: f64| {
-        let part = (density - a) / (b - a);
-        [0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * part)
-    };
-    let end = |own: [f64; 3], density: f64| {
-        if density < begins {
-            at(begins)
-        } else if density >= stops {
-            at(stops)
-        } else {
-            own
-        }
-    };
-    Some([end(ends[0], a), end(ends[1], b)])
+/// The parts of a piece of border that are of a level.
+fn within(on: &OnPicture, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2]> {
+    let cuts = on.level_ends(ends);
+    let at = |part: f64| [0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * part);
+    let mut places: Vec<(f64, [f64; 3])> = vec![(0.0, ends[0])];
+    places.extend(cuts.into_iter().filter(|part| *part > 0.0 && *part < 1.0).map(|part| (part, at(part))));
+    places.push((1.0, ends[1]));
+    let parts = places.windows(2).map(|pair| (f64::midpoint(pair[0].0, pair[1].0), [pair[0].1, pair[1].1]));
+    parts.filter(|(middle, _)| on.level(at(*middle)) == level).map(|(_, ends)| ends).collect()
 }
 
 /// The barycentric weights of a point of the plane of the texels.

@@ -29,12 +29,30 @@ pub(super) struct Scale {
     pub range: Option<[i32; 2]>,
 }
 
+/// How dense texels lie at a corner of a face: a number for how many lie on a px, and one for how many along it in the direction
+/// in which the face turns away, each of which runs straight along plane faces.
+pub(super) type Density = [f64; 2];
+
+/// What is this many times as narrow as it is long, because its face turns away, is drawn all the same.
+const SLANT: f64 = 3.0;
+
+/// What is seen of a face that turns to the eye.
+#[derive(Debug, Clone, Copy, Default)]
+struct Share {
+    /// How large it is in texels, twice.
+    texels: f64,
+    /// How large it is, twice.
+    world: f64,
+    /// How large it is on a page on which it is seen from a depth of 1, px, twice.
+    page: f64,
+}
+
 /// A picture has several scales where more of what is seen of it than this has texels more than [`FAR`] times as large, or as
 /// small, as they are in the mean.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.04;
 
 /// See [`SHARE`]; in powers of two.
-const FAR: f64 = 1.25;
+const FAR: f64 = 2.0;
 
 /// What is seen of less than this part of a picture needs no scale of its own.
 const LITTLE: f64 = 0.005;
@@ -122,8 +140,8 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         sums.iter().map(|[texels, page]| if *page > 0.0 { (texels / page).sqrt() } else { 1.0 }).collect()
     }
 
-    /// The picture of a face that turns to the eye; how large it is in texels, and on a page on which it is seen from a depth of 1.
-    fn share(&self, face: u32) -> Option<(usize, [f64; 2])> {
+    /// The picture of a face that turns to the eye, and what is seen of it.
+    fn share(&self, face: u32) -> Option<(usize, Share)> {
         let number = (self.number)(face)?;
         if !self.view.facing[face as usize] {
             return None;
@@ -136,9 +154,20 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         let to_eye = if frame.perspective { frame.eye - p } else { -frame.forward };
         // The page shrinks with the square of the depth, and as the face turns away with the cosine, which is the distance of
         // its plane from the eye by the depth.
-        let on_page = across.dot(to_eye).abs() * (frame.scale / self.px).powi(2);
-        let in_texels = (b - a).perp_dot(c - a).abs();
-        (on_page > 0.0 && in_texels.is_finite()).then_some((number, [in_texels, on_page]))
+        let page = across.dot(to_eye).abs() * self.scale().powi(2);
+        let texels = (b - a).perp_dot(c - a).abs();
+        (page > 0.0 && texels.is_finite()).then_some((number, Share { texels, world: across.length(), page }))
+    }
+
+    /// Px to a unit of length at a depth of 1.
+    fn scale(&self) -> f64 {
+        self.view.frame.scale / self.px
+    }
+
+    /// How many texels lie on a px, its root, at a depth of 1; and along a px in the direction in which the face turns away.
+    fn texels_per_px(&self, share: &Share) -> [f64; 2] {
+        let Share { texels, world, page } = share;
+        [(texels / page).sqrt(), (texels * world).sqrt() / page * self.scale() / SLANT]
     }
 
     /// By how much depth the page shrinks.
@@ -147,7 +176,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
     }
 
     /// Goes through a face piece by piece: how many texels lie along a px there, and how large the piece is on the page.
-    fn each_piece(&self, face: u32, [in_texels, on_page]: [f64; 2], mut call: impl FnMut(f64, f64)) {
+    fn each_piece(&self, face: u32, share: Share, mut call: impl FnMut(f64, f64)) {
         let frame = &self.view.frame;
         let points = self.mesh.triangles[face as usize].map(|v| self.view.points[v as usize]);
         let [p, q, r] = points.map(DVec3::truncate);
@@ -156,6 +185,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         let count = if is_whole { (longest / PIECE_PX).ceil().clamp(1.0, MOST_PIECES) } else { MOST_PIECES };
         let [a, b, c] = self.mesh.corners(FaceId(face));
         let least = frame.near.unwrap_or_default();
+        let [on_px, slanted] = self.texels_per_px(&share);
         let mut piece = |x: f64, y: f64| {
             let at = a + (b - a) * (x / count) + (c - a) * (y / count);
             let on = frame.camera_from_local(at);
@@ -166,8 +196,9 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
             if image.x < 0.0 || image.y < 0.0 || image.x > frame.width || image.y > frame.height {
                 return;
             }
-            let depth3 = self.shrinks(on.z).powi(3);
-            call((in_texels / on_page * depth3).sqrt(), on_page / depth3 / (count * count));
+            let depth = self.shrinks(on.z);
+            let (on_px, slanted) = (on_px * depth.powi(3).sqrt(), slanted * depth * depth);
+            call(on_px.max(slanted), share.page / depth.powi(3) / (count * count));
         };
         let third = 1.0 / 3.0;
         for i in 0..count as u32 {
@@ -180,12 +211,12 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         }
     }
 
-    /// For each corner of each face that shows a picture how dense texels lie there: a number that runs straight along any plane
-    /// face, the same on both faces of an edge that turn by less than `crease_deg`; see [`density_of`].
-    pub fn densities(&self, picture: usize, crease_deg: f64) -> Vec<[f64; 3]> {
+    /// For each corner of each face that shows a picture how dense texels lie there, the same on both faces of an edge that turn
+    /// by less than `crease_deg`; see [`density_of`].
+    pub fn densities(&self, picture: usize, crease_deg: f64) -> Vec<[Density; 3]> {
         let mesh = self.mesh;
         let count = mesh.triangles.len();
-        let shares: Vec<Option<[f64; 2]>> = (0..count as u32)
+        let shares: Vec<Option<Share>> = (0..count as u32)
             .map(|face| self.share(face).filter(|(number, _)| *number == picture).map(|(_, share)| share))
             .collect();
         let mut joined = Joined((0..3 * count as u32).collect());
@@ -204,21 +235,24 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
                 }
             }
         }
-        let mut sums = vec![[0.0_f64; 2]; 3 * count];
+        let mut sums = vec![Share::default(); 3 * count];
         for (face, share) in shares.iter().enumerate() {
             let Some(share) = share else { continue };
             for corner in 3 * face..3 * face + 3 {
                 let sum = &mut sums[joined.root(corner as u32) as usize];
-                sum.iter_mut().zip(share).for_each(|(sum, own)| *sum += own);
+                sum.texels += share.texels;
+                sum.world += share.world;
+                sum.page += share.page;
             }
         }
         let of_corner = |face: usize, k: usize, joined: &mut Joined| {
-            let [in_texels, on_page] = sums[joined.root((3 * face + k) as u32) as usize];
-            if on_page <= 0.0 {
-                return 0.0;
+            let share = &sums[joined.root((3 * face + k) as u32) as usize];
+            if share.page <= 0.0 {
+                return [0.0; 2];
             }
-            let depth = self.view.frame.depth(mesh.positions[mesh.triangles[face][k] as usize]);
-            function::cbrt(in_texels / on_page) * self.shrinks(depth)
+            let depth = self.shrinks(self.view.frame.depth(mesh.positions[mesh.triangles[face][k] as usize]));
+            let [on_px, slanted] = self.texels_per_px(share);
+            [density_of(on_px)[0] * depth, density_of(slanted)[1] * depth]
         };
         (0..count).map(|face| [0, 1, 2].map(|k| of_corner(face, k, &mut joined))).collect()
     }
@@ -239,10 +273,10 @@ fn power_of_two(number: f64) -> f64 {
     function::ln(number.max(f64::MIN_POSITIVE)) / std::f64::consts::LN_2
 }
 
-/// The density at which so many texels lie along a px. Their number grows with the power 3/2 of the depth of a plane, so that its
-/// power 2/3 grows evenly along it.
-pub(super) fn density_of(texels_per_px: f64) -> f64 {
-    function::cbrt(texels_per_px * texels_per_px)
+/// The densities at which so many texels lie along a px. On a plane those on a px grow with the power 3/2 of the depth, those along
+/// it in the direction in which the plane turns away with its square: powers of them grow evenly.
+pub(super) fn density_of(texels_per_px: f64) -> Density {
+    [function::cbrt(texels_per_px * texels_per_px), texels_per_px.sqrt()]
 }
 
 /// What is one, by the least number of it.

@@ -59,9 +59,9 @@ impl Textured<'_> {
         let third = 1.0 / 3.0;
         let places = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [third; 3]];
         let within = places.into_iter().filter_map(|at| on.colour(at));
-        let parted = on.levels().flat_map(|(level, _)| on.borders(level)).flat_map(|(_, colours)| colours);
+        let parted = on.levels().flat_map(|level| on.borders(level)).flat_map(|(_, colours)| colours);
         // Where levels change something else may be seen that has no border there.
-        let all = on.levels().flat_map(|(level, _)| on.middle_colour(level));
+        let all = on.levels().flat_map(|level| on.middle_colour(level));
         let colours = within.chain(parted).chain(all);
         let mut paints: Vec<PaintId> =
             colours.filter_map(|colour| self.paints.paint(Some(colour), None)).collect();
