@@ -9,15 +9,15 @@ use toml::Value;
 
 use crate::error::Error;
 use crate::math::picture::Picture;
-use crate::stroke::{Brush, BrushChange, BrushSource};
+use crate::stroke::{BrushChange, BrushShape, ShapeSource};
 
 /// Bytes of a brush that are read.
 const GREATEST_FILE: u64 = 1 << 24;
 
-/// Reads the file of a brush.
+/// Reads the files of a brush.
 pub(super) fn read_brush(change: &mut BrushChange) -> Result<(), Error> {
     if let BrushChange::Unread(source) = change {
-        let brush = read(source)?;
+        let brush = source.brush(read)?;
         *change = BrushChange::Brush(Arc::new(brush));
     }
     Ok(())
@@ -25,11 +25,19 @@ pub(super) fn read_brush(change: &mut BrushChange) -> Result<(), Error> {
 
 /// Makes the paths of brushes in a sheet relative to what the sheet's own path is relative to.
 pub(super) fn place_brushes(sheet: &mut toml::Table, folder: &Path) {
+    let place_shape = |shape: &mut toml::Table| {
+        for key in ["file", "image"] {
+            if let Some(Value::String(path)) = shape.get_mut(key) {
+                *path = folder.join(&*path).to_string_lossy().into_owned();
+            }
+        }
+    };
     let place = |pen: &mut toml::Table| {
         let Some(Value::Table(brush)) = pen.get_mut("brush") else { return };
-        for key in ["file", "image"] {
-            if let Some(Value::String(path)) = brush.get_mut(key) {
-                *path = folder.join(&*path).to_string_lossy().into_owned();
+        place_shape(brush);
+        for turn in ["left", "right"] {
+            if let Some(Value::Table(shape)) = brush.get_mut(turn) {
+                place_shape(shape);
             }
         }
     };
@@ -43,8 +51,12 @@ pub(super) fn place_brushes(sheet: &mut toml::Table, folder: &Path) {
     }
 }
 
-fn read(source: &BrushSource) -> Result<Brush, Error> {
-    let path = &source.file;
+fn read(source: &ShapeSource) -> Result<BrushShape, Error> {
+    let (path, inside) = match source {
+        ShapeSource::Shape(shape) => return Ok(shape.clone()),
+        ShapeSource::Svg(path) => (path, None),
+        ShapeSource::Picture(path, inside) => (path, Some(*inside)),
+    };
     let unread = |error: std::io::Error| {
         Error::io("cannot read the brush", error).in_file(path).remedy("check the path")
     };
@@ -52,12 +64,13 @@ fn read(source: &BrushSource) -> Result<Brush, Error> {
         return Err(unfit(path, "is too large"));
     }
     let bytes = std::fs::read(path).map_err(unread)?;
-    let brush = if source.is_image {
-        Picture::decode(&bytes).and_then(|picture| Brush::of_picture(&picture, source.repeats, source.length))
-    } else {
-        outlines(&bytes).and_then(|shape| Brush::of_path(&shape, source.repeats, source.length))
+    let shape = match inside {
+        Some(inside) => {
+            Picture::decode(&bytes).and_then(|picture| BrushShape::of_picture(&picture, inside))
+        }
+        None => outlines(&bytes).and_then(|shape| BrushShape::of_path(&shape)),
     };
-    brush.map_err(|message| unfit(path, message))
+    shape.map_err(|message| unfit(path, message))
 }
 
 /// The paths of an SVG file as one.

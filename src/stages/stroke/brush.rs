@@ -4,10 +4,13 @@
 //! rendering with improved quality by exploiting graphics hardware, 2001, fig. 5e; mapped by arc length as in
 //! Hsu and Lee, Drawing and animation using skeletal strokes, SIGGRAPH 1994.
 
+use std::borrow::Cow;
+
 use kurbo::{BezPath, PathEl, Point, Vec2};
 
 use super::axis::{Axis, add_stretch};
 use super::brush_core;
+use super::brush_strip::Strip;
 use super::outline::{Nib, outline};
 use super::widths::mean;
 use crate::chain::fit::unit;
@@ -36,9 +39,9 @@ pub struct Brush {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turns {
     /// Where the line turns to the left, as it runs.
-    pub left: BezPath,
+    pub left: BrushShape,
     /// Where it turns to the right.
-    pub right: BezPath,
+    pub right: BrushShape,
     /// Turns of no more than this many degrees are straight.
     pub degrees: f64,
 }
@@ -51,7 +54,47 @@ pub enum BrushShape {
     /// How far the ink reaches to the left and to the right of the middle at places evenly along the line, in
     /// widths of the pen (0 to 0.5), and how much longer than wide it is.
     Profile(Vec<[f64; 2]>, f64),
+    /// A picture whose inside is traced, and how much longer than wide it is.
+    Picture(Strip, f64),
 }
+
+impl BrushShape {
+    /// How much longer than wide it is.
+    #[must_use]
+    pub const fn ratio(&self) -> f64 {
+        let (Self::Path(_, ratio) | Self::Profile(_, ratio) | Self::Picture(_, ratio)) = self;
+        *ratio
+    }
+
+    /// The shape as a path, for one that is so long and so wide on the page, in px.
+    fn path(&self, size: [f64; 2]) -> Cow<'_, BezPath> {
+        match self {
+            Self::Path(path, _) => Cow::Borrowed(path),
+            Self::Profile(profile, _) => Cow::Owned(edges(profile)),
+            Self::Picture(strip, _) => Cow::Owned(strip.path(size)),
+        }
+    }
+}
+
+/// The edges of a profile as a path.
+fn edges(profile: &[[f64; 2]]) -> BezPath {
+    let count = profile.len().clamp(1, MOST_COLUMNS);
+    let at = |k: usize, side: usize| {
+        let x = (k as f64 / count as f64).min(1.0);
+        Point::new(x, sample(profile, x, side, false) * if side == 0 { -1.0 } else { 1.0 })
+    };
+    let there = (0..=count).map(|k| at(k, 0));
+    let back = (0..=count).rev().map(|k| at(k, 1));
+    let mut path = BezPath::new();
+    for (k, p) in there.chain(back).enumerate() {
+        if k == 0 { path.move_to(p) } else { path.line_to(p) }
+    }
+    path.close_path();
+    path
+}
+
+/// Edges of profiles have no more places than this.
+const MOST_COLUMNS: usize = 512;
 
 /// Most copies of a brush along a line.
 const MOST_COPIES: f64 = 10_000.0;
@@ -84,7 +127,7 @@ pub(super) fn drawn(
     if total <= 0.0 || axis.len() < 3 {
         return None;
     }
-    let (BrushShape::Path(_, ratio) | BrushShape::Profile(_, ratio)) = &brush.shape;
+    let ratio = brush.shape.ratio();
     let one = match brush.length.in_unit(unit) {
         length if length > 0.0 => length,
         _ => ratio * pen,
@@ -94,8 +137,8 @@ pub(super) fn drawn(
     let thinner = if brush.repeats { 1.0 } else { (total / (ratio * pen).max(f64::MIN_POSITIVE)).min(1.0) };
     let thick: Vec<f64> = thick.iter().map(|width| width * thinner).collect();
     let thick = &thick[..];
-    match &brush.shape {
-        BrushShape::Profile(profile, _) => {
+    match (&brush.shape, &brush.turns) {
+        (BrushShape::Profile(profile, _), None) => {
             let around = brush.repeats || axis.closed;
             let at = |side: usize| -> Vec<f64> {
                 let of = |(arc, width): (&f64, &f64)| {
@@ -115,12 +158,16 @@ pub(super) fn drawn(
             let path = outline(axis, [&left, &right], nib)?;
             Some((path, mean(axis, &both)))
         }
-        BrushShape::Path(shape, _) => {
+        (shape, turns) => {
             let map = Map { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
+            let size = [total / copies, pen * thinner].map(|way| way / nib.px);
+            let straight = shape.path(size);
+            let turned = turns.as_ref().map(|turns| [&turns.left, &turns.right].map(|own| own.path(size)));
             let mut path = BezPath::new();
             for copy in 0..copies as usize {
-                let own = brush.turns.as_ref().and_then(|turns| map.turned(turns, copy));
-                map.add(own.unwrap_or(shape), copy, nib.px, &mut path);
+                let turn = turns.as_ref().and_then(|turns| map.turn(turns.degrees, copy));
+                let own = turned.as_ref().zip(turn).map(|(turned, turn)| &turned[turn as usize]);
+                map.add(own.unwrap_or(&straight), copy, nib.px, &mut path);
             }
             use kurbo::Shape;
             let area = path.area();
@@ -131,7 +178,11 @@ pub(super) fn drawn(
                     None => [reach[i] * least; 2],
                 };
                 let place = |i: usize| (axis.arcs[i] - axis.arcs[0]) / total * copies;
-                brush_core::add(&mut path, &brush_core::columns(shape), axis, half, place, nib);
+                let columns = match shape {
+                    BrushShape::Picture(strip, _) => Cow::Borrowed(&strip.ways),
+                    _ => Cow::Owned(brush_core::columns(&straight)),
+                };
+                brush_core::add(&mut path, &columns, axis, half, place, nib);
             }
             (path.elements().len() > 2).then_some((path, area.abs() / total))
         }
@@ -153,6 +204,13 @@ fn sample(profile: &[[f64; 2]], place: f64, side: usize, around: bool) -> f64 {
         profile[(i as usize).min(n - 1)][side]
     };
     get(low) + (get(low + 1.0) - get(low)) * t
+}
+
+/// The side to which a copy of a brush turns.
+#[derive(Clone, Copy)]
+enum Turn {
+    Left,
+    Right,
 }
 
 /// From a brush to the page.
@@ -189,8 +247,8 @@ impl Map<'_> {
         unit(self.axis.point(k + reach) - self.axis.point(k - reach))
     }
 
-    /// The shape of a copy that turns towards its successor; none of one that does not.
-    fn turned<'b>(&self, turns: &'b Turns, copy: usize) -> Option<&'b BezPath> {
+    /// Whether a copy turns towards its successor by more than so many degrees, and to which side.
+    fn turn(&self, degrees: f64, copy: usize) -> Option<Turn> {
         let copies = self.copies as usize;
         let chord = |copy: usize| {
             let end = |k: usize| self.at(Point::new(k as f64, 0.0));
@@ -202,11 +260,11 @@ impl Map<'_> {
             (false, false) => return None,
         };
         let (own, next) = (unit(chord(copy)), unit(chord(next)));
-        if own.dot(next) >= cos(turns.degrees.to_radians()) {
+        if own.dot(next) >= cos(degrees.to_radians()) {
             return None;
         }
         // With y down the page a turn to the right is positive.
-        Some(if own.cross(next) > 0.0 { &turns.right } else { &turns.left })
+        Some(if own.cross(next) > 0.0 { Turn::Right } else { Turn::Left })
     }
 
     /// Adds a copy of the brush to a path.

@@ -8,14 +8,17 @@ use super::axis::Axis;
 use super::outline::{Nib, outline};
 
 /// The shape is looked at in so many columns along it.
-const COLUMNS: usize = 256;
+pub(super) const COLUMNS: usize = 256;
+
+/// How far it is to the left and to the right from the middle into ink, in widths of the pen.
+pub(super) type Way = [f64; 2];
 
 /// The shape is flattened to this part of its length or width.
 const FLAT: f64 = 1e-3;
 
 /// How far ink must go on from the axis to the left and to the right to reach into the shape, in widths of the
 /// pen, in columns evenly along it; `None` where the shape has no ink.
-pub(super) fn columns(shape: &BezPath) -> Vec<Option<[f64; 2]>> {
+pub(super) fn columns(shape: &BezPath) -> Vec<Option<Way>> {
     let mut flat = BezPath::new();
     kurbo::flatten(shape, FLAT, |element| flat.push(element));
     if !matches!(flat.elements().last(), Some(PathEl::ClosePath) | None) {
@@ -41,10 +44,10 @@ pub(super) fn columns(shape: &BezPath) -> Vec<Option<[f64; 2]>> {
 }
 
 /// How far it is to the left and to the right from 0 into the nearest ink, given where its edges are.
-fn nearest(meets: &[(f64, i32)]) -> Option<[f64; 2]> {
+pub(super) fn nearest(meets: &[(f64, i32)]) -> Option<Way> {
     let mut winding = 0;
     let mut begun = 0.0;
-    let mut best: Option<[f64; 2]> = None;
+    let mut best: Option<Way> = None;
     for (y, turn) in meets {
         if winding == 0 {
             begun = *y;
@@ -59,7 +62,7 @@ fn nearest(meets: &[(f64, i32)]) -> Option<[f64; 2]> {
             (_, true) => [-middle, 0.0],
             _ => [0.0, 0.0],
         };
-        let far = |way: [f64; 2]| way[0].max(way[1]);
+        let far = |way: Way| way[0].max(way[1]);
         if best.is_none_or(|best| far(way) < far(best)) {
             best = Some(way);
         }
@@ -71,9 +74,9 @@ fn nearest(meets: &[(f64, i32)]) -> Option<[f64; 2]> {
 /// of the axis, given what its column says, and `place` where along the brush that is, each copy 1 long.
 pub(super) fn add(
     path: &mut BezPath,
-    columns: &[Option<[f64; 2]>],
+    columns: &[Option<Way>],
     axis: &Axis,
-    half: impl Fn(usize, Option<[f64; 2]>) -> [f64; 2],
+    half: impl Fn(usize, Option<Way>) -> [f64; 2],
     place: impl Fn(usize) -> f64,
     nib: &Nib,
 ) {

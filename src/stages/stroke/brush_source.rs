@@ -9,11 +9,9 @@ use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use super::brush::{Brush, BrushShape, Turns};
+use super::brush_strip::{DARK, Strip};
 use crate::drawing::Length;
 use crate::math::picture::Picture;
-
-/// Pixels of a strip darker than this, on white, are ink.
-const DARK: f64 = 0.5;
 
 /// Another brush, or none.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,25 +35,76 @@ impl BrushChange {
     }
 }
 
-/// A brush in a file.
+/// A brush some of whose shapes may be in files that have not been read yet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BrushSource {
-    /// An SVG file, whose paths are the brush, or a PNG, JPEG or WebP picture.
-    pub file: PathBuf,
-    /// Whether it is a picture.
-    pub is_image: bool,
+    /// Its shape.
+    pub shape: ShapeSource,
+    /// Its shapes where lines turn.
+    pub turns: Option<TurnSources>,
     /// Whether it is drawn again and again.
     pub repeats: bool,
     /// Length of one.
     pub length: Length,
 }
 
-impl Brush {
-    /// A brush from a filled path of any size: its box is as long as the brush and as wide as the pen.
+/// Shapes for pieces of a line that turn; absent ones are as those that do not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnSources {
+    /// To the left.
+    pub left: Option<ShapeSource>,
+    /// To the right.
+    pub right: Option<ShapeSource>,
+    /// Turns of no more than this many degrees are straight.
+    pub degrees: f64,
+}
+
+/// Where the shape of a brush comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ShapeSource {
+    /// The sheet itself.
+    Shape(BrushShape),
+    /// The paths of an SVG file.
+    Svg(PathBuf),
+    /// A PNG, JPEG or WebP picture.
+    Picture(PathBuf, Inside),
+}
+
+/// What becomes of the inside of a picture of a stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Inside {
+    /// Paper that shows between bristles shows in the stroke.
+    #[default]
+    Traced,
+    /// It is ink from edge to edge.
+    Solid,
+}
+
+impl BrushSource {
+    /// The brush, given how the shapes in files are read.
+    ///
+    /// # Errors
+    /// What reading says.
+    pub fn brush<E>(&self, read: impl Fn(&ShapeSource) -> Result<BrushShape, E>) -> Result<Brush, E> {
+        let shape = read(&self.shape)?;
+        let turned = |own: &Option<ShapeSource>| own.as_ref().map_or_else(|| Ok(shape.clone()), &read);
+        let turns = match &self.turns {
+            Some(TurnSources { left, right, degrees }) => {
+                Some(Turns { left: turned(left)?, right: turned(right)?, degrees: *degrees })
+            }
+            None => None,
+        };
+        Ok(Brush { shape, repeats: self.repeats, length: self.length, turns })
+    }
+}
+
+impl BrushShape {
+    /// A filled path of any size: its box is as long as the brush and as wide as the pen.
     ///
     /// # Errors
     /// Says what is wrong with the path.
-    pub fn of_path(path: &BezPath, repeats: bool, length: Length) -> Result<Self, String> {
+    pub fn of_path(path: &BezPath) -> Result<Self, String> {
         let bounds = path.bounding_box();
         let (width, height) = (bounds.width(), bounds.height());
         if !(path.is_finite() && width > 0.0 && height > 0.0) {
@@ -63,15 +112,16 @@ impl Brush {
         }
         let to_unit = Affine::new([1.0 / width, 0.0, 0.0, 1.0 / height, 0.0, 0.0])
             * Affine::translate((-bounds.x0, -bounds.center().y));
-        Ok(Self { shape: BrushShape::Path(to_unit * path, width / height), repeats, length, turns: None })
+        Ok(Self::Path(to_unit * path, width / height))
     }
 
-    /// A brush from a picture of a stroke, dark on light or on nothing, that runs from left to right: each column
-    /// gives how far its ink reaches up and down from the middle row. A column without ink has no width.
+    /// A picture of a stroke, dark on light or on nothing, that runs from left to right and is as high as the pen is
+    /// wide. Solid, each column gives how far its ink reaches up and down from the middle row; a column without ink has
+    /// no width. So does one that is traced but has no paper inside.
     ///
     /// # Errors
     /// Says what is wrong with the picture.
-    pub fn of_picture(picture: &Picture, repeats: bool, length: Length) -> Result<Self, String> {
+    pub fn of_picture(picture: &Picture, inside: Inside) -> Result<Self, String> {
         let middle = picture.height as f64 / 2.0;
         let dark = |column: usize, row: usize| {
             let c = picture.at(column, row);
@@ -91,9 +141,15 @@ impl Brush {
             return Err("has no dark pixels".to_owned());
         }
         let height = picture.height as f64;
+        let ratio = picture.width as f64 / height;
+        if inside == Inside::Traced {
+            let strip = Strip::of(picture);
+            if !strip.is_solid() {
+                return Ok(Self::Picture(strip, ratio));
+            }
+        }
         let profile = reaches.into_iter().map(|sides| sides.map(|reach| reach.max(0.0) / height)).collect();
-        let shape = BrushShape::Profile(profile, picture.width as f64 / height);
-        Ok(Self { shape, repeats, length, turns: None })
+        Ok(Self::Profile(profile, ratio))
     }
 }
 
@@ -104,12 +160,31 @@ struct BrushTable {
     path: Option<String>,
     file: Option<PathBuf>,
     image: Option<PathBuf>,
+    inside: Option<Inside>,
     #[serde(default)]
     mode: Mode,
     length: Option<Length>,
-    left: Option<String>,
-    right: Option<String>,
+    left: Option<TurnTable>,
+    right: Option<TurnTable>,
     turn: Option<f64>,
+}
+
+/// Where the shape of a brush comes from, as it is written.
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+struct ShapeTable {
+    path: Option<String>,
+    file: Option<PathBuf>,
+    image: Option<PathBuf>,
+    inside: Option<Inside>,
+}
+
+/// The shape of a turn as it is written: path data, or a table.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a turn is path data such as \"M0 0L10 1L0 2Z\", or a table with `path`, `file` or `image`")]
+enum TurnTable {
+    Path(String),
+    Shape(ShapeTable),
 }
 
 /// Turns of no more than this many degrees are straight, unless a brush says otherwise.
@@ -123,49 +198,66 @@ enum Mode {
     Repeat,
 }
 
+impl TryFrom<ShapeTable> for ShapeSource {
+    type Error = String;
+
+    fn try_from(table: ShapeTable) -> Result<Self, String> {
+        if table.inside.is_some() && table.image.is_none() {
+            return Err("`inside` goes with an `image`".to_owned());
+        }
+        match (table.path, table.file, table.image) {
+            (Some(text), None, None) => {
+                let path =
+                    BezPath::from_svg(&text).map_err(|e| format!("the brush is no SVG path data: {e}"))?;
+                let shape = BrushShape::of_path(&path).map_err(|e| format!("the brush {e}"))?;
+                Ok(Self::Shape(shape))
+            }
+            (None, Some(file), None) => Ok(Self::Svg(file)),
+            (None, None, Some(file)) => Ok(Self::Picture(file, table.inside.unwrap_or_default())),
+            _ => Err("a brush has one of `path`, `file` and `image`".to_owned()),
+        }
+    }
+}
+
+impl TryFrom<TurnTable> for ShapeSource {
+    type Error = String;
+
+    fn try_from(table: TurnTable) -> Result<Self, String> {
+        Self::try_from(match table {
+            TurnTable::Path(text) => ShapeTable { path: Some(text), ..ShapeTable::default() },
+            TurnTable::Shape(table) => table,
+        })
+    }
+}
+
 impl TryFrom<BrushTable> for BrushChange {
     type Error = String;
 
     fn try_from(table: BrushTable) -> Result<Self, String> {
-        let repeats = table.mode == Mode::Repeat;
-        let length = table.length.unwrap_or(Length::px(0.0));
-        let turned = table.left.is_some() || table.right.is_some() || table.turn.is_some();
-        if turned && !(repeats && table.path.is_some()) {
-            return Err(
-                "`left`, `right` and `turn` go with a `path` that is repeated: add mode = \"repeat\""
-                    .to_owned(),
-            );
+        let BrushTable { path, file, image, inside, mode, length, left, right, turn } = table;
+        let repeats = mode == Mode::Repeat;
+        let turned = left.is_some() || right.is_some() || turn.is_some();
+        if turned && !repeats {
+            return Err("`left`, `right` and `turn` go with a brush that is repeated: add mode = \"repeat\""
+                .to_owned());
         }
-        let degrees = table.turn.unwrap_or(TURN_DEG);
+        let degrees = turn.unwrap_or(TURN_DEG);
         if !(0.0..=180.0).contains(&degrees) {
             return Err(format!("{degrees} is no turn; write degrees from 0 to 180"));
         }
-        match (table.path, table.file, table.image) {
-            (Some(text), None, None) => {
-                let of_text = |text: &str| {
-                    let path =
-                        BezPath::from_svg(text).map_err(|e| format!("the brush is no SVG path data: {e}"))?;
-                    Brush::of_path(&path, repeats, length).map_err(|e| format!("the brush {e}"))
-                };
-                let mut brush = of_text(&text)?;
-                if turned {
-                    let shape = |own: Option<String>| match of_text(own.as_ref().unwrap_or(&text))?.shape {
-                        BrushShape::Path(path, _) => Ok::<_, String>(path),
-                        BrushShape::Profile(..) => Ok(BezPath::new()),
-                    };
-                    let (left, right) = (shape(table.left)?, shape(table.right)?);
-                    brush.turns = Some(Turns { left, right, degrees });
-                }
-                Ok(Self::Brush(Arc::new(brush)))
-            }
-            (None, Some(file), None) => {
-                Ok(Self::Unread(BrushSource { file, is_image: false, repeats, length }))
-            }
-            (None, None, Some(file)) => {
-                Ok(Self::Unread(BrushSource { file, is_image: true, repeats, length }))
-            }
-            _ => Err("a brush has one of `path`, `file` and `image`".to_owned()),
-        }
+        let shape = ShapeSource::try_from(ShapeTable { path, file, image, inside })?;
+        let [left, right] = [left, right].map(|own| own.map(ShapeSource::try_from).transpose());
+        let turns = turned.then_some(TurnSources { left: left?, right: right?, degrees });
+        let source = BrushSource { shape, turns, repeats, length: length.unwrap_or(Length::px(0.0)) };
+        // What needs no file is ready.
+        let own = |shape: &ShapeSource| match shape {
+            ShapeSource::Shape(shape) => Ok(shape.clone()),
+            ShapeSource::Svg(_) | ShapeSource::Picture(..) => Err(()),
+        };
+        Ok(match source.brush(own) {
+            Ok(brush) => Self::Brush(Arc::new(brush)),
+            Err(()) => Self::Unread(source),
+        })
     }
 }
 

@@ -4,6 +4,7 @@ mod axis;
 pub mod brush;
 mod brush_core;
 pub mod brush_source;
+pub mod brush_strip;
 mod context;
 pub mod dash;
 mod dense;
@@ -31,7 +32,8 @@ use rayon::prelude::*;
 
 pub use crate::math::glob::Glob;
 pub use brush::{Brush, BrushShape, Turns};
-pub use brush_source::{BrushChange, BrushSource};
+pub use brush_source::{BrushChange, BrushSource, Inside, ShapeSource, TurnSources};
+pub use brush_strip::Strip;
 pub use context::{InkContext, Parting};
 pub use hand::{Hand, HandChange};
 pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
