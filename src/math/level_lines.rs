@@ -55,10 +55,8 @@ pub fn level_lines(
         }
     }
     let point = |(i, j, down): Side| {
-        let (a, b) = (
-            value(i.into(), j.into()),
-            value((i + u32::from(!down)).into(), (j + u32::from(down)).into()),
-        );
+        let (a, b) =
+            (value(i.into(), j.into()), value((i + u32::from(!down)).into(), (j + u32::from(down)).into()));
         let part = a / (a - b);
         DVec2::new(f64::from(i), f64::from(j)) + if down { DVec2::Y } else { DVec2::X } * part
     };
@@ -83,13 +81,7 @@ pub fn level_lines(
 }
 
 /// Adds points of a line on its way through a cell, where it is a piece of a hyperbola.
-fn curve(
-    value: &impl Fn(i64, i64) -> f64,
-    from: DVec2,
-    to: DVec2,
-    straight: f64,
-    line: &mut Vec<DVec2>,
-) {
+fn curve(value: &impl Fn(i64, i64) -> f64, from: DVec2, to: DVec2, straight: f64, line: &mut Vec<DVec2>) {
     let low = ((from + to) / 2.0).floor();
     let (i, j) = (low.x as i64, low.y as i64);
     let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| value(i + x, j + y));

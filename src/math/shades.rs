@@ -97,7 +97,8 @@ impl Shades {
     #[must_use]
     pub fn outlines(&self, tracing: &Tracing) -> Option<Vec<Vec<Point>>> {
         let (width, height) = (self.width as i64, self.height as i64);
-        let inner = |i: i64, count: i64| if tracing.repeats { i.rem_euclid(count) } else { i.clamp(0, count - 1) };
+        let inner =
+            |i: i64, count: i64| if tracing.repeats { i.rem_euclid(count) } else { i.clamp(0, count - 1) };
         // The picture, a ring of pixels that goes on with it, and a ring that closes all outlines, which then lose what
         // is beyond the frame.
         let value = |i: i64, j: i64| {
@@ -109,14 +110,14 @@ impl Shades {
             let own = if own == 0.0 { f64::MIN_POSITIVE } else { own };
             if (-1..=width).contains(&i) && (-1..=height).contains(&j) { own } else { -own.abs() }
         };
-        let lines =
-            level_lines(&value, [self.width + 3, self.height + 3], STRAIGHT, MOST_CROSSINGS)?;
+        let lines = level_lines(&value, [self.width + 3, self.height + 3], STRAIGHT, MOST_CROSSINGS)?;
         let frame = [self.width as f64, self.height as f64];
         let own = |line: &Vec<DVec2>| {
             let ring: Vec<Point> = line.iter().map(|p| Point::new(p.x - 1.5, p.y - 1.5)).collect();
             let ring = simplified(&framed(&ring, frame), frame, tracing);
             let [x, y] = tracing.scale;
-            (ring.len() > 2 && (area(&ring) * x * y).abs() > tracing.speck.max(f64::MIN_POSITIVE)).then_some(ring)
+            (ring.len() > 2 && (area(&ring) * x * y).abs() > tracing.speck.max(f64::MIN_POSITIVE))
+                .then_some(ring)
         };
         Some(lines.iter().filter_map(own).collect())
     }
@@ -205,7 +206,9 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &Tracing) -> V
         let mut open = vec![(*from, to)];
         while let Some((a, b)) = open.pop() {
             let off = |i: &usize| distance2(scaled[i % n], scaled[a % n], scaled[b % n]);
-            let Some(worst) = (a + 1..b).max_by(|i, j| off(i).total_cmp(&off(j)).then(j.cmp(i))) else { continue };
+            let Some(worst) = (a + 1..b).max_by(|i, j| off(i).total_cmp(&off(j)).then(j.cmp(i))) else {
+                continue;
+            };
             if off(&worst) > tracing.tolerance * tracing.tolerance {
                 stays[worst % n] = true;
                 open.extend([(a, worst), (worst, b)]);
@@ -235,7 +238,8 @@ mod tests {
     fn a_ring_is_an_island_with_a_hole_where_they_are() {
         let rings = annulus(64, [9.3, 25.8]).outlines(&TRACING).unwrap();
         let [outer, inner] = &rings[..] else { panic!("{}", rings.len()) };
-        let (outer, inner) = if area(outer).abs() > area(inner).abs() { (outer, inner) } else { (inner, outer) };
+        let (outer, inner) =
+            if area(outer).abs() > area(inner).abs() { (outer, inner) } else { (inner, outer) };
         assert!(area(outer) * area(inner) < 0.0, "holes turn the other way");
         for (ring, radius) in [(outer, 25.8), (inner, 9.3)] {
             let off = |p: &Point| ((*p - Point::new(32.0, 32.0)).hypot2().sqrt() - radius).abs();

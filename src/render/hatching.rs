@@ -244,7 +244,7 @@ const SLANT: f64 = 0.35;
 const ROUGHLY: f64 = 0.3;
 
 /// The length in each part of a unit of texture coordinates, on average.
-fn texture_scales(mesh: &Mesh) -> Vec<f64> {
+pub(super) fn texture_scales(mesh: &Mesh) -> Vec<f64> {
     let mut sums: Vec<[f64; 2]> = Vec::new();
     for (face, uvs) in mesh.corner_uvs.iter().enumerate() {
         let [Some(a), Some(b), Some(c)] = uvs.map(|uv| mesh.uvs.get(uv as usize)) else { continue };

@@ -26,6 +26,7 @@ mod hatching;
 mod image;
 mod late_search;
 mod maps;
+mod on_surface;
 mod patterns;
 pub mod report;
 pub mod stage;

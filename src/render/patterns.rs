@@ -7,14 +7,16 @@ use kurbo::Vec2;
 
 use super::fills::Fills;
 use super::hatching::cut_of;
+use super::on_surface;
 use crate::drawing::{Mark, Page};
-use crate::hatch::{self, Guide, HatchContext, Pattern, PatternFixed, PatternKind, cuts};
+use crate::hatch::{self, Guide, HatchContext, OnSurface, Pattern, PatternFixed, PatternKind, cuts};
 use crate::math::colour::Colour;
 use crate::mesh::FaceId;
 use crate::region::level_curves::{are_seen, level_curves};
 use crate::region::{Ground, Seen};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
+use crate::view::Frame;
 
 /// Lines of a pattern that cover more of the surface than this are left out: where it turns from the eye they would fill it.
 const DENSEST: f64 = 0.7;
@@ -47,11 +49,24 @@ pub(super) fn marks(
         fixed: &[],
     };
     let of = |own: &Pattern| {
-        let guides = guides(fills, &ground, scene, own, page, offset);
+        let fixed = match (own.fixed, own.kind) {
+            (PatternFixed::Page, _) => None,
+            (PatternFixed::Surface, PatternKind::Lines | PatternKind::Crosses) => {
+                Some(OnSurface::Guides(guides(fills, &ground, scene, own, page, offset)))
+            }
+            (PatternFixed::Surface, PatternKind::Dots | PatternKind::Tile) => {
+                Some(on_surface::laid(&fills.lit(), &ground, scene, own, page, offset))
+            }
+        };
         let tones = |look: &crate::region::Look| fills.tone_count(look.paint);
-        hatch::pattern(&ground, &context, own, tones, guides.as_deref())
+        hatch::pattern(&ground, &context, own, tones, fixed.as_ref())
     };
     style.patterns.iter().flat_map(of).collect()
+}
+
+/// How long in the model a length on the page is where the camera looks.
+pub(super) fn in_model(length: f64, frame: &Frame) -> f64 {
+    length / frame.scale * if frame.perspective { frame.focus } else { 1.0 }
 }
 
 /// The lines of a pattern that is fixed to the surface: cuts through the model as far apart as they are on the page where the camera
@@ -63,14 +78,11 @@ fn guides(
     own: &Pattern,
     page: &Page,
     offset: Vec2,
-) -> Option<Vec<Guide>> {
-    if own.fixed == PatternFixed::Page || !matches!(own.kind, PatternKind::Lines | PatternKind::Crosses) {
-        return None;
-    }
+) -> Vec<Guide> {
     let lit = fills.lit();
     let frame = &lit.view.frame;
     let [size, width] = [own.size, own.width].map(|length| length.in_unit(page.unit));
-    let spacing = size / frame.scale * if frame.perspective { frame.focus } else { 1.0 };
+    let spacing = in_model(size, frame);
     let turns = if own.kind == PatternKind::Crosses { &[0.0, 90.0][..] } else { &[0.0] };
     let of = |turn: &f64| {
         let across = cut_of(scene, (own.angle + turn).to_radians());
@@ -81,5 +93,5 @@ fn guides(
         let curves = level_curves(&lit, offset, cut, |_, density| density * width < DENSEST);
         cuts::guides(ground, &curves, |points| are_seen(&lit, offset, points), |_, _| 0, size, 0)
     };
-    Some(turns.iter().flat_map(of).collect())
+    turns.iter().flat_map(of).collect()
 }

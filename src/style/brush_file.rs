@@ -7,6 +7,7 @@ use std::sync::Arc;
 use kurbo::BezPath;
 use toml::Value;
 
+use super::svg_file;
 use crate::error::Error;
 use crate::math::picture::Picture;
 use crate::stroke::{BrushChange, BrushShape, ShapeSource};
@@ -65,50 +66,13 @@ fn read(source: &ShapeSource) -> Result<BrushShape, Error> {
     }
     let bytes = std::fs::read(path).map_err(unread)?;
     let shape = match inside {
-        Some(inside) => {
-            Picture::decode(&bytes).and_then(|picture| BrushShape::of_picture(&picture, inside))
-        }
-        None => outlines(&bytes).and_then(|shape| BrushShape::of_path(&shape)),
+        Some(inside) => Picture::decode(&bytes).and_then(|picture| BrushShape::of_picture(&picture, inside)),
+        None => svg_file::read(&bytes).and_then(|svg| {
+            let all: BezPath = svg.paths.iter().flatten().collect();
+            BrushShape::of_path(&all)
+        }),
     };
     shape.map_err(|message| unfit(path, message))
-}
-
-/// The paths of an SVG file as one.
-#[cfg(not(feature = "png"))]
-fn outlines(_: &[u8]) -> Result<BezPath, String> {
-    Err("is SVG, which this program was built without (feature `png`)".to_owned())
-}
-
-/// The paths of an SVG file as one.
-#[cfg(feature = "png")]
-fn outlines(bytes: &[u8]) -> Result<BezPath, String> {
-    fn gather(group: &usvg::Group, all: &mut BezPath) {
-        use usvg::tiny_skia_path::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
-        for node in group.children() {
-            match node {
-                usvg::Node::Group(inner) => gather(inner, all),
-                usvg::Node::Path(path) => {
-                    let placed = path.data().clone().transform(path.abs_transform());
-                    for segment in placed.iter().flat_map(|path| path.segments()) {
-                        let at = |p: usvg::tiny_skia_path::Point| (f64::from(p.x), f64::from(p.y));
-                        match segment {
-                            MoveTo(p) => all.move_to(at(p)),
-                            LineTo(p) => all.line_to(at(p)),
-                            QuadTo(q, p) => all.quad_to(at(q), at(p)),
-                            CubicTo(q, r, p) => all.curve_to(at(q), at(r), at(p)),
-                            Close => all.close_path(),
-                        }
-                    }
-                }
-                usvg::Node::Image(_) | usvg::Node::Text(_) => {}
-            }
-        }
-    }
-    let tree =
-        usvg::Tree::from_data(bytes, &usvg::Options::default()).map_err(|e| format!("is no SVG ({e})"))?;
-    let mut all = BezPath::new();
-    gather(tree.root(), &mut all);
-    Ok(all)
 }
 
 fn unfit(path: &Path, message: impl fmt::Display) -> Error {

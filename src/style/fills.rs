@@ -5,6 +5,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::highlight::{HighlightRule, HighlightTable};
 use super::ramp_source::{RampSource, TableSource};
+use super::tile_file::read_tile;
 use crate::drawing::Length;
 use crate::error::Error;
 use crate::field::ToneOptions;
@@ -91,6 +92,11 @@ impl FillsTable {
             }
         }
         Ok(())
+    }
+
+    /// Makes the tiles of patterns.
+    pub fn read_tiles(&mut self) -> Result<(), Error> {
+        self.pattern.iter_mut().try_for_each(read_tile)
     }
 
     /// The options that the table stands for.

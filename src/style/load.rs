@@ -13,6 +13,7 @@ use super::fault::{self, nearest};
 use super::fills::set_aside;
 use super::ramp_source::place_pictures;
 use super::sheet::Sheet;
+use super::tile_file::place_tiles;
 use crate::error::Error;
 
 /// A sheet that has been found.
@@ -64,6 +65,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
         place_pictures(&mut table, folder);
         place_brushes(&mut table, folder);
         place_artist_textures(&mut table, folder);
+        place_tiles(&mut table, folder);
         sheets.push(table);
     }
     let mut merged = Table::new();
@@ -76,6 +78,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     merged.remove("extends");
     let mut sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
     sheet.fills.read_pictures()?;
+    sheet.fills.read_tiles()?;
     sheet.read_brushes()?;
     read_artist_textures(&mut sheet.lines.artist_texture)?;
     Ok(sheet.into_style())
@@ -132,6 +135,7 @@ pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
     place_pictures(&mut table, folder);
     place_brushes(&mut table, folder);
     place_artist_textures(&mut table, folder);
+    place_tiles(&mut table, folder);
     Ok(table.iter().map(|(key, value)| format!("{key}={value}")).collect())
 }
 

@@ -19,6 +19,8 @@ mod highlight;
 mod load;
 mod ramp_source;
 mod sheet;
+mod svg_file;
+mod tile_file;
 
 #[cfg(feature = "cli")]
 pub(crate) use load::placed_change;

@@ -1,5 +1,7 @@
 //! [`Domains`]: the parts of the page that marks fill and do not leave.
 
+use std::collections::BTreeMap;
+
 use kurbo::Point;
 
 use crate::region::Ground;
@@ -24,6 +26,16 @@ impl Domains {
     /// Each inked cell is a domain of its own.
     pub fn of_cells(inked: &[bool]) -> Self {
         Self { of: (0u32..).zip(inked).map(|(cell, inked)| if *inked { cell } else { BLANK }).collect() }
+    }
+
+    /// The inked cells of one part, material and tone are one domain.
+    pub fn of_looks(ground: &Ground, inked: &[bool]) -> Self {
+        let mut numbers = BTreeMap::new();
+        let of = |(cell, inked): (u32, &bool)| {
+            let look = ground.cells[cell as usize].look;
+            if *inked { *numbers.entry((look.part, look.material, look.tone)).or_insert(cell) } else { BLANK }
+        };
+        Self { of: (0u32..).zip(inked).map(of).collect() }
     }
 
     /// The domain of a cell.

@@ -1,9 +1,12 @@
 //! [`Pattern`]: what is laid over one tone of one material: a table `[[fills.pattern]]` of a style sheet.
 
-use kurbo::{BezPath, Point};
+use std::path::PathBuf;
+
+use kurbo::BezPath;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
+use super::tile::Tile;
 use crate::drawing::Length;
 use crate::math::colour::Colour;
 use crate::math::glob::Glob;
@@ -20,7 +23,7 @@ pub enum PatternKind {
     Lines,
     /// Small upright crosses in rows; fixed to the surface, lines that cross.
     Crosses,
-    /// The lines of a tile of one's own.
+    /// A tile of one's own: path data, an SVG file or a picture.
     Tile,
 }
 
@@ -31,7 +34,7 @@ pub enum PatternFixed {
     /// The page: the same size everywhere, through which surfaces show.
     #[default]
     Page,
-    /// The surface: it turns and shrinks with it. Lines and crosses only.
+    /// The surface: it turns and shrinks with it.
     Surface,
 }
 
@@ -63,9 +66,21 @@ pub struct Pattern {
     pub opacity: f64,
     /// What it keeps its place on. Default: the page.
     pub fixed: PatternFixed,
-    /// The lines of a tile, SVG path data in a square of side 10.
+    /// A tile as SVG path data in a square of side 10.
     #[serde(deserialize_with = "tile")]
-    pub path: Vec<Vec<Point>>,
+    pub path: Option<BezPath>,
+    /// Whether the path is filled; else it is drawn as lines. Default: no.
+    pub fill: bool,
+    /// A tile as an SVG file, whose filled and stroked paths are taken.
+    pub file: Option<PathBuf>,
+    /// A tile as a PNG, JPEG or WebP picture, whose dark parts are traced.
+    pub image: Option<PathBuf>,
+    /// What is darker than this in the picture is drawn, 0 (white) to 1. Default: 0.5.
+    #[serde(deserialize_with = "fraction")]
+    pub level: f64,
+    /// The tile itself, once it is read.
+    #[serde(skip)]
+    pub tile: Tile,
 }
 
 impl Default for Pattern {
@@ -80,7 +95,12 @@ impl Default for Pattern {
             colour: Ink::Fixed(Colour::rgb(0x1a, 0x1a, 0x1a)),
             opacity: 1.0,
             fixed: PatternFixed::Page,
-            path: Vec::new(),
+            path: None,
+            fill: false,
+            file: None,
+            image: None,
+            level: 0.5,
+            tile: Tile::default(),
         }
     }
 }
@@ -95,17 +115,8 @@ impl Pattern {
     }
 }
 
-/// Side of the square that the path of a tile is drawn in.
-const TILE: f64 = 10.0;
-
-/// How far the lines of a tile may be from its curves, as part of its side.
-const FLAT: f64 = 0.002;
-
-/// Points of all lines of a tile.
-const MOST_POINTS: usize = 10_000;
-
-/// The lines of path data, in a square of side 1.
-fn tile<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec<Point>>, D::Error> {
+/// Path data of which a tile can be made.
+fn tile<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<BezPath>, D::Error> {
     let text = String::deserialize(deserializer)?;
     let wrong = |what: String| {
         D::Error::custom(format!(
@@ -113,22 +124,8 @@ fn tile<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec<Point>>, D
         ))
     };
     let path = BezPath::from_svg(&text).map_err(|error| wrong(format!("is no path ({error})")))?;
-    let mut lines: Vec<Vec<Point>> = Vec::new();
-    kurbo::flatten(&path, FLAT * TILE, |element| match element {
-        kurbo::PathEl::MoveTo(p) => lines.push(vec![p]),
-        kurbo::PathEl::LineTo(p) => lines.last_mut().into_iter().for_each(|line| line.push(p)),
-        kurbo::PathEl::ClosePath => lines.last_mut().into_iter().for_each(|line| line.push(line[0])),
-        kurbo::PathEl::QuadTo(..) | kurbo::PathEl::CurveTo(..) => {}
-    });
-    lines.retain(|line| line.len() > 1);
-    lines.iter_mut().flatten().for_each(|p| *p = Point::new(p.x / TILE, p.y / TILE));
-    if lines.is_empty() || lines.iter().map(Vec::len).sum::<usize>() > MOST_POINTS {
-        return Err(wrong("has no lines, or too many".to_owned()));
-    }
-    if lines.iter().flatten().any(|p| !p.is_finite() || p.x.abs() > 10.0 || p.y.abs() > 10.0) {
-        return Err(wrong("reaches far beyond its square".to_owned()));
-    }
-    Ok(lines)
+    Tile::of_path(&path, None).map_err(wrong)?;
+    Ok(Some(path))
 }
 
 fn size<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Length, D::Error> {

@@ -8,6 +8,7 @@
 mod arcs;
 pub mod axes;
 mod cells;
+pub mod decals;
 mod flat;
 pub mod ground;
 pub mod level_curves;

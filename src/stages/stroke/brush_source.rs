@@ -181,7 +181,10 @@ struct ShapeTable {
 
 /// The shape of a turn as it is written: path data, or a table.
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "a turn is path data such as \"M0 0L10 1L0 2Z\", or a table with `path`, `file` or `image`")]
+#[serde(
+    untagged,
+    expecting = "a turn is path data such as \"M0 0L10 1L0 2Z\", or a table with `path`, `file` or `image`"
+)]
 enum TurnTable {
     Path(String),
     Shape(ShapeTable),

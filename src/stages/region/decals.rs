@@ -1,0 +1,359 @@
+//! [`Decal`]: figures of a plane laid on the surface, as they are seen: where, and on which facets of the ground.
+//!
+//! The plane is laid on the surface face by face, by texture coordinates or by the axes of a part. A figure keeps to its middle: each
+//! of its points is found by walking from there over the faces, straight in the plane; where the plane is not continued, or turns
+//! from the eye, the last face is thought on. What is painted of it is for the ground to say, whose borders are exact.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+use kurbo::{Point, Vec2};
+use rayon::prelude::*;
+
+use super::ground::PAPER;
+use super::level_curves::are_seen;
+use crate::lines::Lit;
+use crate::mesh::{FaceId, Mesh};
+use crate::region::Ground;
+
+/// How the plane lies on a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chart {
+    /// Where the corners of the face are in the plane.
+    pub corners: [DVec2; 3],
+    /// Charts of other names do not go on in this one.
+    pub name: u32,
+}
+
+/// What is laid on the plane, again and again.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Figure {
+    /// Its lines, closed or not; their last points are not their first.
+    pub lines: Vec<Vec<DVec2>>,
+    /// Points of the plane are this far apart along x and y from one figure to the next.
+    pub period: DVec2,
+}
+
+/// A figure as it is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decal {
+    /// The number of the figure.
+    pub figure: u32,
+    /// Its lines, page units.
+    pub lines: Vec<Vec<Point>>,
+    /// The facets on which something of it is seen, ascending.
+    pub facets: Vec<u32>,
+}
+
+/// More figures than this on a surface are too fine to be seen.
+pub const MOST_FIGURES: f64 = 5e5;
+
+/// A walk over more faces than this is given up.
+const MOST_STEPS: usize = 64;
+
+/// Of each line of a figure so many points are asked for whether they are seen.
+const ASKED: usize = 12;
+
+/// Points this far out of a face, as part of it, are on it.
+const ON_FACE: f64 = 1e-9;
+
+/// Figures of two charts may be so near to each other, as part of their sizes, where the surface bends by less than `SMOOTH`
+/// between them (cosine); else the later one is left out.
+const NEAR: f64 = 0.9;
+const SMOOTH: f64 = 0.7;
+
+/// How many figures there would be, given how the plane lies on each face.
+#[must_use]
+pub fn count(mesh: &Mesh, chart: impl Fn(u32) -> Option<Chart>, figures: &[Figure]) -> f64 {
+    let area = |chart: Chart| {
+        let [a, b, c] = chart.corners;
+        let area = (b - a).perp_dot(c - a).abs() / 2.0;
+        if area.is_finite() { area } else { 0.0 }
+    };
+    let whole: f64 = (0..mesh.triangles.len() as u32).filter_map(chart).map(area).sum();
+    figures.iter().map(|figure| whole / (figure.period.x * figure.period.y)).sum()
+}
+
+/// The middle of a figure on a face.
+struct Anchor {
+    figure: u32,
+    face: u32,
+    /// Number along x and y.
+    place: [i64; 2],
+    /// In the model.
+    at: DVec3,
+}
+
+/// The figures on the faces that the eye may see.
+#[must_use]
+pub fn decals(
+    lit: &Lit,
+    ground: &Ground,
+    offset: Vec2,
+    chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
+    figures: &[Figure],
+) -> Vec<Decal> {
+    const CHUNK: usize = 1 << 10;
+    let mesh = lit.mesh;
+    let middles: Vec<DVec2> = figures.iter().map(middle).collect();
+    let faces = mesh.triangles.len();
+    let anchors: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let mut found = Vec::new();
+            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
+                let Some(own) = chart(face as u32).filter(|_| !mesh.is_degenerate(FaceId(face as u32)))
+                else {
+                    continue;
+                };
+                for (number, figure) in figures.iter().enumerate() {
+                    place(mesh, face as u32, &own, (number as u32, figure, middles[number]), &mut found);
+                }
+            }
+            found
+        })
+        .collect();
+    let anchors: Vec<Anchor> = apart(lit, chart, figures, anchors.into_iter().flatten().collect());
+    let walker = Walker { lit, chart };
+    let laid: Vec<Laid> = anchors
+        .par_iter()
+        .with_min_len(64)
+        .filter(|anchor| lit.shows(anchor.face as usize))
+        .filter_map(|anchor| {
+            let figure = &figures[anchor.figure as usize];
+            let [i, j] = anchor.place.map(|k| k as f64);
+            walker.lay(anchor, figure, figure.period * DVec2::new(i, j), offset)
+        })
+        .collect();
+    let asked: Vec<(Point, f64)> = laid.iter().flat_map(|laid| laid.asked.iter().copied()).collect();
+    let mut seen = are_seen(lit, offset, &asked).into_iter();
+    let decal = |laid: Laid| {
+        let seen: Vec<bool> = seen.by_ref().take(laid.asked.len()).collect();
+        let on = laid.asked.iter().zip(seen).filter(|(_, seen)| *seen).map(|((p, _), _)| ground.cell_at(*p));
+        let mut facets: Vec<u32> =
+            on.filter(|cell| *cell != PAPER).map(|cell| ground.cells[cell as usize].facet).collect();
+        facets.sort_unstable();
+        facets.dedup();
+        (!facets.is_empty()).then_some(Decal { figure: laid.figure, lines: laid.lines, facets })
+    };
+    laid.into_iter().filter_map(decal).collect()
+}
+
+/// A figure on the page, and the points of it on the surface of which is asked whether they are seen.
+struct Laid {
+    figure: u32,
+    lines: Vec<Vec<Point>>,
+    asked: Vec<(Point, f64)>,
+}
+
+/// The middle of the box around a figure.
+fn middle(figure: &Figure) -> DVec2 {
+    let points = || figure.lines.iter().flatten();
+    let low = points().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = points().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    (low + high) / 2.0
+}
+
+/// The figures whose middles lie on a face.
+fn place(
+    mesh: &Mesh,
+    face: u32,
+    chart: &Chart,
+    (number, figure, middle): (u32, &Figure, DVec2),
+    found: &mut Vec<Anchor>,
+) {
+    let corners = chart.corners.map(|p| (p - middle) / figure.period);
+    let [a, b, c] = corners;
+    let (low, high) = (a.min(b).min(c).ceil(), a.max(b).max(c).floor());
+    let whole = (b - a).perp_dot(c - a);
+    let size = high - low + 1.0;
+    if !(whole.abs() > 0.0 && whole.is_finite() && size.x.max(1.0) * size.y.max(1.0) < 4.0 * MOST_FIGURES) {
+        return;
+    }
+    let solid = mesh.corners(FaceId(face));
+    for j in low.y as i64..=high.y as i64 {
+        for i in low.x as i64..=high.x as i64 {
+            let p = DVec2::new(i as f64, j as f64);
+            let parts = [beside(b, c, p), beside(c, a, p), beside(a, b, p)];
+            // On a side it belongs to one of both faces there.
+            let is_in = parts.iter().all(|(part, along)| match whole > 0.0 {
+                true => *part > 0.0 || (*part == 0.0 && *along),
+                false => *part < 0.0 || (*part == 0.0 && *along),
+            });
+            if is_in {
+                let at = (0..3).map(|k| solid[k] * (parts[k].0 / whole)).sum();
+                found.push(Anchor { figure: number, face, place: [i, j], at });
+            }
+        }
+    }
+}
+
+/// Twice the area between a side and a point, the same but for its sign from both faces; and whether the side runs as it is
+/// thought to where the point lies on it.
+fn beside(a: DVec2, b: DVec2, p: DVec2) -> (f64, bool) {
+    if (a.x, a.y) < (b.x, b.y) { ((b - a).perp_dot(p - a), true) } else { (-(a - b).perp_dot(p - b), false) }
+}
+
+/// The middles without those that are too near to one in another chart. In an order of the plane, not of the faces or the view.
+fn apart(
+    lit: &Lit,
+    chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
+    figures: &[Figure],
+    mut anchors: Vec<Anchor>,
+) -> Vec<Anchor> {
+    let mesh = lit.mesh;
+    let name = |face: u32| chart(face).map_or(0, |chart| chart.name);
+    let names: Vec<u32> = anchors.iter().map(|anchor| name(anchor.face)).collect();
+    if names.iter().all(|name| *name == names[0]) {
+        return anchors;
+    }
+    // How long the plane's unit is, and how far each figure reaches.
+    let unit = |face: u32| {
+        let [a, b, c] = mesh.corners(FaceId(face));
+        let area = |chart: Chart| {
+            let [p, q, r] = chart.corners;
+            (q - p).perp_dot(r - p).abs()
+        };
+        ((b - a).cross(c - a).length() / chart(face).map_or(1.0, area)).sqrt()
+    };
+    let far = |figure: &Figure| {
+        let middle = middle(figure);
+        figure.lines.iter().flatten().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max)
+    };
+    let reaches: Vec<f64> = figures.iter().map(far).collect();
+    let normal = |face: u32| {
+        let [a, b, c] = mesh.corners(FaceId(face));
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    let part = |anchor: &Anchor| mesh.face_part[anchor.face as usize];
+    anchors.sort_by_key(|anchor| (part(anchor), name(anchor.face), anchor.figure, anchor.place, anchor.face));
+    let widest = reaches.iter().copied().fold(0.0, f64::max);
+    let cell = |p: DVec3, size: f64| (p / size).floor().to_array().map(|v| v as i64);
+    let mut kept: BTreeMap<(u32, [i64; 3]), Vec<usize>> = BTreeMap::new();
+    let mut stays = vec![true; anchors.len()];
+    for (k, anchor) in anchors.iter().enumerate() {
+        let part = part(anchor).index() as u32;
+        let unit = unit(anchor.face);
+        let size = 2.0 * widest * unit;
+        if !(size > 0.0 && size.is_finite()) {
+            continue;
+        }
+        let own = name(anchor.face);
+        let [x, y, z] = cell(anchor.at, size);
+        let around = (0..27).map(|n| [x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1]);
+        let is_near = |other: &usize| {
+            let other = &anchors[*other];
+            let reach = (reaches[anchor.figure as usize] + reaches[other.figure as usize]) * unit * NEAR;
+            name(other.face) != own
+                && anchor.at.distance(other.at) < reach
+                && normal(anchor.face).dot(normal(other.face)) > SMOOTH
+        };
+        stays[k] = !around.filter_map(|cell| kept.get(&(part, cell))).flatten().any(is_near);
+        if stays[k] {
+            kept.entry((part, [x, y, z])).or_default().push(k);
+        }
+    }
+    let mut stays = stays.into_iter();
+    anchors.retain(|_| stays.next().unwrap_or(true));
+    anchors
+}
+
+/// Leads points of the plane to the page.
+struct Walker<'a> {
+    lit: &'a Lit<'a>,
+    chart: &'a (dyn Fn(u32) -> Option<Chart> + Sync),
+}
+
+impl Walker<'_> {
+    /// A figure around its middle; none if something of it is behind the eye.
+    fn lay(&self, anchor: &Anchor, figure: &Figure, shift: DVec2, offset: Vec2) -> Option<Laid> {
+        let frame = &self.lit.view.frame;
+        let on_page = |p: DVec3| {
+            let image = frame.image_from_local(p);
+            image.is_finite().then(|| (Point::new(image.x, image.y) + offset, image.z))
+        };
+        let mut asked = vec![on_page(anchor.at)?];
+        let mut lines = Vec::with_capacity(figure.lines.len());
+        for line in &figure.lines {
+            let mut points = Vec::with_capacity(line.len());
+            let mut face = anchor.face;
+            let every = line.len().div_ceil(ASKED);
+            for (k, p) in line.iter().enumerate() {
+                // Neighbours are on the same face, mostly.
+                let (at, found) = match self.find(face, *p + shift) {
+                    Some((at, there)) => (at, Some(there)),
+                    None => self.walk(anchor.face, *p + shift)?,
+                };
+                let (point, nearness) = on_page(at)?;
+                points.push(point);
+                if let Some(there) = found {
+                    face = there;
+                    if k % every == 0 {
+                        asked.push((point, nearness));
+                    }
+                }
+            }
+            lines.push(points);
+        }
+        Some(Laid { figure: anchor.figure, lines, asked })
+    }
+
+    /// A point of the plane that lies on a face.
+    fn find(&self, face: u32, p: DVec2) -> Option<(DVec3, u32)> {
+        let parts = weights(&(self.chart)(face)?, p)?;
+        parts.iter().all(|part| *part >= -ON_FACE).then(|| (self.on(face, parts), face))
+    }
+
+    fn on(&self, face: u32, parts: [f64; 3]) -> DVec3 {
+        let corners = self.lit.mesh.corners(FaceId(face));
+        (0..3).map(|k| corners[k] * parts[k]).sum()
+    }
+
+    /// Where a point of the plane is, and on which face, if it is on one.
+    fn walk(&self, from: u32, p: DVec2) -> Option<(DVec3, Option<u32>)> {
+        let mut face = from;
+        let mut own = (self.chart)(face)?;
+        let mut parts = weights(&own, p)?;
+        for _ in 0..MOST_STEPS {
+            let (side, least) = (0..3).map(|k| (k, parts[k])).min_by(|a, b| a.1.total_cmp(&b.1))?;
+            if least >= -ON_FACE {
+                return Some((self.on(face, parts), Some(face)));
+            }
+            let Some((next, chart)) = self.beyond(face, &own, side) else { break };
+            let Some(there) = weights(&chart, p) else { break };
+            (face, own, parts) = (next, chart, there);
+        }
+        Some((self.on(face, parts), None))
+    }
+
+    /// The face beyond the side opposite to a corner, if the plane goes on there and the eye sees it.
+    fn beyond(&self, face: u32, own: &Chart, corner: usize) -> Option<(u32, Chart)> {
+        let mesh = self.lit.mesh;
+        let t = mesh.triangles[face as usize];
+        let ends = [(corner + 1) % 3, (corner + 2) % 3];
+        let [a, b] = ends.map(|k| t[k]);
+        let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]).ok()?;
+        let faces = mesh.edges.faces(edge);
+        let [other] = faces.list().iter().filter(|other| **other != face).collect::<Vec<_>>()[..] else {
+            return None;
+        };
+        let chart = (self.chart)(*other)?;
+        let goes_on = ends.iter().all(|k| {
+            let there = mesh.triangles[*other as usize].iter().position(|v| *v == t[*k]);
+            there.is_some_and(|there| (chart.corners[there] - own.corners[*k]).length() < SAME_PLACE)
+        });
+        (chart.name == own.name && goes_on && self.lit.shows(*other as usize)).then_some((*other, chart))
+    }
+}
+
+/// Corners this near in the plane are one.
+const SAME_PLACE: f64 = 1e-5;
+
+/// The barycentric weights of a point of the plane.
+fn weights(chart: &Chart, p: DVec2) -> Option<[f64; 3]> {
+    let [a, b, c] = chart.corners;
+    let whole = (b - a).perp_dot(c - a);
+    let part = |q: DVec2, r: DVec2| (q - p).perp_dot(r - p) / whole;
+    let parts = [part(b, c), part(c, a), part(a, b)];
+    parts.iter().all(|part| part.is_finite()).then_some(parts)
+}
