@@ -6,6 +6,7 @@ mod bear;
 mod bevels;
 mod biplane;
 mod bracket;
+mod brush;
 mod castle;
 mod castle_parts;
 mod cogs;
@@ -107,5 +108,7 @@ fn main() -> std::io::Result<()> {
     write("trellis.obj", trellis::text().as_bytes())?;
     write("trellis.mtl", trellis::library().as_bytes())?;
     write("trellis-hole.png", &trellis::hole())?;
-    write("trellis-leaf.png", &trellis::leaf())
+    write("trellis-leaf.png", &trellis::leaf())?;
+    // No model, but a brush to draw one with.
+    write("brush-dry.png", &brush::dry())
 }

@@ -4,7 +4,6 @@ use glam::{DMat3, DVec2, DVec3};
 use kurbo::Vec2;
 
 use super::hatching::texture_scales;
-use super::patterns::in_model;
 use crate::drawing::Page;
 use crate::hatch::{OnSurface, Pattern, PatternKind};
 use crate::lines::Lit;
@@ -13,6 +12,7 @@ use crate::mesh::{FaceId, Mesh};
 use crate::region::Ground;
 use crate::region::decals::{Chart, Figure, MOST_FIGURES, count, decals};
 use crate::scene::{Scene, UpAxis};
+use crate::view::Frame;
 
 /// Texture coordinates that cover less than this part of what is usual in their part are none.
 const NO_TEXTURE: f64 = 1e-4;
@@ -47,6 +47,11 @@ pub(super) fn laid(
     plane.spacing *= (most / MOST_FIGURES).sqrt().max(1.0);
     let found = decals(lit, ground, offset, &|face| chart(&plane, face), &figures);
     OnSurface::Decals(found, filled)
+}
+
+/// How long in the model a length on the page is where the camera looks.
+pub(super) fn in_model(length: f64, frame: &Frame) -> f64 {
+    length / frame.scale * if frame.perspective { frame.focus } else { 1.0 }
 }
 
 /// What a pattern repeats, y upwards, and whether each figure is filled.

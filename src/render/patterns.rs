@@ -16,7 +16,6 @@ use crate::region::level_curves::{are_seen, level_curves};
 use crate::region::{Ground, Seen};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
-use crate::view::Frame;
 
 /// Lines of a pattern that cover more of the surface than this are left out: where it turns from the eye they would fill it.
 const DENSEST: f64 = 0.7;
@@ -64,11 +63,6 @@ pub(super) fn marks(
     style.patterns.iter().flat_map(of).collect()
 }
 
-/// How long in the model a length on the page is where the camera looks.
-pub(super) fn in_model(length: f64, frame: &Frame) -> f64 {
-    length / frame.scale * if frame.perspective { frame.focus } else { 1.0 }
-}
-
 /// The lines of a pattern that is fixed to the surface: cuts through the model as far apart as they are on the page where the camera
 /// looks.
 fn guides(
@@ -82,7 +76,7 @@ fn guides(
     let lit = fills.lit();
     let frame = &lit.view.frame;
     let [size, width] = [own.size, own.width].map(|length| length.in_unit(page.unit));
-    let spacing = in_model(size, frame);
+    let spacing = on_surface::in_model(size, frame);
     let turns = if own.kind == PatternKind::Crosses { &[0.0, 90.0][..] } else { &[0.0] };
     let of = |turn: &f64| {
         let across = cut_of(scene, (own.angle + turn).to_radians());

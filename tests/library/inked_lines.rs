@@ -203,6 +203,10 @@ fn widths_follow_depth_light_gap_and_bends() {
     for (x, light) in [(50.0, 0.25), (100.0, 0.5), (150.0, 0.75)] {
         let darker = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.lit=0.6"]))[0], x, 50.0);
         assert!((darker - 4.0 * (1.0 - 0.6 * light)).abs() < 0.1, "{x}: {darker}");
+        // By light and distance together it is the product.
+        let sets = style(&["pen.swell.lit=0.6", "pen.swell.near=0.5"]);
+        let both = width_at(&marks(std::slice::from_ref(&lit), &sets)[0], x, 50.0);
+        assert!((both - 4.0 * (1.0 - 0.6 * light) * (1.0 - 0.5 * x / 200.0)).abs() < 0.1, "{x}: {both}");
         let deeper = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.gap=0.6"]))[0], x, 50.0);
         assert!((deeper - 4.0 * (1.0 - 0.6 * (1.0 - light))).abs() < 0.1, "{x}: {deeper}");
     }

@@ -12,6 +12,7 @@ mod default_properties;
 mod diff;
 mod diff_hostile;
 mod diff_properties;
+mod dry_brush;
 mod dual_tree;
 mod example_models;
 mod export;

@@ -20,6 +20,7 @@ fn style(patterns: &str) -> Style {
     Style::load("toon", &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The marks of a layer.
 fn marks(drawing: &Drawing, kind: LayerKind) -> Vec<&Mark> {
     drawing.layers.iter().filter(|layer| layer.kind == kind).flat_map(|layer| &layer.marks).collect()
 }
@@ -34,14 +35,10 @@ fn wall() -> (Scene, Camera) {
     (scene, camera)
 }
 
-#[test]
-fn patterns_lie_in_their_tone_and_nowhere_else() {
+/// How many places of each material a pattern's ink covers, all of them in its tone.
+fn asked(patterns: &str, tones: [Option<u16>; 4]) -> [usize; 4] {
     let scene = Scene::open("examples/models/castle.obj").unwrap();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let patterns = "{ material = 'stone', tones = [0], kind = 'lines', size = 5, angle = 30 }, \
-                    { material = 'roof', tones = [-1], kind = 'crosses', size = 7 }, \
-                    { material = 'grass', kind = 'tile', path = 'M2 8L5 2L8 8', size = 11, angle = 10 }, \
-                    { material = 'sand*', tones = [1], kind = 'lines', fixed = 'surface', size = 6 }";
     let drawing = render(&scene, &camera, &style(patterns)).unwrap();
     let fills = marks(&drawing, LayerKind::Fills);
     // What is painted on top at a place.
@@ -52,10 +49,16 @@ fn patterns_lie_in_their_tone_and_nowhere_else() {
     for mark in marks(&drawing, LayerKind::Hatching) {
         assert_eq!(mark.provenance.classes, ["pattern"]);
         let name = mark.provenance.material.as_deref().unwrap();
+        let is_filled = matches!(mark.paint, Paint::Fill(_));
         for (p, _) in samples(&flattened(&mark.path, 0.05), 25.0) {
+            // Of what is filled a place beside the outline.
+            let beside =
+                [(0.8, 0.5), (-0.8, -0.5), (-0.5, 0.8), (0.5, -0.8)].map(|way| p + kurbo::Vec2::from(way));
+            let inside = beside.into_iter().find(|p| !is_filled || mark.path.contains(*p));
+            let Some(p) = inside.map(|inside| if is_filled { inside } else { p }) else { continue };
             // Painted borders are fitted, and reach a little under their neighbours.
             let near = [(0., 0.), (1.2, 0.), (-1.2, 0.), (0., 1.2), (0., -1.2)];
-            let tone = [Some(0), Some(1), None, Some(1)][of(name)];
+            let tone = tones[of(name)];
             let fits = near.iter().any(|(x, y)| {
                 at(p + kurbo::Vec2::new(*x, *y)).is_some_and(|fill| {
                     fill.material.as_deref() == Some(name) && tone.is_none_or(|tone| fill.tone == Some(tone))
@@ -65,7 +68,24 @@ fn patterns_lie_in_their_tone_and_nowhere_else() {
             asked[of(name)] += 1;
         }
     }
-    assert!(asked.iter().all(|count| *count > 30), "{asked:?}");
+    asked
+}
+
+#[test]
+fn patterns_lie_in_their_tone_and_nowhere_else() {
+    let lines = "{ material = 'stone', tones = [0], kind = 'lines', size = 5, angle = 30 }, \
+                 { material = 'roof', tones = [-1], kind = 'crosses', size = 7 }, \
+                 { material = 'grass', kind = 'tile', path = 'M2 8L5 2L8 8', size = 11, angle = 10 }, \
+                 { material = 'sand*', tones = [1], kind = 'lines', fixed = 'surface', size = 6 }";
+    let found = asked(lines, [Some(0), Some(1), None, Some(1)]);
+    assert!(found.iter().all(|count| *count > 30), "{found:?}");
+    let filled = "{ material = 'stone', tones = [0], kind = 'tile', path = 'M1 1H8V8H1Z', fill = true, size = 9 }, \
+                  { material = 'roof', tones = [-1], fixed = 'surface', size = 7, width = 5 }, \
+                  { material = 'grass', kind = 'tile', path = 'M2 8L5 2L8 8', fixed = 'surface', size = 11 }, \
+                  { material = 'sand*', tones = [1], kind = 'tile', path = 'M1 1H8L3 9Z', fill = true, fixed = 'surface', \
+                    size = 6 }";
+    let found = asked(filled, [Some(0), Some(1), None, Some(1)]);
+    assert!(found.iter().all(|count| *count > 30), "{found:?}");
 }
 
 #[test]
@@ -139,6 +159,104 @@ fn what_is_fixed_to_the_surface_turns_with_it_and_what_is_fixed_to_the_page_does
     assert!(count(&rolled, "page") > count(&camera, "page") + 3);
 }
 
+fn inked(scene: &Scene, camera: &Camera, pattern: &str) -> f64 {
+    let drawing = render(scene, camera, &style(pattern)).unwrap();
+    let marks = marks(&drawing, LayerKind::Hatching);
+    // No shape lies over another, and holes turn the other way.
+    marks.iter().map(|mark| mark.path.area()).sum::<f64>().abs()
+}
+
+#[test]
+fn filled_tiles_cover_what_they_should() {
+    let (scene, camera) = wall();
+    let folder = std::env::temp_dir().join(format!("ligne-tiles-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let [image, file] = ["tile.png", "tile.svg"].map(|name| folder.join(name));
+    // A disc of radius 18 pixels in 48, softened over one.
+    let disc = |k: u32| {
+        let [x, y] = [k % 48, k / 48].map(|v| f64::from(v) + 0.5 - 24.0);
+        (255.0 * ((x * x + y * y).sqrt() - 17.5).clamp(0.0, 1.0)).round() as u8
+    };
+    let mut encoder = png::Encoder::new(std::fs::File::create(&image).unwrap(), 48, 48);
+    encoder.set_color(png::ColorType::Grayscale);
+    let pixels: Vec<u8> = (0..48 * 48).map(disc).collect();
+    encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
+    // A stroked ring, a square on it, and what is paper; twice as wide as high.
+    std::fs::write(
+        &file,
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 40 20'><circle cx='10' cy='10' r='6' fill='none' \
+         stroke='#111' stroke-width='2'/><path d='M24 4H36V16H24Z'/><path d='M0 0H5V5Z' fill='#fff'/></svg>",
+    )
+    .unwrap();
+    let literal = |path: &std::path::Path| path.display().to_string().replace('\\', "/");
+    let cases = [
+        ("path = 'M2 2H8V8H2Z', fill = true".to_owned(), 0.36),
+        // Reaches over its square: neighbours go on in each other.
+        ("path = 'M0 4H10V6H0Z', fill = true".to_owned(), 0.2),
+        (format!("image = '{}'", literal(&image)), PI * 18.0 * 18.0 / (48.0 * 48.0)),
+        (format!("file = '{}'", literal(&file)), (PI * (49.0 - 25.0) + 144.0) / 800.0),
+    ];
+    for (tile, covered) in cases {
+        for angle in [0, 20] {
+            for fixed in ["page", "surface"] {
+                let pattern =
+                    format!("{{ kind = 'tile', {tile}, size = 12.5, angle = {angle}, fixed = '{fixed}' }}");
+                let part = inked(&scene, &camera, &pattern) / (400.0 * 400.0);
+                assert!((part / covered - 1.0).abs() < 0.01, "{pattern}: {part} {covered}");
+            }
+        }
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn dots_on_the_surface_are_seen_at_its_slant() {
+    let (scene, _) = wall();
+    // Two faces of the cube, each turned from the eye by 45 degrees.
+    let mut camera = orthographic(DVec3::new(9.0, 0.0, 9.0), DVec3::ZERO, 8.0);
+    (camera.width, camera.height) = (500.0, 500.0);
+    let seen = (4.0 * 2.0_f64.sqrt() * 4.0) * (500.0 / 8.0) * (500.0 / 8.0);
+    let part = inked(&scene, &camera, "{ fixed = 'surface', size = 9, width = 5 }") / seen;
+    let wanted = PI * 2.5 * 2.5 / 81.0;
+    assert!((part / wanted - 1.0).abs() < 0.01, "{part} {wanted}");
+}
+
+#[test]
+fn what_is_fixed_to_the_surface_does_not_know_how_the_world_is_turned() {
+    let (scene, camera) = wall();
+    let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.5, -0.8, 1.9);
+    let tilted = Camera { eye: DVec3::new(4.0, 3.0, 8.0), ..camera };
+    let mut turned = scene.clone();
+    for part in &mut turned.parts {
+        part.world_from_part = glam::DAffine3::from_quat(turn) * part.world_from_part;
+    }
+    let aside = Camera {
+        eye: turn * tilted.eye,
+        target: turn * tilted.target,
+        up: turn * tilted.up,
+        ..tilted.clone()
+    };
+    let drawn = |scene: &Scene, camera: &Camera| {
+        let pattern = "{ fixed = 'surface', size = 30, width = 12, angle = 15 }";
+        let drawing = render(scene, camera, &style(pattern)).unwrap();
+        let mut middles: Vec<[i64; 2]> = Vec::new();
+        for mark in marks(&drawing, LayerKind::Hatching) {
+            for dot in mark.path.to_svg().split_inclusive('Z') {
+                let middle = kurbo::BezPath::from_svg(dot).unwrap().bounding_box().center();
+                middles.push([middle.x, middle.y].map(|v| (v * 100.0).round() as i64));
+            }
+        }
+        middles.sort_unstable();
+        middles
+    };
+    let (own, other) = (drawn(&scene, &tilted), drawn(&turned, &aside));
+    assert!(own.len() > 60 && own.len() == other.len(), "{} {}", own.len(), other.len());
+    // Dots that are cut may be cut a little otherwise.
+    let near = |p: &&[i64; 2]| other.iter().any(|q| (p[0] - q[0]).abs() <= 2 && (p[1] - q[1]).abs() <= 2);
+    let same = own.iter().filter(near).count();
+    assert!(same == own.len(), "{same} of {}", own.len());
+}
+
 #[test]
 fn patterns_that_cannot_be_are_refused_by_name() {
     for (pattern, word) in [
@@ -148,6 +266,14 @@ fn patterns_that_cannot_be_are_refused_by_name() {
         ("{ kind = 'tile', path = '' }", "no lines"),
         ("{ opacity = 2 }", "from 0 to 1"),
         ("{ tone = [1] }", "tones"),
+        ("{ kind = 'tile', path = 'M0 0C1e300 0 1 1 2 2' }", "far beyond"),
+        ("{ kind = 'tile', path = 'M0 0C1e999 0 1 1 2 2', fill = true }", "tile"),
+        ("{ kind = 'tile' }", "one of `path`"),
+        ("{ kind = 'tile', path = 'M0 0H9', image = 'a.png' }", "one of `path`"),
+        ("{ kind = 'tile', path = 'M0 0H9', fill = true }", "no area"),
+        ("{ image = 'a.png' }", "kind"),
+        ("{ kind = 'tile', image = 'lost.png' }", "lost.png"),
+        ("{ kind = 'tile', file = 'Cargo.toml' }", "no SVG"),
     ] {
         let error = Style::load("toon", &[format!("fills.pattern=[{pattern}]")]).unwrap_err().to_string();
         assert!(error.contains(word), "{pattern}: {error}");

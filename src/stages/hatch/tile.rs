@@ -42,23 +42,12 @@ impl Tile {
     /// # Errors
     /// Says what is wrong with the path.
     pub fn of_path(path: &BezPath, filling: Option<Filling>) -> Result<Self, String> {
-        let has_lines =
-            path.elements().iter().any(|e| !matches!(e, kurbo::PathEl::MoveTo(_) | kurbo::PathEl::ClosePath));
-        let tile = match filling {
-            Some(filling) if has_lines => {
-                let tile = Self::of_shapes(&[(path.clone(), filling)], [SIDE; 2])?;
-                if tile.shapes.is_empty() {
-                    return Err("has no area".to_owned());
-                }
-                tile
-            }
-            _ => {
-                let mut lines = flattened(path, FLAT * SIDE);
-                lines.iter_mut().flatten().for_each(|p| *p = Point::new(p.x / SIDE, p.y / SIDE));
-                Self { lines, shapes: Vec::new(), height: 1.0 }
-            }
-        };
-        tile.checked()
+        if let Some(filling) = filling {
+            return Self::of_shapes(&[(path.clone(), filling)], [SIDE; 2]);
+        }
+        let mut lines = flattened(path, FLAT * SIDE, SIDE)?;
+        lines.iter_mut().flatten().for_each(|p| *p = Point::new(p.x / SIDE, p.y / SIDE));
+        Self { lines, shapes: Vec::new(), height: 1.0 }.checked()
     }
 
     /// A tile of filled shapes in a box from (0, 0) to a size.
@@ -70,16 +59,17 @@ impl Tile {
             return Err("has no size that could be repeated".to_owned());
         }
         let rings = |(path, filling): &(BezPath, Filling)| {
-            let mut rings = flattened(path, FLAT_SHAPE * width.min(height));
+            let mut rings = flattened(path, FLAT_SHAPE * width.min(height), width.max(height))?;
             for ring in &mut rings {
                 ring.iter_mut().for_each(|p| *p = Point::new(p.x / width, p.y / width));
                 if ring.len() > 1 && ring.first() == ring.last() {
                     ring.pop();
                 }
             }
-            (rings, *filling)
+            Ok((rings, *filling))
         };
-        let shapes: Vec<(Vec<Vec<Point>>, Filling)> = shapes.iter().map(rings).collect();
+        let shapes: Vec<(Vec<Vec<Point>>, Filling)> =
+            shapes.iter().map(rings).collect::<Result<_, String>>()?;
         let count: usize = shapes.iter().flat_map(|(rings, _)| rings).map(Vec::len).sum();
         if count > MOST_POINTS {
             return Err("has too many curves".to_owned());
@@ -88,6 +78,9 @@ impl Tile {
             return Err(FAR.to_owned());
         }
         let rings = united(&shapes).unwrap_or_default();
+        if rings.is_empty() {
+            return Err("has no area that is painted dark".to_owned());
+        }
         Self { lines: Vec::new(), shapes: islands(rings), height: height / width }.checked()
     }
 
@@ -130,14 +123,22 @@ impl Tile {
     }
 }
 
+/// Control points of curves may be this many sizes of the tile away.
+const FARTHEST: f64 = 100.0;
+
 const FAR: &str = "reaches far beyond its square";
 
 fn is_near(p: Point) -> bool {
     p.is_finite() && p.x.abs() <= SIDE && p.y.abs() <= SIDE
 }
 
-/// The lines of a path, each at least two points.
-fn flattened(path: &BezPath, tolerance: f64) -> Vec<Vec<Point>> {
+/// The lines of a path, each at least two points; an error if it is out of all proportion to the size of the tile.
+fn flattened(path: &BezPath, tolerance: f64, size: f64) -> Result<Vec<Vec<Point>>, String> {
+    let extent = path.control_box();
+    let far = [extent.x0, extent.y0, extent.x1, extent.y1].map(f64::abs).into_iter().fold(0.0, f64::max);
+    if !(path.is_finite() && far <= FARTHEST * size) {
+        return Err(FAR.to_owned());
+    }
     let mut lines: Vec<Vec<Point>> = Vec::new();
     kurbo::flatten(path, tolerance, |element| match element {
         kurbo::PathEl::MoveTo(p) => lines.push(vec![p]),
@@ -146,7 +147,7 @@ fn flattened(path: &BezPath, tolerance: f64) -> Vec<Vec<Point>> {
         kurbo::PathEl::QuadTo(..) | kurbo::PathEl::CurveTo(..) => {}
     });
     lines.retain(|line| line.len() > 1);
-    lines
+    Ok(lines)
 }
 
 /// Rings as islands, each with the holes that lie in it.

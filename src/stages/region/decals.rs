@@ -10,20 +10,13 @@ use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
+pub use super::chart::Chart;
+use super::chart::Walker;
 use super::ground::PAPER;
 use super::level_curves::are_seen;
 use crate::lines::Lit;
 use crate::mesh::{FaceId, Mesh};
 use crate::region::Ground;
-
-/// How the plane lies on a face.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Chart {
-    /// Where the corners of the face are in the plane.
-    pub corners: [DVec2; 3],
-    /// Charts of other names do not go on in this one.
-    pub name: u32,
-}
 
 /// What is laid on the plane, again and again.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -48,14 +41,8 @@ pub struct Decal {
 /// More figures than this on a surface are too fine to be seen.
 pub const MOST_FIGURES: f64 = 5e5;
 
-/// A walk over more faces than this is given up.
-const MOST_STEPS: usize = 64;
-
 /// Of each line of a figure so many points are asked for whether they are seen.
 const ASKED: usize = 12;
-
-/// Points this far out of a face, as part of it, are on it.
-const ON_FACE: f64 = 1e-9;
 
 /// Figures of two charts may be so near to each other, as part of their sizes, where the surface bends by less than `SMOOTH`
 /// between them (cosine); else the later one is left out.
@@ -82,6 +69,8 @@ struct Anchor {
     place: [i64; 2],
     /// In the model.
     at: DVec3,
+    /// Whether it lies beyond the face, where the plane is not continued.
+    is_outer: bool,
 }
 
 /// The figures on the faces that the eye may see.
@@ -113,8 +102,17 @@ pub fn decals(
             found
         })
         .collect();
-    let anchors: Vec<Anchor> = apart(lit, chart, figures, anchors.into_iter().flatten().collect());
     let walker = Walker { lit, chart };
+    let mut anchors: Vec<Anchor> = anchors.into_iter().flatten().collect();
+    let outer: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let own = chunk * CHUNK..((chunk + 1) * CHUNK).min(faces);
+            own.flat_map(|face| walker.beyond_border(face as u32, figures, &middles)).collect()
+        })
+        .collect();
+    add_outer(lit, chart, outer.into_iter().flatten().collect(), &mut anchors);
+    let anchors = apart(lit, chart, figures, anchors);
     let laid: Vec<Laid> = anchors
         .par_iter()
         .with_min_len(64)
@@ -182,7 +180,7 @@ fn place(
             });
             if is_in {
                 let at = (0..3).map(|k| solid[k] * (parts[k].0 / whole)).sum();
-                found.push(Anchor { figure: number, face, place: [i, j], at });
+                found.push(Anchor { figure: number, face, place: [i, j], at, is_outer: false });
             }
         }
     }
@@ -192,6 +190,42 @@ fn place(
 /// thought to where the point lies on it.
 fn beside(a: DVec2, b: DVec2, p: DVec2) -> (f64, bool) {
     if (a.x, a.y) < (b.x, b.y) { ((b - a).perp_dot(p - a), true) } else { (-(a - b).perp_dot(p - b), false) }
+}
+
+/// Adds those beyond the border of the plane, each once.
+fn add_outer(
+    lit: &Lit,
+    chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
+    outer: Vec<Anchor>,
+    anchors: &mut Vec<Anchor>,
+) {
+    let key = |anchor: &Anchor| {
+        let name = chart(anchor.face).map_or(0, |chart| chart.name);
+        (lit.mesh.face_part[anchor.face as usize], name, anchor.figure, anchor.place)
+    };
+    if outer.is_empty() {
+        return;
+    }
+    let mut known: BTreeMap<_, Vec<DVec3>> = BTreeMap::new();
+    anchors.iter().for_each(|anchor| known.entry(key(anchor)).or_default().push(anchor.at));
+    for anchor in outer {
+        let there = known.entry(key(&anchor)).or_default();
+        let near = unit(lit.mesh, chart, anchor.face) / 2.0;
+        if there.iter().all(|at| at.distance(anchor.at) > near) {
+            there.push(anchor.at);
+            anchors.push(anchor);
+        }
+    }
+}
+
+/// How long a unit of the plane is on a face.
+fn unit(mesh: &Mesh, chart: &(dyn Fn(u32) -> Option<Chart> + Sync), face: u32) -> f64 {
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let area = |chart: Chart| {
+        let [p, q, r] = chart.corners;
+        (q - p).perp_dot(r - p).abs()
+    };
+    ((b - a).cross(c - a).length() / chart(face).map_or(1.0, area)).sqrt()
 }
 
 /// The middles without those that are too near to one in another chart. In an order of the plane, not of the faces or the view.
@@ -207,15 +241,6 @@ fn apart(
     if names.iter().all(|name| *name == names[0]) {
         return anchors;
     }
-    // How long the plane's unit is, and how far each figure reaches.
-    let unit = |face: u32| {
-        let [a, b, c] = mesh.corners(FaceId(face));
-        let area = |chart: Chart| {
-            let [p, q, r] = chart.corners;
-            (q - p).perp_dot(r - p).abs()
-        };
-        ((b - a).cross(c - a).length() / chart(face).map_or(1.0, area)).sqrt()
-    };
     let far = |figure: &Figure| {
         let middle = middle(figure);
         figure.lines.iter().flatten().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max)
@@ -226,14 +251,16 @@ fn apart(
         (b - a).cross(c - a).normalize_or_zero()
     };
     let part = |anchor: &Anchor| mesh.face_part[anchor.face as usize];
-    anchors.sort_by_key(|anchor| (part(anchor), name(anchor.face), anchor.figure, anchor.place, anchor.face));
+    anchors.sort_by_key(|anchor| {
+        (anchor.is_outer, part(anchor), name(anchor.face), anchor.figure, anchor.place, anchor.face)
+    });
     let widest = reaches.iter().copied().fold(0.0, f64::max);
     let cell = |p: DVec3, size: f64| (p / size).floor().to_array().map(|v| v as i64);
     let mut kept: BTreeMap<(u32, [i64; 3]), Vec<usize>> = BTreeMap::new();
     let mut stays = vec![true; anchors.len()];
     for (k, anchor) in anchors.iter().enumerate() {
         let part = part(anchor).index() as u32;
-        let unit = unit(anchor.face);
+        let unit = unit(mesh, chart, anchor.face);
         let size = 2.0 * widest * unit;
         if !(size > 0.0 && size.is_finite()) {
             continue;
@@ -258,12 +285,7 @@ fn apart(
     anchors
 }
 
-/// Leads points of the plane to the page.
-struct Walker<'a> {
-    lit: &'a Lit<'a>,
-    chart: &'a (dyn Fn(u32) -> Option<Chart> + Sync),
-}
-
+/// Leads figures to the page.
 impl Walker<'_> {
     /// A figure around its middle; none if something of it is behind the eye.
     fn lay(&self, anchor: &Anchor, figure: &Figure, shift: DVec2, offset: Vec2) -> Option<Laid> {
@@ -272,7 +294,7 @@ impl Walker<'_> {
             let image = frame.image_from_local(p);
             image.is_finite().then(|| (Point::new(image.x, image.y) + offset, image.z))
         };
-        let mut asked = vec![on_page(anchor.at)?];
+        let mut asked = if anchor.is_outer { Vec::new() } else { vec![on_page(anchor.at)?] };
         let mut lines = Vec::with_capacity(figure.lines.len());
         for line in &figure.lines {
             let mut points = Vec::with_capacity(line.len());
@@ -280,13 +302,14 @@ impl Walker<'_> {
             let every = line.len().div_ceil(ASKED);
             for (k, p) in line.iter().enumerate() {
                 // Neighbours are on the same face, mostly.
-                let (at, found) = match self.find(face, *p + shift) {
-                    Some((at, there)) => (at, Some(there)),
-                    None => self.walk(anchor.face, *p + shift)?,
+                let shows = |face: u32| self.lit.shows(face as usize);
+                let (at, there, is_on) = match self.find(face, *p + shift) {
+                    Some(at) => (at, face, true),
+                    None => self.walk(anchor.face, *p + shift, shows)?,
                 };
                 let (point, nearness) = on_page(at)?;
                 points.push(point);
-                if let Some(there) = found {
+                if is_on {
                     face = there;
                     if k % every == 0 {
                         asked.push((point, nearness));
@@ -298,62 +321,35 @@ impl Walker<'_> {
         Some(Laid { figure: anchor.figure, lines, asked })
     }
 
-    /// A point of the plane that lies on a face.
-    fn find(&self, face: u32, p: DVec2) -> Option<(DVec3, u32)> {
-        let parts = weights(&(self.chart)(face)?, p)?;
-        parts.iter().all(|part| *part >= -ON_FACE).then(|| (self.on(face, parts), face))
-    }
-
-    fn on(&self, face: u32, parts: [f64; 3]) -> DVec3 {
-        let corners = self.lit.mesh.corners(FaceId(face));
-        (0..3).map(|k| corners[k] * parts[k]).sum()
-    }
-
-    /// Where a point of the plane is, and on which face, if it is on one.
-    fn walk(&self, from: u32, p: DVec2) -> Option<(DVec3, Option<u32>)> {
-        let mut face = from;
-        let mut own = (self.chart)(face)?;
-        let mut parts = weights(&own, p)?;
-        for _ in 0..MOST_STEPS {
-            let (side, least) = (0..3).map(|k| (k, parts[k])).min_by(|a, b| a.1.total_cmp(&b.1))?;
-            if least >= -ON_FACE {
-                return Some((self.on(face, parts), Some(face)));
-            }
-            let Some((next, chart)) = self.beyond(face, &own, side) else { break };
-            let Some(there) = weights(&chart, p) else { break };
-            (face, own, parts) = (next, chart, there);
+    /// Figures whose middles lie beyond a face on the border of the plane.
+    fn beyond_border(&self, face: u32, figures: &[Figure], middles: &[DVec2]) -> Vec<Anchor> {
+        let mut found = Vec::new();
+        let is_degenerate = self.lit.mesh.is_degenerate(FaceId(face));
+        let Some(own) = (self.chart)(face).filter(|_| !is_degenerate) else { return found };
+        if (0..3).all(|corner| self.next(face, &own, corner).is_some()) {
+            return found;
         }
-        Some((self.on(face, parts), None))
+        let [a, b, c] = own.corners;
+        for (number, (figure, middle)) in figures.iter().zip(middles).enumerate() {
+            let points = figure.lines.iter().flatten();
+            let half = points.fold(DVec2::ZERO, |most, p| most.max((*p - *middle).abs()));
+            let low = ((a.min(b).min(c) - half - *middle) / figure.period).ceil();
+            let high = ((a.max(b).max(c) + half - *middle) / figure.period).floor();
+            let size = high - low + 1.0;
+            if !(size.x.max(1.0) * size.y.max(1.0) < MOST_FIGURES) {
+                continue;
+            }
+            for j in low.y as i64..=high.y as i64 {
+                for i in low.x as i64..=high.x as i64 {
+                    let p = *middle + figure.period * DVec2::new(i as f64, j as f64);
+                    // What lies on a face is known.
+                    if let Some((at, last, false)) = self.walk(face, p, |_| true) {
+                        let place = [i, j];
+                        found.push(Anchor { figure: number as u32, face: last, place, at, is_outer: true });
+                    }
+                }
+            }
+        }
+        found
     }
-
-    /// The face beyond the side opposite to a corner, if the plane goes on there and the eye sees it.
-    fn beyond(&self, face: u32, own: &Chart, corner: usize) -> Option<(u32, Chart)> {
-        let mesh = self.lit.mesh;
-        let t = mesh.triangles[face as usize];
-        let ends = [(corner + 1) % 3, (corner + 2) % 3];
-        let [a, b] = ends.map(|k| t[k]);
-        let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]).ok()?;
-        let faces = mesh.edges.faces(edge);
-        let [other] = faces.list().iter().filter(|other| **other != face).collect::<Vec<_>>()[..] else {
-            return None;
-        };
-        let chart = (self.chart)(*other)?;
-        let goes_on = ends.iter().all(|k| {
-            let there = mesh.triangles[*other as usize].iter().position(|v| *v == t[*k]);
-            there.is_some_and(|there| (chart.corners[there] - own.corners[*k]).length() < SAME_PLACE)
-        });
-        (chart.name == own.name && goes_on && self.lit.shows(*other as usize)).then_some((*other, chart))
-    }
-}
-
-/// Corners this near in the plane are one.
-const SAME_PLACE: f64 = 1e-5;
-
-/// The barycentric weights of a point of the plane.
-fn weights(chart: &Chart, p: DVec2) -> Option<[f64; 3]> {
-    let [a, b, c] = chart.corners;
-    let whole = (b - a).perp_dot(c - a);
-    let part = |q: DVec2, r: DVec2| (q - p).perp_dot(r - p) / whole;
-    let parts = [part(b, c), part(c, a), part(a, b)];
-    parts.iter().all(|part| part.is_finite()).then_some(parts)
 }

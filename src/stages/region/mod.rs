@@ -8,6 +8,7 @@
 mod arcs;
 pub mod axes;
 mod cells;
+mod chart;
 pub mod decals;
 mod flat;
 pub mod ground;
