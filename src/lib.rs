@@ -58,7 +58,9 @@ pub mod style;
 pub mod testing;
 
 // Inside, each stage goes by its own name.
-use stages::{chain, field, hatch, lines, mesh, raster, region, shadow, shape, stroke, trees, view, viewmap};
+use stages::{
+    chain, field, hatch, lines, mesh, picture, raster, region, shadow, shape, stroke, trees, view, viewmap,
+};
 
 pub use drawing::Drawing;
 pub use error::{Error, ErrorKind};

@@ -1,9 +1,12 @@
 //! [`Mark`]: one painted path.
 
-use kurbo::BezPath;
+use std::sync::Arc;
+
+use kurbo::{Affine, BezPath};
 use serde::{Deserialize, Serialize};
 
 use crate::math::colour::Colour;
+use crate::math::picture::Picture;
 
 /// How a line ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
@@ -61,6 +64,33 @@ pub struct OutlinePaint {
     pub pen_width: f64,
 }
 
+/// A picture in pieces, of which that is seen which lies inside the mark's path. Pieces may cover each other: the last one is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImagePaint {
+    /// The pixels that all pieces show. A drawing holds a picture once, whatever the number of its marks.
+    pub picture: Arc<Picture>,
+    /// The pieces, painted first to last.
+    pub pieces: Vec<ImagePiece>,
+}
+
+/// A piece of the page, and what of a picture it shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImagePiece {
+    /// Its outline in user units.
+    pub outline: BezPath,
+    /// What it shows.
+    pub shows: Shows,
+}
+
+/// What a piece of the page shows of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shows {
+    /// The picture, whose pixels lie where this brings them: the first one covers the square from (0, 0) to (1, 1).
+    Pixels(Affine),
+    /// One colour.
+    Colour(Colour),
+}
+
 /// How a mark is painted.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Paint {
@@ -70,6 +100,8 @@ pub enum Paint {
     Fill(Colour),
     /// A line of varying width: the filled outline of a line.
     Outline(OutlinePaint),
+    /// A picture.
+    Image(ImagePaint),
 }
 
 /// Where a mark comes from, as plain text: becomes classes and `data-` attributes in SVG, and is

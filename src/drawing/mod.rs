@@ -14,7 +14,9 @@ pub mod mark;
 pub mod page;
 
 pub use length::Length;
-pub use mark::{Cap, Join, Mark, OutlinePaint, Paint, Provenance, StrokePaint};
+pub use mark::{
+    Cap, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Provenance, Shows, StrokePaint,
+};
 pub use page::{Page, Unit};
 
 /// The layers of a drawing, back to front.

@@ -67,6 +67,8 @@ impl Attributes {
                 Any,
                 Any,
             ]),
+            // Its pieces of one colour are filled, opaque, and nothing else.
+            Paint::Image(_) => Self([Any, Value::Opacity(255), Value::None, Any, Any, Any, Any]),
         }
     }
 
@@ -153,7 +155,7 @@ pub(super) fn alike(a: &Mark, b: &Mark) -> bool {
             let same_width = a.width == b.width || rounded(a.width) == rounded(b.width);
             same_width && a.colour == b.colour && a.cap == b.cap && a.join == b.join
         }
-        (Paint::Stroke(_), _) | (_, Paint::Stroke(_)) => false,
+        (Paint::Stroke(_) | Paint::Image(_), _) | (_, Paint::Stroke(_) | Paint::Image(_)) => false,
         // The outline of a line is filled as a region is.
         (a, b) => filled(a) == filled(b),
     }
@@ -162,7 +164,7 @@ pub(super) fn alike(a: &Mark, b: &Mark) -> bool {
 /// The colour that a path is filled with.
 fn filled(paint: &Paint) -> Option<Colour> {
     match paint {
-        Paint::Stroke(_) => None,
+        Paint::Stroke(_) | Paint::Image(_) => None,
         Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => Some(*colour),
     }
 }

@@ -21,10 +21,16 @@ mod path_data;
 pub mod pdf;
 #[cfg(feature = "pdf")]
 mod pdf_content;
+#[cfg(feature = "pdf")]
+mod pdf_pictures;
+mod pictures;
 pub(crate) mod piece;
 #[cfg(feature = "png")]
 pub mod png;
+#[cfg(feature = "png")]
+mod png_image;
 pub mod svg;
+mod svg_image;
 pub(crate) mod xml;
 
 #[cfg(feature = "png")]

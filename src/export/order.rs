@@ -98,7 +98,7 @@ fn form(mark: &Mark, ordered: bool) -> Form {
         _ if ordered => Form::Kept,
         Paint::Stroke(stroke) if stroke.dash.is_empty() => Form::Stroked,
         Paint::Stroke(_) => Form::Kept,
-        Paint::Fill(_) | Paint::Outline(_) => Form::Filled,
+        Paint::Fill(_) | Paint::Outline(_) | Paint::Image(_) => Form::Filled,
     }
 }
 

@@ -11,7 +11,8 @@ use rayon::prelude::*;
 
 use super::SvgOptions;
 use super::number::Decimals;
-use super::pdf_content::{Writer, state_name};
+use super::pdf_content::{Writer, picture_name, state_name};
+use super::pdf_pictures::{Crop, Crops};
 use crate::drawing::{Drawing, LayerKind, Mark, OutlinePaint, Paint, Unit};
 
 /// Points, of which there are 72 to the inch, in a user unit.
@@ -26,6 +27,9 @@ const CHUNK: usize = 2048;
 
 /// Quick, and within a tenth of what the slowest level saves.
 const DEFLATE_LEVEL: u8 = 4;
+
+/// Pictures are worth some time.
+const PICTURE_DEFLATE_LEVEL: u8 = 8;
 
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
@@ -54,7 +58,8 @@ impl Drawing {
         let user_unit = (longest / LONGEST_SIDE).max(1.0);
         let scale = per_unit / user_unit;
         let groups = self.groups();
-        let streams = self.streams(&groups, scale);
+        let pictures = Crops::of(self);
+        let streams = self.streams(&groups, &pictures, scale);
 
         let mut next = FIRST_FREE;
         let mut take = |count: usize| -> Vec<Ref> {
@@ -65,6 +70,7 @@ impl Drawing {
         let (group_ids, stream_ids) = (take(groups.len()), take(streams.len()));
         let opacities = self.opacities();
         let state_ids = take(opacities.len());
+        let (picture_ids, mask_ids) = (take(pictures.list.len()), take(pictures.list.len()));
 
         let mut pdf = Pdf::new();
         write_catalog(&mut pdf, &group_ids);
@@ -92,6 +98,13 @@ impl Drawing {
             properties.pair(Name(group_name(index).as_bytes()), *id);
         }
         properties.finish();
+        if !picture_ids.is_empty() {
+            let mut objects = resources.x_objects();
+            for (number, id) in picture_ids.iter().enumerate() {
+                objects.pair(Name(picture_name(number).as_bytes()), *id);
+            }
+            objects.finish();
+        }
         resources.finish();
         page.finish();
 
@@ -105,6 +118,9 @@ impl Drawing {
         }
         for (stream, id) in streams.iter().zip(&stream_ids) {
             pdf.stream(*id, stream).filter(Filter::FlateDecode);
+        }
+        for (picture, (id, mask)) in pictures.list.iter().zip(picture_ids.iter().zip(&mask_ids)) {
+            write_picture(&mut pdf, picture, *id, *mask);
         }
         let mut info = pdf.document_info(INFO);
         if !self.title.is_empty() {
@@ -125,7 +141,7 @@ impl Drawing {
     }
 
     /// The content of the page, deflated, in pieces that follow each other.
-    fn streams(&self, groups: &[Group], scale: f64) -> Vec<Vec<u8>> {
+    fn streams(&self, groups: &[Group], pictures: &Crops, scale: f64) -> Vec<Vec<u8>> {
         let decimals = Decimals::new(SvgOptions::default().decimals(self.page.unit));
         let fine = Decimals::new(6);
         let pieces: Vec<(usize, &[Mark], bool, bool)> = groups
@@ -160,7 +176,7 @@ impl Drawing {
                     let (width, height) = (fine.text(self.page.width), fine.text(self.page.height));
                     writer.out.extend_from_slice(format!("0 0 {width} {height} re f\n").as_bytes());
                 }
-                marks.iter().for_each(|mark| writer.mark(mark));
+                marks.iter().for_each(|mark| writer.mark(mark, pictures));
                 if *closes {
                     writer.out.extend_from_slice(b"EMC\n");
                 }
@@ -178,6 +194,7 @@ impl Drawing {
         let of_marks = marks.map(|mark| match &mark.paint {
             Paint::Stroke(stroke) => stroke.colour.a,
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => colour.a,
+            Paint::Image(_) => 255,
         });
         of_marks.chain(self.page.background.map(|colour| colour.a)).collect()
     }
@@ -196,6 +213,27 @@ fn write_catalog(pdf: &mut Pdf, groups: &[Ref]) {
     let mut shown = properties.insert(Name(b"D")).dict();
     shown.pair(Name(b"Name"), TextStr("layers"));
     shown.insert(Name(b"Order")).array().items(groups.iter().rev().copied());
+}
+
+/// A part of a picture as an object of the document; where some of it is clear, with a mask.
+fn write_picture(pdf: &mut Pdf, crop: &Crop, id: Ref, mask: Ref) {
+    let (width, height) = (crop.width as i32, crop.height as i32);
+    let deflated = |samples: Vec<u8>| compress_to_vec_zlib(&samples, PICTURE_DEFLATE_LEVEL);
+    let opacities = crop.samples(|pixel| [pixel.a]);
+    let opaque = opacities.iter().all(|opacity| *opacity == 255);
+    let samples = deflated(crop.samples(|pixel| [pixel.r, pixel.g, pixel.b]));
+    let mut object = pdf.image_xobject(id, &samples);
+    object.filter(Filter::FlateDecode);
+    object.width(width).height(height).bits_per_component(8).interpolate(true).color_space().device_rgb();
+    if opaque {
+        return;
+    }
+    object.s_mask(mask);
+    object.finish();
+    let samples = deflated(opacities);
+    let mut object = pdf.image_xobject(mask, &samples);
+    object.filter(Filter::FlateDecode);
+    object.width(width).height(height).bits_per_component(8).color_space().device_gray();
 }
 
 /// Name of a layer in the page's resources.

@@ -5,7 +5,9 @@
 use kurbo::{PathEl, Point};
 
 use super::number::Decimals;
-use crate::drawing::{Cap, Join, Mark, OutlinePaint, Paint, StrokePaint};
+use super::pdf_pictures::Crops;
+use super::pictures::matrix;
+use crate::drawing::{Cap, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
 use crate::math::colour::Colour;
 
 /// Decimals of widths and dashes, as in SVG, and of the channels of colours.
@@ -28,8 +30,8 @@ impl Writer {
         Self { out: Vec::new(), decimals, stroke: None, fill: None, opacity: None }
     }
 
-    /// Paints one mark.
-    pub(super) fn mark(&mut self, mark: &Mark) {
+    /// Paints one mark of a drawing with those pictures.
+    pub(super) fn mark(&mut self, mark: &Mark, pictures: &Crops) {
         if mark.path.elements().is_empty() {
             return;
         }
@@ -46,7 +48,43 @@ impl Writer {
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"f\n");
             }
+            Paint::Image(image) => {
+                self.set_opacity(255);
+                self.clipped(mark.path.elements(), |writer| writer.pieces(image, pictures));
+            }
         }
+    }
+
+    /// Paints the pieces of a picture.
+    fn pieces(&mut self, image: &ImagePaint, pictures: &Crops) {
+        for piece in &image.pieces {
+            match piece.shows {
+                Shows::Pixels(transform) => {
+                    let Some((number, crop)) = pictures.shown(piece) else { continue };
+                    let place = matrix(transform * crop.pixels_from_object(), " ");
+                    let shown = format!("{place} cm\n/{} Do\n", picture_name(number));
+                    self.clipped(piece.outline.elements(), |writer| {
+                        writer.out.extend_from_slice(shown.as_bytes());
+                    });
+                }
+                Shows::Colour(colour) => {
+                    self.set_fill(colour);
+                    self.path(piece.outline.elements());
+                    self.out.extend_from_slice(b"f\n");
+                }
+            }
+        }
+    }
+
+    /// Lets that be seen of what is painted which lies inside a path.
+    fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
+        let ink = (self.stroke.clone(), self.fill, self.opacity);
+        self.out.extend_from_slice(b"q\n");
+        self.path(elements);
+        self.out.extend_from_slice(b"W n\n");
+        paint(self);
+        self.out.extend_from_slice(b"Q\n");
+        (self.stroke, self.fill, self.opacity) = ink;
     }
 
     fn set_stroke(&mut self, stroke: &StrokePaint) {
@@ -166,6 +204,11 @@ impl Writer {
     }
 }
 
+/// Name of a picture in the page's resources.
+pub(super) fn picture_name(number: usize) -> String {
+    format!("P{number}")
+}
+
 /// Name of the graphics state of an opacity.
 pub(super) fn state_name(opacity: u8) -> String {
     format!("A{opacity}")
@@ -176,13 +219,17 @@ mod tests {
     use kurbo::BezPath;
 
     use super::*;
-    use crate::drawing::Provenance;
+    use crate::drawing::{Drawing, Page, Provenance, Unit};
+
+    const PAGE: Page = Page { width: 9.0, height: 9.0, unit: Unit::Px, background: None };
 
     fn content(marks: &[(&str, Paint)]) -> String {
         let mut writer = Writer::new(Decimals::new(2));
         for (data, paint) in marks {
             let path = BezPath::from_svg(data).unwrap();
-            writer.mark(&Mark { path, paint: paint.clone(), provenance: Provenance::default() });
+            let mark = Mark { path, paint: paint.clone(), provenance: Provenance::default() };
+            let drawing = Drawing::new("", PAGE, vec![]);
+            writer.mark(&mark, &Crops::of(&drawing));
         }
         String::from_utf8(writer.out).unwrap().replace('\n', " ")
     }

@@ -3,7 +3,8 @@
 use tiny_skia::{Pixmap, Transform};
 
 use super::SvgOptions;
-use crate::drawing::{Drawing, Unit};
+use super::png_image;
+use crate::drawing::{Drawing, Layer, Mark, Page, Paint, Unit};
 use crate::error::Error;
 
 /// Dots an inch of a drawing in millimetres, unless others are asked for.
@@ -52,19 +53,55 @@ impl Drawing {
     /// has more paths than the rasteriser takes.
     pub fn to_png(&self, options: &PngOptions) -> Result<Vec<u8>, Error> {
         let (width, height, dpi) = self.pixels(options)?;
+        let mut pixmap = Pixmap::new(width, height)
+            .ok_or_else(|| Error::new(format!("there is no memory for {width} x {height} pixels")))?;
+        self.paint(&mut pixmap)?;
+        let opaque = self.page.background.is_some_and(|colour| colour.a == 255);
+        encode(pixmap, opaque, dpi).map_err(|error| Error::new(format!("cannot write PNG: {error}")))
+    }
+
+    /// Paints the drawing: what shows pictures from their pixels, and all between them as its SVG text says.
+    fn paint(&self, pixmap: &mut Pixmap) -> Result<(), Error> {
+        let shows = |mark: &Mark| matches!(mark.paint, Paint::Image(_));
+        if !self.layers.iter().any(|layer| layer.marks.iter().any(shows)) {
+            return self.rasterise(pixmap);
+        }
+        let empty = |background| Self::new("", Page { background, ..self.page }, Vec::new());
+        let mut next = empty(self.page.background);
+        let mut known = png_image::KnownCopies::default();
+        for layer in &self.layers {
+            for marks in layer.marks.chunk_by(|a, b| shows(a) == shows(b)) {
+                if !marks.first().is_some_and(shows) {
+                    next.layers.push(Layer { marks: marks.to_vec(), pen: layer.pen.clone(), ..*layer });
+                    continue;
+                }
+                std::mem::replace(&mut next, empty(None)).rasterise(pixmap)?;
+                let scale = Transform::from_scale(
+                    (f64::from(pixmap.width()) / self.page.width) as f32,
+                    (f64::from(pixmap.height()) / self.page.height) as f32,
+                );
+                for mark in marks {
+                    if let Paint::Image(image) = &mark.paint {
+                        png_image::paint(pixmap, &mark.path, image, scale, &mut known);
+                    }
+                }
+            }
+        }
+        next.rasterise(pixmap)
+    }
+
+    /// Paints a drawing without pictures over what is there.
+    fn rasterise(&self, pixmap: &mut Pixmap) -> Result<(), Error> {
         let svg = self.to_svg(&SvgOptions::default());
         let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).map_err(|error| {
             Error::new(format!("the drawing cannot be rasterised: {error}")).remedy("write SVG instead")
         })?;
         drop(svg);
-        let mut pixmap = Pixmap::new(width, height)
-            .ok_or_else(|| Error::new(format!("there is no memory for {width} x {height} pixels")))?;
         let scale = |pixels: u32, size: f32| (f64::from(pixels) / f64::from(size)) as f32;
-        let transform =
-            Transform::from_scale(scale(width, tree.size().width()), scale(height, tree.size().height()));
+        let [across, down] = [(pixmap.width(), tree.size().width()), (pixmap.height(), tree.size().height())];
+        let transform = Transform::from_scale(scale(across.0, across.1), scale(down.0, down.1));
         resvg::render(&tree, transform, &mut pixmap.as_mut());
-        let opaque = self.page.background.is_some_and(|colour| colour.a == 255);
-        encode(pixmap, opaque, dpi).map_err(|error| Error::new(format!("cannot write PNG: {error}")))
+        Ok(())
     }
 
     /// Width and height in pixels, and pixels an inch.

@@ -8,6 +8,8 @@ use rustc_hash::FxHashMap;
 use super::attributes::{Attributes, WIDTH_DECIMALS, hex};
 use super::number::Decimals;
 use super::order::{self, AlikeMarks, CHUNK, Paths};
+use super::pictures::Named;
+use super::svg_image;
 use super::xml::{Ids, escape};
 use crate::drawing::{Drawing, Layer, LayerKind, Mark, Paint, Unit};
 
@@ -83,8 +85,12 @@ impl Drawing {
     pub fn to_svg(&self, options: &SvgOptions) -> String {
         let decimals = Decimals::new(options.decimals(self.page.unit));
         let mut ids = Ids::new(&options.id_prefix);
+        let named = &Named::of(self, &mut ids);
         let mut out = Vec::new();
-        self.open(&mut out);
+        self.open(&mut out, !named.is_empty());
+        if !named.is_empty() {
+            named.write(&mut out);
+        }
         self.paper(&mut out, &mut ids);
         match options.group {
             Grouping::Layer => {
@@ -92,12 +98,12 @@ impl Drawing {
                     let marks: Vec<&Mark> = layer.marks.iter().collect();
                     let (id, label) = self.names(layer);
                     open_layer(&mut out, &mut ids, &id, &label);
-                    Group { marks: &marks, ordered: layer.ordered, decimals }.write(&mut out, b"");
+                    Group { marks: &marks, ordered: layer.ordered, decimals, named }.write(&mut out, b"");
                 }
             }
             Grouping::Part => {
                 for PartGroup { name, marks, ordered } in self.by_part() {
-                    let group = Group { marks: &marks, ordered, decimals };
+                    let group = Group { marks: &marks, ordered, decimals, named };
                     match name {
                         Some(name) => {
                             out.extend_from_slice(b"<g id=\"");
@@ -121,16 +127,17 @@ impl Drawing {
         String::from_utf8(out).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
     }
 
-    /// The root element and the title.
-    fn open(&self, out: &mut Vec<u8>) {
+    /// The root element and the title; what is used needs a namespace of its own.
+    fn open(&self, out: &mut Vec<u8>, uses: bool) {
         let number = |value: f64| Decimals::new(4).text(value);
         let unit = match self.page.unit {
             Unit::Px => "",
             Unit::Mm => "mm",
         };
         let (width, height) = (number(self.page.width), number(self.page.height));
+        let links = if uses { "xmlns:xlink=\"http://www.w3.org/1999/xlink\" " } else { "" };
         let root = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" {links}\
              xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
              width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\">\n"
         );
@@ -223,6 +230,7 @@ struct Group<'a> {
     /// Whether they stay in their order, and paths run as they do.
     ordered: bool,
     decimals: Decimals,
+    named: &'a Named<'a>,
 }
 
 impl Group<'_> {
@@ -275,6 +283,12 @@ impl Group<'_> {
                 else {
                     continue;
                 };
+                if let Paint::Image(image) = &mark.paint {
+                    let Self { named, decimals, .. } = self;
+                    let attributes = (outer, attributes);
+                    svg_image::write(out, (mark, image), attributes, paths.data(index), named, *decimals);
+                    continue;
+                }
                 write_mark(out, mark, outer, attributes, [paths.axis(index), paths.data(index)]);
             }
             if grouped && range.end <= to {

@@ -257,7 +257,8 @@ impl<'a> Fills<'a> {
             .collect()
     }
 
-    fn paint_context(&self, page: &Page, camera: &Camera) -> PaintContext<'_> {
+    /// Names, colours and the place on the page.
+    pub fn paint_context(&self, page: &Page, camera: &Camera) -> PaintContext<'_> {
         PaintContext {
             unit: page.unit,
             offset: Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0,

@@ -84,6 +84,11 @@ impl Panes {
 }
 
 impl Behind<'_> {
+    /// The mesh, but that panes hide nothing.
+    pub fn clear(&self) -> &Mesh {
+        self.panes.clear()
+    }
+
     /// What the eye sees where there are no panes.
     pub fn see(&self, fills: &Fills, page: &Page) -> region::Seen {
         fills.see_behind(&self.panes.clear, &self.map, page)

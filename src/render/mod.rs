@@ -28,6 +28,7 @@ mod late_search;
 mod maps;
 mod on_surface;
 mod patterns;
+mod pictures;
 pub mod report;
 pub mod stage;
 mod stages;
@@ -251,7 +252,7 @@ impl<'a> Prepared<'a> {
     fn drawn(&self, on_view: OnView, camera: &Camera, page: Page, stage: Option<Stage>) -> (Drawing, Report) {
         let Self { scene, style, paints, .. } = self;
         let OnView { surface, view, lines, textures, fills, mut map, .. } = on_view;
-        let OnView { mut behind, mut report, mut watch, warnings, .. } = on_view;
+        let OnView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
         let mut layers: Vec<Layer> = hatching::paper(&page, style).into_iter().collect();
         let mut blacks = None;
         if let Some(fills) = fills.filter(|_| fills::is_lit(style)) {
@@ -261,6 +262,11 @@ impl<'a> Prepared<'a> {
             if style.region.enabled {
                 let (mut painted, regions) = fills.paint(&seen, &page, camera, style);
                 report.counts.regions = regions.regions.len() as u64;
+                if let Some(paints) = paints {
+                    let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
+                    let asked = (&page, camera, *style);
+                    pictures::add(fills, clear, (paints, &regions), asked, &mut painted, &mut warnings);
+                }
                 if let Some(behind) = &behind {
                     behind.paint(fills, &map, (&page, camera, style), &mut painted);
                 }

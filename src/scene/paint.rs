@@ -11,10 +11,10 @@ use super::coloured::{Coloured, Factor, light};
 use super::inked::ArtistTextures;
 use super::texture::options::{TextureFill, TextureOptions};
 use super::texture::swatches::{ALIKE, difference, mean, of_palette, swatches};
-use super::texture::{self, Texture};
+use super::texture::{self, Imaged, Texture};
 use super::tints::{self, Tints};
 use super::varied::Varied;
-use super::{Material, Scene, Warnings};
+use super::{Alpha, Material, Scene, Warnings};
 use crate::math::colour::Colour;
 use crate::mesh::{MaterialId, PaintId};
 
@@ -44,6 +44,8 @@ pub struct Paints {
     pub(crate) varied: Vec<(PaintId, Varied)>,
     /// Whether any of that takes its colours from vertices.
     pub(crate) tinted: bool,
+    /// The pictures that are put into the drawing themselves.
+    pub(crate) images: Vec<Imaged>,
 }
 
 impl Paints {
@@ -99,7 +101,12 @@ impl Paints {
                 (Some(texture), TextureFill::Regions) if !is_tinted => {
                     paints.add_picture(scene, id, list, texture, options.colours, &factor);
                 }
-                (Some(texture), TextureFill::Regions) if !list.iter().all(Coloured::is_flat) => {
+                (Some(texture), TextureFill::Image) if !is_tinted => {
+                    paints.add_image(scene, id, list, texture, &factor);
+                }
+                (Some(texture), TextureFill::Regions | TextureFill::Image)
+                    if !list.iter().all(Coloured::is_flat) =>
+                {
                     paints.add_tinted_picture(scene, id, list, texture, options.colours, &factor);
                 }
                 (None, _) if list.iter().any(Coloured::varies) => {
@@ -288,6 +295,36 @@ impl Paints {
         self.tinted = true;
     }
 
+    /// Adds the paint of a material whose triangles show a picture as it is, in the mean colour of that.
+    fn add_image(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        texture: Texture,
+        factor: &Factor,
+    ) {
+        let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
+        let seen = texture.mean_light(&texture.shown(scene, material, &places)).unwrap_or(Colour::WHITE);
+        let mean = factor.tint(seen);
+        // Of one hue, so that what tones do to each channel can be told.
+        let greatest = mean.channels().into_iter().fold(0.0, f64::max).max(0.05);
+        let bright = |level: f64| {
+            let channels = mean.channels().map(|c| c.max(0.1 * greatest) / greatest * level);
+            Colour { a: mean.a, ..Colour::from_channels(channels) }
+        };
+        let [paint, dark, light] = [mean, bright(DARK_PROBE), bright(1.0)].map(|colour| {
+            self.list.push(Paint { material: material.into(), colour });
+            PaintId::from(self.list.len() - 1)
+        });
+        for own in triangles {
+            self.paint(scene, own, paint);
+        }
+        let weighed = scene.materials.get(material).is_some_and(|own| own.alpha != Alpha::Opaque);
+        let base = factor.multiplies.then_some(factor.base);
+        self.images.push(texture.imaged((material.into(), paint, [dark, light]), base, weighed));
+    }
+
     /// The paints of a material in these colours.
     fn of_colours(&mut self, material: usize, colours: &[Colour]) -> FxHashMap<Colour, PaintId> {
         // By colour, not by the triangle that shows it first.
@@ -322,6 +359,9 @@ impl Paints {
         }
     }
 }
+
+/// The greatest channel of the colour by which it is told what tones make of dark ones: no darker than tones tell apart.
+const DARK_PROBE: f64 = 0.3;
 
 /// Colours that differ by no more than this in any channel are one, but for how they were stored.
 const SAME: u32 = 8;

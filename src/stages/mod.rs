@@ -28,6 +28,7 @@ pub mod field;
 pub mod hatch;
 pub mod lines;
 pub mod mesh;
+pub mod picture;
 pub mod raster;
 pub mod region;
 pub mod shadow;

@@ -47,6 +47,8 @@ pub(super) struct FillsTable {
     texture: Option<TextureFill>,
     #[serde(deserialize_with = "texture_colours")]
     texture_colours: Option<usize>,
+    #[serde(deserialize_with = "texture_samples")]
+    texture_samples: Option<f64>,
     material: Vec<MaterialTable>,
     pattern: Vec<Pattern>,
 }
@@ -126,6 +128,7 @@ impl FillsTable {
         let textures = TextureOptions {
             fill: self.texture.unwrap_or(textures.fill),
             colours: self.texture_colours.unwrap_or(textures.colours),
+            samples: self.texture_samples.unwrap_or(textures.samples),
         };
         (tones, region, textures, self.pattern)
     }
@@ -208,6 +211,14 @@ fn texture_colours<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<
     Err(D::Error::custom(format!(
         "{count} is not a number of colours; write a whole number from 1 to {GREATEST_COLOURS}"
     )))
+}
+
+fn texture_samples<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    let samples = f64::deserialize(deserializer)?;
+    if (0.1..=8.0).contains(&samples) {
+        return Ok(Some(samples));
+    }
+    Err(D::Error::custom(format!("{samples} is not a number of texels a px; write a number from 0.1 to 8")))
 }
 
 /// More colours than this are no few.

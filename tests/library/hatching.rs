@@ -466,6 +466,7 @@ fn lines_in(drawing: &Drawing, wanted: Colour) -> BTreeMap<&'static str, usize> 
             Paint::Stroke(stroke) => stroke.colour,
             Paint::Outline(outline) => outline.colour,
             Paint::Fill(colour) => *colour,
+            Paint::Image(_) => panic!("a picture"),
         };
         if colour == wanted {
             *count.entry(mark.provenance.classes[0]).or_default() += 1;

@@ -53,6 +53,9 @@ fn written(layer: LayerKind, mark: &Mark) -> String {
         Paint::Outline(paint) => {
             let _ = write!(text, "outline {:.3} {:?}", paint.width, paint.colour);
         }
+        Paint::Image(paint) => {
+            let _ = write!(text, "picture in {} pieces", paint.pieces.len());
+        }
     }
     text
 }

@@ -33,6 +33,7 @@ mod marked_edges;
 mod models;
 mod painted_surfaces;
 mod patterns;
+mod picture_fills;
 mod properties;
 mod random_widths;
 mod regions;

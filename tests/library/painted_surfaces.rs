@@ -378,7 +378,8 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
         let on_disc = drawn.iter().filter(|[a, b]| off(a.midpoint(*b)) < 0.012).count();
         assert_eq!(on_disc > 8, has_disc, "{table}: {on_disc} of {}", drawn.len());
         if has_disc {
-            let beside: Vec<Point> = drawn.iter().map(|[a, b]| a.midpoint(*b)).filter(|p| off(*p) >= 0.012).collect();
+            let beside: Vec<Point> =
+                drawn.iter().map(|[a, b]| a.midpoint(*b)).filter(|p| off(*p) >= 0.012).collect();
             assert!(beside.is_empty(), "{table}: {beside:?}");
         }
     }

@@ -2,6 +2,7 @@
 
 mod blends;
 mod guess;
+mod imaged;
 mod labels;
 pub mod options;
 mod painted;
@@ -13,6 +14,7 @@ mod trace;
 
 use std::path::Path;
 
+pub(crate) use imaged::Imaged;
 pub(crate) use labels::Labels;
 pub(crate) use painted::Painted;
 pub(super) use palette::few;
@@ -25,6 +27,7 @@ use super::{Alpha, Filter, Material, Scene};
 use crate::math::colour::Colour;
 use crate::math::oklab;
 use crate::math::picture::Picture;
+use crate::mesh::{MaterialId, PaintId};
 
 /// The picture of a base colour.
 pub(super) struct Texture {
@@ -109,6 +112,29 @@ impl Texture {
             }
         }
         shown
+    }
+
+    /// The mean light of all that is seen.
+    pub fn mean_light(&self, shown: &[f32]) -> Option<Colour> {
+        let table = oklab::linear_table();
+        let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);
+        for (shown, Colour { r, g, b, .. }) in shown.iter().zip(&self.picture.pixels) {
+            let light = [*r, *g, *b].map(|c| f64::from(table[usize::from(c)]) * f64::from(*shown));
+            sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
+            all += f64::from(*shown);
+        }
+        let [r, g, b] = sum.map(|sum| (sum / all) as f32);
+        (all > 0.0).then(|| Colour::from_linear([r, g, b, 1.0]))
+    }
+
+    /// This texture as it is: `base` multiplies it, and where `weighed` clear texels are not mixed with others.
+    pub fn imaged(
+        self,
+        paints: (MaterialId, PaintId, [PaintId; 2]),
+        base: Option<Colour>,
+        weighed: bool,
+    ) -> Imaged {
+        Imaged::new(paints, self.texels, self.picture, base, weighed)
     }
 
     /// At most so many colours that stand for all that is seen.

@@ -28,11 +28,20 @@ impl FaceBuffer {
     /// the number of threads.
     #[must_use]
     pub fn new(screen: &Screen) -> Self {
+        Self::of(screen, |_| true)
+    }
+
+    /// Draws the triangles of some faces of a screen, as [`FaceBuffer::new`] does.
+    #[must_use]
+    pub fn of(screen: &Screen, draws: impl Fn(u32) -> bool + Sync) -> Self {
         let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
         let count = screen.triangle_count();
         (0..count.div_ceil(TASK)).into_par_iter().for_each(|task| {
             for id in task * TASK..((task + 1) * TASK).min(count) {
                 let (corners, face) = screen.triangle(id);
+                if !draws(face) {
+                    continue;
+                }
                 screen.cover(&corners, |pixel, nearness| {
                     let cell = u64::from(nearness.to_bits()) << 32 | u64::from(!face);
                     // Most triangles lose, and looking is cheaper than writing.

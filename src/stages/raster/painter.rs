@@ -60,7 +60,7 @@ pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
 
 /// Every slot once, the first of each pair before the second, the farthest first where none of a
 /// pair is left to wait for.
-fn sorted(nearness: &[u32], over: &[[u32; 2]]) -> Vec<u32> {
+pub(crate) fn sorted(nearness: &[u32], over: &[[u32; 2]]) -> Vec<u32> {
     let mut awaited = vec![0_u32; nearness.len()];
     for [_, above] in over {
         awaited[*above as usize] += 1;

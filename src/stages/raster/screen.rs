@@ -103,7 +103,9 @@ impl<'a> Screen<'a> {
         screen
     }
 
-    fn point(&self, p: DVec3) -> ScreenPoint {
+    /// A point of image space; x is NaN where there is none.
+    #[must_use]
+    pub fn point(&self, p: DVec3) -> ScreenPoint {
         let x = if p.z.is_nan() { f64::NAN } else { p.x * self.scale };
         [x as f32, (p.y * self.scale) as f32, ((p.z - self.farthest) * self.per_nearness) as f32]
     }

@@ -23,6 +23,7 @@ mod piece_grid;
 pub mod samples;
 pub mod seen;
 mod thin;
+pub(crate) mod unions;
 
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;

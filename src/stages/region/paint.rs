@@ -143,7 +143,7 @@ fn outline(regions: &Regions, number: u32, rank: &[u32], reach: f64) -> BezPath 
 }
 
 /// Adds an open or closed piece to the loop that is being drawn.
-fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
+pub(super) fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
     let mut at = match path.elements().last() {
         Some(last) if *begun => last.end_point(),
         _ => None,

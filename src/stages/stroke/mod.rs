@@ -242,6 +242,7 @@ fn by_pen(kind: LayerKind, marks: Vec<Mark>, unit: Unit) -> Vec<Layer> {
             Paint::Stroke(stroke) => (stroke.width, stroke.colour),
             Paint::Outline(outline) => (outline.pen_width, outline.colour),
             Paint::Fill(colour) => (0.0, *colour),
+            Paint::Image(_) => (0.0, Colour::BLACK),
         };
         let index = pens.iter().position(|known| *known == pen).unwrap_or_else(|| {
             pens.push(pen);

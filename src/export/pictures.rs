@@ -1,0 +1,144 @@
+//! [`Pictures`]: the pictures of a drawing, each once, and the names by which marks refer to them.
+
+use std::sync::Arc;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use kurbo::Affine;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::number::Decimals;
+use super::xml::Ids;
+use crate::drawing::{Drawing, ImagePaint, Mark, Paint};
+use crate::math::picture::Picture;
+
+/// Decimals of what a transform turns and stretches by, and of what it moves by.
+const TURN_DECIMALS: u8 = 6;
+const SHIFT_DECIMALS: u8 = 3;
+
+/// The pictures of a drawing, each once.
+pub(super) struct Pictures<'a> {
+    pub list: Vec<&'a Picture>,
+    /// The number of a picture, by where it lies in memory.
+    numbers: FxHashMap<usize, usize>,
+}
+
+/// The marks of a drawing that show pictures.
+pub(super) fn marks(drawing: &Drawing) -> impl Iterator<Item = (&Mark, &ImagePaint)> {
+    drawing.layers.iter().flat_map(|layer| &layer.marks).filter_map(|mark| match &mark.paint {
+        Paint::Image(image) => Some((mark, image)),
+        _ => None,
+    })
+}
+
+impl<'a> Pictures<'a> {
+    pub fn of(drawing: &'a Drawing) -> Self {
+        let mut pictures = Self { list: Vec::new(), numbers: FxHashMap::default() };
+        for (_, image) in marks(drawing) {
+            let picture: &Picture = &image.picture;
+            let Self { list, numbers } = &mut pictures;
+            if !numbers.contains_key(&address(&image.picture)) {
+                let number = list.iter().position(|known| **known == *picture).unwrap_or_else(|| {
+                    list.push(picture);
+                    list.len() - 1
+                });
+                numbers.insert(address(&image.picture), number);
+            }
+        }
+        pictures
+    }
+
+    /// The number of what a mark shows.
+    pub fn number(&self, image: &ImagePaint) -> usize {
+        self.numbers.get(&address(&image.picture)).copied().unwrap_or_default()
+    }
+}
+
+/// The ids of pictures, and of the marks that show them.
+pub(super) struct Named<'a> {
+    pictures: Pictures<'a>,
+    ids: Vec<String>,
+    /// By where marks lie in memory.
+    marks: FxHashMap<usize, String>,
+}
+
+impl<'a> Named<'a> {
+    pub fn of(drawing: &'a Drawing, ids: &mut Ids) -> Self {
+        let pictures = Pictures::of(drawing);
+        let numbered = |name: &str, number: usize| format!("{name}-{}", number + 1);
+        let names = (0..pictures.list.len()).map(|number| ids.take(&numbered("picture", number))).collect();
+        let shown = marks(drawing).enumerate();
+        let marks = shown
+            .map(|(number, (mark, _))| {
+                (std::ptr::from_ref(mark).addr(), ids.take(&numbered("shown", number)))
+            })
+            .collect();
+        Self { pictures, ids: names, marks }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.ids.is_empty()
+    }
+
+    /// The id of what a mark shows.
+    pub fn picture(&self, image: &ImagePaint) -> &str {
+        self.ids.get(self.pictures.number(image)).map_or("", String::as_str)
+    }
+
+    /// The id of a mark.
+    pub fn mark(&self, mark: &Mark) -> &str {
+        self.marks.get(&std::ptr::from_ref(mark).addr()).map_or("", String::as_str)
+    }
+
+    /// Writes the pictures, none of which is drawn where it stands.
+    pub fn write(&self, out: &mut Vec<u8>) {
+        out.extend_from_slice(b"<defs>\n");
+        let encoded: Vec<String> =
+            self.pictures.list.par_iter().map(|picture| STANDARD.encode(encode(picture))).collect();
+        for ((id, picture), data) in self.ids.iter().zip(&self.pictures.list).zip(encoded) {
+            let Picture { width, height, .. } = picture;
+            let tag = format!(
+                "<image id=\"{id}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+                 xlink:href=\"data:image/png;base64,{data}\"/>\n"
+            );
+            out.extend_from_slice(tag.as_bytes());
+        }
+        out.extend_from_slice(b"</defs>\n");
+    }
+}
+
+/// Where a picture lies in memory: marks that share it are many.
+pub(super) fn address(picture: &Arc<Picture>) -> usize {
+    Arc::as_ptr(picture).addr()
+}
+
+/// The numbers of a transform, in order, with something between them.
+pub(super) fn matrix(transform: Affine, between: &str) -> String {
+    let coefficients = transform.as_coeffs();
+    let decimals =
+        [TURN_DECIMALS, TURN_DECIMALS, TURN_DECIMALS, TURN_DECIMALS, SHIFT_DECIMALS, SHIFT_DECIMALS];
+    let texts =
+        coefficients.iter().zip(decimals).map(|(value, decimals)| Decimals::new(decimals).text(*value));
+    texts.collect::<Vec<_>>().join(between)
+}
+
+/// A picture as a PNG file; without an alpha channel if every pixel is opaque.
+fn encode(picture: &Picture) -> Vec<u8> {
+    let opaque = picture.pixels.iter().all(|pixel| pixel.a == 255);
+    let samples: Vec<u8> = if opaque {
+        picture.pixels.iter().flat_map(|pixel| [pixel.r, pixel.g, pixel.b]).collect()
+    } else {
+        picture.pixels.iter().flat_map(|pixel| [pixel.r, pixel.g, pixel.b, pixel.a]).collect()
+    };
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, picture.width as u32, picture.height as u32);
+    encoder.set_color(if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba });
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Balanced);
+    encoder.set_filter(png::Filter::Adaptive);
+    // Into memory, where nothing can go wrong but the size, which is that of the pixels.
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&samples));
+    if written.is_ok() { file } else { Vec::new() }
+}

@@ -1,0 +1,90 @@
+//! Marks that show pictures, in SVG: a group within the mark's outline, which uses a picture of the document piece by piece.
+//!
+//! Only what every reader of SVG knows is written: clipping by one path, `use`, and a transform. A clip and its content stand
+//! in the units of the page, so that the pieces of one picture meet to the last written decimal.
+
+use kurbo::BezPath;
+
+use super::attributes::{Attributes, hex};
+use super::canonical::{Canonical, Form};
+use super::number::Decimals;
+use super::order;
+use super::pictures::{Named, matrix};
+use super::xml::escape;
+use crate::drawing::{ImagePaint, ImagePiece, Mark, Shows};
+use crate::math::colour::Colour;
+
+/// Writes a mark; `area` is the path data of its outline.
+pub(super) fn write(
+    out: &mut Vec<u8>,
+    (mark, image): (&Mark, &ImagePaint),
+    (outer, attributes): (&Attributes, &Attributes),
+    area: &[u8],
+    named: &Named,
+    decimals: Decimals,
+) {
+    let (id, picture) = (named.mark(mark), named.picture(image));
+    let provenance = &mark.provenance;
+    out.extend_from_slice(b"<g class=\"");
+    out.extend_from_slice(order::classes(&provenance.classes, provenance.tone).as_bytes());
+    out.push(b'"');
+    let names =
+        [(&b" data-part=\""[..], &provenance.part), (&b" data-material=\""[..], &provenance.material)];
+    for (attribute, name) in names {
+        if let Some(name) = name {
+            out.extend_from_slice(attribute);
+            escape(out, name);
+            out.push(b'"');
+        }
+    }
+    attributes.write_over(outer, out);
+    out.extend_from_slice(format!(" clip-path=\"url(#{id})\">\n").as_bytes());
+    clip(out, id, area);
+    let mut canonical = Canonical::new(decimals);
+    let mut data = Vec::new();
+    for (number, pieces) in image.pieces.chunk_by(of_one_colour).enumerate() {
+        data.clear();
+        let path: BezPath =
+            pieces.iter().flat_map(|piece| piece.outline.elements().iter().copied()).collect();
+        let Some(shows) = pieces.first().map(|piece| piece.shows) else { continue };
+        let form = if matches!(shows, Shows::Colour(_)) { Form::Filled } else { Form::Kept };
+        canonical.write(&mut data, &path, form);
+        if data.is_empty() {
+            continue;
+        }
+        match shows {
+            Shows::Pixels(transform) => {
+                let own = format!("{id}-{}", number + 1);
+                clip(out, &own, &data);
+                let used = format!(
+                    "<g clip-path=\"url(#{own})\"><use xlink:href=\"#{picture}\" transform=\"matrix({})\"/></g>\n",
+                    matrix(transform, " ")
+                );
+                out.extend_from_slice(used.as_bytes());
+            }
+            Shows::Colour(colour) => {
+                out.extend_from_slice(format!("<path fill=\"{}\" d=\"", hex(colour)).as_bytes());
+                out.extend_from_slice(&data);
+                out.extend_from_slice(b"\"/>\n");
+            }
+        }
+    }
+    out.extend_from_slice(b"</g>\n");
+}
+
+/// Whether two pieces that follow each other are one path.
+fn of_one_colour(a: &ImagePiece, b: &ImagePiece) -> bool {
+    let colour = |piece: &ImagePiece| -> Option<Colour> {
+        match piece.shows {
+            Shows::Colour(colour) => Some(colour),
+            Shows::Pixels(_) => None,
+        }
+    };
+    colour(a).is_some() && colour(a) == colour(b)
+}
+
+fn clip(out: &mut Vec<u8>, id: &str, data: &[u8]) {
+    out.extend_from_slice(format!("<clipPath id=\"{id}\"><path d=\"").as_bytes());
+    out.extend_from_slice(data);
+    out.extend_from_slice(b"\"/></clipPath>\n");
+}

@@ -1,0 +1,244 @@
+//! [`Facet`]: a triangle that shows a picture, so small or so square on that one affine map brings the picture to the page.
+
+use glam::{DVec2, DVec3};
+
+use crate::mesh::{FaceId, Mesh, PartId};
+use crate::scene::texture::Imaged;
+use crate::view::{Frame, View};
+
+/// A corner of a facet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner {
+    /// Where it is seen, image space.
+    pub image: DVec3,
+    /// What it shows, in the plane of the texels.
+    pub place: DVec2,
+}
+
+/// A triangle that shows a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Facet {
+    pub corners: [Corner; 3],
+    /// The part of the model it belongs to.
+    pub part: PartId,
+    /// The one colour that it shows, if it is one.
+    pub colour: Option<crate::math::colour::Colour>,
+}
+
+/// How far one affine map may miss the true one in a facet, px; facets are put together again where that allows it.
+const FLAT_PX: f64 = 0.1;
+
+/// No facet is halved more often than this.
+const MOST_HALVINGS: u32 = 20;
+
+impl Facet {
+    /// Twice its area on the page, positive where it turns from x to y.
+    pub fn area2(&self) -> f64 {
+        let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
+        (b - a).perp_dot(c - a)
+    }
+
+    /// Four points `reach` beside its middle, and what would be seen there if it went on so: a narrow facet tells with its
+    /// corners alone little of what is seen beside it.
+    pub fn around(&self, reach: f64, perspective: bool) -> Option<[Corner; 4]> {
+        let [a, b, c] = self.corners;
+        let weight = |corner: &Corner| if perspective { corner.image.z } else { 1.0 };
+        let (qa, qb, qc) = (weight(&a), weight(&b), weight(&c));
+        // What is seen is a quotient of two numbers that are linear on the page.
+        let (nb, nc) = ((b.place - a.place) * qb, (c.place - a.place) * qc);
+        let [u, v] = [b, c].map(|corner| (corner.image - a.image).truncate());
+        let whole = u.perp_dot(v);
+        let (along_x, along_y) = (DVec2::new(v.y, -u.y) / whole, DVec2::new(-v.x, u.x) / whole);
+        let middle = (u + v) / 3.0;
+        let seen = |at: DVec2| {
+            let share = [along_x.x * at.x + along_y.x * at.y, along_x.y * at.x + along_y.y * at.y];
+            let q = qa + (qb - qa) * share[0] + (qc - qa) * share[1];
+            let n = nb * share[0] + nc * share[1];
+            let image = (a.image.truncate() + at).extend(q);
+            Corner { image, place: a.place + n / q }
+        };
+        let beside = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|way| seen(middle + way * reach));
+        beside.iter().all(|corner| corner.place.is_finite()).then_some(beside)
+    }
+
+    /// The least and the greatest place that it shows.
+    pub fn places(&self) -> [DVec2; 2] {
+        let [a, b, c] = self.corners.map(|corner| corner.place);
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
+    /// The edges of the page that it lies beyond are none.
+    fn is_on(&self, frame: &Frame) -> bool {
+        let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        high.x >= 0.0 && high.y >= 0.0 && low.x <= frame.width && low.y <= frame.height
+    }
+
+    /// What is left of it where a side is cut, on both sides of that.
+    fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
+        let [a, b, c] = [0, 1, 2].map(|k| self.corners[(side + k) % 3]);
+        let middle = between(a, b, share, frame);
+        [Self { corners: [a, middle, c], ..*self }, Self { corners: [middle, b, c], ..*self }]
+    }
+
+    /// How much nearer what it shows gets along a px of the page, where that is most.
+    fn steepness(&self) -> f64 {
+        let [a, b, c] = self.corners.map(|corner| corner.image);
+        let (u, v) = (b - a, c - a);
+        let whole = u.truncate().perp_dot(v.truncate());
+        (DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / whole).length()
+    }
+
+    /// How far the page's midpoint of a side would be from where the side's own midpoint is seen, if it ran to where its plane
+    /// is nearer: sides across that are cut likewise, so that facets are as wide as long.
+    fn miss(&self, side: usize, steepness: f64) -> f64 {
+        let (a, b) = (self.corners[side].image, self.corners[(side + 1) % 3].image);
+        (a - b).truncate().length_squared() * steepness / (2.0 * (a.z + b.z)).abs()
+    }
+}
+
+/// A point of a side in space, as seen.
+fn between(a: Corner, b: Corner, share: f64, frame: &Frame) -> Corner {
+    // From the same end in both facets that have the side.
+    let order =
+        |p: DVec3, q: DVec3| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z)).is_gt();
+    let (a, b, share) = if order(a.image, b.image) { (b, a, 1.0 - share) } else { (a, b, share) };
+    let place = a.place.lerp(b.place, share);
+    if !frame.perspective {
+        return Corner { image: a.image.lerp(b.image, share), place };
+    }
+    let (wa, wb) = ((1.0 - share) / a.image.z, share / b.image.z);
+    let at = (a.image.truncate() * wa + b.image.truncate() * wb) / (wa + wb);
+    Corner { image: at.extend(1.0 / (wa + wb)), place }
+}
+
+/// The facets of faces that show a picture and may be seen.
+pub(super) fn facets(
+    mesh: &Mesh,
+    view: &View,
+    imaged: &Imaged,
+    px: f64,
+    may_be_seen: impl Fn(u32) -> bool,
+) -> Vec<Facet> {
+    let frame = &view.frame;
+    let mut facets = Vec::new();
+    let texels = imaged.texels();
+    let corners = |face: u32| -> Option<[DVec2; 3]> {
+        let uvs = mesh.corner_uvs.get(face as usize)?;
+        let [a, b, c] = uvs.map(|uv| texels.place(*mesh.uvs.get(uv as usize)?));
+        Some([a?, b?, c?])
+    };
+    let mut add = |face: u32, image: [DVec3; 3], places: [DVec2; 3]| {
+        let corners = [0, 1, 2].map(|k| Corner { image: image[k], place: places[k] });
+        let part = mesh.face_part[face as usize];
+        let facet = Facet { corners, part, colour: None };
+        let steepness = if frame.perspective { facet.steepness() } else { 0.0 };
+        halve(facet, frame, (px, steepness), 0, &mut facets);
+    };
+    let shows = |face: u32| {
+        mesh.paint(FaceId(face)) == imaged.paint && !mesh.is_degenerate(FaceId(face)) && may_be_seen(face)
+    };
+    for face in (0..mesh.triangles.len() as u32).filter(|face| shows(*face)) {
+        let image = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
+        if let Some(places) = corners(face).filter(|_| image.iter().all(|p| p.is_finite())) {
+            add(face, image, places);
+        }
+    }
+    for clipped in view.clipped.iter().filter(|clipped| shows(clipped.face.0)) {
+        let Some(places) = corners(clipped.face.0) else { continue };
+        let place = |p: DVec3| {
+            let weights = mesh.weights(clipped.face, frame.local_from_image(p));
+            places[0] * weights[0] + places[1] * weights[1] + places[2] * weights[2]
+        };
+        if clipped.points.iter().all(|p| p.is_finite()) {
+            add(clipped.face.0, clipped.points, clipped.points.map(place));
+        }
+    }
+    facets
+}
+
+/// Halves a facet until one affine map is right in all of it, and leaves out what is not on the page.
+fn halve(facet: Facet, frame: &Frame, (px, steepness): (f64, f64), depth: u32, facets: &mut Vec<Facet>) {
+    if !facet.is_on(frame) {
+        return;
+    }
+    let (side, miss) = [0, 1, 2]
+        .map(|side| (side, facet.miss(side, steepness)))
+        .into_iter()
+        .fold((0, 0.0), |worst, own| if own.1 > worst.1 { own } else { worst });
+    if miss <= FLAT_PX * px || depth == MOST_HALVINGS {
+        facets.push(facet);
+        return;
+    }
+    facet
+        .cut(side, 0.5, frame)
+        .into_iter()
+        .for_each(|half| halve(half, frame, (px, steepness), depth + 1, facets));
+}
+
+/// Cuts facets where the picture is repeated after `spans` texels along x and along y, so that none is longer than that.
+/// What shows a repetition less than `least` user units wide is left out: there all of the picture is seen at once.
+pub(super) fn cut_to_spans(
+    facets: Vec<Facet>,
+    spans: [Option<f64>; 2],
+    periods: [Option<f64>; 2],
+    least: f64,
+    frame: &Frame,
+) -> Vec<Facet> {
+    let mut open = facets;
+    open.reverse();
+    let mut done = Vec::with_capacity(open.len());
+    while let Some(facet) = open.pop() {
+        let [low, high] = facet.places();
+        let too_long = (0..2).find_map(|axis| {
+            let span = spans[axis].filter(|span| high[axis] - low[axis] > *span)?;
+            Some((axis, span))
+        });
+        let Some((axis, span)) = too_long else {
+            done.push(facet);
+            continue;
+        };
+        if !facet.is_on(frame) || shrinks(&facet, periods, least) {
+            continue;
+        }
+        let at = (f64::midpoint(low[axis], high[axis]) / span).round() * span;
+        // Where a multiple of the span lies within, it is cut there, elsewhere in the middle.
+        let at = if at > low[axis] && at < high[axis] { at } else { f64::midpoint(low[axis], high[axis]) };
+        let crosses = |side: &usize| {
+            let (a, b) = (facet.corners[*side].place[axis], facet.corners[(side + 1) % 3].place[axis]);
+            (a < at) != (b < at)
+        };
+        let length = |side: &usize| {
+            (facet.corners[*side].place[axis] - facet.corners[(side + 1) % 3].place[axis]).abs()
+        };
+        let longest = (0..3).filter(crosses).max_by(|a, b| length(a).total_cmp(&length(b)));
+        let Some(side) = longest.filter(|side| length(side) > 0.0) else {
+            done.push(facet);
+            continue;
+        };
+        let (a, b) = (facet.corners[side].place[axis], facet.corners[(side + 1) % 3].place[axis]);
+        open.extend(facet.cut(side, ((at - a) / (b - a)).clamp(0.01, 0.99), frame));
+        if done.len() + open.len() > MOST_FACETS {
+            break;
+        }
+    }
+    done
+}
+
+/// No picture is cut into more.
+const MOST_FACETS: usize = 1 << 19;
+
+/// Whether a repetition of the picture is less than so wide on a facet.
+fn shrinks(facet: &Facet, periods: [Option<f64>; 2], least: f64) -> bool {
+    let [a, b, c] = facet.corners;
+    let (p, q) = (b.place - a.place, c.place - a.place);
+    let whole = p.perp_dot(q);
+    let [on_page, along] = [b, c].map(|corner| (corner.image - a.image).truncate());
+    (0..2).any(|axis| {
+        let Some(period) = periods[axis] else { return false };
+        // How far on the page a step of a texel leads.
+        let step = if axis == 0 { (q.y, -p.y) } else { (-q.x, p.x) };
+        let way = (on_page * step.0 + along * step.1) / whole;
+        way.length() * period < least
+    })
+}
