@@ -104,6 +104,9 @@ pub const FEW_LEVELS: usize = 64;
 /// Where a tone of a gradient is this near to a level, its border is found.
 pub const GRADIENT_VALUE: f64 = 1e-5;
 
+/// Steps of a gradient that are narrower than this in the image (px) are drawn two or more as one.
+pub const STEP_PX: f64 = 1.0;
+
 /// How far points are left out of borders that only hatching has, or that are steps of a gradient, px.
 pub const THIN_BIN_PX: f64 = 0.1;
 

@@ -47,7 +47,7 @@ impl Shading {
     ) -> Self {
         let lighting = Lighting::new(scene, mesh, frame, light, tones.cast_shadows, warnings);
         let without = Material::default();
-        let materials: Vec<(ToneOptions, &Material, Option<Colour>)> = scene
+        let mut materials: Vec<(ToneOptions, &Material, Option<Colour>)> = scene
             .materials
             .iter()
             .chain([&without])
@@ -70,18 +70,28 @@ impl Shading {
             channels.push(Channel::Highlight);
         }
         let tint = lighting.tint();
-        let of = |index: usize, colour: Option<Colour>| {
-            let (own, material, instead) = materials.get(index).or(materials.last())?;
-            let colour = instead.or(colour).unwrap_or(material.colour);
-            let Material { emissive, gloss, .. } = **material;
-            let look = Look { colour, emissive, ambient: light.ambient, tint, gloss, hues };
-            Some(Tones::new(own, &look, &channels))
+        let tones_of = |materials: &[(ToneOptions, &Material, Option<Colour>)]| -> Vec<Tones> {
+            let of = |index: usize, colour: Option<Colour>| {
+                let (own, material, instead) = materials.get(index).or(materials.last())?;
+                let colour = instead.or(colour).unwrap_or(material.colour);
+                let Material { emissive, gloss, .. } = **material;
+                let look = Look { colour, emissive, ambient: light.ambient, tint, gloss, hues };
+                Some(Tones::new(own, &look, &channels))
+            };
+            if paints.is_empty() {
+                (0..materials.len()).filter_map(|index| of(index, None)).collect()
+            } else {
+                paints.iter().filter_map(|paint| of(paint.material.index(), Some(paint.colour))).collect()
+            }
         };
-        let tones_of_paints = if paints.is_empty() {
-            (0..materials.len()).filter_map(|index| of(index, None)).collect()
-        } else {
-            paints.iter().filter_map(|paint| of(paint.material.index(), Some(paint.colour))).collect()
-        };
+        let mut tones_of_paints = tones_of(&materials);
+        // All paints of a gradient keep the same steps: their tones end in the same places.
+        let shades = tones_of_paints.iter().map(Tones::shades).max().unwrap_or_default();
+        let fewer = |(own, ..): &(ToneOptions, &Material, Option<Colour>)| own.scale.clone().for_shades(shades);
+        if materials.iter().any(|material| fewer(material) != material.0.scale) {
+            materials.iter_mut().for_each(|material| material.0.scale = fewer(material));
+            tones_of_paints = tones_of(&materials);
+        }
         Self {
             tones: tones_of_paints,
             lighting: lighting.near_for_highlights(tones.highlight.near),

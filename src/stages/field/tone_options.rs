@@ -7,6 +7,7 @@ use super::ramp::{GREATEST_TONES, Strip, Table};
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
+use crate::math::tolerance;
 use crate::scene::material::Gloss;
 
 /// Into which tones the surface of a material falls, and what colours they have.
@@ -41,13 +42,27 @@ pub struct ToneOptions {
 pub enum Scale {
     /// At rising thresholds of the diffuse light.
     Thresholds(Vec<f64>),
-    /// At this many even steps of the diffuse light from 0 to 1.
+    /// At this many even steps of the diffuse light from 0 to 1; of a gradient at fewer, if its colours have no more shades.
     Steps(usize),
     /// At the borders between the columns of a strip of colours.
     Ramp(Strip),
     /// At the borders between the columns and rows of a table of colours, of the light of the
     /// first and of the second light.
     Table(Table),
+}
+
+impl Scale {
+    /// The scale for colours that run through so many shades: what is more than a few steps needs no more of them than
+    /// colours of 8 bits can tell apart.
+    #[must_use]
+    pub fn for_shades(self, shades: usize) -> Self {
+        match self {
+            Self::Steps(steps) if steps > tolerance::FEW_LEVELS + 2 => {
+                Self::Steps(steps.min((shades + 1).max(tolerance::FEW_LEVELS + 2)))
+            }
+            other => other,
+        }
+    }
 }
 
 /// Where the colours of tones come from; a ramp and a table bring their own.

@@ -126,6 +126,15 @@ impl Tones {
         self.colours.len() as u16
     }
 
+    /// How many shades its tones without highlights run through: steps of 1 in 255 that the channel takes which changes the most.
+    pub fn shades(&self) -> usize {
+        let plain = &self.colours[..self.plain.min(self.colours.len())];
+        let way = |channel: fn(&Colour) -> u8| -> usize {
+            plain.windows(2).map(|pair| usize::from(channel(&pair[0]).abs_diff(channel(&pair[1])))).sum()
+        };
+        way(|c| c.r).max(way(|c| c.g)).max(way(|c| c.b))
+    }
+
     /// The colour of a tone; the brightest where there is no such tone.
     pub fn colour(&self, tone: u16) -> Colour {
         let colour = self.colours.get(usize::from(tone)).or(self.colours.last());

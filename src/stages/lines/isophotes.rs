@@ -52,6 +52,8 @@ struct Band<'a> {
     channel: usize,
     shadowed: u32,
     levels: &'a [f64],
+    /// One in so many of them is drawn: the others are too near to it to be seen.
+    stride: usize,
     /// Values that are off by no more than this cannot be told apart.
     alike: f64,
     /// How far the curve may lie from where the level is, px.
@@ -178,7 +180,9 @@ impl<'a> Tracer<'a> {
                     (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
                 };
                 let shadowed = *shadowed;
-                let band = Band { face, channel, shadowed, levels, alike, near, exact, sides, spans, turns };
+                let stride = self.lit.stride(face, channel, levels, shadowed);
+                let band =
+                    Band { face, channel, shadowed, levels, stride, alike, near, exact, sides, spans, turns };
                 let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
                 self.cut(&band, nodes, 0);
             }
@@ -320,7 +324,8 @@ impl<'a> Tracer<'a> {
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let first = band.levels.partition_point(|level| *level <= low);
         let last = band.levels.partition_point(|level| *level <= high);
-        for level in &band.levels[first..last.max(first)] {
+        for number in (first..last).filter(|number| (number + 1) % band.stride == 0) {
+            let level = &band.levels[number];
             let above = nodes.map(|node| node.value >= *level);
             // The corner that is alone on its side, and the two others.
             let Some(alone) =

@@ -88,11 +88,38 @@ impl Lit<'_> {
     /// The tone of a point, and the bin of light in which it is hatched, 0 the darkest.
     #[must_use]
     pub fn tone_and_bin(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, u16) {
+        self.look(paint, point, shadowed, |_, _, band| band)
+    }
+
+    /// The tone and the bin of a point of a face, as they are shown there: steps of a gradient that are too narrow count as one.
+    #[must_use]
+    pub fn tone_and_bin_shown(
+        &self,
+        face: u32,
+        paint: PaintId,
+        point: &SurfacePoint,
+        shadowed: u32,
+    ) -> (u16, u16) {
+        let shown =
+            |channel, levels: &[f64], band| self.band_shown(face, channel, levels, band, shadowed);
+        self.look(paint, point, shadowed, shown)
+    }
+
+    /// The tone and the bin of a point; `shown` tells from a channel, its levels, and how many of them are reached as how
+    /// many that counts.
+    fn look(
+        &self,
+        paint: PaintId,
+        point: &SurfacePoint,
+        shadowed: u32,
+        shown: impl Fn(usize, &[f64], usize) -> usize,
+    ) -> (u16, u16) {
         let channels = self.shading.channels();
         let mut bands = [0u16; MOST_CHANNELS];
         for (channel, band) in bands.iter_mut().enumerate().take(channels) {
             let value = self.shading.value(channel, paint, point, shadowed);
-            *band = self.shading.levels(paint, channel).partition_point(|level| *level <= value) as u16;
+            let levels = self.shading.levels(paint, channel);
+            *band = shown(channel, levels, levels.partition_point(|level| *level <= value)) as u16;
         }
         let bin = self.shading.bins().and_then(|channel| bands.get(channel)).copied().unwrap_or_default();
         (self.shading.tone(paint, &bands[..channels.min(MOST_CHANNELS)]), bin)

@@ -15,6 +15,7 @@ pub mod lit;
 pub mod options;
 mod painted_face;
 pub mod smooth_contours;
+mod strides;
 pub mod surface;
 pub mod texture_borders;
 mod texture_scale;
