@@ -102,7 +102,7 @@ pub const BIN_VALUE: f64 = 1e-3;
 pub const FEW_LEVELS: usize = 64;
 
 /// Where a tone of a gradient is this near to a level, its border is found.
-pub const GRADIENT_VALUE: f64 = 1e-5;
+pub const GRADIENT_VALUE: f64 = 1e-4;
 
 /// Steps of a gradient that are narrower than this in the image (px) are drawn two or more as one.
 pub const STEP_PX: f64 = 1.0;

@@ -221,7 +221,9 @@ impl<'a> Fills<'a> {
     pub fn add_tone_borders(&self, lines: &mut FeatureLines) {
         let lit = self.lit();
         let seams = tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
-        isophotes::find(&lit, &self.masks, lines);
+        // What one sees through casts no shadow, and hides nothing from the second look.
+        let sees_through = !std::ptr::eq(self.casting, lit.mesh);
+        isophotes::find(&lit, &self.masks, sees_through, lines);
         texture_borders::find(&lit, seams, lines);
         self.shadows.lines.append_to(lit.mesh, lines);
     }

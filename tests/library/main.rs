@@ -20,6 +20,7 @@ mod fmt;
 mod glass;
 mod gltf;
 mod golden;
+mod gradients;
 mod halftone;
 mod hard_edges;
 mod hatching;

@@ -87,7 +87,8 @@ impl Shading {
         let mut tones_of_paints = tones_of(&materials);
         // All paints of a gradient keep the same steps: their tones end in the same places.
         let shades = tones_of_paints.iter().map(Tones::shades).max().unwrap_or_default();
-        let fewer = |(own, ..): &(ToneOptions, &Material, Option<Colour>)| own.scale.clone().for_shades(shades);
+        let fewer =
+            |(own, ..): &(ToneOptions, &Material, Option<Colour>)| own.scale.clone().for_shades(shades);
         if materials.iter().any(|material| fewer(material) != material.0.scale) {
             materials.iter_mut().for_each(|material| material.0.scale = fewer(material));
             tones_of_paints = tones_of(&materials);

@@ -9,17 +9,19 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::covered::in_sight;
 use super::tone_edges::segment;
 use super::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::field::SurfacePoint;
 use crate::math::tolerance;
 use crate::mesh::{FaceId, PaintId};
 
-/// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow.
-pub fn find(lit: &Lit, shadowed: &[u32], lines: &mut FeatureLines) {
+/// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow. With `sees_through` gradients have
+/// steps behind other faces too.
+pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) {
     const CHUNK: usize = 1 << 11;
     let count = lit.mesh.triangles.len();
-    let ready = Ready::new(lit, shadowed);
+    let ready = Ready::new(lit, shadowed, sees_through);
     let found: Vec<Vec<(u32, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
@@ -81,6 +83,8 @@ struct Ready {
     /// For each channel and each set of shadowed lights the values at all normals of a surface that
     /// turns its outside to the eye, then its inside; empty where values vary from place to place.
     values: Vec<Vec<[Vec<f64>; 2]>>,
+    /// Where there are gradients, which faces may be seen; empty if all of them.
+    in_sight: Vec<bool>,
 }
 
 /// A CSS px in user units, on a page of the usual size.
@@ -89,7 +93,7 @@ pub(super) fn page_px(lit: &Lit) -> f64 {
 }
 
 impl Ready {
-    fn new(lit: &Lit, shadowed: &[u32]) -> Self {
+    fn new(lit: &Lit, shadowed: &[u32], sees_through: bool) -> Self {
         // Values are the same for all paints.
         let paint = PaintId(0);
         let value = |channel: usize, normal: DVec3, shadowed: u32| {
@@ -109,6 +113,11 @@ impl Ready {
         Self {
             px: page_px(lit),
             values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
+            in_sight: if lit.shading.most_levels() > tolerance::FEW_LEVELS && !sees_through {
+                in_sight(lit.mesh, lit.view)
+            } else {
+                Vec::new()
+            },
         }
     }
 }
@@ -166,6 +175,10 @@ impl<'a> Tracer<'a> {
             if paints[..k].iter().any(|paint| shading.levels(*paint, channel) == levels) {
                 continue;
             }
+            let is_hidden = || self.ready.in_sight.get(face as usize) == Some(&false);
+            if self.lit.is_gradient(channel, levels) && is_hidden() {
+                continue;
+            }
             for (shadow, shadowed) in shadowed.iter().enumerate() {
                 if self.is_even(face, levels, channel, shadow) {
                     continue;
@@ -174,7 +187,7 @@ impl<'a> Tracer<'a> {
                 // Strokes of a hatching end there, one by one: less will do.
                 let (near, exact) = if shading.bins() == Some(channel) {
                     (tolerance::BIN_PX, tolerance::BIN_VALUE)
-                } else if levels.len() > tolerance::FEW_LEVELS {
+                } else if self.lit.is_gradient(channel, levels) {
                     (tolerance::BIN_PX, tolerance::GRADIENT_VALUE)
                 } else {
                     (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)

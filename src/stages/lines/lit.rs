@@ -100,8 +100,7 @@ impl Lit<'_> {
         point: &SurfacePoint,
         shadowed: u32,
     ) -> (u16, u16) {
-        let shown =
-            |channel, levels: &[f64], band| self.band_shown(face, channel, levels, band, shadowed);
+        let shown = |channel, levels: &[f64], band| self.band_shown(face, channel, levels, band, shadowed);
         self.look(paint, point, shadowed, shown)
     }
 

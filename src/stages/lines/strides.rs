@@ -13,10 +13,15 @@ use crate::math::tolerance;
 use crate::mesh::PaintId;
 
 impl Lit<'_> {
+    /// Whether the levels of a channel are so many that nobody sees one by one what they part.
+    pub(super) fn is_gradient(&self, channel: usize, levels: &[f64]) -> bool {
+        levels.len() > tolerance::FEW_LEVELS && self.shading.bins() != Some(channel)
+    }
+
     /// How many steps of a channel a face shows as one: a power of two, 1 unless it is a gradient.
     pub(super) fn stride(&self, face: u32, channel: usize, levels: &[f64], shadowed: u32) -> usize {
         let [first, .., last] = levels else { return 1 };
-        if levels.len() <= tolerance::FEW_LEVELS || self.shading.bins() == Some(channel) {
+        if !self.is_gradient(channel, levels) {
             return 1;
         }
         let points = self.mesh.triangles[face as usize].map(|v| self.view.points[v as usize]);

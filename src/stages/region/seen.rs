@@ -184,8 +184,11 @@ fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> L
     let (material, paint) = (mesh.face_material[face as usize], lit.paint(face, at));
     let point = lit.at(face, at);
     let (tone_lit, bin_lit) = lit.tone_and_bin_shown(face, paint, &point, 0);
-    let (tone_dark, bin_dark) =
-        if shadowed == 0 { (tone_lit, bin_lit) } else { lit.tone_and_bin_shown(face, paint, &point, shadowed) };
+    let (tone_dark, bin_dark) = if shadowed == 0 {
+        (tone_lit, bin_lit)
+    } else {
+        lit.tone_and_bin_shown(face, paint, &point, shadowed)
+    };
     let tone = if darkened.tones { tone_dark } else { tone_lit };
     let bin = if darkened.bins { bin_dark } else { bin_lit };
     let cast = tone != tone_lit;
