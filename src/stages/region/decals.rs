@@ -342,10 +342,10 @@ impl Walker<'_> {
             for j in low.y as i64..=high.y as i64 {
                 for i in low.x as i64..=high.x as i64 {
                     let p = *middle + figure.period * DVec2::new(i as f64, j as f64);
-                    // What lies on a face is known.
-                    if let Some((at, last, false)) = self.walk(face, p, |_| true) {
-                        let place = [i, j];
-                        found.push(Anchor { figure: number as u32, face: last, place, at, is_outer: true });
+                    // What lies on a face is known, but where it lies on the very border.
+                    if let Some((at, last, is_on)) = self.walk(face, p, |_| true) {
+                        let (figure, place) = (number as u32, [i, j]);
+                        found.push(Anchor { figure, face: last, place, at, is_outer: !is_on });
                     }
                 }
             }
