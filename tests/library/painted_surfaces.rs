@@ -374,7 +374,9 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
         let drawing = render(&model, &camera, &style).unwrap();
         assert_eq!(palette(&fills(&drawing)).len() % 2, 0, "both halves are painted");
         let drawn: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
-        let off = |p: Point| ((eye.world(p, 5.0).truncate() - 0.5).length() - 20.0 / 64.0).abs();
+        // Its middle is that of a texel.
+        let middle = glam::DVec2::new(32.5, 31.5) / 64.0;
+        let off = |p: Point| ((eye.world(p, 5.0).truncate() - middle).length() - 20.0 / 64.0).abs();
         let on_disc = drawn.iter().filter(|[a, b]| off(a.midpoint(*b)) < 0.012).count();
         assert_eq!(on_disc > 8, has_disc, "{table}: {on_disc} of {}", drawn.len());
         if has_disc {

@@ -10,7 +10,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::covered::in_sight;
-use super::tone_edges::segment;
+use super::line::segment;
 use super::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::field::SurfacePoint;
 use crate::math::tolerance;

@@ -80,6 +80,28 @@ impl FeatureSegment {
     }
 }
 
+/// A piece of a line between two tones or paints.
+pub(super) fn segment(
+    mesh: &Mesh,
+    face: u32,
+    hosts: [u32; 2],
+    kind: LineKind,
+    ends: [u32; 2],
+) -> FeatureSegment {
+    FeatureSegment {
+        ends,
+        hosts,
+        kind,
+        both_seen: true,
+        smooth: hosts[1] == NO_FACE,
+        origin: Origin::default(),
+        role: Role::Line,
+        strength: 180.0,
+        part: mesh.face_part[face as usize],
+        material: mesh.face_material[face as usize],
+    }
+}
+
 /// A contour of a rounded surface: a run of feature segments from head to tail, with the facing side
 /// of the surface on their left, seen from outside.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,8 +4,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::isophotes::page_px;
+use super::line::segment;
 use super::painted_face::{Piece, borders};
-use super::tone_edges::{Seam, segment};
+use super::tone_edges::Seam;
 use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE};
 use crate::mesh::FaceId;
 

@@ -47,7 +47,10 @@ struct Share {
     page: f64,
 }
 
-/// A picture has several scales where more of what is seen of it than this has texels more than [`FAR`] times as large, or as
+/// A picture has several scales where some of it is seen from so many times farther away than other parts, ...
+const DEEP: f64 = 4.0;
+
+/// ... and more of what is seen of it than this has texels more than [`FAR`] times as large, or as
 /// small, as they are in the mean.
 const SHARE: f64 = 0.04;
 
@@ -84,13 +87,20 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
     /// How large the texels of each picture are seen.
     pub fn scales(&self) -> Vec<Scale> {
         let means = self.means();
+        let single = |mean: f64| Scale { mean, range: None };
+        if !self.view.frame.perspective {
+            return means.into_iter().map(single).collect();
+        }
         let mut sums: Vec<FxHashMap<i32, f64>> = vec![FxHashMap::default(); means.len()];
+        let mut depths = vec![[f64::INFINITY, 0.0_f64]; means.len()];
         for face in 0..self.mesh.triangles.len() as u32 {
             if let Some((number, share)) = self.share(face) {
-                self.each_piece(face, share, |density, area| {
+                self.each_piece(face, share, |density, depth, area| {
                     let step = (power_of_two(density) * 4.0).round();
                     let step = step.clamp(4.0 * f64::from(LARGEST), 4.0 * f64::from(SMALLEST));
                     *sums[number].entry(step as i32).or_default() += area;
+                    let [near, far] = &mut depths[number];
+                    (*near, *far) = (near.min(depth), far.max(depth));
                 });
             }
         }
@@ -110,7 +120,11 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         };
         let ranges = sums.into_iter().zip(&means).map(range);
         let ranges: Vec<Option<[i32; 2]>> = ranges.collect();
-        means.into_iter().zip(ranges).map(|(mean, range)| Scale { mean, range }).collect()
+        let scale = |((mean, range), [near, far]): ((f64, Option<[i32; 2]>), [f64; 2])| Scale {
+            mean,
+            range: range.filter(|_| far > DEEP * near),
+        };
+        means.into_iter().zip(ranges).zip(depths).map(scale).collect()
     }
 
     /// How many texels of each picture lie along a px, in the mean over what is seen of the page.
@@ -175,8 +189,8 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         if self.view.frame.perspective { depth } else { 1.0 }
     }
 
-    /// Goes through a face piece by piece: how many texels lie along a px there, and how large the piece is on the page.
-    fn each_piece(&self, face: u32, share: Share, mut call: impl FnMut(f64, f64)) {
+    /// Goes through a face piece by piece: how many texels lie along a px there, how deep, and how large the piece is on the page.
+    fn each_piece(&self, face: u32, share: Share, mut call: impl FnMut(f64, f64, f64)) {
         let frame = &self.view.frame;
         let points = self.mesh.triangles[face as usize].map(|v| self.view.points[v as usize]);
         let [p, q, r] = points.map(DVec3::truncate);
@@ -198,7 +212,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
             }
             let depth = self.shrinks(on.z);
             let (on_px, slanted) = (on_px * depth.powi(3).sqrt(), slanted * depth * depth);
-            call(on_px.max(slanted), share.page / depth.powi(3) / (count * count));
+            call(on_px.max(slanted), depth, share.page / depth.powi(3) / (count * count));
         };
         let third = 1.0 / 3.0;
         for i in 0..count as u32 {

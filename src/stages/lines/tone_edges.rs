@@ -4,12 +4,12 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
+use super::line::segment;
 use super::textured::Textured;
-use super::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE, Role, painted_face};
+use super::{FeatureLines, FeatureSegment, LineKind, Lit, painted_face};
 use crate::field::ShadedNormals;
 use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
 use crate::scene::Paints;
-use crate::shape::Origin;
 
 /// Places along an edge where both its sides are looked at. What differs between them only ends
 /// there: the border runs on to the end of the edge, with the same look on both sides.
@@ -81,28 +81,6 @@ pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut Featu
     let (cut, whole): (Vec<Seam>, Vec<Seam>) = found.into_iter().partition(|seam| !seam.pieces.is_empty());
     lines.segments.extend(whole.into_iter().map(|seam| seam.segment));
     cut
-}
-
-/// A piece of a line between two tones or paints.
-pub(super) fn segment(
-    mesh: &Mesh,
-    face: u32,
-    hosts: [u32; 2],
-    kind: LineKind,
-    ends: [u32; 2],
-) -> FeatureSegment {
-    FeatureSegment {
-        ends,
-        hosts,
-        kind,
-        both_seen: true,
-        smooth: hosts[1] == NO_FACE,
-        origin: Origin::default(),
-        role: Role::Line,
-        strength: 180.0,
-        part: mesh.face_part[face as usize],
-        material: mesh.face_material[face as usize],
-    }
 }
 
 fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<Seam> {
