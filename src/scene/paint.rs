@@ -374,7 +374,7 @@ mod tests {
 
     use super::*;
     use crate::mesh::Mesh;
-    use crate::scene::Part;
+    use crate::scene::{Geometry, Part};
 
     const NONE: u32 = u32::MAX;
 
