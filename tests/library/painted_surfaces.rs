@@ -372,7 +372,9 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
     ] {
         let style = sheet(table);
         let drawing = render(&model, &camera, &style).unwrap();
-        assert_eq!(palette(&fills(&drawing)).len() % 2, 0, "both halves are painted");
+        // What is too fine for a smooth line is too fine for its paint.
+        let is_smooth = table.contains("smooth");
+        assert!(is_smooth || palette(&fills(&drawing)).len() % 2 == 0, "both halves are painted");
         let drawn: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
         // Its middle is that of a texel.
         let middle = glam::DVec2::new(32.5, 31.5) / 64.0;
