@@ -91,8 +91,8 @@ mod tests {
     fn two_halves_of_a_square_are_a_square() {
         let line = |points: &[[f64; 2]]| {
             let mut path = BezPath::new();
-            path.move_to(points[0]);
-            points[1..].iter().for_each(|p| path.line_to(*p));
+            path.move_to((points[0][0], points[0][1]));
+            points[1..].iter().for_each(|p| path.line_to((p[0], p[1])));
             path
         };
         let (part, material, paint) = (PartId(0), MaterialId(0), PaintId(0));
