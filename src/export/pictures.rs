@@ -38,13 +38,12 @@ impl<'a> Pictures<'a> {
         for (_, image) in marks(drawing) {
             let picture: &Picture = &image.picture;
             let Self { list, numbers } = &mut pictures;
-            if !numbers.contains_key(&address(&image.picture)) {
-                let number = list.iter().position(|known| **known == *picture).unwrap_or_else(|| {
+            numbers.entry(address(&image.picture)).or_insert_with(|| {
+                list.iter().position(|known| **known == *picture).unwrap_or_else(|| {
                     list.push(picture);
                     list.len() - 1
-                });
-                numbers.insert(address(&image.picture), number);
-            }
+                })
+            });
         }
         pictures
     }

@@ -15,15 +15,15 @@ pub(crate) fn may_be_seen(mesh: &Mesh, screen: &Screen) -> Vec<bool> {
             seen[face as usize] = true;
         }
     }
-    for face in 0..mesh.triangles.len() {
-        if seen[face] || mesh.is_degenerate(FaceId(face as u32)) {
+    for (face, seen) in seen.iter_mut().enumerate() {
+        if *seen || mesh.is_degenerate(FaceId(face as u32)) {
             continue;
         }
         let ([a, b, c], _) = screen.triangle(face);
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area.abs() < SMALL {
             let middle = [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0);
-            seen[face] = is_near_front(&buffer, middle);
+            *seen = is_near_front(&buffer, middle);
         }
     }
     seen
