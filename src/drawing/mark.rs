@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use kurbo::{Affine, BezPath};
+use kurbo::{Affine, BezPath, Point};
 use serde::{Deserialize, Serialize};
 
 use crate::math::colour::Colour;
@@ -91,6 +91,38 @@ pub enum Shows {
     Colour(Colour),
 }
 
+/// Colours that change along a line, and are the same across it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gradient {
+    /// Where the first stop is.
+    pub start: Point,
+    /// Where the last stop is.
+    pub end: Point,
+    /// Places from 0 at the start to 1 at the end, rising, and their colours, between which channels as written are linear. All are
+    /// as opaque as the first; beyond the ends the colour stays.
+    pub stops: Vec<(f64, Colour)>,
+}
+
+impl Gradient {
+    /// The colour in its middle.
+    #[must_use]
+    pub fn middle(&self) -> Colour {
+        self.at(0.5)
+    }
+
+    /// The colour at a place from 0 to 1.
+    #[must_use]
+    pub fn at(&self, place: f64) -> Colour {
+        let after = self.stops.partition_point(|(at, _)| *at <= place);
+        let below = after.checked_sub(1).and_then(|k| self.stops.get(k));
+        match (below, self.stops.get(after)) {
+            (Some((from, a)), Some((to, b))) => a.mix(*b, (place - from) / (to - from)),
+            (Some((_, one)), None) | (None, Some((_, one))) => *one,
+            (None, None) => Colour::BLACK,
+        }
+    }
+}
+
 /// How a mark is painted.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Paint {
@@ -98,6 +130,8 @@ pub enum Paint {
     Stroke(StrokePaint),
     /// A filled outline.
     Fill(Colour),
+    /// A filled outline whose colour changes along a line.
+    Gradient(Gradient),
     /// A line of varying width: the filled outline of a line.
     Outline(OutlinePaint),
     /// A picture.

@@ -15,7 +15,7 @@ pub mod page;
 
 pub use length::Length;
 pub use mark::{
-    Cap, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Provenance, Shows, StrokePaint,
+    Cap, Gradient, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Provenance, Shows, StrokePaint,
 };
 pub use page::{Page, Unit};
 

@@ -58,6 +58,11 @@ impl Attributes {
                 Value::Cap(stroke.cap),
                 Value::Join(stroke.join),
             ]),
+            // The gradient is the mark's own: it is written beside these.
+            Paint::Gradient(gradient) => {
+                let opacity = gradient.stops.first().map_or(255, |(_, colour)| colour.a);
+                Self([Any, Value::Opacity(opacity), Value::None, Any, Any, Any, Any])
+            }
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => Self([
                 Value::Colour(opaque(*colour)),
                 Value::Opacity(colour.a),
@@ -155,7 +160,8 @@ pub(super) fn alike(a: &Mark, b: &Mark) -> bool {
             let same_width = a.width == b.width || rounded(a.width) == rounded(b.width);
             same_width && a.colour == b.colour && a.cap == b.cap && a.join == b.join
         }
-        (Paint::Stroke(_) | Paint::Image(_), _) | (_, Paint::Stroke(_) | Paint::Image(_)) => false,
+        (Paint::Stroke(_) | Paint::Gradient(_) | Paint::Image(_), _)
+        | (_, Paint::Stroke(_) | Paint::Gradient(_) | Paint::Image(_)) => false,
         // The outline of a line is filled as a region is.
         (a, b) => filled(a) == filled(b),
     }
@@ -164,7 +170,7 @@ pub(super) fn alike(a: &Mark, b: &Mark) -> bool {
 /// The colour that a path is filled with.
 fn filled(paint: &Paint) -> Option<Colour> {
     match paint {
-        Paint::Stroke(_) | Paint::Image(_) => None,
+        Paint::Stroke(_) | Paint::Gradient(_) | Paint::Image(_) => None,
         Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => Some(*colour),
     }
 }

@@ -98,7 +98,7 @@ fn form(mark: &Mark, ordered: bool) -> Form {
         _ if ordered => Form::Kept,
         Paint::Stroke(stroke) if stroke.dash.is_empty() => Form::Stroked,
         Paint::Stroke(_) => Form::Kept,
-        Paint::Fill(_) | Paint::Outline(_) | Paint::Image(_) => Form::Filled,
+        Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) | Paint::Outline(_) => Form::Filled,
     }
 }
 
@@ -190,7 +190,8 @@ struct Called<'a> {
 impl<'a> Called<'a> {
     fn of(mark: &'a Mark) -> Self {
         let Provenance { classes, tone, part, material, .. } = &mark.provenance;
-        let material = material.as_deref().filter(|_| matches!(mark.paint, Paint::Fill(_)));
+        let material =
+            material.as_deref().filter(|_| matches!(mark.paint, Paint::Fill(_) | Paint::Gradient(_)));
         Self { classes, tone: *tone, part: part.as_deref(), material }
     }
 

@@ -6,14 +6,15 @@
 use std::collections::BTreeSet;
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
+use pdf_writer::types::FunctionShadingType;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use rayon::prelude::*;
 
 use super::SvgOptions;
 use super::number::Decimals;
-use super::pdf_content::{Writer, picture_name, state_name};
+use super::pdf_content::{Writer, pattern_name, picture_name, state_name};
 use super::pdf_pictures::{Crop, Crops};
-use crate::drawing::{Drawing, LayerKind, Mark, OutlinePaint, Paint, Unit};
+use crate::drawing::{Drawing, Gradient, LayerKind, Mark, OutlinePaint, Paint, Unit};
 
 /// Points, of which there are 72 to the inch, in a user unit.
 const POINTS_PER_PX: f64 = 0.75;
@@ -71,6 +72,8 @@ impl Drawing {
         let opacities = self.opacities();
         let state_ids = take(opacities.len());
         let (picture_ids, mask_ids) = (take(pictures.list.len()), take(pictures.list.len()));
+        let gradients = self.gradients();
+        let (pattern_ids, function_ids) = (take(gradients.len()), take(gradients.len()));
 
         let mut pdf = Pdf::new();
         write_catalog(&mut pdf, &group_ids);
@@ -93,6 +96,13 @@ impl Drawing {
             states.pair(Name(state_name(*opacity).as_bytes()), *id);
         }
         states.finish();
+        if !gradients.is_empty() {
+            let mut patterns = resources.patterns();
+            for (number, id) in pattern_ids.iter().enumerate() {
+                patterns.pair(Name(pattern_name(number).as_bytes()), *id);
+            }
+            patterns.finish();
+        }
         let mut properties = resources.insert(Name(b"Properties")).dict();
         for (index, id) in group_ids.iter().enumerate() {
             properties.pair(Name(group_name(index).as_bytes()), *id);
@@ -111,6 +121,11 @@ impl Drawing {
         for (opacity, id) in opacities.iter().zip(&state_ids) {
             let alpha = f32::from(*opacity) / 255.0;
             pdf.ext_graphics(*id).stroking_alpha(alpha).non_stroking_alpha(alpha);
+        }
+        for ((gradient, id), function) in gradients.iter().zip(&pattern_ids).zip(&function_ids) {
+            // Patterns know the page as it is before any matrix of its content.
+            let matrix = [scale, 0.0, 0.0, -scale, 0.0, self.page.height * scale].map(|x| x as f32);
+            write_gradient(&mut pdf, gradient, matrix, *id, *function);
         }
         for (group, id) in groups.iter().zip(&group_ids) {
             let mut entry = pdf.indirect(*id).dict();
@@ -154,11 +169,19 @@ impl Drawing {
             })
             .collect();
         let last = pieces.len().saturating_sub(1);
+        // How many gradients there are before each piece.
+        let graded =
+            |marks: &[Mark]| marks.iter().filter(|mark| matches!(mark.paint, Paint::Gradient(_))).count();
+        let before: Vec<usize> = pieces
+            .iter()
+            .scan(0, |sum, (_, marks, ..)| Some(std::mem::replace(sum, *sum + graded(marks))))
+            .collect();
         pieces
             .par_iter()
+            .zip(&before)
             .enumerate()
-            .map(|(at, (index, marks, opens, closes))| {
-                let mut writer = Writer::new(decimals);
+            .map(|(at, ((index, marks, opens, closes), before))| {
+                let mut writer = Writer::new(decimals, *before);
                 if at == 0 {
                     let top = fine.text(self.page.height * scale);
                     let scale = fine.text(scale);
@@ -188,17 +211,59 @@ impl Drawing {
             .collect()
     }
 
+    /// The gradients of all marks.
+    fn gradients<'a>(&'a self) -> Vec<&'a Gradient> {
+        let marks = self.layers.iter().flat_map(|layer| &layer.marks);
+        // Marks without a path are not painted, but their gradients count.
+        let of = |mark: &'a Mark| match &mark.paint {
+            Paint::Gradient(gradient) => Some(gradient),
+            _ => None,
+        };
+        marks.filter_map(of).collect()
+    }
+
     /// All opacities that are used.
     fn opacities(&self) -> BTreeSet<u8> {
         let marks = self.layers.iter().flat_map(|layer| &layer.marks);
         let of_marks = marks.map(|mark| match &mark.paint {
             Paint::Stroke(stroke) => stroke.colour.a,
+            Paint::Gradient(gradient) => gradient.stops.first().map_or(255, |(_, colour)| colour.a),
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => colour.a,
             Paint::Image(_) => 255,
         });
         of_marks.chain(self.page.background.map(|colour| colour.a)).collect()
     }
 }
+
+/// A gradient: a shading along its line, with its colours sampled evenly.
+fn write_gradient(pdf: &mut Pdf, gradient: &Gradient, matrix: [f32; 6], id: Ref, function: Ref) {
+    let mut pattern = pdf.shading_pattern(id);
+    pattern.matrix(matrix);
+    let mut shading = pattern.function_shading();
+    shading.shading_type(FunctionShadingType::Axial);
+    shading.color_space().device_rgb();
+    let Gradient { start, end, .. } = gradient;
+    shading.coords([start.x, start.y, end.x, end.y].map(|x| x as f32));
+    shading.function(function).extend([true, true]);
+    shading.finish();
+    pattern.finish();
+    let place = |k: usize| k as f64 / (SHADES - 1) as f64;
+    let samples: Vec<u8> = (0..SHADES)
+        .flat_map(|k| {
+            let colour = gradient.at(place(k));
+            [colour.r, colour.g, colour.b]
+        })
+        .collect();
+    let samples = compress_to_vec_zlib(&samples, DEFLATE_LEVEL);
+    let mut sampled = pdf.sampled_function(function, &samples);
+    sampled.filter(Filter::FlateDecode);
+    sampled.domain([0.0, 1.0]).range([0.0, 1.0, 0.0, 1.0, 0.0, 1.0]);
+    sampled.size([SHADES as i32]).bits_per_sample(8);
+    sampled.finish();
+}
+
+/// Samples of the colours of a gradient.
+const SHADES: usize = 128;
 
 /// The root of the document: its pages, and its layers in their order from the front, as
 /// programs list them.

@@ -22,17 +22,20 @@ pub(super) struct Writer {
     stroke: Option<StrokePaint>,
     fill: Option<Colour>,
     opacity: Option<u8>,
+    /// The number of the next gradient.
+    patterns: usize,
 }
 
 impl Writer {
-    /// Coordinates get so many decimals.
-    pub(super) fn new(decimals: Decimals) -> Self {
-        Self { out: Vec::new(), decimals, stroke: None, fill: None, opacity: None }
+    /// Coordinates get so many decimals; gradients are numbered on from `patterns`.
+    pub(super) fn new(decimals: Decimals, patterns: usize) -> Self {
+        Self { out: Vec::new(), decimals, stroke: None, fill: None, opacity: None, patterns }
     }
 
     /// Paints one mark of a drawing with those pictures.
     pub(super) fn mark(&mut self, mark: &Mark, pictures: &Crops) {
         if mark.path.elements().is_empty() {
+            self.patterns += usize::from(matches!(mark.paint, Paint::Gradient(_)));
             return;
         }
         match &mark.paint {
@@ -41,6 +44,15 @@ impl Writer {
                 self.set_stroke(stroke);
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"S\n");
+            }
+            Paint::Gradient(gradient) => {
+                self.set_opacity(gradient.stops.first().map_or(255, |(_, colour)| colour.a));
+                let name = pattern_name(self.patterns);
+                self.patterns += 1;
+                self.fill = None;
+                self.out.extend_from_slice(format!("/Pattern cs /{name} scn\n").as_bytes());
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"f\n");
             }
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => {
                 self.set_opacity(colour.a);
@@ -209,6 +221,11 @@ pub(super) fn picture_name(number: usize) -> String {
     format!("P{number}")
 }
 
+/// Name of a gradient, by its number in the order of marks.
+pub(super) fn pattern_name(number: usize) -> String {
+    format!("G{number}")
+}
+
 /// Name of the graphics state of an opacity.
 pub(super) fn state_name(opacity: u8) -> String {
     format!("A{opacity}")
@@ -224,7 +241,7 @@ mod tests {
     const PAGE: Page = Page { width: 9.0, height: 9.0, unit: Unit::Px, background: None };
 
     fn content(marks: &[(&str, Paint)]) -> String {
-        let mut writer = Writer::new(Decimals::new(2));
+        let mut writer = Writer::new(Decimals::new(2), 0);
         for (data, paint) in marks {
             let path = BezPath::from_svg(data).unwrap();
             let mark = Mark { path, paint: paint.clone(), provenance: Provenance::default() };

@@ -11,10 +11,13 @@ use super::order::{self, AlikeMarks, CHUNK, Paths};
 use super::pictures::Named;
 use super::svg_image;
 use super::xml::{Ids, escape};
-use crate::drawing::{Drawing, Layer, LayerKind, Mark, Paint, Unit};
+use crate::drawing::{Drawing, Gradient, Layer, LayerKind, Mark, Paint, Unit};
 
 /// Decimals of dash lengths: finer than coordinates, since they add up along a path.
 const DASH_DECIMALS: u8 = 3;
+
+/// Decimals of the places of stops in a gradient.
+const STOP_DECIMALS: u8 = 4;
 
 /// What the groups of the document are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -98,12 +101,15 @@ impl Drawing {
                     let marks: Vec<&Mark> = layer.marks.iter().collect();
                     let (id, label) = self.names(layer);
                     open_layer(&mut out, &mut ids, &id, &label);
-                    Group { marks: &marks, ordered: layer.ordered, decimals, named }.write(&mut out, b"");
+                    let fills = gradient_ids(&marks, &mut ids);
+                    let group = Group { marks: &marks, ordered: layer.ordered, decimals, named, fills };
+                    group.write(&mut out, b"");
                 }
             }
             Grouping::Part => {
                 for PartGroup { name, marks, ordered } in self.by_part() {
-                    let group = Group { marks: &marks, ordered, decimals, named };
+                    let fills = gradient_ids(&marks, &mut ids);
+                    let group = Group { marks: &marks, ordered, decimals, named, fills };
                     match name {
                         Some(name) => {
                             out.extend_from_slice(b"<g id=\"");
@@ -231,6 +237,14 @@ struct Group<'a> {
     ordered: bool,
     decimals: Decimals,
     named: &'a Named<'a>,
+    /// The ids of the gradients of marks, by the number of the mark.
+    fills: FxHashMap<usize, String>,
+}
+
+/// Ids for the gradients of marks.
+fn gradient_ids(marks: &[&Mark], ids: &mut Ids) -> FxHashMap<usize, String> {
+    let graded = marks.iter().enumerate().filter(|(_, mark)| matches!(mark.paint, Paint::Gradient(_)));
+    graded.map(|(index, _)| (index, ids.take("gradient"))).collect()
 }
 
 impl Group<'_> {
@@ -243,6 +257,7 @@ impl Group<'_> {
         common.write(out);
         out.extend_from_slice(b">\n");
         out.extend_from_slice(head);
+        self.write_gradients(out);
         let paths = Paths::of(self.marks, self.ordered, self.decimals);
         let runs = order::runs(self.marks);
         let order = match self.ordered {
@@ -260,6 +275,20 @@ impl Group<'_> {
             out.extend_from_slice(&piece);
         }
         out.extend_from_slice(b"</g>\n");
+    }
+
+    /// The gradients of the group's marks.
+    fn write_gradients(&self, out: &mut Vec<u8>) {
+        if self.fills.is_empty() {
+            return;
+        }
+        out.extend_from_slice(b"<defs>\n");
+        for (index, mark) in self.marks.iter().enumerate() {
+            if let (Paint::Gradient(gradient), Some(id)) = (&mark.paint, self.fills.get(&index)) {
+                write_gradient(out, gradient, id, self.decimals);
+            }
+        }
+        out.extend_from_slice(b"</defs>\n");
     }
 
     /// Some marks of the group, the first of which is the `from`th; neighbours that are painted alike, but unlike the
@@ -289,7 +318,8 @@ impl Group<'_> {
                     svg_image::write(out, (mark, image), attributes, paths.data(index), named, *decimals);
                     continue;
                 }
-                write_mark(out, mark, outer, attributes, [paths.axis(index), paths.data(index)]);
+                let texts = [paths.axis(index), paths.data(index)];
+                write_mark(out, mark, outer, attributes, self.fills.get(&index), texts);
             }
             if grouped && range.end <= to {
                 out.extend_from_slice(b"</g>\n");
@@ -305,12 +335,33 @@ struct Shared<'a> {
     runs: &'a [AlikeMarks],
 }
 
+/// One gradient.
+fn write_gradient(out: &mut Vec<u8>, gradient: &Gradient, id: &str, decimals: Decimals) {
+    let number = |value: f64| decimals.text(value);
+    let Gradient { start, end, stops } = gradient;
+    let line = format!(
+        "<linearGradient id=\"{id}\" gradientUnits=\"userSpaceOnUse\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\">",
+        number(start.x),
+        number(start.y),
+        number(end.x),
+        number(end.y),
+    );
+    out.extend_from_slice(line.as_bytes());
+    for (place, colour) in stops {
+        let place = Decimals::new(STOP_DECIMALS).text(*place);
+        let stop = format!("<stop offset=\"{place}\" stop-color=\"{}\"/>", hex(*colour));
+        out.extend_from_slice(stop.as_bytes());
+    }
+    out.extend_from_slice(b"</linearGradient>\n");
+}
+
 /// One path.
 fn write_mark(
     out: &mut Vec<u8>,
     mark: &Mark,
     outer: &Attributes,
     attributes: &Attributes,
+    gradient: Option<&String>,
     [axis, data]: [&[u8]; 2],
 ) {
     let provenance = &mark.provenance;
@@ -329,7 +380,7 @@ fn write_mark(
     if let Some(part) = &provenance.part {
         named(b" data-part=\"", part);
     }
-    if let (Paint::Fill(_), Some(material)) = (&mark.paint, &provenance.material) {
+    if let (Paint::Fill(_) | Paint::Gradient(_), Some(material)) = (&mark.paint, &provenance.material) {
         named(b" data-material=\"", material);
     }
     if let Some(tone) = provenance.tone {
@@ -347,6 +398,9 @@ fn write_mark(
         out.push(b'"');
     }
     attributes.write_over(outer, out);
+    if let Some(id) = gradient {
+        out.extend_from_slice(format!(" fill=\"url(#{id})\"").as_bytes());
+    }
     if let Paint::Stroke(stroke) = &mark.paint
         && !stroke.dash.is_empty()
     {

@@ -107,8 +107,14 @@ pub const GRADIENT_VALUE: f64 = 1e-4;
 /// Steps of a gradient that are narrower than this in the image (px) are drawn two or more as one.
 pub const STEP_PX: f64 = 1.0;
 
-/// How far points are left out of borders that only hatching has, or that are steps of a gradient, px.
+/// Borders of steps of light that are joined to a gradient lie no farther than this (px) from straight lines across it.
+pub const RAMP_PX: f64 = 0.35;
+
+/// How far points are left out of borders that only hatching has, px.
 pub const THIN_BIN_PX: f64 = 0.1;
+
+/// How far points are left out of the borders of steps of a gradient, px.
+pub const THIN_STEP_PX: f64 = 0.2;
 
 /// Regions are cut on a grid of this many steps along the longer side of the frame.
 pub const REGION_STEPS: f64 = 1_048_576.0;

@@ -16,7 +16,9 @@ use crate::lines::{
 use crate::math::colour::Colour;
 use crate::mesh::solid::solid_parts;
 use crate::mesh::{EdgeSet, Mesh, PaintId};
-use crate::region::{self, Darkened, Look, Region, Regions, Seen, paint::PaintContext};
+use crate::region::{
+    self, Darkened, Look, Region, RegionOptions, Regions, Seen, StepsAs, paint::PaintContext,
+};
 use crate::scene::{Camera, Paint, Scene, paint::Paints};
 use crate::shadow::Shadows;
 use crate::style::Style;
@@ -248,7 +250,9 @@ impl<'a> Fills<'a> {
         style: &Style,
         pick: impl Fn(&Look) -> bool,
     ) -> Vec<(BezPath, Colour, Look, Provenance)> {
-        let regions = region::gather(seen, &style.region, &style.chain, page.unit);
+        // Each outline has one colour.
+        let options = RegionOptions { steps_as: StepsAs::Bands, ..style.region.clone() };
+        let regions = region::gather(seen, &options, &style.chain, page.unit);
         let context = self.paint_context(page, camera);
         region::paint::outlines(&regions, context.offset, 0.0, |region| pick(&region.look))
             .into_iter()

@@ -15,7 +15,7 @@ use crate::hatch::Pattern;
 use crate::math::colour::Colour;
 use crate::math::factor::Factor;
 use crate::math::glob::Glob;
-use crate::region::{RegionOptions, Seams};
+use crate::region::{RegionOptions, Seams, StepsAs};
 use crate::scene::{TextureFill, TextureOptions};
 
 /// The table `[fills]`.
@@ -40,6 +40,7 @@ pub(super) struct FillsTable {
     modulate: Option<f64>,
     highlight: HighlightTable,
     cast_shadows: bool,
+    steps_as: Option<StepsAs>,
     seams: Option<Seams>,
     underlap: Option<Length>,
     crumb: Option<Length>,
@@ -119,6 +120,7 @@ impl FillsTable {
         };
         let region = RegionOptions {
             enabled: self.enabled,
+            steps_as: self.steps_as.unwrap_or(region.steps_as),
             seams: self.seams.unwrap_or(region.seams),
             underlap: self.underlap.unwrap_or(region.underlap),
             crumb: self.crumb.unwrap_or(region.crumb),

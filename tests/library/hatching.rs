@@ -467,6 +467,7 @@ fn lines_in(drawing: &Drawing, wanted: Colour) -> BTreeMap<&'static str, usize> 
             Paint::Outline(outline) => outline.colour,
             Paint::Fill(colour) => *colour,
             Paint::Image(_) => panic!("a picture"),
+            Paint::Gradient(_) => panic!("hatching has one colour"),
         };
         if colour == wanted {
             *count.entry(mark.provenance.classes[0]).or_default() += 1;

@@ -428,7 +428,7 @@ fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
     let width = |mark: &Mark| match &mark.paint {
         Paint::Outline(outline) => outline.width,
         Paint::Stroke(stroke) => stroke.width,
-        Paint::Fill(_) | Paint::Image(_) => 0.0,
+        Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) => 0.0,
     };
     assert!(!inner.is_empty() && !outer.is_empty());
     // The frame is 5 across, and 0.6 lie between.
@@ -672,6 +672,7 @@ fn shades_follow_what_is_beside_the_line() {
                 Paint::Stroke(stroke) => stroke.colour,
                 Paint::Fill(colour) => *colour,
                 Paint::Image(_) => panic!("a picture"),
+                Paint::Gradient(_) => panic!("ink has one colour"),
             };
             (colour, reach.x0, reach.x1)
         })

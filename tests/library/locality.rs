@@ -50,6 +50,9 @@ fn written(layer: LayerKind, mark: &Mark) -> String {
         Paint::Fill(colour) => {
             let _ = write!(text, "fill {colour:?}");
         }
+        Paint::Gradient(gradient) => {
+            let _ = write!(text, "gradient {gradient:.3?}");
+        }
         Paint::Outline(paint) => {
             let _ = write!(text, "outline {:.3} {:?}", paint.width, paint.colour);
         }

@@ -18,7 +18,7 @@ fn widths(sets: &[&str]) -> Vec<f64> {
         .map(|mark| match &mark.paint {
             Paint::Stroke(stroke) => stroke.width,
             Paint::Outline(outline) => outline.width,
-            Paint::Fill(_) | Paint::Image(_) => panic!("a line"),
+            Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) => panic!("a line"),
         })
         .collect()
 }

@@ -20,6 +20,7 @@ pub mod options;
 pub mod paint;
 mod piece;
 mod piece_grid;
+mod ramps;
 pub mod samples;
 pub mod seen;
 mod thin;
@@ -29,8 +30,9 @@ use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
 pub use ground::Ground;
-pub use options::{RegionOptions, Seams};
+pub use options::{RegionOptions, Seams, StepsAs};
 pub use paint::paint;
+pub use ramps::Ramp;
 pub use samples::Samples;
 pub use seen::{Darkened, Look, Seen, see};
 
@@ -63,6 +65,8 @@ pub struct Region {
     /// The loops around it and around its holes: borders by their number in [`Regions::borders`], and
     /// whether they are run through from their start.
     pub loops: Vec<Vec<(u32, bool)>>,
+    /// How its tone changes across it, where it is several steps of light.
+    pub ramp: Option<Ramp>,
 }
 
 /// All regions of a drawing.
@@ -79,7 +83,17 @@ pub struct Regions {
 /// Gathers what looks alike: neighbours that differ in their bin of light only are one region.
 #[must_use]
 pub fn gather(seen: &Seen, options: &RegionOptions, chain: &ChainOptions, unit: Unit) -> Regions {
-    gather_as(seen, |look| Look { bin: 0, ..*look }, options, chain, unit)
+    let (mut patches, table) = patches(seen, |look| Look { bin: 0, ..*look }, options, unit);
+    let drawn = Drawn { step: seen.step, leaks: seen.leaks, options, chain, unit };
+    let ramps = match options.steps_as {
+        StepsAs::Bands => Vec::new(),
+        StepsAs::Gradients => {
+            let borders = arcs::trace(&seen.cut, &owners(&patches), patches.looks.len());
+            let tolerance = Length::px(tolerance::RAMP_PX).in_unit(unit);
+            ramps::join(&seen.cut, &mut patches, &table, &borders, seen.step, tolerance)
+        }
+    };
+    regions(&seen.cut, &patches, &table, ramps, &drawn)
 }
 
 /// Gathers what looks alike to a coarser eye.
@@ -90,10 +104,28 @@ pub(crate) fn gather_as(
     chain: &ChainOptions,
     unit: Unit,
 ) -> Regions {
+    let (patches, table) = patches(seen, coarser, options, unit);
+    let drawn = Drawn { step: seen.step, leaks: seen.leaks, options, chain, unit };
+    regions(&seen.cut, &patches, &table, Vec::new(), &drawn)
+}
+
+/// What looks alike and hangs together, without crumbs.
+fn patches(
+    seen: &Seen,
+    coarser: impl Fn(&Look) -> Look,
+    options: &RegionOptions,
+    unit: Unit,
+) -> (merge::Patches, Vec<Look>) {
     let (looks, table) = seen.seen_as(coarser);
     let crumb = options.crumb.in_unit(unit).max(0.0) / seen.step;
-    let patches = merge::gather(&seen.cut, &looks, NOTHING, 2.0 * crumb * crumb);
-    regions(&seen.cut, &patches, &table, &Drawn { step: seen.step, leaks: seen.leaks, options, chain, unit })
+    (merge::gather(&seen.cut, &looks, NOTHING, 2.0 * crumb * crumb), table)
+}
+
+/// The patch that each triangle is painted with.
+fn owners(patches: &merge::Patches) -> Vec<u32> {
+    // All paper counts as one: there is no border within it, nor between it and what is beyond.
+    let is_paper = |patch: u32| patches.looks[patch as usize] == NOTHING;
+    patches.of.iter().map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch }).collect()
 }
 
 /// How borders are drawn.
@@ -105,13 +137,15 @@ struct Drawn<'a> {
     unit: Unit,
 }
 
-/// The regions of painted patches, and their borders.
-fn regions(cut: &Triangulation, patches: &merge::Patches, table: &[Look], drawn: &Drawn) -> Regions {
-    // All paper counts as one: there is no border within it, nor between it and what is beyond.
-    let is_paper = |patch: u32| patches.looks[patch as usize] == NOTHING;
-    let owner: Vec<u32> =
-        patches.of.iter().map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch }).collect();
-    let traced = arcs::trace(cut, &owner, patches.looks.len());
+/// The regions of painted patches, and their borders; `ramps` one a patch, or none.
+fn regions(
+    cut: &Triangulation,
+    patches: &merge::Patches,
+    table: &[Look],
+    mut ramps: Vec<Option<Ramp>>,
+    drawn: &Drawn,
+) -> Regions {
+    let traced = arcs::trace(cut, &owners(patches), patches.looks.len());
     let mut number: Vec<Option<u32>> = vec![None; patches.looks.len()];
     let mut regions = Vec::new();
     for (patch, loops) in traced.loops.into_iter().enumerate() {
@@ -119,7 +153,8 @@ fn regions(cut: &Triangulation, patches: &merge::Patches, table: &[Look], drawn:
         if let (false, Some(look)) = (loops.is_empty(), look) {
             number[patch] = Some(regions.len() as u32);
             let area = patches.area2[patch] / 2.0 * drawn.step * drawn.step;
-            regions.push(Region { look: *look, area, loops });
+            let ramp = ramps.get_mut(patch).and_then(Option::take);
+            regions.push(Region { look: *look, area, loops, ramp });
         }
     }
     let of = |patch: u32| number.get(patch as usize).copied().flatten();

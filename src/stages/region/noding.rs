@@ -151,13 +151,23 @@ impl Noder {
         let found: Vec<Option<GridPoint>> = asked
             .par_iter()
             .map(|(end, p)| {
-                let near = tiles.around(*p, reach).flatten().filter_map(|k| {
+                let mut nearest: Option<(f64, GridPoint)> = None;
+                for k in tiles.around(*p, reach).flatten() {
                     let piece = self.pieces[*k as usize];
                     let [a, b] = piece.ends.map(|end| self.points[end as usize]);
-                    (!piece.ends.contains(end)).then(|| foot(a, b, *p))
-                });
-                let near = near.filter(|(distance2, _)| *distance2 <= reach * reach);
-                near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|(_, foot)| foot)
+                    let most = nearest.map_or(reach * reach, |(distance2, _)| distance2);
+                    // Its box is no farther away than the piece.
+                    if piece.ends.contains(end) || beside(a, b, *p) > most {
+                        continue;
+                    }
+                    let found = foot(a, b, *p);
+                    let is_nearer =
+                        |old: (f64, GridPoint)| found.0 < old.0 || (found.0 == old.0 && found.1 < old.1);
+                    if found.0 <= most && nearest.is_none_or(is_nearer) {
+                        nearest = Some(found);
+                    }
+                }
+                nearest.map(|(_, foot)| foot)
             })
             .collect();
         let before = self.pieces.len();
@@ -288,6 +298,12 @@ fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint) {
     let foot = [at(0), at(1)];
     let (x, y) = ((foot[0] - p[0]) as f64, (foot[1] - p[1]) as f64);
     (x * x + y * y, foot)
+}
+
+/// The distance squared of a point from the box around a piece.
+fn beside(a: GridPoint, b: GridPoint, p: GridPoint) -> f64 {
+    let gap = |k: usize| (a[k].min(b[k]) - p[k]).max(p[k] - a[k].max(b[k])).max(0) as f64;
+    gap(0) * gap(0) + gap(1) * gap(1)
 }
 
 /// Pieces by the tiles of the page that they pass.

@@ -16,11 +16,24 @@ pub enum Seams {
     Exact,
 }
 
+/// How the steps of light are painted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StepsAs {
+    /// Each in its own colour.
+    #[default]
+    Bands,
+    /// Where they lie side by side along straight, parallel borders, together in a gradient; elsewhere each in its own colour.
+    Gradients,
+}
+
 /// How regions are gathered and painted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionOptions {
     /// Whether regions are painted at all. Default: false.
     pub enabled: bool,
+    /// How steps of light are painted. Default: bands.
+    pub steps_as: StepsAs,
     /// What lies under borders. Default: underlap.
     pub seams: Seams,
     /// How far a region reaches under its neighbour. Default: 0.6 px.
@@ -35,6 +48,7 @@ impl Default for RegionOptions {
     fn default() -> Self {
         Self {
             enabled: false,
+            steps_as: StepsAs::Bands,
             seams: Seams::Underlap,
             underlap: Length::px(0.6),
             crumb: Length::px(2.0),

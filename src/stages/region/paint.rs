@@ -5,6 +5,7 @@ use std::sync::Arc;
 use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
 use rayon::prelude::*;
 
+use super::ramps::gradient;
 use super::{Look, Region, RegionOptions, Regions, Seams};
 use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, Unit};
 use crate::field::Shading;
@@ -103,7 +104,11 @@ fn length(path: &BezPath) -> f64 {
 
 fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
     let look = region.look;
-    let paint = Paint::Fill(context.shading.colour(look.paint, look.tone));
+    let colour = |tone: u16| context.shading.colour(look.paint, tone);
+    let paint = match &region.ramp {
+        Some(ramp) => Paint::Gradient(gradient(ramp, colour, context.offset)),
+        None => Paint::Fill(colour(look.tone)),
+    };
     Mark { path, paint, provenance: provenance(look, context) }
 }
 

@@ -68,8 +68,11 @@ pub fn see(
     let step = frame.width.max(frame.height) / tolerance::REGION_STEPS;
     let px = Length::px(1.0).in_unit(unit);
     let segments = segments(map, [frame.width, frame.height], step);
-    let is_fine = (1..=tolerance::FEW_LEVELS).contains(&lit.shading.most_levels());
-    let of_tone = if is_fine { tolerance::THIN_PX } else { tolerance::THIN_BIN_PX };
+    let of_tone = match lit.shading.most_levels() {
+        0 => tolerance::THIN_BIN_PX,
+        1..=tolerance::FEW_LEVELS => tolerance::THIN_PX,
+        _ => tolerance::THIN_STEP_PX,
+    };
     let fine = |border: Border| if border.is_tone() { of_tone } else { tolerance::THIN_PX };
     let segments = thin::thinned(&segments, |border| fine(border) * px / step);
     let noded = noding::node(&segments, tolerance::BRIDGE_PX * px / step);

@@ -243,6 +243,7 @@ fn by_pen(kind: LayerKind, marks: Vec<Mark>, unit: Unit) -> Vec<Layer> {
             Paint::Outline(outline) => (outline.pen_width, outline.colour),
             Paint::Fill(colour) => (0.0, *colour),
             Paint::Image(_) => (0.0, Colour::BLACK),
+            Paint::Gradient(gradient) => (0.0, gradient.middle()),
         };
         let index = pens.iter().position(|known| *known == pen).unwrap_or_else(|| {
             pens.push(pen);

@@ -51,7 +51,7 @@ fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
 fn stroke(mark: &Mark) -> &StrokePaint {
     match &mark.paint {
         Paint::Stroke(stroke) => stroke,
-        Paint::Fill(_) | Paint::Outline(_) | Paint::Image(_) => panic!("no stroke"),
+        Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) | Paint::Outline(_) => panic!("no stroke"),
     }
 }
 

@@ -80,7 +80,7 @@ fn last_point(mark: &Mark) -> Option<Point> {
 fn turns_well(mark: &Mark) -> bool {
     match &mark.paint {
         Paint::Stroke(stroke) => stroke.dash.len() <= 2,
-        Paint::Fill(_) | Paint::Outline(_) | Paint::Image(_) => false,
+        Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) | Paint::Outline(_) => false,
     }
 }
 
