@@ -114,7 +114,7 @@ fn tube(columns: u32) -> Solid {
 }
 
 #[test]
-fn a_tube_is_one_gradient() {
+fn a_tube_is_a_few_gradients() {
     let tube = scene([tube(64)]);
     let camera = orthographic(DVec3::new(1.0, 0.0, 5.0), DVec3::ZERO, 2.6);
     let (eye, towards) = (Eye::new(&camera), towards_light(&camera));
@@ -123,7 +123,7 @@ fn a_tube_is_one_gradient() {
     let (svg, pdf) = (drawing.to_svg(&SvgOptions::default()), drawing.to_pdf());
     let fills = fills(drawing);
     assert!(bands.len() > 50, "{}", bands.len());
-    assert!(fills.len() <= 6, "{} of {}", fills.len(), bands.len());
+    assert!(fills.len() * 3 < bands.len(), "{} of {}", fills.len(), bands.len());
     let graded = fills.iter().filter(|mark| matches!(mark.paint, Paint::Gradient(_))).count();
     assert!(graded > 0 && svg.matches("<linearGradient").count() == graded);
     assert_eq!(svg.matches("fill=\"url(#gradient").count(), graded);
@@ -138,7 +138,10 @@ fn a_tube_is_one_gradient() {
         let Some(mark) = fills.iter().find(|mark| mark.path.winding(p) != 0) else { continue };
         count += 1;
         let light = normal.dot(towards).max(0.0);
-        let off = (light_of(mark, p) - light) * f64::from(STEPS);
-        assert!(off.abs() < 1.0, "at {p}: {off} steps");
+        let steep =
+            (towards.dot(eye.right) + towards.dot(eye.forward) * u / (1.0 - u * u).sqrt()).abs() / eye.scale;
+        let off = light_of(mark, p) - light;
+        let bound = 1.0 / f64::from(STEPS) + 1.1 * steep;
+        assert!(off.abs() < bound, "at {p}: {off} off, {bound} at most");
     }
 }
