@@ -124,12 +124,12 @@ impl OnPicture<'_> {
     pub fn level_lines(&self, sides: &[[usize; 2]; 3]) -> Vec<[(usize, f64); 2]> {
         let levels = self.levels();
         let mut found = Vec::new();
-        for end in &self.drawn.ends[*levels.start()..*levels.end()] {
-            for which in 0..2 {
+        for end in self.drawn.ends.get(*levels.start()..*levels.end()).unwrap_or_default() {
+            for (which, limit) in end.iter().enumerate() {
                 let crossing = |(number, [from, to]): (usize, &[usize; 2])| {
                     let [a, b] = [from, to].map(|k| self.densities[*k][which]);
-                    let is_crossed = (a >= end[which]) != (b >= end[which]);
-                    is_crossed.then(|| (number, (end[which] - a) / (b - a)))
+                    let is_crossed = (a >= *limit) != (b >= *limit);
+                    is_crossed.then(|| (number, (*limit - a) / (b - a)))
                 };
                 let mut crossed = sides.iter().enumerate().filter_map(crossing);
                 found.extend(crossed.next().zip(crossed.next()).map(|(a, b)| [a, b]));

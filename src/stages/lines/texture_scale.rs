@@ -266,7 +266,8 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
             }
             let depth = self.shrinks(self.view.frame.depth(mesh.positions[mesh.triangles[face][k] as usize]));
             let [on_px, slanted] = self.texels_per_px(share);
-            [density_of(on_px)[0] * depth, density_of(slanted)[1] * depth]
+            // Faces seen edge-on have more texels on a px than there are numbers.
+            [density_of(on_px)[0], density_of(slanted)[1]].map(|density| (density * depth).clamp(-1e9, 1e9))
         };
         (0..count).map(|face| [0, 1, 2].map(|k| of_corner(face, k, &mut joined))).collect()
     }
