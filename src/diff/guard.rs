@@ -131,7 +131,10 @@ impl<'a, 'input> Weights<'a, 'input> {
         };
         for attribute in node.attributes() {
             let value = attribute.value();
-            add(Weight { bytes: value.len() as u64, height: 0 }, 1);
+            // Of a picture no more is read than where it stands: a rectangle does for its bytes.
+            let is_picture = node.tag_name().name() == "image" && attribute.name() == "href";
+            let bytes = if is_picture { 0 } else { value.len() as u64 };
+            add(Weight { bytes, height: 0 }, 1);
             let href =
                 value.strip_prefix('#').filter(|_| attribute.name() == "href" && draws_its_target(node));
             // A marker is drawn at every point of a path.
@@ -232,6 +235,9 @@ mod tests {
 
     #[test]
     fn ordinary_files_are_read() {
+        let picture = format!("<image id=\"p\" href=\"data:image/png;base64,{}\"/>", "A".repeat(1 << 20));
+        let used = "<use href=\"#p\"/>".repeat(2000);
+        assert_eq!(refused(&inside(&format!("<defs>{picture}</defs>{used}"))), "read");
         let plain = "<defs><g id=\"a\"><path d=\"M0 0h1\"/></g></defs><use href=\"#a\"/><use href=\"#a\"/>";
         assert_eq!(refused(&inside(plain)), "read");
         let style = "g,h{fill:red;stroke:none}".repeat(20_000);
