@@ -81,7 +81,7 @@ fn a_ball_is_as_light_as_it_is() {
         let mean = sum / count * f64::from(STEPS);
         assert!(mean.abs() < 0.2, "steps are {mean} too light in the mean");
         // As small as it gets, a ball has no more bands than it has room for.
-        assert!(fills.len() < 40 + (1.2 * eye.scale) as usize, "{} for {} px", fills.len(), eye.scale);
+        assert!(fills.len() < 60 + (2.0 * eye.scale) as usize, "{} for {} px", fills.len(), eye.scale);
     }
 }
 
