@@ -336,7 +336,8 @@ impl Walker<'_> {
             let low = ((a.min(b).min(c) - half - *middle) / figure.period).ceil();
             let high = ((a.max(b).max(c) + half - *middle) / figure.period).floor();
             let size = high - low + 1.0;
-            if !(size.x.max(1.0) * size.y.max(1.0) < MOST_FIGURES) {
+            let many = size.x.max(1.0) * size.y.max(1.0);
+            if many.is_nan() || many >= MOST_FIGURES {
                 continue;
             }
             for j in low.y as i64..=high.y as i64 {

@@ -19,7 +19,7 @@ pub enum BrushChange {
     /// Plain lines: `"none"`.
     None,
     /// A brush whose file has not been read yet.
-    Unread(BrushSource),
+    Unread(Box<BrushSource>),
     /// A brush.
     Brush(Arc<Brush>),
 }
@@ -259,7 +259,7 @@ impl TryFrom<BrushTable> for BrushChange {
         };
         Ok(match source.brush(own) {
             Ok(brush) => Self::Brush(Arc::new(brush)),
-            Err(()) => Self::Unread(source),
+            Err(()) => Self::Unread(Box::new(source)),
         })
     }
 }
