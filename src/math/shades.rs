@@ -288,7 +288,8 @@ mod tests {
             found.sort_unstable();
             found
         };
-        let [x, y]: [fn(&Point) -> (f64, f64); 2] = [|p| (p.x, p.y), |p| (p.y, p.x)];
+        type Order = fn(&Point) -> (f64, f64);
+        let [x, y]: [Order; 2] = [|p| (p.x, p.y), |p| (p.y, p.x)];
         assert!(on(x, 0.0) == on(x, 32.0) && !on(x, 0.0).is_empty(), "{:?} {:?}", on(x, 0.0), on(x, 32.0));
         assert!(on(y, 0.0) == on(y, 32.0) && !on(y, 0.0).is_empty());
     }

@@ -97,7 +97,7 @@ fn the_inside_of_a_picture_is_laid_round_a_bend() {
 #[test]
 fn paint_ends_under_ink_however_dry_the_brush_is() {
     // Bristles at both edges of the stroke and nothing between them.
-    let picture = Picture::new("bare", [64, 32], |_, y| if y < 6 || y >= 26 { 0 } else { 255 });
+    let picture = Picture::new("bare", [64, 32], |_, y| if (6..26).contains(&y) { 255 } else { 0 });
     let scene = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
     let bare = |sets: &[&str]| {

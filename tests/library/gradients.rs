@@ -1,6 +1,6 @@
 //! Gradients: many steps of light, of which no more are drawn than can be seen, in the colours that the light has.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use kurbo::{Point, Shape};
 use ligne::drawing::{LayerKind, Mark, Paint};
 use ligne::math::colour::Colour;
@@ -71,7 +71,7 @@ fn a_ball_is_as_light_as_it_is() {
             count += 1.0;
             let (lu, lv, lw) = (towards.dot(eye.right), towards.dot(eye.up), -towards.dot(eye.forward));
             let light = normal.dot(towards).max(0.0);
-            let steep = (lu - lw * u / w).hypot(lv - lw * v / w) / eye.scale;
+            let steep = DVec2::new(lu - lw * u / w, lv - lw * v / w).length() / eye.scale;
             let off = light_of(mark, p) - light;
             // Half a step and what the ball's facets differ by; bands are wider than a step only where a px holds more than one.
             let bound = 0.75 / f64::from(STEPS) + if light > 0.0 { 1.1 * steep } else { 0.0 };

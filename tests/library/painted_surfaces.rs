@@ -374,7 +374,7 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
         let drawing = render(&model, &camera, &style).unwrap();
         // What is too fine for a smooth line is too fine for its paint.
         let is_smooth = table.contains("smooth");
-        assert!(is_smooth || palette(&fills(&drawing)).len() % 2 == 0, "both halves are painted");
+        assert!(is_smooth || palette(&fills(&drawing)).len().is_multiple_of(2), "both halves are painted");
         let drawn: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
         // Its middle is that of a texel.
         let middle = glam::DVec2::new(32.5, 31.5) / 64.0;

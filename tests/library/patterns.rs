@@ -238,12 +238,8 @@ fn what_is_fixed_to_the_surface_does_not_know_how_the_world_is_turned() {
     for part in &mut turned.parts {
         part.world_from_part = glam::DAffine3::from_quat(turn) * part.world_from_part;
     }
-    let aside = Camera {
-        eye: turn * tilted.eye,
-        target: turn * tilted.target,
-        up: turn * tilted.up,
-        ..tilted.clone()
-    };
+    let aside =
+        Camera { eye: turn * tilted.eye, target: turn * tilted.target, up: turn * tilted.up, ..tilted };
     let drawn = |scene: &Scene, camera: &Camera| {
         let pattern = "{ fixed = 'surface', size = 30, width = 12, angle = 15 }";
         let drawing = render(scene, camera, &style(pattern)).unwrap();

@@ -61,7 +61,8 @@ fn turns_may_be_files_and_pictures() {
         format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'><path d='{WEDGE}'/></svg>"),
     )
     .unwrap();
-    let pictures: [(&str, fn(u32, u32) -> bool); 3] = [
+    type Dark = fn(u32, u32) -> bool;
+    let pictures: [(&str, Dark); 3] = [
         ("box.png", |_, _| true),
         ("half.png", |_, y| y < 20),
         ("hole.png", |x, y| !(10..30).contains(&x) || !(10..30).contains(&y)),

@@ -81,19 +81,17 @@ impl Facet {
         [Self { corners: [a, middle, c], ..*self }, Self { corners: [middle, b, c], ..*self }]
     }
 
-    /// How much nearer what it shows gets along a px of the page, where that is most.
-    fn steepness(&self) -> f64 {
-        let [a, b, c] = self.corners.map(|corner| corner.image);
-        let (u, v) = (b - a, c - a);
-        let whole = u.truncate().perp_dot(v.truncate());
-        (DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / whole).length()
-    }
-
-    /// How far the page's midpoint of a side would be from where the side's own midpoint is seen, if it ran to where its plane
-    /// is nearer: sides across that are cut likewise, so that facets are as wide as long.
-    fn miss(&self, side: usize, steepness: f64) -> f64 {
-        let (a, b) = (self.corners[side].image, self.corners[(side + 1) % 3].image);
-        (a - b).truncate().length_squared() * steepness / (2.0 * (a.z + b.z)).abs()
+    /// Its longest side, and how far one affine map may miss the true one: as far as the page's midpoint of that side would be
+    /// from where the side's own midpoint is seen, if all of the facet's depth lay between its ends.
+    fn miss(&self) -> (usize, f64) {
+        let length = |side: usize| (self.corners[side].image - self.corners[(side + 1) % 3].image).truncate();
+        let (side, longest) = [0, 1, 2]
+            .map(|side| (side, length(side).length()))
+            .into_iter()
+            .fold((0, 0.0), |longest, own| if own.1 > longest.1 { own } else { longest });
+        let [a, b, c] = self.corners.map(|corner| corner.image.z);
+        let (far, near) = (a.min(b).min(c), a.max(b).max(c));
+        (side, longest * (near - far) / (2.0 * (near + far)).abs())
     }
 }
 
@@ -132,8 +130,7 @@ pub(super) fn facets(
         let corners = [0, 1, 2].map(|k| Corner { image: image[k], place: places[k] });
         let part = mesh.face_part[face as usize];
         let facet = Facet { corners, part, colour: None };
-        let steepness = if frame.perspective { facet.steepness() } else { 0.0 };
-        halve(facet, frame, (px, steepness), 0, &mut facets);
+        halve(facet, frame, px, 0, &mut facets);
     };
     let shows = |face: u32| {
         mesh.paint(FaceId(face)) == imaged.paint && !mesh.is_degenerate(FaceId(face)) && may_be_seen(face)
@@ -158,22 +155,16 @@ pub(super) fn facets(
 }
 
 /// Halves a facet until one affine map is right in all of it, and leaves out what is not on the page.
-fn halve(facet: Facet, frame: &Frame, (px, steepness): (f64, f64), depth: u32, facets: &mut Vec<Facet>) {
+fn halve(facet: Facet, frame: &Frame, px: f64, depth: u32, facets: &mut Vec<Facet>) {
     if !facet.is_on(frame) {
         return;
     }
-    let (side, miss) = [0, 1, 2]
-        .map(|side| (side, facet.miss(side, steepness)))
-        .into_iter()
-        .fold((0, 0.0), |worst, own| if own.1 > worst.1 { own } else { worst });
-    if miss <= FLAT_PX * px || depth == MOST_HALVINGS {
+    let (side, miss) = facet.miss();
+    if !frame.perspective || miss <= FLAT_PX * px || depth == MOST_HALVINGS {
         facets.push(facet);
         return;
     }
-    facet
-        .cut(side, 0.5, frame)
-        .into_iter()
-        .for_each(|half| halve(half, frame, (px, steepness), depth + 1, facets));
+    facet.cut(side, 0.5, frame).into_iter().for_each(|half| halve(half, frame, px, depth + 1, facets));
 }
 
 /// Cuts facets where the picture is repeated after `spans` texels along x and along y, so that none is longer than that.

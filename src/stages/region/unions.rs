@@ -97,6 +97,7 @@ mod tests {
         };
         let (part, material, paint) = (PartId(0), MaterialId(0), PaintId(0));
         let region = |tone| Region {
+            ramp: None,
             look: Look { part, material, paint, tone, bin: 0, cast: false },
             area: 50.0,
             loops: vec![],
