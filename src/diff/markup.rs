@@ -37,7 +37,7 @@ const PLACES: [&str; 16] = [
 /// Attributes whose numbers may not be too large either.
 const MEASURES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
 /// The layers that drawings of this program have.
-const LAYERS: [LayerKind; 8] = [
+const LAYERS: [LayerKind; 9] = [
     LayerKind::Paper,
     LayerKind::Fills,
     LayerKind::Shadows,
@@ -45,6 +45,7 @@ const LAYERS: [LayerKind; 8] = [
     LayerKind::Motion,
     LayerKind::HiddenLines,
     LayerKind::Lines,
+    LayerKind::Tooth,
     LayerKind::Callouts,
 ];
 

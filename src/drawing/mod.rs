@@ -36,6 +36,8 @@ pub enum LayerKind {
     HiddenLines,
     /// Visible lines.
     Lines,
+    /// What shows of the paper through all that is drawn on it.
+    Tooth,
     /// Call-outs.
     Callouts,
 }
@@ -52,6 +54,7 @@ impl LayerKind {
             Self::Motion => "motion",
             Self::HiddenLines => "hidden-lines",
             Self::Lines => "lines",
+            Self::Tooth => "tooth",
             Self::Callouts => "callouts",
         }
     }

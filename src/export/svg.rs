@@ -188,11 +188,14 @@ impl Drawing {
         (id, label)
     }
 
-    /// The marks of all layers by part, in order of first appearance; those of no part first.
+    /// The marks of all layers by part, in order of first appearance; those of no part first, and what shows of the paper through all
+    /// others last.
     fn by_part(&self) -> Vec<PartGroup<'_>> {
         let mut groups = vec![PartGroup::default()];
         let mut index: FxHashMap<&str, usize> = FxHashMap::default();
-        for layer in &self.layers {
+        let (over, below): (Vec<&Layer>, Vec<&Layer>) =
+            self.layers.iter().partition(|layer| layer.kind == LayerKind::Tooth);
+        for layer in below {
             for mark in &layer.marks {
                 let at = match &mark.provenance.part {
                     None => 0,
@@ -207,6 +210,8 @@ impl Drawing {
                 }
             }
         }
+        let marks = over.into_iter().flat_map(|layer| &layer.marks).collect();
+        groups.push(PartGroup { marks, ..PartGroup::default() });
         groups.retain(|group| !group.marks.is_empty());
         groups
     }

@@ -8,7 +8,7 @@ use kurbo::{BezPath, Point, Vec2};
 use super::fills::Fills;
 use crate::drawing::{Layer, Length, Page, Unit};
 use crate::hatch::guide::rank;
-use crate::hatch::{self, Direction, Flow, Grain, Guide, HatchContext, HatchLayer, Hatched, Tone, cuts};
+use crate::hatch::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Hatched, Tone, cuts};
 use crate::lines::Lit;
 use crate::math::colour::Colour;
 use crate::math::function::{cos, sin};
@@ -149,14 +149,6 @@ const BLACKEST: u8 = 0x20;
 /// A look to an eye to which all that is not black is one bin.
 fn black_or_not(look: &Look, is_black: bool) -> Look {
     Look { tone: 0, cast: false, bin: u16::from(!is_black), ..*look }
-}
-
-/// The grain of the paper, if it shows.
-pub(super) fn paper(page: &Page, style: &Style) -> Option<Layer> {
-    let usual = Grain::default();
-    let contrast = usual.contrast * (2.0 * style.grain).min(1.0);
-    let density = usual.density * (1.0 + 2.0 * style.grain);
-    (style.grain > 0.0).then(|| hatch::grain(page, &Grain { density, contrast, seed: style.seed })).flatten()
 }
 
 /// A warning where a table asks for more ink than the layers can give.

@@ -46,7 +46,7 @@ pub use stage::Stage;
 use crate::chain;
 use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
 use crate::error::Error;
-use crate::hatch::Hatched;
+use crate::hatch::{self, Hatched};
 use crate::lines::{self, FeatureLines, LineOptions, Surface, Textures};
 
 use crate::math::colour::Colour;
@@ -253,7 +253,7 @@ impl<'a> Prepared<'a> {
         let Self { scene, style, paints, .. } = self;
         let OnView { surface, view, lines, textures, fills, mut map, .. } = on_view;
         let OnView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
-        let mut layers: Vec<Layer> = hatching::paper(&page, style).into_iter().collect();
+        let mut layers: Vec<Layer> = hatch::paper(&page, &style.paper, style.seed).into_iter().collect();
         let mut blacks = None;
         if let Some(fills) = fills.filter(|_| fills::is_lit(style)) {
             let seen =
@@ -339,7 +339,10 @@ impl<'a> Prepared<'a> {
             }),
         };
         match stage {
-            None => layers.extend(stroke::ink(&chains, &context, &style.stroke)),
+            None => {
+                layers.extend(stroke::ink(&chains, &context, &style.stroke));
+                layers.extend(hatch::tooth(&page, &style.paper, style.seed));
+            }
             Some(stage) => {
                 let made =
                     Made { surface, view, lines, ahead, map: &map, chains: &chains, style, page: &page };

@@ -11,6 +11,7 @@ use super::artist_file::{place_artist_textures, read_artist_textures};
 use super::brush_file::place_brushes;
 use super::fault::{self, nearest};
 use super::fills::set_aside;
+use super::picture_file::place_paper;
 use super::ramp_source::place_pictures;
 use super::sheet::Sheet;
 use super::tile_file::place_tiles;
@@ -66,6 +67,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
         place_brushes(&mut table, folder);
         place_artist_textures(&mut table, folder);
         place_tiles(&mut table, folder);
+        place_paper(&mut table, folder);
         sheets.push(table);
     }
     let mut merged = Table::new();
@@ -80,6 +82,7 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     sheet.fills.read_pictures()?;
     sheet.fills.read_tiles()?;
     sheet.read_brushes()?;
+    sheet.read_paper()?;
     read_artist_textures(&mut sheet.lines.artist_texture)?;
     Ok(sheet.into_style())
 }
@@ -136,6 +139,7 @@ pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
     place_brushes(&mut table, folder);
     place_artist_textures(&mut table, folder);
     place_tiles(&mut table, folder);
+    place_paper(&mut table, folder);
     Ok(table.iter().map(|(key, value)| format!("{key}={value}")).collect())
 }
 

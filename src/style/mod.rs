@@ -17,6 +17,7 @@ mod fills;
 mod hatching;
 mod highlight;
 mod load;
+mod picture_file;
 mod ramp_source;
 mod sheet;
 mod svg_file;
@@ -28,7 +29,7 @@ pub(crate) use load::placed_change;
 use crate::chain::ChainOptions;
 use crate::error::Error;
 use crate::field::{LightOptions, ShadeOptions, ToneOptions};
-use crate::hatch::{HatchOptions, Pattern};
+use crate::hatch::{HatchOptions, Paper, Pattern};
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
 use crate::region::RegionOptions;
@@ -40,8 +41,8 @@ use crate::stroke::StrokeOptions;
 pub struct Style {
     /// Colour of the paper; `None` leaves it transparent. Default: white.
     pub background: Option<Colour>,
-    /// How much the grain of the paper shows, 0 to 1. Default: 0.
-    pub grain: f64,
+    /// What is drawn on. Default: plain.
+    pub paper: Paper,
     /// Which lines are sought and drawn.
     pub lines: LineOptions,
     /// How lines are linked, tidied, smoothed and fitted.

@@ -1,5 +1,8 @@
 //! The tables and keys of a style sheet, as they are written.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use serde::de::Visitor;
 use serde::{Deserialize, Deserializer};
 
@@ -7,12 +10,15 @@ use super::Style;
 use super::brush_file::read_brush;
 use super::fills::FillsTable;
 use super::hatching::HatchingTable;
+use super::picture_file::read_picture;
 use crate::chain::ChainOptions;
-use crate::drawing::{Cap, Join, Length};
+use crate::drawing::{Cap, Join, Length, Unit};
 use crate::error::Error;
 use crate::field::LightOptions;
+use crate::hatch::Paper;
 use crate::lines::{LineKind, LineOptions};
 use crate::math::colour::Colour;
+use crate::math::picture::Picture;
 use crate::scene::GlassOptions;
 use crate::stroke::fraction::fraction;
 use crate::stroke::pen::dash;
@@ -47,11 +53,21 @@ struct PageTable {
     background: Option<Colour>,
     #[serde(deserialize_with = "fraction")]
     grain: Option<f64>,
+    /// The path of a picture of the paper; empty for none.
+    paper: PathBuf,
+    #[serde(skip)]
+    picture: Option<Arc<Picture>>,
+    #[serde(deserialize_with = "breadth")]
+    paper_width: Option<Length>,
+    #[serde(deserialize_with = "fraction")]
+    tooth: Option<f64>,
 }
 
 impl Default for PageTable {
     fn default() -> Self {
-        Self { background: Some(Colour::WHITE), grain: None }
+        let background = Some(Colour::WHITE);
+        let (paper, picture, paper_width) = (PathBuf::new(), None, None);
+        Self { background, grain: None, paper, picture, paper_width, tooth: None }
     }
 }
 
@@ -95,6 +111,16 @@ struct PenTable {
 }
 
 impl Sheet {
+    /// Reads the picture of the paper.
+    pub fn read_paper(&mut self) -> Result<(), Error> {
+        let page = &mut self.page;
+        if !page.paper.as_os_str().is_empty() {
+            page.picture =
+                Some(Arc::new(read_picture(&page.paper, "of the paper", "give a PNG, JPEG or WebP")?));
+        }
+        Ok(())
+    }
+
     /// Reads the files of brushes.
     pub fn read_brushes(&mut self) -> Result<(), Error> {
         self.pen
@@ -113,7 +139,12 @@ impl Sheet {
         let (shade, hatch) = self.hatching.into_options();
         Style {
             background: self.page.background,
-            grain: self.page.grain.unwrap_or_default(),
+            paper: Paper {
+                picture: self.page.picture,
+                width: self.page.paper_width,
+                grain: self.page.grain.unwrap_or_default(),
+                tooth: self.page.tooth.unwrap_or_default(),
+            },
             lines: self.lines,
             chain: self.chain,
             stroke,
@@ -201,6 +232,16 @@ impl PenTable {
 /// Kinds of line that have surfaces beside them, so that they can be thick or thin.
 fn surface_kinds() -> Vec<LineKind> {
     LineKind::ALL.into_iter().filter(|kind| !matches!(kind, LineKind::Wire | LineKind::Motion)).collect()
+}
+
+/// A length above 0.
+fn breadth<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Length>, D::Error> {
+    let length = Length::deserialize(deserializer)?;
+    if length.in_unit(Unit::Px) > 0.0 {
+        Ok(Some(length))
+    } else {
+        Err(serde::de::Error::custom("the paper has no width; write a length above 0"))
+    }
 }
 
 /// A colour, or `"none"`.

@@ -33,6 +33,7 @@ mod locality;
 mod marked_edges;
 mod models;
 mod painted_surfaces;
+mod paper;
 mod patterns;
 mod picture_fills;
 mod properties;

@@ -31,6 +31,21 @@ impl Default for Grain {
 /// that is white. None if there are none.
 #[must_use]
 pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
+    let paths = specks(page, options)?;
+    let paper = page.background.unwrap_or(Colour::WHITE);
+    let [dark, darker] = [0.5, 1.0].map(|part| paper.darker(1.0 - options.contrast * part));
+    let light = if paper == Colour::WHITE { dark } else { paper.mix(Colour::WHITE, options.contrast) };
+    let mark = |(path, colour)| Mark {
+        path,
+        paint: Paint::Fill(colour),
+        provenance: Provenance { classes: vec!["grain"], ..Provenance::default() },
+    };
+    let marks = paths.into_iter().zip([light, dark, darker]).filter(|(path, _)| !path.elements().is_empty());
+    Some(Layer { kind: LayerKind::Paper, pen: None, ordered: false, marks: marks.map(mark).collect() })
+}
+
+/// Specks strewn over a page, in three groups by chance. None if there are none.
+pub(super) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
     let px = Length::px(1.0).in_unit(page.unit);
     let area = page.width * page.height / (px * px);
     let count = (area * options.density / 1e4).min(MOST_SPECKS);
@@ -54,16 +69,7 @@ pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
             }
         }
     }
-    let paper = page.background.unwrap_or(Colour::WHITE);
-    let [dark, darker] = [0.5, 1.0].map(|part| paper.darker(1.0 - options.contrast * part));
-    let light = if paper == Colour::WHITE { dark } else { paper.mix(Colour::WHITE, options.contrast) };
-    let mark = |(path, colour)| Mark {
-        path,
-        paint: Paint::Fill(colour),
-        provenance: Provenance { classes: vec!["grain"], ..Provenance::default() },
-    };
-    let marks = paths.into_iter().zip([light, dark, darker]).filter(|(path, _)| !path.elements().is_empty());
-    Some(Layer { kind: LayerKind::Paper, pen: None, ordered: false, marks: marks.map(mark).collect() })
+    Some(paths)
 }
 
 /// Pages with more specks than this are drawn with this many.
