@@ -114,7 +114,8 @@ mod tests {
         assert_eq!(tints.at([0.9, 0.1, 0.1]), 1);
         assert_eq!(tints.at([0.7, 0.7, 0.7]), 0);
         // In linear light a tenth looks nearly half as light as white.
-        assert_eq!([0.1, 0.2].map(|c| tints.at([c; 3])), [2, 0]);
+        let even = Tints::new(Vec3::ONE, &[Colour::WHITE, Colour::BLACK]);
+        assert_eq!([0.1, 0.2].map(|c| even.at([c; 3])), [1, 0]);
         let dim = Tints::new(Vec3::splat(0.1), &[Colour::WHITE, Colour::BLACK]);
         assert_eq!(dim.at([1.0; 3]), 1);
     }
