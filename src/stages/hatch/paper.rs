@@ -150,7 +150,8 @@ mod tests {
 
     /// Light but for every third column.
     fn laid() -> Arc<Picture> {
-        let pixel = |k: usize| if k % 9 % 3 == 0 { Colour::rgb(200, 190, 180) } else { Colour::WHITE };
+        let pixel =
+            |k: usize| if (k % 9).is_multiple_of(3) { Colour::rgb(200, 190, 180) } else { Colour::WHITE };
         Arc::new(Picture { width: 9, height: 6, pixels: (0..54).map(pixel).collect() })
     }
 
