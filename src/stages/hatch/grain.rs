@@ -15,7 +15,7 @@ use crate::math::noise::{hash, unit};
 pub struct Grain {
     /// How many in a square of 100 px. Default: 24.
     pub density: f64,
-    /// How much darker than the paper the darkest are, 0 to 1. Default: 0.2.
+    /// How much darker than the paper the darkest are, 0 to 1. Default: 0.5.
     pub contrast: f64,
     /// The sheet of paper.
     pub seed: u64,
@@ -23,7 +23,7 @@ pub struct Grain {
 
 impl Default for Grain {
     fn default() -> Self {
-        Self { density: 24.0, contrast: 0.2, seed: 0 }
+        Self { density: 24.0, contrast: 0.5, seed: 0 }
     }
 }
 
@@ -73,11 +73,11 @@ pub(super) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
 }
 
 /// Pages with more specks than this are drawn with this many.
-const MOST_SPECKS: f64 = 4000.0;
+const MOST_SPECKS: f64 = 8000.0;
 
 /// How wide specks are.
-const SMALLEST_PX: f64 = 0.3;
-const LARGEST_PX: f64 = 1.2;
+const SMALLEST_PX: f64 = 0.4;
+const LARGEST_PX: f64 = 1.8;
 
 /// Gaps in pencil strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
