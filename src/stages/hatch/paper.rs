@@ -93,6 +93,7 @@ fn tiled(picture: Arc<Picture>, page: &Page, width: Option<Length>) -> ImagePain
     let asked = width.unwrap_or(Length::px(picture.width as f64)).in_unit(page.unit);
     let shape = picture.height as f64 / picture.width as f64;
     let least = (page.width * page.height / (MOST_TILES * shape)).sqrt();
+    let least = least.max(page.width / MOST_TILES).max(page.height / (MOST_TILES * shape));
     let width = if asked > least { asked } else { least };
     let (scale, height) = (width / picture.width as f64, width * shape);
     let [columns, rows] =
@@ -165,12 +166,18 @@ mod tests {
 
     #[test]
     fn tiles_cover_the_page_once() {
+        let narrow = |width: usize, height: usize| {
+            let pixels = vec![Colour::WHITE; width * height];
+            Arc::new(Picture { width, height, pixels })
+        };
         for width in [None, Some(Length::px(31.0)), Some(Length::px(1e-9)), Some(Length::px(1e9))] {
-            let sheet = Paper { picture: Some(laid()), width, ..Paper::default() };
-            let layer = paper(&PAGE, &sheet, 0).unwrap_or_else(|| panic!("a picture"));
-            let image = images(&layer)[0];
-            let area: f64 = image.pieces.iter().map(|piece| piece.outline.area().abs()).sum();
-            assert!((area - 6000.0).abs() < 1e-6 && image.pieces.len() <= 2048, "{width:?} {area}");
+            for picture in [laid(), narrow(1, 9000), narrow(9000, 1)] {
+                let sheet = Paper { picture: Some(picture), width, ..Paper::default() };
+                let layer = paper(&PAGE, &sheet, 0).unwrap_or_else(|| panic!("a picture"));
+                let image = images(&layer)[0];
+                let area: f64 = image.pieces.iter().map(|piece| piece.outline.area().abs()).sum();
+                assert!((area - 6000.0).abs() < 1e-6 && image.pieces.len() <= 2048, "{width:?} {area}");
+            }
         }
     }
 
