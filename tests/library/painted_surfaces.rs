@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use kurbo::{Point, Shape as _};
-use ligne::drawing::{Drawing, Mark, Paint};
+use ligne::drawing::Mark;
 use ligne::math::colour::Colour;
 use ligne::math::oklab::{self, Oklab};
 use ligne::render::render;
@@ -16,6 +16,7 @@ use ligne::style::Style;
 use crate::support::eye::Eye;
 use crate::support::ink::Ink;
 use crate::support::judge::{axis, ink_marks};
+use crate::support::plain_fills::{fills, plain};
 
 const NONE: u32 = u32::MAX;
 
@@ -70,23 +71,6 @@ fn front(width: f64, height: f64) -> Camera {
         height: height * 420.0,
         ..Camera::three_quarter()
     }
-}
-
-/// One tone for all, in the colour of the surface, and no ink.
-fn plain(changes: &[&str]) -> Style {
-    let mut all =
-        vec!["lines.enabled=false", "fills.thresholds=[]", "fills.tones=[1.0]", "light.from_model=false"];
-    all.extend(changes);
-    Style::load("toon", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
-}
-
-fn fills(drawing: &Drawing) -> Vec<(&Mark, Colour)> {
-    let colour = |mark: &Mark| match &mark.paint {
-        Paint::Fill(colour) => Some(*colour),
-        _ => None,
-    };
-    let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
-    marks.filter_map(|mark| Some((mark, colour(mark)?))).collect()
 }
 
 fn top(fills: &[(&Mark, Colour)], p: Point) -> Option<Colour> {

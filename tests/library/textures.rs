@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Shape as _};
-use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
+use ligne::drawing::{LayerKind, Mark};
 use ligne::math::colour::Colour;
 use ligne::math::function::{acos, atan2};
 use ligne::render::render;
@@ -13,6 +13,7 @@ use ligne::style::Style;
 use crate::support::eye::Eye;
 use crate::support::ink::Ink;
 use crate::support::judge::{axis, ink_marks};
+use crate::support::plain_fills::{fills, plain};
 
 const CREAM: [u8; 3] = [246, 239, 224];
 const SECTORS: [[u8; 3]; 6] = [[214, 66, 52], CREAM, [240, 180, 41], CREAM, [45, 110, 178], CREAM];
@@ -21,23 +22,6 @@ const CLOTH: [[u8; 3]; 3] = [[52, 122, 84], [148, 190, 160], [250, 247, 238]];
 /// The ball on the cloth, from `examples/models`.
 fn picnic() -> Scene {
     Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/picnic.obj")).unwrap()
-}
-
-/// One tone for all, in the colour of the material, and no ink.
-fn plain(changes: &[&str]) -> Style {
-    let mut all =
-        vec!["lines.enabled=false", "fills.thresholds=[]", "fills.tones=[1.0]", "light.from_model=false"];
-    all.extend(changes);
-    Style::load("toon", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
-}
-
-fn fills(drawing: &Drawing) -> Vec<(&Mark, Colour)> {
-    let colour = |mark: &Mark| match &mark.paint {
-        Paint::Fill(colour) => Some(*colour),
-        _ => None,
-    };
-    let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
-    marks.filter_map(|mark| Some((mark, colour(mark)?))).collect()
 }
 
 /// What a line of sight meets of a ball of radius 1/4 on a square cloth of side 1: the colour that its picture has there.

@@ -12,6 +12,7 @@ pub mod models;
 pub mod patches;
 pub mod piercings;
 pub mod pipeline;
+pub mod plain_fills;
 pub mod polygon_lines;
 pub mod polygon_truth;
 pub mod polygons;
