@@ -264,8 +264,8 @@ impl<'a> Prepared<'a> {
                 report.counts.regions = regions.regions.len() as u64;
                 if let Some(paints) = paints {
                     let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
-                    let asked = (&page, camera, *style);
-                    pictures::add(fills, clear, (paints, &regions), asked, &mut painted, &mut warnings);
+                    let (on, asked) = ((clear, lines), (&page, camera, *style));
+                    pictures::add(fills, on, (paints, &regions), asked, &mut painted, &mut warnings);
                 }
                 if let Some(behind) = &behind {
                     behind.paint(fills, &map, (&page, camera, style), &mut painted);

@@ -6,8 +6,10 @@ use kurbo::BezPath;
 
 use super::fills::Fills;
 use crate::drawing::{Layer, Length, Mark, Page, Paint, Provenance};
+use crate::lines::FeatureLines;
 use crate::mesh::{Mesh, PartId};
-use crate::picture::seen::may_be_seen;
+use crate::picture::crossings::Crossings;
+use crate::picture::seen::InFront;
 use crate::picture::shade::Shades;
 use crate::picture::{Stage, pictures};
 use crate::raster::Screen;
@@ -22,7 +24,7 @@ use crate::style::Style;
 /// nothing.
 pub(super) fn add(
     fills: &Fills,
-    mesh: &Mesh,
+    (mesh, lines): (&Mesh, &FeatureLines),
     (paints, regions): (&Paints, &Regions),
     (page, camera, style): (&Page, &Camera, &Style),
     layers: &mut [Layer],
@@ -31,10 +33,10 @@ pub(super) fn add(
     let Some(over) = layers.last_mut().filter(|_| !paints.images.is_empty()) else { return };
     let (view, context) = (fills.lit().view, fills.paint_context(page, camera));
     let screen = &Screen::new(mesh, view);
-    let seen = &may_be_seen(mesh, screen)[..];
+    let in_front = &InFront::new(mesh, screen);
     let px = Length::px(1.0).in_unit(page.unit);
-    let stage =
-        Stage { mesh, view, screen, seen, offset: context.offset, px, samples: style.textures.samples };
+    let (crossings, samples) = (&Crossings::of(mesh, view, lines), style.textures.samples);
+    let stage = Stage { mesh, view, screen, in_front, crossings, offset: context.offset, px, samples };
     for imaged in &paints.images {
         let Some(shades) = Shades::of(context.shading, &paints.list, imaged) else { continue };
         let Some(pieces) = pictures(&stage, imaged, |picture| shades.tone(picture)) else { continue };

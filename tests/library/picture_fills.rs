@@ -283,3 +283,75 @@ fn a_thousand_small_triangles_are_few_pieces() {
     assert!(picture.width < 512 && picture.height < 512, "{} x {}", picture.width, picture.height);
     assert!(image.pieces.iter().any(|piece| matches!(piece.shows, Shows::Pixels(_))));
 }
+
+#[test]
+fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
+    // Blades of one part through one axis, each with a texel of its own, and a plate across them all.
+    const BLADES: u32 = 4;
+    use ligne::math::function::{cos, sin};
+    let mut geometry = Geometry::default();
+    let mut add = |corners: [DVec3; 4], texel: u32| {
+        let first = geometry.positions.len() as u32;
+        geometry.positions.extend(corners);
+        geometry.uvs.extend([[(texel as f32 + 0.5) / 8.0, 0.5]; 4]);
+        for triangle in [[0, 1, 2], [0, 2, 3]] {
+            geometry.triangles.push(triangle.map(|k| first + k));
+            geometry.corner_uvs.push(triangle.map(|k| first + k));
+        }
+    };
+    for blade in 0..BLADES {
+        let turn = std::f64::consts::PI * (f64::from(blade) + 0.2) / f64::from(BLADES);
+        let out = DVec3::new(cos(turn), sin(turn), 0.0) * (1.0 + 0.1 * f64::from(blade));
+        add([out, -out, DVec3::Z * 2.0 - out, DVec3::Z * 2.0 + out], blade);
+    }
+    let across = [[-1.2, -1.2], [1.2, -1.2], [1.2, 1.2], [-1.2, 1.2]];
+    add(across.map(|[x, y]| DVec3::new(x, y, 0.9 + 0.3 * x)), BLADES);
+    geometry.triangle_material = vec![0; geometry.triangles.len()];
+    let shade = |texel: u32| [30 + 30 * texel as u8, 220 - 30 * texel as u8, 90];
+    // Each texel is wide enough for its middle to be of one colour, however it is sampled.
+    let mut scene = quads(&[], &[], painted(png(64, |x, _| shade(x / 8))));
+    let faces: Vec<([DVec3; 3], u32)> = geometry
+        .triangles
+        .iter()
+        .enumerate()
+        .map(|(k, t)| (t.map(|v| geometry.positions[v as usize]), k as u32 / 2))
+        .collect();
+    scene.geometries = vec![geometry];
+    for azimuth in [20.0, 65.0, 130.0] {
+        let camera = Camera::azimuth_elevation(azimuth, 25.0, ligne::scene::UpAxis::Z)
+            .with_frame(400.0, 400.0)
+            .fit(&scene);
+        let eye = Eye::new(&camera);
+        let seen = pixels(&render(&scene, &camera, &plain(&[])).unwrap(), 1600);
+        let front = |p: Point| {
+            let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+            let hit = |corners: &[DVec3; 3]| crossed(near, far - near, *corners);
+            let hits = faces.iter().filter_map(|(corners, texel)| Some((hit(corners)?, *texel)));
+            hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, texel)| texel)
+        };
+        let (mut asked, mut wrong) = (0, 0);
+        for k in 0..6000_u32 {
+            let spread = |step: f64| (f64::from(k) * step).fract() * 400.0;
+            let p = Point::new(spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
+            // Pieces reach half a px beside themselves, at corners a whole one.
+            let around = [(1.1, 0.0), (-1.1, 0.0), (0.0, 1.1), (0.0, -1.1)];
+            let Some(texel) = front(p) else { continue };
+            if around.iter().any(|d| front(p + *d) != Some(texel)) {
+                continue;
+            }
+            asked += 1;
+            wrong += u32::from(far(seen.at((p.x * 4.0) as usize, (p.y * 4.0) as usize), shade(texel)) > 8);
+        }
+        assert!(asked > 1000 && wrong == 0, "{wrong} of {asked} points from {azimuth} degrees");
+    }
+}
+
+/// Where along a ray a triangle is hit.
+fn crossed(from: DVec3, way: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+    let normal = (b - a).cross(c - a);
+    let at = normal.dot(a - from) / normal.dot(way);
+    let p = from + way * at;
+    let inside =
+        [(a, b), (b, c), (c, a)].iter().all(|(p0, p1)| normal.dot((*p1 - *p0).cross(p - *p0)) >= 0.0);
+    (at.is_finite() && inside).then_some(at)
+}

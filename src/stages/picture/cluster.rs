@@ -17,6 +17,13 @@ pub(super) struct Cluster {
     pub part: PartId,
 }
 
+impl Cluster {
+    /// Its area on the page.
+    pub fn area(&self, facets: &[Facet]) -> f64 {
+        self.facets.iter().map(|facet| facets[*facet as usize].area2().abs() / 2.0).sum()
+    }
+}
+
 /// What a cluster shows.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Painted {
@@ -32,6 +39,17 @@ const RIGHT_TEXELS: f64 = 0.02;
 /// A cluster has no more corners than this, so that checking them all again takes no time.
 const MOST_CORNERS: usize = 160;
 
+/// What of the facets beside it a facet may be gathered with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Company {
+    /// All between which no other face passes.
+    All,
+    /// Those that the line of another face does not part from it, too.
+    Unparted,
+    /// None.
+    Alone,
+}
+
 /// Which facets share a side.
 pub(super) struct Neighbours {
     /// The facets beyond the three sides of each; [`NONE`] where there are none.
@@ -44,7 +62,7 @@ pub(super) struct Neighbours {
 const NONE: u32 = u32::MAX;
 
 impl Neighbours {
-    /// Two facets of one part are neighbours if they have two corners in common.
+    /// Two facets of one part are neighbours if they have two corners in common, and no other face passes between them.
     pub fn of(facets: &[Facet]) -> Self {
         let mut points: FxHashMap<[u64; 3], u32> = FxHashMap::default();
         let mut point = |p: DVec3| {
@@ -56,7 +74,7 @@ impl Neighbours {
         let mut across = vec![[NONE; 3]; facets.len()];
         let mut open: FxHashMap<(PartId, [u32; 2]), (u32, usize)> = FxHashMap::default();
         for (number, own) in corners.iter().enumerate() {
-            for side in 0..3 {
+            for side in (0..3).filter(|side| !facets[number].is_wall(*side)) {
                 let mut ends = [own[side], own[(side + 1) % 3]];
                 ends.sort_unstable();
                 let key = (facets[number].part, ends);
@@ -78,6 +96,24 @@ impl Neighbours {
     pub fn beyond(&self, facet: u32, side: usize) -> Option<u32> {
         Some(self.across[facet as usize][side]).filter(|other| *other != NONE)
     }
+
+    /// The facets beside one that it may be gathered with.
+    fn company<'a>(
+        &'a self,
+        facet: u32,
+        facets: &'a [Facet],
+        company: &'a [Company],
+    ) -> impl Iterator<Item = u32> + 'a {
+        let own = company[facet as usize];
+        (0..3).filter_map(move |side| {
+            let other = self.beyond(facet, side)?;
+            match own.max(company[other as usize]) {
+                Company::All => Some(other),
+                Company::Unparted => Some(other).filter(|_| !facets[facet as usize].is_parted(side)),
+                Company::Alone => None,
+            }
+        })
+    }
 }
 
 /// What a cluster must be.
@@ -93,8 +129,14 @@ pub(super) struct Fit {
     pub perspective: bool,
 }
 
-/// Gathers facets into clusters, from the largest ones on.
-pub(super) fn clusters(facets: &[Facet], neighbours: &Neighbours, fit: &Fit) -> Vec<Cluster> {
+/// Gathers facets into clusters, from the largest ones on, each with what it may be with.
+pub(super) fn clusters(
+    facets: &[Facet],
+    neighbours: &Neighbours,
+    company: &[Company],
+    fit: &Fit,
+) -> Vec<Cluster> {
+    let beside = |facet: u32| neighbours.company(facet, facets, company);
     let mut taken = vec![false; facets.len()];
     let mut found = Vec::new();
     let mut seeds: Vec<u32> = (0..facets.len() as u32).collect();
@@ -108,8 +150,8 @@ pub(super) fn clusters(facets: &[Facet], neighbours: &Neighbours, fit: &Fit) -> 
         }
         let facet = &facets[seed as usize];
         let grown = match facet.colour {
-            Some(colour) => of_colour(facets, neighbours, seed, colour, &mut taken),
-            None => of_picture(facets, neighbours, seed, fit, &mut taken),
+            Some(colour) => of_colour(facets, beside, seed, colour, &mut taken),
+            None => of_picture(facets, (neighbours, &beside), seed, fit, &mut taken),
         };
         found.extend(grown);
     }
@@ -117,9 +159,9 @@ pub(super) fn clusters(facets: &[Facet], neighbours: &Neighbours, fit: &Fit) -> 
 }
 
 /// The cluster of one colour around a facet.
-fn of_colour(
+fn of_colour<I: Iterator<Item = u32>>(
     facets: &[Facet],
-    neighbours: &Neighbours,
+    beside: impl Fn(u32) -> I,
     seed: u32,
     colour: Colour,
     taken: &mut [bool],
@@ -131,7 +173,7 @@ fn of_colour(
     let mut next = 0;
     while let Some(facet) = own.get(next).copied().filter(|_| own.len() < MOST_OF_COLOUR) {
         next += 1;
-        for other in (0..3).filter_map(|side| neighbours.beyond(facet, side)) {
+        for other in beside(facet) {
             let there = &facets[other as usize];
             let fits = there.colour == Some(colour) && (there.area2() > 0.0) == turn;
             if fits && !std::mem::replace(&mut taken[other as usize], true) {
@@ -146,9 +188,9 @@ fn of_colour(
 const MOST_OF_COLOUR: usize = 2000;
 
 /// The cluster of one map around a facet; none if that cannot be seen.
-fn of_picture(
+fn of_picture<I: Iterator<Item = u32>>(
     facets: &[Facet],
-    neighbours: &Neighbours,
+    (neighbours, beside): (&Neighbours, &impl Fn(u32) -> I),
     seed: u32,
     fit: &Fit,
     taken: &mut [bool],
@@ -163,8 +205,7 @@ fn of_picture(
     let mut next = 0;
     while let Some(facet) = own.get(next).copied() {
         next += 1;
-        for side in 0..3 {
-            let Some(other) = neighbours.beyond(facet, side) else { continue };
+        for other in beside(facet) {
             let there = &facets[other as usize];
             let fits = !taken[other as usize] && there.colour.is_none() && (there.area2() > 0.0) == turn;
             if !fits || grown.corners.len() >= MOST_CORNERS || !asked.insert(other) {

@@ -2,9 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::mesh::{FaceId, Mesh, PartId};
+use super::Stage;
+use crate::mesh::{FaceId, PartId};
 use crate::scene::texture::Imaged;
-use crate::view::{Frame, View};
+use crate::view::Frame;
 
 /// A corner of a facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +24,10 @@ pub(super) struct Facet {
     pub part: PartId,
     /// The one colour that it shows, if it is one.
     pub colour: Option<crate::math::colour::Colour>,
+    /// A bit for each side, from each corner to the next: whether it is parted there from what lies beyond.
+    parted: u8,
+    /// The same: whether another face passes through there.
+    walls: u8,
 }
 
 /// How far one affine map may miss the true one in a facet, px; facets are put together again where that allows it.
@@ -74,11 +79,53 @@ impl Facet {
         high.x >= 0.0 && high.y >= 0.0 && low.x <= frame.width && low.y <= frame.height
     }
 
-    /// What is left of it where a side is cut, on both sides of that.
+    /// Whether it passes through another face at a side.
+    pub fn is_wall(&self, side: usize) -> bool {
+        self.walls >> side & 1 == 1
+    }
+
+    /// Whether it is parted at any side.
+    pub fn is_cut(&self) -> bool {
+        self.parted != 0
+    }
+
+    /// Whether it is parted at a side from what lies beyond: by another face there or farther on along the line of that side.
+    pub fn is_parted(&self, side: usize) -> bool {
+        self.parted >> side & 1 == 1
+    }
+
+    /// Parted at a side, at which another face may pass through.
+    pub fn with_parted(self, side: usize, wall: bool) -> Self {
+        Self { parted: self.parted | 1 << side, walls: self.walls | u8::from(wall) << side, ..self }
+    }
+
+    /// The same, beginning with another corner.
+    pub fn turned(&self, first: usize) -> Self {
+        let turned = |bits: u8| (0..3).fold(0, |all, k| all | (bits >> ((first + k) % 3) & 1) << k);
+        let corners = [0, 1, 2].map(|k| self.corners[(first + k) % 3]);
+        Self { corners, parted: turned(self.parted), walls: turned(self.walls), ..*self }
+    }
+
+    /// What is left of it where a side is cut, on both sides of that: with the first corner of that side first, and its
+    /// second one second.
     fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
-        let [a, b, c] = [0, 1, 2].map(|k| self.corners[(side + k) % 3]);
+        let whole = self.turned(side);
+        let [a, b, c] = whole.corners;
         let middle = between(a, b, share, frame);
-        [Self { corners: [a, middle, c], ..*self }, Self { corners: [middle, b, c], ..*self }]
+        let of = |corners, sides: u8| {
+            let (parted, walls) = (whole.parted & sides, whole.walls & sides);
+            Self { corners, parted, walls, ..whole }
+        };
+        [of([a, middle, c], 0b101), of([middle, b, c], 0b011)]
+    }
+
+    /// The same, with the share of the way along the side as it is seen on the page.
+    pub fn cut_on_page(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
+        if !frame.perspective {
+            return self.cut(side, share, frame);
+        }
+        let [a, b] = [side, (side + 1) % 3].map(|k| self.corners[k].image.z);
+        self.cut(side, share * b / ((1.0 - share) * a + share * b), frame)
     }
 
     /// Its longest side, and how far one affine map may miss the true one: as far as the page's midpoint of that side would be
@@ -111,13 +158,8 @@ fn between(a: Corner, b: Corner, share: f64, frame: &Frame) -> Corner {
 }
 
 /// The facets of faces that show a picture and may be seen.
-pub(super) fn facets(
-    mesh: &Mesh,
-    view: &View,
-    imaged: &Imaged,
-    px: f64,
-    may_be_seen: impl Fn(u32) -> bool,
-) -> Vec<Facet> {
+pub(super) fn facets(stage: &Stage, imaged: &Imaged) -> Vec<Facet> {
+    let Stage { mesh, view, screen, in_front, crossings, px, .. } = *stage;
     let frame = &view.frame;
     let mut facets = Vec::new();
     let texels = imaged.texels();
@@ -129,11 +171,18 @@ pub(super) fn facets(
     let mut add = |face: u32, image: [DVec3; 3], places: [DVec2; 3]| {
         let corners = [0, 1, 2].map(|k| Corner { image: image[k], place: places[k] });
         let part = mesh.face_part[face as usize];
-        let facet = Facet { corners, part, colour: None };
-        halve(facet, frame, px, 0, &mut facets);
+        let facet = Facet { corners, part, colour: None, parted: 0, walls: 0 };
+        let pieces = crossings.cut(face, facet, frame, px);
+        let is_whole = pieces.len() == 1;
+        for piece in pieces {
+            if !is_whole && !in_front.piece(screen, face, piece.corners.map(|corner| corner.image)) {
+                continue;
+            }
+            halve(piece, frame, px, 0, &mut facets);
+        }
     };
     let shows = |face: u32| {
-        mesh.paint(FaceId(face)) == imaged.paint && !mesh.is_degenerate(FaceId(face)) && may_be_seen(face)
+        mesh.paint(FaceId(face)) == imaged.paint && !mesh.is_degenerate(FaceId(face)) && in_front.face(face)
     };
     for face in (0..mesh.triangles.len() as u32).filter(|face| shows(*face)) {
         let image = mesh.triangles[face as usize].map(|v| view.points[v as usize]);

@@ -1,12 +1,14 @@
 //! The pictures of materials themselves, as pieces of the page that show them.
 //!
-//! The triangles that may be seen are cut until one affine map is right in each (`facet`), gathered again where one map, or one
+//! The triangles that may be seen are cut where others pass through them (`crossings`) and until one affine map is right in each (`facet`), gathered again where one map, or one
 //! colour, is right for several (`cluster`), and put in the order in which they cover each other (`order`). What they
 //! show of the picture is brought to the size in which it is seen (`embed`). That no more than the visible part of a
 //! surface shows, up to its exact border, is left to the outline of the mark.
 
 mod affinity;
+mod arrange;
 mod cluster;
+pub(crate) mod crossings;
 mod embed;
 mod facet;
 mod order;
@@ -26,9 +28,12 @@ use crate::mesh::{Mesh, PartId};
 use crate::raster::Screen;
 use crate::scene::texture::Imaged;
 use crate::view::View;
-use cluster::{Cluster, Fit, Neighbours, Painted, clusters};
+use arrange::Arranged;
+use cluster::{Cluster, Fit, Neighbours, Painted};
+use crossings::Crossings;
 use embed::{Mapped, Part};
 use facet::Facet;
+use seen::InFront;
 
 /// How far beside its place a picture may be seen, px.
 const TOLERANCE_PX: f64 = 0.3;
@@ -45,10 +50,6 @@ const MOST_SPAN: f64 = 1024.0;
 /// A picture is seen in this many pieces at most. Where that is too few its tolerance is doubled, three times at most, and then the
 /// smallest pieces are left out: there its mean colour is seen.
 const MOST_PIECES: usize = 20_000;
-const MOST_DOUBLINGS: u32 = 3;
-
-/// Pieces smaller than this, px², are left out.
-const LEAST_PIECE_PX2: f64 = 0.02;
 
 /// Pieces shorter than this, px, are shown in their mean colour.
 const FLAT_PIECE_PX: f64 = 2.5;
@@ -62,8 +63,8 @@ pub(crate) struct Stage<'a> {
     pub mesh: &'a Mesh,
     pub view: &'a View,
     pub screen: &'a Screen<'a>,
-    /// Whether some of a face may be in front.
-    pub seen: &'a [bool],
+    pub in_front: &'a InFront,
+    pub crossings: &'a Crossings,
     /// Where the frame lies on the page.
     pub offset: Vec2,
     /// A px in user units.
@@ -86,8 +87,8 @@ pub(crate) fn pictures(
     imaged: &Imaged,
     toned: impl Fn(&mut Picture) + Copy,
 ) -> Option<Pieces> {
-    let Stage { mesh, view, px, offset, .. } = *stage;
-    let facets = facet::facets(mesh, view, imaged, px, |face| stage.seen[face as usize]);
+    let Stage { view, px, offset, .. } = *stage;
+    let facets = facet::facets(stage, imaged);
     let periods = imaged.texels().periods().map(|period| period.map(|count| count as f64));
     let scale = (stage.samples * stretch(&facets, px)?).min(1.0);
     let spans = periods.map(|period| {
@@ -100,17 +101,8 @@ pub(crate) fn pictures(
         facet.colour = imaged.one_colour(low, high);
     }
     let neighbours = Neighbours::of(&facets);
-    let mut doublings = 0;
-    let (mut clusters, tolerance) = loop {
-        let tolerance = TOLERANCE_PX * f64::from(1_u32 << doublings);
-        let fit = Fit { tolerance: tolerance * px, spans, reach: px, perspective: view.frame.perspective };
-        let mut found = clusters(&facets, &neighbours, &fit);
-        found.retain(|cluster| area(cluster, &facets) > LEAST_PIECE_PX2 * px * px);
-        if found.len() <= MOST_PIECES || doublings == MOST_DOUBLINGS {
-            break (found, tolerance);
-        }
-        doublings += 1;
-    };
+    let fit = Fit { tolerance: px, spans, reach: px, perspective: view.frame.perspective };
+    let Arranged { mut clusters, tolerance } = arrange::arranged(stage.screen, &facets, &neighbours, fit);
     let too_many = clusters.len().saturating_sub(MOST_PIECES);
     for cluster in &mut clusters {
         if length(cluster, &facets) < FLAT_PIECE_PX * px {
@@ -118,16 +110,15 @@ pub(crate) fn pictures(
         }
     }
     if too_many > 0 {
-        let mut areas: Vec<f64> = clusters.iter().map(|cluster| area(cluster, &facets)).collect();
+        let mut areas: Vec<f64> = clusters.iter().map(|cluster| cluster.area(&facets)).collect();
         areas.sort_by(|a, b| b.total_cmp(a));
         let least = areas[MOST_PIECES];
-        clusters.retain(|cluster| area(cluster, &facets) > least);
+        clusters.retain(|cluster| cluster.area(&facets) > least);
     }
 
-    let order = order::back_to_front(stage.screen, &facets, &clusters);
     let mut mapped = Vec::new();
     let mut shown: Vec<(PartId, Made)> = Vec::new();
-    for cluster in order.into_iter().map(|number| &clusters[number as usize]) {
+    for cluster in &clusters {
         let Some(outline) = outline::outline(cluster, &facets, &neighbours, (REACH_PX * px, px), offset)
         else {
             continue;
@@ -171,7 +162,7 @@ pub(crate) fn pictures(
     toned(&mut picture);
     let picture = Arc::new(picture);
     let with = |(part, pieces)| (part, ImagePaint { picture: Arc::clone(&picture), pieces });
-    let coarse = (doublings > 0).then_some((tolerance, too_many));
+    let coarse = (tolerance > TOLERANCE_PX).then_some((tolerance, too_many));
     Some(Pieces { of_part: of_part.into_iter().map(with).collect(), coarse })
 }
 
@@ -202,11 +193,6 @@ fn mean(imaged: &Imaged, cluster: &Cluster, facets: &[Facet]) -> Colour {
     let (middle, half) =
         ((low + high) / 2.0, ((high - low) / 2.0).clamp(DVec2::splat(0.5), DVec2::splat(32.0)));
     imaged.part(middle - half, middle + half, [1, 1]).at(0, 0)
-}
-
-/// The area of a cluster on the page.
-fn area(cluster: &Cluster, facets: &[Facet]) -> f64 {
-    cluster.facets.iter().map(|facet| facets[*facet as usize].area2().abs() / 2.0).sum()
 }
 
 /// How many px a texel is wide and high where that is most, in nearly all that is seen of a picture; none if nothing is.

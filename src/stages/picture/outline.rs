@@ -13,7 +13,10 @@ const STRAIGHT_PX: f64 = 0.02;
 /// Corners reach no farther out than this many times as far as sides.
 const MOST_MITRE: f64 = 2.0;
 
-/// The outline of a cluster, wider by `reach` on all sides, moved by `offset`; none if there is nothing of it.
+/// A loop of points, and of the side after each whether another face passes through there.
+type Ring = Vec<(Point, bool)>;
+
+/// The outline of a cluster, wider by `reach` on all sides at which no other face passes through, moved by `offset`; none if there is nothing of it.
 pub(super) fn outline(
     cluster: &Cluster,
     facets: &[Facet],
@@ -23,7 +26,7 @@ pub(super) fn outline(
 ) -> Option<BezPath> {
     let mut path = BezPath::new();
     for ring in rings(cluster, facets, neighbours) {
-        let ring = straightened(ring, STRAIGHT_PX * px);
+        let ring = straightened(&ring, STRAIGHT_PX * px);
         if ring.len() < 3 {
             continue;
         }
@@ -36,11 +39,11 @@ pub(super) fn outline(
 }
 
 /// The loops around a cluster and around its holes, with the inside on the side to which x turns towards y.
-fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Vec<Point>> {
+fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ring> {
     let mut own = cluster.facets.clone();
     own.sort_unstable();
     // Sides that lie between the cluster and others, by where they begin.
-    let mut sides: Vec<([u32; 2], [Point; 2])> = Vec::new();
+    let mut sides: Vec<([u32; 2], [Point; 2], bool)> = Vec::new();
     for facet in &own {
         let there = &facets[*facet as usize];
         let numbers = neighbours.corners[*facet as usize];
@@ -55,11 +58,11 @@ fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ve
                 let p = there.corners[k].image;
                 Point::new(p.x, p.y)
             };
-            sides.push(([numbers[from], numbers[to]], [at(from), at(to)]));
+            sides.push(([numbers[from], numbers[to]], [at(from), at(to)], there.is_wall(side)));
         }
     }
     let mut begin: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
-    for (k, ([from, _], _)) in sides.iter().enumerate() {
+    for (k, ([from, _], ..)) in sides.iter().enumerate() {
         begin.entry(*from).or_default().push(k);
     }
     let mut done = vec![false; sides.len()];
@@ -69,7 +72,7 @@ fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ve
         let mut next = (!done[first]).then_some(first);
         while let Some(k) = next {
             done[k] = true;
-            ring.push(sides[k].1[0]);
+            ring.push((sides[k].1[0], sides[k].2));
             let back = sides[k].1[0] - sides[k].1[1];
             // Where several begin, that one between which and the last the cluster lies.
             let starts = begin.get(&sides[k].0[1]).into_iter().flatten().copied();
@@ -92,25 +95,24 @@ fn turned(from: Vec2, to: Vec2) -> f64 {
 }
 
 /// A ring without points that lie on the way past them.
-fn straightened(mut ring: Vec<Point>, tolerance: f64) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::with_capacity(ring.len());
+fn straightened(ring: &[(Point, bool)], tolerance: f64) -> Ring {
+    let mut kept: Ring = Vec::with_capacity(ring.len());
     for k in 0..ring.len() {
-        let (before, at, after) =
-            (*kept.last().unwrap_or(&ring[ring.len() - 1]), ring[k], ring[(k + 1) % ring.len()]);
-        let way = after - before;
-        let beside = (at - before).cross(way).abs();
-        let along = (at - before).dot(way);
-        let is_between = along >= 0.0 && along <= way.hypot2();
+        let (before, (at, wall), after) =
+            (*kept.last().unwrap_or(&ring[ring.len() - 1]), ring[k], ring[(k + 1) % ring.len()].0);
+        let way = after - before.0;
+        let beside = (at - before.0).cross(way).abs();
+        let along = (at - before.0).dot(way);
+        let is_between = along >= 0.0 && along <= way.hypot2() && before.1 == wall;
         if !(is_between && beside <= tolerance * way.hypot2().sqrt()) {
-            kept.push(at);
+            kept.push((at, wall));
         }
     }
-    std::mem::swap(&mut ring, &mut kept);
-    ring
+    kept
 }
 
-/// A ring whose sides lie farther out by `reach`.
-fn widened(ring: &[Point], reach: f64) -> Vec<Point> {
+/// A ring whose sides lie farther out by `reach`, but for those through which another face passes.
+fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
     let count = ring.len();
     let unit = |way: Vec2| {
         let length = way.hypot2().sqrt();
@@ -118,18 +120,27 @@ fn widened(ring: &[Point], reach: f64) -> Vec<Point> {
     };
     // The inside lies to the left of the numbers, so that out is to the right.
     let out = |k: usize| {
-        let way = unit(ring[(k + 1) % count] - ring[k]);
+        let way = unit(ring[(k + 1) % count].0 - ring[k].0);
         Vec2::new(way.y, -way.x)
     };
-    (0..count)
-        .map(|k| {
-            let (before, after) = (out((k + count - 1) % count), out(k));
-            let middle = unit(before + after);
-            let cosine = middle.dot(after);
-            let far = if cosine > 1.0 / MOST_MITRE { 1.0 / cosine } else { MOST_MITRE };
-            ring[k] + if middle == Vec2::ZERO { after } else { middle * far } * reach
-        })
-        .collect()
+    let mut wide = Vec::with_capacity(count);
+    for k in 0..count {
+        let (before, after) = ((k + count - 1) % count, k);
+        let (at, [first, second]) = (ring[k].0, [before, after].map(out));
+        match [ring[before].1, ring[after].1] {
+            [false, false] => {
+                let middle = unit(first + second);
+                let cosine = middle.dot(second);
+                let far = if cosine > 1.0 / MOST_MITRE { 1.0 / cosine } else { MOST_MITRE };
+                wide.push(at + if middle == Vec2::ZERO { second } else { middle * far } * reach);
+            }
+            // Out from the wall's end, not along it, so that nothing of it lies beyond the wall.
+            [true, false] => wide.extend([at, at + second * reach]),
+            [false, true] => wide.extend([at + first * reach, at]),
+            [true, true] => wide.push(at),
+        }
+    }
+    wide
 }
 
 #[cfg(test)]
@@ -141,8 +152,8 @@ mod tests {
     #[test]
     fn squares_lose_points_on_their_sides_and_grow() {
         let at = |x: f64, y: f64| Point::new(x, y);
-        let ring = vec![at(0.0, 0.0), at(5.0, 0.001), at(10.0, 0.0), at(10.0, 10.0), at(0.0, 10.0)];
-        let ring = straightened(ring, 0.02);
+        let ring = [at(0.0, 0.0), at(5.0, 0.001), at(10.0, 0.0), at(10.0, 10.0), at(0.0, 10.0)];
+        let ring = straightened(&ring.map(|p| (p, false)), 0.02);
         assert_eq!(ring.len(), 4);
         let wide = widened(&ring, 1.0);
         let mut path = BezPath::new();

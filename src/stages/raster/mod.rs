@@ -9,4 +9,4 @@ pub mod strangers;
 
 pub use face_buffer::FaceBuffer;
 pub use maps::{Maps, NO_FRONT};
-pub use screen::Screen;
+pub use screen::{Screen, ScreenPoint};
