@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 use kurbo::{Point, Shape};
-use ligne::drawing::{Drawing, Mark};
+use ligne::drawing::{Drawing, Mark, Paint};
+use ligne::export::{PngOptions, SvgOptions};
+use ligne::math::picture::Picture as Pixels;
 use ligne::render::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
@@ -92,6 +94,44 @@ fn the_inside_of_a_picture_is_laid_round_a_bend() {
     // Again and again: as many holes as copies.
     let (repeated, _) = drawn(", mode = 'repeat'");
     assert!((repeated[away[0]] - 0.5).abs() < 0.02, "{repeated:?}");
+}
+
+#[test]
+fn a_picture_itself_is_laid_round_a_bend_and_is_once_in_the_file() {
+    let (scene, camera) = ball();
+    // Half as dark below the middle as above it, and a hole in the upper half.
+    let picture = Picture::new("itself", [80, 20], |x, y| match (x, y) {
+        (20..60, 4..8) => 255,
+        (_, 10..) => 128,
+        _ => 0,
+    });
+    let style = picture.style(", inside = 'image'", &["pen.colour='#000'", "page.background='#fff'"]);
+    let drawing = render(&scene, &camera, &style).unwrap();
+    let [mark] = lines(&drawing)[..] else { panic!("one line") };
+    assert!(matches!(mark.paint, Paint::Image(_)));
+    let seen = Pixels::decode(&drawing.to_png(&PngOptions::default()).unwrap()).unwrap();
+    // The mean darkness of the circle so far from the middle.
+    let dark = |way: f64| {
+        let at = |k: u32| {
+            let angle = f64::from(k) / 720.0 * std::f64::consts::TAU;
+            let p = Point::new(500.0, 500.0) + kurbo::Vec2::from_angle(angle) * (250.0 + way);
+            1.0 - f64::from(seen.at(p.x as usize, p.y as usize).r) / 255.0
+        };
+        (0..720).map(at).sum::<f64>() / 720.0
+    };
+    let mut of = [-8.5, -4.0, 4.0, 8.5].map(dark);
+    // The line may run round either way.
+    if of[0] > of[3] {
+        of.reverse();
+    }
+    let expected = [0.5, 0.5, 0.5, 1.0];
+    assert!(of.iter().zip(expected).all(|(own, right)| (own - right).abs() < 0.03), "{of:?}");
+    // Many lines of few widths and one ink share it.
+    let box_scene = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
+    let camera = orthographic(DVec3::new(3.0, -5.0, 4.0), DVec3::ZERO, 4.0);
+    let drawing = render(&box_scene, &camera, &style).unwrap();
+    assert!(lines(&drawing).len() > 1);
+    assert_eq!(drawing.to_svg(&SvgOptions::default()).matches("<image").count(), 1);
 }
 
 #[test]

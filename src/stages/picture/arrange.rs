@@ -3,8 +3,14 @@
 use super::cluster::{Cluster, Company, Fit, Neighbours, clusters};
 use super::facet::Facet;
 use super::order::{Order, back_to_front};
-use super::{MOST_PIECES, TOLERANCE_PX};
 use crate::raster::Screen;
+
+/// How far beside its place a picture may be seen, px.
+pub(super) const TOLERANCE_PX: f64 = 0.3;
+
+/// A picture is seen in this many pieces at most. Where that is too few its tolerance is doubled, three times at most, and then the
+/// smallest pieces are left out: there its mean colour is seen.
+pub(super) const MOST_PIECES: usize = 20_000;
 
 /// The tolerance is doubled so often at most, that there are fewer pieces.
 const MOST_DOUBLINGS: u32 = 3;

@@ -2,9 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Stage;
-use crate::mesh::{FaceId, PartId};
-use crate::scene::texture::Imaged;
+use crate::mesh::PartId;
 use crate::view::Frame;
 
 /// A corner of a facet.
@@ -30,11 +28,12 @@ pub(super) struct Facet {
     walls: u8,
 }
 
-/// How far one affine map may miss the true one in a facet, px; facets are put together again where that allows it.
-const FLAT_PX: f64 = 0.1;
-
-/// No facet is halved more often than this.
-const MOST_HALVINGS: u32 = 20;
+impl Facet {
+    /// Parted from nothing.
+    pub const fn new(corners: [Corner; 3], part: PartId) -> Self {
+        Self { corners, part, colour: None, parted: 0, walls: 0 }
+    }
+}
 
 impl Facet {
     /// Twice its area on the page, positive where it turns from x to y.
@@ -73,7 +72,7 @@ impl Facet {
     }
 
     /// The edges of the page that it lies beyond are none.
-    fn is_on(&self, frame: &Frame) -> bool {
+    pub fn is_on(&self, frame: &Frame) -> bool {
         let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         high.x >= 0.0 && high.y >= 0.0 && low.x <= frame.width && low.y <= frame.height
@@ -108,7 +107,7 @@ impl Facet {
 
     /// What is left of it where a side is cut, on both sides of that: with the first corner of that side first, and its
     /// second one second.
-    fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
+    pub fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
         let whole = self.turned(side);
         let [a, b, c] = whole.corners;
         let middle = between(a, b, share, frame);
@@ -130,7 +129,7 @@ impl Facet {
 
     /// Its longest side, and how far one affine map may miss the true one: as far as the page's midpoint of that side would be
     /// from where the side's own midpoint is seen, if all of the facet's depth lay between its ends.
-    fn miss(&self) -> (usize, f64) {
+    pub fn miss(&self) -> (usize, f64) {
         let length = |side: usize| (self.corners[side].image - self.corners[(side + 1) % 3].image).truncate();
         let (side, longest) = [0, 1, 2]
             .map(|side| (side, length(side).length()))
@@ -155,65 +154,6 @@ fn between(a: Corner, b: Corner, share: f64, frame: &Frame) -> Corner {
     let (wa, wb) = ((1.0 - share) / a.image.z, share / b.image.z);
     let at = (a.image.truncate() * wa + b.image.truncate() * wb) / (wa + wb);
     Corner { image: at.extend(1.0 / (wa + wb)), place }
-}
-
-/// The facets of faces that show a picture and may be seen.
-pub(super) fn facets(stage: &Stage, imaged: &Imaged) -> Vec<Facet> {
-    let Stage { mesh, view, screen, in_front, crossings, px, .. } = *stage;
-    let frame = &view.frame;
-    let mut facets = Vec::new();
-    let texels = imaged.texels();
-    let corners = |face: u32| -> Option<[DVec2; 3]> {
-        let uvs = mesh.corner_uvs.get(face as usize)?;
-        let [a, b, c] = uvs.map(|uv| texels.place(*mesh.uvs.get(uv as usize)?));
-        Some([a?, b?, c?])
-    };
-    let mut add = |face: u32, image: [DVec3; 3], places: [DVec2; 3]| {
-        let corners = [0, 1, 2].map(|k| Corner { image: image[k], place: places[k] });
-        let part = mesh.face_part[face as usize];
-        let facet = Facet { corners, part, colour: None, parted: 0, walls: 0 };
-        let pieces = crossings.cut(face, facet, frame, px);
-        let is_whole = pieces.len() == 1;
-        for piece in pieces {
-            if !is_whole && !in_front.piece(screen, face, piece.corners.map(|corner| corner.image)) {
-                continue;
-            }
-            halve(piece, frame, px, 0, &mut facets);
-        }
-    };
-    let shows = |face: u32| {
-        mesh.paint(FaceId(face)) == imaged.paint && !mesh.is_degenerate(FaceId(face)) && in_front.face(face)
-    };
-    for face in (0..mesh.triangles.len() as u32).filter(|face| shows(*face)) {
-        let image = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
-        if let Some(places) = corners(face).filter(|_| image.iter().all(|p| p.is_finite())) {
-            add(face, image, places);
-        }
-    }
-    for clipped in view.clipped.iter().filter(|clipped| shows(clipped.face.0)) {
-        let Some(places) = corners(clipped.face.0) else { continue };
-        let place = |p: DVec3| {
-            let weights = mesh.weights(clipped.face, frame.local_from_image(p));
-            places[0] * weights[0] + places[1] * weights[1] + places[2] * weights[2]
-        };
-        if clipped.points.iter().all(|p| p.is_finite()) {
-            add(clipped.face.0, clipped.points, clipped.points.map(place));
-        }
-    }
-    facets
-}
-
-/// Halves a facet until one affine map is right in all of it, and leaves out what is not on the page.
-fn halve(facet: Facet, frame: &Frame, px: f64, depth: u32, facets: &mut Vec<Facet>) {
-    if !facet.is_on(frame) {
-        return;
-    }
-    let (side, miss) = facet.miss();
-    if !frame.perspective || miss <= FLAT_PX * px || depth == MOST_HALVINGS {
-        facets.push(facet);
-        return;
-    }
-    facet.cut(side, 0.5, frame).into_iter().for_each(|half| halve(half, frame, px, depth + 1, facets));
 }
 
 /// Cuts facets where the picture is repeated after `spans` texels along x and along y, so that none is longer than that.

@@ -11,32 +11,27 @@ mod cluster;
 pub(crate) mod crossings;
 mod embed;
 mod facet;
+mod faceted;
 mod order;
 mod outline;
 pub(crate) mod seen;
 pub(crate) mod shade;
+mod stage;
 
 use std::sync::Arc;
 
 use glam::DVec2;
-use kurbo::Vec2;
 
 use crate::drawing::{ImagePaint, ImagePiece, Shows};
 use crate::math::colour::Colour;
 use crate::math::picture::Picture;
-use crate::mesh::{Mesh, PartId};
-use crate::raster::Screen;
+use crate::mesh::PartId;
 use crate::scene::texture::Imaged;
-use crate::view::View;
-use arrange::Arranged;
+use arrange::{Arranged, MOST_PIECES, TOLERANCE_PX};
 use cluster::{Cluster, Fit, Neighbours, Painted};
-use crossings::Crossings;
 use embed::{Mapped, Part};
 use facet::Facet;
-use seen::InFront;
-
-/// How far beside its place a picture may be seen, px.
-const TOLERANCE_PX: f64 = 0.3;
+pub(crate) use stage::Stage;
 
 /// How far pieces reach under those beside them, px.
 const REACH_PX: f64 = 0.5;
@@ -47,31 +42,11 @@ const LEAST_PERIOD_PX: f64 = 1.5;
 /// A picture that is repeated is put into the drawing so many pixels wide or high at most, or once.
 const MOST_SPAN: f64 = 1024.0;
 
-/// A picture is seen in this many pieces at most. Where that is too few its tolerance is doubled, three times at most, and then the
-/// smallest pieces are left out: there its mean colour is seen.
-const MOST_PIECES: usize = 20_000;
-
 /// Pieces shorter than this, px, are shown in their mean colour.
 const FLAT_PIECE_PX: f64 = 2.5;
 
 /// This part of what is seen of a picture may be shown less finely than asked for.
 const COARSE_PART: f64 = 0.1;
-
-/// What a view shows pictures on.
-#[derive(Clone, Copy)]
-pub(crate) struct Stage<'a> {
-    pub mesh: &'a Mesh,
-    pub view: &'a View,
-    pub screen: &'a Screen<'a>,
-    pub in_front: &'a InFront,
-    pub crossings: &'a Crossings,
-    /// Where the frame lies on the page.
-    pub offset: Vec2,
-    /// A px in user units.
-    pub px: f64,
-    /// Texels that are kept along a px, at most.
-    pub samples: f64,
-}
 
 /// What becomes of a picture in a view.
 pub(crate) struct Pieces {
@@ -88,7 +63,7 @@ pub(crate) fn pictures(
     toned: impl Fn(&mut Picture) + Copy,
 ) -> Option<Pieces> {
     let Stage { view, px, offset, .. } = *stage;
-    let facets = facet::facets(stage, imaged);
+    let facets = faceted::facets(stage, imaged);
     let periods = imaged.texels().periods().map(|period| period.map(|count| count as f64));
     let scale = (stage.samples * stretch(&facets, px)?).min(1.0);
     let spans = periods.map(|period| {

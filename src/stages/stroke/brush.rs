@@ -5,16 +5,19 @@
 //! Hsu and Lee, Drawing and animation using skeletal strokes, SIGGRAPH 1994.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use kurbo::{BezPath, PathEl, Point, Vec2};
 
 use super::axis::{Axis, add_stretch};
 use super::brush_core;
+use super::brush_image::Copy;
 use super::brush_strip::Strip;
 use super::outline::{Nib, outline};
 use super::widths::mean;
 use crate::chain::fit::unit;
-use crate::drawing::{Length, Unit};
+use crate::drawing::{ImagePiece, Length, Shows, Unit};
+use crate::math::colour::Colour;
 use crate::math::function::cos;
 use crate::math::plane::length;
 
@@ -56,13 +59,18 @@ pub enum BrushShape {
     Profile(Vec<[f64; 2]>, f64),
     /// A picture whose inside is traced, and how much longer than wide it is.
     Picture(Strip, f64),
+    /// A picture that is shown itself, and how much longer than wide it is.
+    Image(Arc<Strip>, f64),
 }
 
 impl BrushShape {
     /// How much longer than wide it is.
     #[must_use]
     pub const fn ratio(&self) -> f64 {
-        let (Self::Path(_, ratio) | Self::Profile(_, ratio) | Self::Picture(_, ratio)) = self;
+        let (Self::Path(_, ratio)
+        | Self::Profile(_, ratio)
+        | Self::Picture(_, ratio)
+        | Self::Image(_, ratio)) = self;
         *ratio
     }
 
@@ -72,6 +80,7 @@ impl BrushShape {
             Self::Path(path, _) => Cow::Borrowed(path),
             Self::Profile(profile, _) => Cow::Owned(edges(profile)),
             Self::Picture(strip, _) => Cow::Owned(strip.path(size)),
+            Self::Image(strip, _) => Cow::Owned(strip.path(size)),
         }
     }
 }
@@ -111,7 +120,16 @@ const TURN: f64 = 1.0;
 /// A brush turns by more than this at a corner of its own (cosine of 20 degrees).
 const CORNER_COSINE: f64 = 0.94;
 
-/// The outline of a line drawn with a brush, and its mean width. `thick` are the widths at the points of the
+/// A line drawn with a brush.
+pub(super) struct Brushed {
+    pub path: BezPath,
+    /// Its mean width.
+    pub width: f64,
+    /// The picture that is seen within its outline, how many pixels that has along and across, and in which pieces it is seen.
+    pub image: Option<(Arc<Strip>, [usize; 2], Vec<ImagePiece>)>,
+}
+
+/// The outline of a line drawn with a brush in a colour. `thick` are the widths at the points of the
 /// axis, and `reach` is how far to either side of it the ink must come at least, and without a gap, wherever there is
 /// any.
 pub(super) fn drawn(
@@ -120,8 +138,8 @@ pub(super) fn drawn(
     thick: &[f64],
     reach: &[f64],
     nib: &Nib,
-    unit: Unit,
-) -> Option<(BezPath, f64)> {
+    (unit, colour): (Unit, Colour),
+) -> Option<Brushed> {
     let total = axis.length();
     let pen = mean(axis, thick);
     if total <= 0.0 || axis.len() < 3 {
@@ -156,7 +174,7 @@ pub(super) fn drawn(
             let (left, right) = (at_least(&left), at_least(&right));
             let both: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l + r).collect();
             let path = outline(axis, [&left, &right], nib)?;
-            Some((path, mean(axis, &both)))
+            Some(Brushed { path, width: mean(axis, &both), image: None })
         }
         (shape, turns) => {
             let map = Map { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
@@ -164,10 +182,29 @@ pub(super) fn drawn(
             let straight = shape.path(size);
             let turned = turns.as_ref().map(|turns| [&turns.left, &turns.right].map(|own| own.path(size)));
             let mut path = BezPath::new();
-            for copy in 0..copies as usize {
-                let turn = turns.as_ref().and_then(|turns| map.turn(turns.degrees, copy));
+            let mut image = match shape {
+                BrushShape::Image(strip, _) => Some((Arc::clone(strip), strip.pixels(size[1]), Vec::new())),
+                _ => None,
+            };
+            let solid = |outline: BezPath| ImagePiece { outline, shows: Shows::Colour(colour) };
+            for number in 0..copies as usize {
+                let turn = turns.as_ref().and_then(|turns| map.turn(turns.degrees, number));
                 let own = turned.as_ref().zip(turn).map(|(turned, turn)| &turned[turn as usize]);
-                map.add(own.unwrap_or(&straight), copy, nib.px, &mut path);
+                match (&mut image, own) {
+                    (None, own) => map.add(own.unwrap_or(&straight), number, nib.px, &mut path),
+                    (Some((.., pieces)), Some(own)) => {
+                        let mut outline = BezPath::new();
+                        map.add(own, number, nib.px, &mut outline);
+                        path.extend(outline.iter());
+                        pieces.push(solid(outline));
+                    }
+                    (Some((_, pixels, pieces)), None) => {
+                        map.add(&edges(&[[0.5; 2]]), number, nib.px, &mut path);
+                        let size = [total / copies, pen * thinner];
+                        let at = |p: Point| map.at(p);
+                        pieces.extend(Copy { at: &at, number, size, pixels: *pixels, px: nib.px }.pieces());
+                    }
+                }
             }
             use kurbo::Shape;
             let area = path.area();
@@ -180,11 +217,18 @@ pub(super) fn drawn(
                 let place = |i: usize| (axis.arcs[i] - axis.arcs[0]) / total * copies;
                 let columns = match shape {
                     BrushShape::Picture(strip, _) => Cow::Borrowed(&strip.ways),
+                    BrushShape::Image(strip, _) => Cow::Borrowed(&strip.ways),
                     _ => Cow::Owned(brush_core::columns(&straight)),
                 };
-                brush_core::add(&mut path, &columns, axis, half, place, nib);
+                let mut core = BezPath::new();
+                brush_core::add(&mut core, &columns, axis, half, place, nib);
+                path.extend(core.iter());
+                if let Some((.., pieces)) = image.as_mut().filter(|_| !core.elements().is_empty()) {
+                    pieces.push(solid(core));
+                }
             }
-            (path.elements().len() > 2).then_some((path, area.abs() / total))
+            let width = area.abs() / total;
+            (path.elements().len() > 2).then_some(Brushed { path, width, image })
         }
     }
 }

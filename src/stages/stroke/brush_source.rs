@@ -79,6 +79,8 @@ pub enum Inside {
     Traced,
     /// It is ink from edge to edge.
     Solid,
+    /// The picture itself is laid along the stroke, as opaque as it is dark.
+    Image,
 }
 
 impl BrushSource {
@@ -142,6 +144,9 @@ impl BrushShape {
         }
         let height = picture.height as f64;
         let ratio = picture.width as f64 / height;
+        if inside == Inside::Image {
+            return Ok(Self::Image(Arc::new(Strip::of(picture)), ratio));
+        }
         if inside == Inside::Traced {
             let strip = Strip::of(picture);
             if !strip.is_solid() {

@@ -3,6 +3,7 @@
 use kurbo::{BezPath, Point};
 
 use super::brush_core::{COLUMNS, Way, nearest};
+use crate::math::colour::Colour;
 use crate::math::picture::Picture;
 use crate::math::shades::{Shades, Tracing};
 
@@ -14,6 +15,9 @@ const MOST_PIXELS: usize = 1 << 20;
 
 /// Pictures are traced with no more pixels to a px of the page than this.
 const FINENESS: f64 = 3.0;
+
+/// Pictures that are shown themselves have no more pixels to a px of the page than this.
+const PRINT_FINENESS: f64 = 4.0;
 
 /// How far outlines may be off before they are laid along a line, px.
 const TOLERANCE_PX: f64 = 0.08;
@@ -62,6 +66,26 @@ impl Strip {
             }
         }
         within - inked as f64 <= SOLID * within
+    }
+
+    /// How many pixels it has along and across, for a pen that is so wide, px: in few sizes, so that lines share them.
+    pub(super) fn pixels(&self, wide: f64) -> [usize; 2] {
+        let rows = ((wide * PRINT_FINENESS).clamp(1.0, 1e6) as usize).next_power_of_two();
+        let rows = rows.min(self.shades.height) as f64;
+        let columns = (rows * self.shades.width as f64 / self.shades.height as f64).round().max(1.0);
+        [columns as usize, rows as usize]
+    }
+
+    /// Itself in an ink: as opaque as it is dark.
+    pub(super) fn picture(&self, [width, height]: [usize; 2], ink: Colour) -> Picture {
+        let shades = self.shades.at_most(width, height);
+        let at = |k: usize| {
+            let [x, y] = [k % shades.width, k / shades.width].map(|at| at as f64);
+            let dark = shades.mean([x, y], [x + 1.0, y + 1.0]).clamp(0.0, 1.0);
+            Colour { a: (dark * f64::from(ink.a)).round() as u8, ..ink }
+        };
+        let pixels = (0..shades.width * shades.height).map(at).collect();
+        Picture { width: shades.width, height: shades.height, pixels }
     }
 
     /// The islands of ink and their holes, as a path of a brush that is so long and so wide on the page, in px.

@@ -3,10 +3,13 @@
 //! The axis of the chain is cut where nothing is drawn; each piece runs on at its ends, is given its
 //! widths, and is moved a little; what comes out is a path or the outline of a line of varying width.
 
+use std::sync::Arc;
+
 use kurbo::BezPath;
 
 use super::axis::Axis;
 use super::brush;
+use super::brush_strip::Strip;
 use super::context::InkContext;
 use super::inks::{Stretch, Tint};
 use super::outline::{Nib, outline};
@@ -16,6 +19,7 @@ use super::tinted::{Drawn, parts};
 use super::tremor::Tremor;
 use super::widths::{Setting, mean, meet, taper};
 use crate::chain::Chain;
+use crate::drawing::ImagePiece;
 use crate::lines::LineKind;
 use crate::math::colour::Colour;
 use crate::math::noise::{hash, unit};
@@ -49,6 +53,9 @@ pub(super) enum Shape {
     Path(BezPath, bool),
     /// The outline of a line, its axis and its mean width.
     Outline { path: BezPath, axis: BezPath, width: f64 },
+    /// The outline of a line within which the picture of a stroke is seen, that picture, its pixels along and across, and the
+    /// pieces in which it is seen.
+    Image { path: BezPath, strip: Arc<Strip>, pixels: [usize; 2], pieces: Vec<ImagePiece> },
 }
 
 /// A chain and what it is to be drawn with.
@@ -165,17 +172,19 @@ impl Inked<'_> {
         let reach: Vec<f64> = moved.map(|way| covers.map_or(0.0, |to_side| to_side + way)).collect();
         let drawn = Drawn { axis, thick, reach, caps: [self.pen.cap; 2] };
         if let [Stretch { tint, .. }] = self.inks {
-            let shape = self.shape(&drawn.times(tint.width), setting, context);
+            let shape = self.shape(&drawn.times(tint.width), tint.colour, setting, context);
             return shape.map(|shape| (shape, tint.colour)).into_iter().collect();
         }
         let round = self.chain.closed.then(|| self.axis.length());
         let parts = parts(&drawn, self.inks, round);
-        let shape = |(part, tint): &(Drawn, Tint)| Some((self.shape(part, setting, context)?, tint.colour));
+        let shape = |(part, tint): &(Drawn, Tint)| {
+            Some((self.shape(part, tint.colour, setting, context)?, tint.colour))
+        };
         parts.iter().filter_map(shape).collect()
     }
 
     /// The shape of a piece of one ink.
-    fn shape(&self, drawn: &Drawn, setting: &Setting, context: &InkContext) -> Option<Shape> {
+    fn shape(&self, drawn: &Drawn, colour: Colour, setting: &Setting, context: &InkContext) -> Option<Shape> {
         let (Drawn { axis, thick, reach, caps }, px) = (drawn, context.px());
         let path = axis.path(px);
         if path.elements().len() < 2 {
@@ -183,8 +192,11 @@ impl Inked<'_> {
         }
         let nib = Nib { caps: *caps, join: self.pen.join, px };
         if let (true, Some(brush)) = (self.solid, &self.pen.brush) {
-            let (outline, width) = brush::drawn(brush, axis, thick, reach, &nib, context.unit)?;
-            return Some(Shape::Outline { path: outline, axis: path, width });
+            let brushed = brush::drawn(brush, axis, thick, reach, &nib, (context.unit, colour))?;
+            return Some(match brushed.image {
+                Some((strip, pixels, pieces)) => Shape::Image { path: brushed.path, strip, pixels, pieces },
+                None => Shape::Outline { path: brushed.path, axis: path, width: brushed.width },
+            });
         }
         let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
         let varies = high - low > SAME_WIDTH * setting.width

@@ -3,6 +3,7 @@
 mod axis;
 pub mod brush;
 mod brush_core;
+mod brush_image;
 pub mod brush_source;
 pub mod brush_strip;
 mod context;
@@ -41,11 +42,14 @@ pub use pen::{Ink, Pen, PenChange};
 pub use swell::{Swell, SwellChange};
 
 use crate::chain::{Chain, Under};
-use crate::drawing::{Layer, LayerKind, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit};
+use crate::drawing::{
+    ImagePaint, Layer, LayerKind, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit,
+};
 use crate::lines::HiddenLines;
 use crate::math::colour::Colour;
 use crate::math::identity::identities;
 use axis::Axis;
+use brush_image::StripPictures;
 use inked::{Inked, Shape};
 use inks::Tint;
 use outline::Nib;
@@ -117,6 +121,7 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
         .into_par_iter()
         .map(|i| widths::widths(&axes[i], &inked::setting(chains[i], &pens[i], depths, &identities, context)))
         .collect();
+    let pictures = StripPictures::default();
     let of_chain = |i: usize| -> Vec<Mark> {
         let (chain, pen) = (chains[i], &pens[i]);
         let width = pen.width.in_unit(context.unit);
@@ -153,6 +158,11 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
             Shape::Path(path, closed) => stroked(path, closed, colour, chain, context, pen),
             Shape::Outline { path, axis, width: mean } => {
                 let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
+                Mark { path, paint, provenance: provenance(chain, context) }
+            }
+            Shape::Image { path, strip, pixels, pieces } => {
+                let picture = pictures.of(&strip, pixels, colour);
+                let paint = Paint::Image(ImagePaint { picture, pieces });
                 Mark { path, paint, provenance: provenance(chain, context) }
             }
         });
