@@ -50,6 +50,7 @@ pub mod export;
 pub mod load;
 #[doc(hidden)]
 pub mod math;
+pub mod pose;
 pub mod render;
 pub mod scene;
 pub mod stages;

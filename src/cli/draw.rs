@@ -1,5 +1,6 @@
 //! `ligne draw`: one drawing of one model, in one or several formats.
 
+use super::moment::scene_at;
 use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
@@ -7,6 +8,7 @@ use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{number, pipeline, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
+use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch};
 use crate::scene::Scene;
 
@@ -61,7 +63,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
-    let mut scene = Scene::open(&request.model)?;
+    let mut scene = open(request)?;
     pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
     if let Some(up) = request.up {
         scene.up = up;
@@ -105,6 +107,14 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     });
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
     Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded, maps })
+}
+
+/// The model, at the moment that is asked for.
+fn open(request: &DrawRequest) -> Result<Scene, Error> {
+    if request.animation.is_empty() && request.time.is_none() {
+        return Scene::open(&request.model);
+    }
+    scene_at(Rigged::open(&request.model)?, &request.animation, request.time)
 }
 
 fn default_dpi(unit: Unit) -> f64 {

@@ -108,6 +108,15 @@ pub(super) struct HowArgs {
     #[arg(long, value_name = "GLOB", help_heading = "View")]
     pub(super) hide: Vec<String>,
 
+    /// Draw a moment of this animation of the model; given again, several play together with equal shares
+    #[arg(long, value_name = "NAME", help_heading = "View")]
+    pub(super) animation: Vec<String>,
+
+    /// The moment in seconds; where the model has one animation, its name may be left out [default: 0]
+    #[arg(long, value_name = "SECONDS", help_heading = "View", value_parser = seconds,
+        allow_hyphen_values = true)]
+    pub(super) time: Option<f64>,
+
     /// Size of the drawing in px: 1000x800, or 1000 for a square [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",
         value_parser = paper::size_px)]
@@ -207,6 +216,11 @@ fn field_of_view(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|d| *d > 0.0 && *d < 180.0)
         .ok_or_else(|| "write degrees between 0 and 180".to_owned())
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.is_finite());
+    time.ok_or_else(|| "write a number of seconds".to_owned())
 }
 
 fn dots_per_inch(text: &str) -> Result<f64, String> {

@@ -10,6 +10,7 @@ use super::number::{counted, plain};
 use super::{pipeline, print};
 use crate::error::Error;
 use crate::math::colour::Colour;
+use crate::pose::{Clip, Rigged};
 use crate::scene::framing::{bounds, world_points};
 use crate::scene::texture::picture_of;
 use crate::scene::{Alpha, LightKind, Projection, Scene, UpAxis};
@@ -44,7 +45,7 @@ struct Info {
     materials: Vec<MaterialInfo>,
     lights: Vec<LightInfo>,
     cameras: Vec<CameraInfo>,
-    animations: Vec<String>,
+    animations: Vec<ClipInfo>,
     bounds: Option<BoundsInfo>,
     warnings: Vec<String>,
 }
@@ -93,6 +94,16 @@ struct CameraInfo {
 }
 
 #[derive(Debug, Serialize)]
+struct ClipInfo {
+    name: String,
+    /// When it begins and ends, in seconds.
+    from: f64,
+    to: f64,
+    /// How many keys a second it has, where it has most; none without two keys.
+    rate: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
 struct BoundsInfo {
     min: [f64; 3],
     max: [f64; 3],
@@ -100,8 +111,8 @@ struct BoundsInfo {
 
 /// Reads the model and says what is in it.
 pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
-    let scene = Scene::open(&args.model)?;
-    let info = Info::of(&scene, args.model.display().to_string());
+    let Rigged { scene, rig } = Rigged::open(&args.model)?;
+    let info = Info::of(&scene, &rig.clips, args.model.display().to_string());
     if args.json {
         let json = serde_json::to_string_pretty(&info).unwrap_or_default();
         print(format!("{json}\n").as_bytes())
@@ -111,7 +122,7 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
 }
 
 impl Info {
-    fn of(scene: &Scene, file: String) -> Self {
+    fn of(scene: &Scene, clips: &[Clip], file: String) -> Self {
         let points = world_points(scene);
         let parts: Vec<PartInfo> = scene
             .parts
@@ -156,7 +167,7 @@ impl Info {
                     },
                 })
                 .collect(),
-            animations: scene.animations.clone(),
+            animations: clips.iter().map(ClipInfo::of).collect(),
             bounds: bounds(&points).map(|(min, max)| BoundsInfo { min: min.to_array(), max: max.to_array() }),
             warnings: warnings.lines(),
         }
@@ -177,9 +188,22 @@ impl Info {
         list(&mut text, "material", self.materials.iter().map(MaterialInfo::line));
         list(&mut text, "light", self.lights.iter().map(|light| aside(&light.name, light.kind)));
         list(&mut text, "camera", self.cameras.iter().map(|camera| aside(&camera.name, camera.r#type)));
-        list(&mut text, "animation", self.animations.iter().map(|name| named(name).to_owned()));
+        list(&mut text, "animation", self.animations.iter().map(ClipInfo::line));
         list(&mut text, "warning", self.warnings.iter().cloned());
         text
+    }
+}
+
+impl ClipInfo {
+    fn of(clip: &Clip) -> Self {
+        let [from, to] = clip.span();
+        Self { name: clip.name.clone(), from, to, rate: clip.rate() }
+    }
+
+    fn line(&self) -> String {
+        let begins = if self.from == 0.0 { String::new() } else { format!(", from {} s", short(self.from)) };
+        let keys = self.rate.map_or_else(String::new, |rate| format!(", {} keys a second", short(rate)));
+        format!("{}: {} s{begins}{keys}", named(&self.name), short(self.to - self.from))
     }
 }
 
@@ -286,6 +310,7 @@ mod tests {
     use glam::{DAffine3, DVec3};
 
     use super::*;
+    use crate::pose::{Channel, Interpolation, Property, Track};
     use crate::scene::{Geometry, Material, Part};
 
     fn scene(parts: usize) -> Scene {
@@ -305,22 +330,30 @@ mod tests {
             geometries: vec![geometry],
             parts: (0..parts).map(part).collect(),
             materials: vec![Material::default()],
-            animations: vec!["Walk".to_owned()],
             ..Scene::default()
         };
         scene.warnings.count("doubled faces", 3);
         scene
     }
 
+    fn walk() -> Clip {
+        let track = Track::new(vec![0.5, 1.0, 2.5], vec![0.0; 9], Interpolation::Linear).unwrap();
+        Clip {
+            name: "Walk".to_owned(),
+            channels: vec![Channel { node: 0, property: Property::Scale, track }],
+        }
+    }
+
     #[test]
     fn people_read_lists_of_a_bearable_length() {
-        let text = Info::of(&scene(22), "m.obj".to_owned()).text();
+        let text = Info::of(&scene(22), &[walk()], "m.obj".to_owned()).text();
         let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
                      22 parts:\n    bolt 0: 1 triangle, 1 line\n";
         assert!(text.starts_with(start), "{text}");
         assert!(text.contains("    and 2 more (--json lists all)\n  1 material:\n    (no name): #cccccc\n"));
         assert!(
-            text.contains("  1 animation:\n    Walk\n") && text.contains("    3 doubled faces\n"),
+            text.contains("  1 animation:\n    Walk: 2 s, from 0.5 s, 1 keys a second\n")
+                && text.contains("    3 doubled faces\n"),
             "{text}"
         );
         assert!(!text.contains("camera") && !text.contains("light"));
@@ -331,18 +364,18 @@ mod tests {
         let mut scene = scene(1);
         scene.geometries[0].corner_uvs = vec![[0; 3]];
         assert!(
-            Info::of(&scene, "m.obj".to_owned())
+            Info::of(&scene, &[], "m.obj".to_owned())
                 .text()
                 .contains(": 1 triangle, 1 line, texture coordinates\n")
         );
         scene.geometries[0].colours = vec![[1.0; 4]; 3];
-        let text = Info::of(&scene, "m.obj".to_owned()).text();
+        let text = Info::of(&scene, &[], "m.obj".to_owned()).text();
         assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
     }
 
     #[test]
     fn programs_read_everything() -> Result<(), serde_json::Error> {
-        let json = serde_json::to_string(&Info::of(&scene(22), "m.obj".to_owned()))?;
+        let json = serde_json::to_string(&Info::of(&scene(22), &[walk()], "m.obj".to_owned()))?;
         let value: serde_json::Value = serde_json::from_str(&json)?;
         assert_eq!(value["parts"].as_array().map(Vec::len), Some(22));
         assert_eq!(value["parts"][3]["name"], "bolt\u{1b}3");
@@ -354,7 +387,9 @@ mod tests {
     #[test]
     fn an_empty_model_has_no_bounds() {
         assert!(
-            Info::of(&scene(0), "m.obj".to_owned()).text().starts_with("m.obj: OBJ, y up\n  0 triangles")
+            Info::of(&scene(0), &[], "m.obj".to_owned())
+                .text()
+                .starts_with("m.obj: OBJ, y up\n  0 triangles")
         );
     }
 

@@ -10,6 +10,7 @@ mod fmt;
 mod info;
 mod keys;
 mod man;
+mod moment;
 mod number;
 mod output;
 mod paper;

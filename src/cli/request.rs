@@ -28,6 +28,9 @@ pub(super) struct DrawRequest {
     pub(super) up: Option<UpAxis>,
     pub(super) only: Vec<String>,
     pub(super) hide: Vec<String>,
+    /// The names of the animations that play, and when.
+    pub(super) animation: Vec<String>,
+    pub(super) time: Option<f64>,
     pub(super) sheet: Sheet,
     pub(super) svg: SvgChoices,
     pub(super) dpi: Option<f64>,
@@ -98,6 +101,8 @@ impl DrawRequest {
             up: args.up,
             only: args.only,
             hide: args.hide,
+            animation: args.animation,
+            time: args.time,
             sheet: Sheet {
                 extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
                 margin: args.margin,

@@ -24,6 +24,7 @@ use std::path::Path;
 
 use self::text::decode;
 use crate::error::{self, Error};
+use crate::pose::Rigged;
 use crate::scene::Scene;
 
 const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
@@ -85,14 +86,32 @@ impl Scene {
     }
 }
 
+impl Rigged {
+    /// Reads a model file as [`Scene::open`] does, with its animations and what these move, if its format has any.
+    ///
+    /// # Errors
+    /// As [`Scene::open`].
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        open_with(path.as_ref(), gltf::read_rigged)
+    }
+}
+
 /// Reads a model with the reader for its ending, whatever its case.
 fn open(path: &Path) -> Result<Scene, Error> {
+    open_with(path, gltf::read)
+}
+
+/// The same with a reader of glTF; what the other readers read stands still.
+fn open_with<T: From<Scene>>(
+    path: &Path,
+    read_gltf: impl FnOnce(&Path) -> Result<T, Error>,
+) -> Result<T, Error> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     let scene = refuse_strangers(path).and_then(|()| match ModelFormat::of_ending(&ending) {
-        Some(ModelFormat::Obj) => obj::read(path),
-        Some(ModelFormat::Gltf) => gltf::read(path),
-        Some(ModelFormat::Stl) => stl::read(path),
-        Some(ModelFormat::Ply) => ply::read(path),
+        Some(ModelFormat::Obj) => obj::read(path).map(T::from),
+        Some(ModelFormat::Gltf) => read_gltf(path),
+        Some(ModelFormat::Stl) => stl::read(path).map(T::from),
+        Some(ModelFormat::Ply) => ply::read(path).map(T::from),
         None if ending.is_empty() => Err(unknown("the file has no ending that tells its format")),
         None => Err(unknown(format!("the format .{ending} is not known"))),
     });

@@ -88,8 +88,6 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The file's cameras, in world space.
     pub cameras: Vec<NamedCamera>,
-    /// Names of the file's animations.
-    pub animations: Vec<String>,
     /// What had to be dropped or mended while reading.
     pub warnings: Warnings,
 }

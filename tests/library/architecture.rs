@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use crate::support::imports::{File, circles, imports};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
-const ROOMS: [&str; 25] = [
-    "error", "math", "mesh", "trees", "shape", "scene", "load", "view", "raster", "field", "lines",
+const ROOMS: [&str; 26] = [
+    "error", "math", "mesh", "trees", "shape", "scene", "pose", "load", "view", "raster", "field", "lines",
     "viewmap", "shadow", "drawing", "chain", "export", "region", "picture", "diff", "testing", "stroke",
     "hatch", "style", "render", "cli",
 ];

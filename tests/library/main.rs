@@ -36,6 +36,7 @@ mod painted_surfaces;
 mod paper;
 mod patterns;
 mod picture_fills;
+mod poses;
 mod properties;
 mod random_widths;
 mod regions;

@@ -4,8 +4,8 @@ use glam::{DAffine3, DQuat, DVec3};
 
 use super::buffers::Buffers;
 use super::json::Instancing;
-use super::nodes::unit_quaternion;
 use crate::error::Error;
+use crate::pose::track::unit_quaternion;
 
 /// The transform of each instance, relative to its node.
 pub fn places(buffers: &Buffers, instancing: &Instancing) -> Result<Vec<DAffine3>, Error> {

@@ -23,7 +23,7 @@ pub struct Root {
     pub images: Vec<Image>,
     pub cameras: Vec<Camera>,
     pub skins: Vec<Skin>,
-    pub animations: Vec<Named>,
+    pub animations: Vec<Animation>,
     pub extensions_required: Vec<String>,
     pub extensions: RootExtensions,
 }
@@ -69,8 +69,46 @@ pub struct Spot {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Named {
+pub struct Animation {
     pub name: Option<String>,
+    pub channels: Vec<Channel>,
+    pub samplers: Vec<AnimationSampler>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Channel {
+    pub sampler: Option<usize>,
+    pub target: ChannelTarget,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct ChannelTarget {
+    pub node: Option<usize>,
+    pub path: String,
+    pub extensions: TargetExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct TargetExtensions {
+    #[serde(rename = "KHR_animation_pointer")]
+    pub pointer: Option<Pointer>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Pointer {
+    pub pointer: String,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct AnimationSampler {
+    pub input: Option<usize>,
+    pub output: Option<usize>,
+    pub interpolation: Option<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -10,22 +10,23 @@ use super::primitive::{Mode, Shape};
 use super::{edges, pose, vertices};
 use crate::error::Error;
 use crate::mesh::EdgeMark;
+use crate::pose::Body;
 use crate::scene::{Geometry, Warnings};
 
 /// No normal, no texture coordinate.
 const NONE: [u32; 3] = [u32::MAX; 3];
 
-/// Reads mesh `number`; `joints` carry its vertices to world space if its node has a skin.
+/// Reads mesh `number`; `joints` carry its vertices to world space if its node has a skin. With it comes what moves its vertices, if
+/// that is asked for.
 ///
 /// Triangles without a material get the index one past the last material of the file if others of
 /// the mesh have one.
 pub fn geometry(
     buffers: &Buffers,
     number: usize,
-    weights: &[f64],
-    joints: Option<&[DAffine3]>,
+    (weights, joints, rigged): (&[f64], Option<&[DAffine3]>, bool),
     warnings: &mut Warnings,
-) -> Result<Geometry, Error> {
+) -> Result<(Geometry, Vec<Body>), Error> {
     let Some(mesh) = buffers.root.meshes.get(number) else {
         let message = format!("is pointed to, but the file has {}", buffers.root.meshes.len());
         return Err(Error::new(message).at(format!("mesh {number}")));
@@ -34,6 +35,8 @@ pub fn geometry(
         buffers,
         weights,
         joints,
+        rigged,
+        bodies: Vec::new(),
         geometry: Geometry::default(),
         blocks: Vec::new(),
         painted: Vec::new(),
@@ -62,6 +65,9 @@ struct Builder<'a> {
     buffers: &'a Buffers<'a>,
     weights: &'a [f64],
     joints: Option<&'a [DAffine3]>,
+    /// Whether bodies are kept.
+    rigged: bool,
+    bodies: Vec<Body>,
     geometry: Geometry,
     /// Vertices that were read already: exporters like to share them among primitives.
     blocks: Vec<(Key<'a>, Block)>,
@@ -122,9 +128,16 @@ impl<'a> Builder<'a> {
             return Ok((*block, None));
         }
         let mut streams = vertices::read(self.buffers, primitive)?;
-        pose::morph(&mut streams, self.buffers, primitive, self.weights)?;
-        if let Some(joints) = self.joints {
-            pose::skin(&mut streams, self.buffers, primitive, joints)?;
+        let (weights, joints) = (self.weights, self.joints);
+        let asked = (weights, self.rigged);
+        let mut body = pose::body(&streams, self.buffers, primitive, asked, joints.map(<[_]>::len))?;
+        if self.rigged && (!body.targets.is_empty() || joints.is_some()) {
+            body.start = self.geometry.positions.len();
+            (body.positions, body.normals) = (streams.positions.clone(), streams.normals.clone());
+        }
+        body.pose((&mut streams.positions, &mut streams.normals), weights, joints);
+        if !body.positions.is_empty() {
+            self.bodies.push(body);
         }
         let (start, count) = (self.geometry.positions.len(), streams.positions.len());
         if start.saturating_add(count) >= u32::MAX as usize {
@@ -233,7 +246,7 @@ impl<'a> Builder<'a> {
         geometry.wires.extend(shape.wires);
     }
 
-    fn finish(self) -> Geometry {
+    fn finish(self) -> (Geometry, Vec<Body>) {
         let mut geometry = self.geometry;
         // Nothing points to these any more; they must not widen the bounds either.
         let sound = geometry.positions.iter().copied().find(|position| position.is_finite());
@@ -253,7 +266,7 @@ impl<'a> Builder<'a> {
                 geometry.triangle_material.resize(length, material.unwrap_or(plain) as u32);
             }
         }
-        geometry
+        (geometry, self.bodies)
     }
 }
 

@@ -1,8 +1,9 @@
-//! Reads glTF 2.0 and GLB into a [`Scene`], in the pose the file stores.
+//! Reads glTF 2.0 and GLB into a [`Scene`], in the pose the file stores, with what moves it if that is asked for.
 //!
 //! Source: Khronos Group, glTF 2.0 specification, and the extensions that `extensions` lists.
 
 mod accessor;
+mod animations;
 mod buffers;
 mod container;
 #[cfg(feature = "draco")]
@@ -34,6 +35,7 @@ use std::path::Path;
 use self::buffers::{Buffers, Fetch};
 use self::json::Root;
 use crate::error::Error;
+use crate::pose::{Rig, Rigged};
 use crate::scene::{Scene, UpAxis, Warnings};
 
 /// Reads a `.gltf` or `.glb` file; buffers beside it are read too, if they lie in its folder.
@@ -41,12 +43,24 @@ use crate::scene::{Scene, UpAxis, Warnings};
 /// # Errors
 /// Names the file, the place in it (chunk, accessor, mesh, node ...) and what is wrong.
 pub fn read(path: &Path) -> Result<Scene, Error> {
+    Ok(read_file(path, false)?.scene)
+}
+
+/// Reads a `.gltf` or `.glb` file as [`read`] does, with its animations and what these move.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_rigged(path: &Path) -> Result<Rigged, Error> {
+    read_file(path, true)
+}
+
+fn read_file(path: &Path, rigged: bool) -> Result<Rigged, Error> {
     let bytes = fs::read(path).map_err(|error| Error::io("cannot be read", error).in_file(path))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let fetch = |name: &str, most: usize| head_of(&folder.join(name), most);
-    let mut scene = read_bytes(&bytes, &fetch).map_err(|error| error.in_file(path))?;
-    scene.file = Some(path.to_path_buf());
-    Ok(scene)
+    let mut read = read_all(&bytes, &fetch, rigged).map_err(|error| error.in_file(path))?;
+    read.scene.file = Some(path.to_path_buf());
+    Ok(read)
 }
 
 /// Reads the bytes of a `.gltf` or `.glb` file; `fetch` gives the first so many bytes of a file
@@ -55,24 +69,31 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 /// # Errors
 /// As [`read`], without the name of the file.
 pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
+    Ok(read_all(bytes, fetch, false)?.scene)
+}
+
+/// The scene, and if `rigged`, what moves it.
+fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> {
     let mut warnings = Warnings::default();
     let container = container::split(bytes, &mut warnings)?;
     let root = root(container.json, &mut warnings)?;
     extensions::check(&root.extensions_required)?;
     let buffers = Buffers::gather(&root, container.bin, fetch)?;
     let nodes = nodes::Hierarchy::new(&root, &mut warnings)?;
-    let mut scene = Scene {
-        format: "glTF",
-        up: UpAxis::Y,
-        materials: materials::materials(&buffers, fetch, &mut warnings),
-        cameras: views::cameras(&root, &nodes, &mut warnings)?,
-        lights: views::lights(&root, &nodes, &mut warnings)?,
-        animations: animation_names(&root),
-        warnings,
-        ..Scene::default()
-    };
-    parts::add(&mut scene, &buffers, &nodes)?;
-    Ok(scene)
+    let clips = if rigged { animations::clips(&buffers, &nodes.rest, &mut warnings) } else { Vec::new() };
+    let materials = materials::materials(&buffers, fetch, &mut warnings);
+    let (cameras, of_cameras) = views::cameras(&root, &nodes, &mut warnings)?;
+    let (lights, of_lights) = views::lights(&root, &nodes, &mut warnings)?;
+    let (format, up) = ("glTF", UpAxis::Y);
+    let mut scene = Scene { format, up, materials, cameras, lights, warnings, ..Scene::default() };
+    let mut rig = Rig { clips, cameras: of_cameras, lights: of_lights, ..Rig::default() };
+    parts::add(&mut scene, &mut rig, &buffers, &nodes)?;
+    if rig.clips.is_empty() {
+        rig = Rig::default();
+    } else {
+        (rig.nodes, rig.order) = (nodes.rest, nodes.order);
+    }
+    Ok(Rigged { scene, rig })
 }
 
 fn head_of(path: &Path, most: usize) -> io::Result<Vec<u8>> {
@@ -102,11 +123,4 @@ fn root(json: &[u8], warnings: &mut Warnings) -> Result<Root, Error> {
         }
         None => Err(Error::new("no `asset.version`: this is JSON, but no glTF 2.0").at("asset")),
     }
-}
-
-fn animation_names(root: &Root) -> Vec<String> {
-    let name = |(number, animation): (usize, &json::Named)| {
-        animation.name.clone().unwrap_or_else(|| format!("animation {number}"))
-    };
-    root.animations.iter().enumerate().map(name).collect()
 }

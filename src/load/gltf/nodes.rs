@@ -4,6 +4,8 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::json::{Node, Root};
 use crate::error::Error;
+use crate::pose::rig::{self, Placement};
+use crate::pose::track::unit_quaternion;
 use crate::scene::Warnings;
 
 /// The nodes of a file, worked out without recursion, so that a chain of any depth is fine.
@@ -13,6 +15,9 @@ pub struct Hierarchy {
     pub world: Vec<DAffine3>,
     /// The nodes of the scene that is drawn, each once, depth first.
     pub shown: Vec<usize>,
+    /// All nodes at rest, and their numbers, parents first.
+    pub rest: Vec<rig::Node>,
+    pub order: Vec<usize>,
 }
 
 impl Hierarchy {
@@ -20,7 +25,15 @@ impl Hierarchy {
     /// nodes without a parent if the file has no scene.
     pub fn new(root: &Root, warnings: &mut Warnings) -> Result<Self, Error> {
         let parents = parents(&root.nodes, warnings)?;
-        let world = world_transforms(&root.nodes, &parents, warnings)?;
+        let rest: Vec<rig::Node> = (root.nodes.iter().zip(&parents).enumerate())
+            .map(|(index, (node, parent))| rig::Node {
+                parent: *parent,
+                rest: placement(node, index, warnings),
+                weights: weights(root, node),
+                visible: is_visible(node),
+            })
+            .collect();
+        let (world, order) = world_transforms(&root.nodes, &rest)?;
         let number = root.scene.unwrap_or(0);
         let tops = match root.scenes.get(number) {
             Some(scene) => scene.nodes.clone(),
@@ -42,13 +55,12 @@ impl Hierarchy {
                 let message = format!("points to node {index}, but the file has {}", root.nodes.len());
                 return Err(Error::new(message).at(format!("scene {number}")));
             };
-            let visible = node.extensions.visibility.as_ref().and_then(|v| v.visible).unwrap_or(true);
-            if !std::mem::replace(met, true) && visible {
+            if !std::mem::replace(met, true) && is_visible(node) {
                 shown.push(index);
                 waiting.extend(node.children.iter().rev());
             }
         }
-        Ok(Self { world, shown })
+        Ok(Self { world, shown, rest, order })
     }
 }
 
@@ -70,30 +82,29 @@ fn parents(nodes: &[Node], warnings: &mut Warnings) -> Result<Vec<Option<usize>>
     Ok(parents)
 }
 
-/// World transforms, each worked out once its parent's is known; what is never reached lies in a
+/// World transforms, each worked out once its parent's is known, and in which order that is; what is never reached lies in a
 /// cycle.
-fn world_transforms(
-    nodes: &[Node],
-    parents: &[Option<usize>],
-    warnings: &mut Warnings,
-) -> Result<Vec<DAffine3>, Error> {
+fn world_transforms(nodes: &[Node], rest: &[rig::Node]) -> Result<(Vec<DAffine3>, Vec<usize>), Error> {
     let mut world = vec![None; nodes.len()];
-    let mut ready: Vec<usize> = (0..nodes.len()).filter(|n| matches!(parents.get(*n), Some(None))).collect();
+    let mut order = Vec::with_capacity(nodes.len());
+    let parent = |node: usize| rest.get(node).and_then(|node| node.parent);
+    let mut ready: Vec<usize> = (0..nodes.len()).filter(|node| parent(*node).is_none()).collect();
     while let Some(index) = ready.pop() {
         // A child that is listed twice by its parent comes here twice.
         let Some(node) = nodes.get(index).filter(|_| matches!(world.get(index), Some(None))) else {
             continue;
         };
-        let above =
-            parents.get(index).copied().flatten().and_then(|parent| world.get(parent).copied().flatten());
-        let place = above.unwrap_or(DAffine3::IDENTITY) * local_transform(node, index, warnings);
+        let above = parent(index).and_then(|parent| world.get(parent).copied().flatten());
+        let own = rest.get(index).map_or(DAffine3::IDENTITY, |node| node.rest.transform());
+        let place = above.unwrap_or(DAffine3::IDENTITY) * own;
         if !place.is_finite() {
             return Err(Error::new("its transform is beyond all numbers").at(format!("node {index}")));
         }
         if let Some(slot) = world.get_mut(index) {
             *slot = Some(place);
         }
-        ready.extend(node.children.iter().filter(|child| parents.get(**child) == Some(&Some(index))));
+        order.push(index);
+        ready.extend(node.children.iter().filter(|child| parent(**child) == Some(index)));
     }
     let placed: Vec<DAffine3> = world.iter().copied().flatten().collect();
     if placed.len() < nodes.len() {
@@ -102,16 +113,29 @@ fn world_transforms(
             .at(format!("node {lost}"))
             .remedy("export the model again"));
     }
-    Ok(placed)
+    Ok((placed, order))
 }
 
-fn local_transform(node: &Node, index: usize, warnings: &mut Warnings) -> DAffine3 {
+fn is_visible(node: &Node) -> bool {
+    node.extensions.visibility.as_ref().and_then(|v| v.visible).unwrap_or(true)
+}
+
+/// How much of each morph target a node's mesh has, one for each that any of its primitives has.
+fn weights(root: &Root, node: &Node) -> Vec<f64> {
+    let Some(mesh) = node.mesh.and_then(|mesh| root.meshes.get(mesh)) else { return Vec::new() };
+    let mut weights = node.weights.as_ref().unwrap_or(&mesh.weights).clone();
+    let targets = mesh.primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0);
+    weights.resize(targets.max(weights.len()), 0.0);
+    weights
+}
+
+fn placement(node: &Node, index: usize, warnings: &mut Warnings) -> Placement {
     if let Some(m) = node.matrix {
         let [a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _] = m;
-        return DAffine3::from_mat3_translation(
+        return Placement::Matrix(DAffine3::from_mat3_translation(
             DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]),
             DVec3::new(x, y, z),
-        );
+        ));
     }
     let rotation = node.rotation.map_or(DQuat::IDENTITY, |quaternion| {
         unit_quaternion(quaternion).unwrap_or_else(|| {
@@ -119,19 +143,11 @@ fn local_transform(node: &Node, index: usize, warnings: &mut Warnings) -> DAffin
             DQuat::IDENTITY
         })
     });
-    DAffine3::from_scale_rotation_translation(
-        node.scale.map_or(DVec3::ONE, DVec3::from_array),
+    Placement::Parts {
+        scale: node.scale.map_or(DVec3::ONE, DVec3::from_array),
         rotation,
-        node.translation.map_or(DVec3::ZERO, DVec3::from_array),
-    )
-}
-
-/// The rotation a quaternion near unit length stands for.
-pub fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
-    let length = xyzw.iter().map(|v| v * v).sum::<f64>().sqrt();
-    // Files round their components; a length far from 1 is a mistake all the same, but turning
-    // by its direction is what every viewer does.
-    (length.is_finite() && length > 1e-6).then(|| DQuat::from_array(xyzw.map(|v| v / length)))
+        translation: node.translation.map_or(DVec3::ZERO, DVec3::from_array),
+    }
 }
 
 /// The name a node is known by: its own, its mesh's, or its number.

@@ -1,6 +1,7 @@
 //! Makes the parts of a scene: each node that is shown, and each instance of it.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use glam::{DAffine3, DVec3};
 
@@ -8,6 +9,8 @@ use super::buffers::Buffers;
 use super::nodes::{self, Hierarchy};
 use super::{instancing, mesh, pose};
 use crate::error::Error;
+use crate::pose::rig::{Form, Skin};
+use crate::pose::{Property, Rig};
 use crate::scene::{Geometry, Material, Part, Scene};
 
 /// Most parts a scene may have: instances cost a file almost nothing.
@@ -16,11 +19,19 @@ const MOST_PARTS: usize = 10_000_000;
 /// Coordinates beyond this would overflow where they are multiplied with one another.
 const LARGEST_COORDINATE: f64 = 1e50;
 
-/// A mesh as a node shows it: with its weights, and with its skin.
-type Shown = (usize, Option<usize>, Vec<u64>);
+/// A mesh as a node shows it: with its weights, and with its skin; and the node, if its weights change in time.
+type Shown = (usize, Option<usize>, Vec<u64>, Option<usize>);
 
-/// Adds geometries and parts to the scene; each mesh is stored once for each pose it is shown in.
-pub fn add(scene: &mut Scene, buffers: &Buffers, nodes: &Hierarchy) -> Result<(), Error> {
+/// Adds geometries and parts to the scene; each mesh is stored once for each pose it is shown in. If there are clips, what moves
+/// geometries and parts is added to the rig.
+pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarchy) -> Result<(), Error> {
+    let rigged = !rig.clips.is_empty();
+    let morphs = |node: usize| {
+        let channels = rig.clips.iter().flat_map(|clip| &clip.channels);
+        channels.into_iter().any(|channel| channel.node == node && channel.property == Property::Weights)
+    };
+    let morphing: Vec<bool> = (0..nodes.rest.len()).map(morphs).collect();
+    let mut skins: BTreeMap<usize, Skin> = BTreeMap::new();
     let mut known: BTreeMap<Shown, usize> = BTreeMap::new();
     let mut reach: Vec<DVec3> = Vec::new();
     for &index in &nodes.shown {
@@ -40,12 +51,26 @@ pub fn add(scene: &mut Scene, buffers: &Buffers, nodes: &Hierarchy) -> Result<()
                 return Err(here(Error::new(message)));
             }
         };
-        let key: Shown = (number, node.skin, weights.iter().map(|weight| weight.to_bits()).collect());
+        let own = Some(index).filter(|_| morphing.get(index).copied().unwrap_or(false));
+        let key: Shown = (number, node.skin, weights.iter().map(|weight| weight.to_bits()).collect(), own);
         let geometry = match known.get(&key) {
             Some(geometry) => *geometry,
             None => {
-                let joints = node.skin.map(|skin| pose::joints(buffers, nodes, skin)).transpose()?;
-                let made = mesh::geometry(buffers, number, weights, joints.as_deref(), &mut scene.warnings)?;
+                let joints = match node.skin {
+                    Some(skin) => {
+                        let own = match skins.entry(skin) {
+                            Entry::Occupied(known) => known.into_mut(),
+                            Entry::Vacant(new) => new.insert(pose::skin(buffers, skin)?),
+                        };
+                        Some(own.transforms(&nodes.world))
+                    }
+                    None => None,
+                };
+                let asked = (weights.as_slice(), joints.as_deref(), rigged);
+                let (made, bodies) = mesh::geometry(buffers, number, asked, &mut scene.warnings)?;
+                if rigged {
+                    rig.forms.push(Form { node: index, skin: node.skin, bodies });
+                }
                 reach
                     .push(made.positions.iter().fold(DVec3::ZERO, |most, position| most.max(position.abs())));
                 scene.geometries.push(made);
@@ -67,9 +92,17 @@ pub fn add(scene: &mut Scene, buffers: &Buffers, nodes: &Hierarchy) -> Result<()
             let world_from_part = world * place;
             check_size(world_from_part, reach).map_err(here)?;
             scene.parts.push(Part { name: nodes::name(buffers.root, index), geometry, world_from_part });
+            if rigged {
+                rig.parts.push((index, place));
+            }
         }
     }
-    drop_empty(scene);
+    drop_empty(scene, rig);
+    if rigged {
+        let most = skins.keys().last().map_or(0, |skin| skin + 1);
+        let none = Skin { joints: Vec::new(), binds: Vec::new() };
+        rig.skins = (0..most).map(|skin| skins.remove(&skin).unwrap_or_else(|| none.clone())).collect();
+    }
     if scene.parts.is_empty() {
         let nodes = nodes.shown.len();
         return Err(Error::new(format!(
@@ -97,21 +130,33 @@ fn check_size(world_from_part: DAffine3, reach: DVec3) -> Result<(), Error> {
         .remedy("scale the model down"))
 }
 
-/// Drops parts that show neither triangles nor lines.
-fn drop_empty(scene: &mut Scene) {
-    let empty = |geometry: &Geometry| geometry.triangles.is_empty() && geometry.wires.is_empty();
-    let mut new_index = Vec::with_capacity(scene.geometries.len());
-    let mut next = 0;
-    for geometry in &scene.geometries {
-        new_index.push((!empty(geometry)).then_some(next));
-        next += usize::from(!empty(geometry));
+/// Drops parts that show neither triangles nor lines, and what moves them.
+fn drop_empty(scene: &mut Scene, rig: &mut Rig) {
+    let is_empty = |geometry: &Geometry| geometry.triangles.is_empty() && geometry.wires.is_empty();
+    let empty: Vec<bool> = scene.geometries.iter().map(is_empty).collect();
+    if !empty.contains(&true) {
+        return;
     }
-    scene.parts.retain_mut(|part| match new_index.get(part.geometry).copied().flatten() {
-        Some(index) => {
-            part.geometry = index;
-            true
-        }
-        None => false,
-    });
-    scene.geometries.retain(|geometry| !empty(geometry));
+    let mut new_index = Vec::with_capacity(empty.len());
+    let mut next = 0;
+    for is_empty in &empty {
+        new_index.push((!is_empty).then_some(next));
+        next += usize::from(!is_empty);
+    }
+    let left = |geometry: usize| new_index.get(geometry).copied().flatten();
+    let kept: Vec<bool> = scene.parts.iter().map(|part| left(part.geometry).is_some()).collect();
+    retain(&mut rig.parts, &kept);
+    retain(&mut scene.parts, &kept);
+    for part in &mut scene.parts {
+        part.geometry = left(part.geometry).unwrap_or_default();
+    }
+    let full: Vec<bool> = empty.iter().map(|is_empty| !is_empty).collect();
+    retain(&mut rig.forms, &full);
+    retain(&mut scene.geometries, &full);
+}
+
+/// Keeps what is to be kept by its place.
+fn retain<T>(all: &mut Vec<T>, keep: &[bool]) {
+    let mut next = keep.iter();
+    all.retain(|_| next.next().copied().unwrap_or(true));
 }

@@ -12,9 +12,13 @@ use crate::scene::{Camera, Light, LightKind, NamedCamera, Projection, Warnings};
 /// Height of the frame of a file's camera, px.
 const FRAME_PX: f64 = 1000.0;
 
-/// The cameras of the nodes that are shown.
-pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> Result<Vec<NamedCamera>, Error> {
-    let mut cameras = Vec::new();
+/// The cameras of the nodes that are shown, and these nodes.
+pub fn cameras(
+    root: &Root,
+    nodes: &Hierarchy,
+    warnings: &mut Warnings,
+) -> Result<(Vec<NamedCamera>, Vec<usize>), Error> {
+    let (mut cameras, mut holders) = (Vec::new(), Vec::new());
     for (index, node, world) in shown(root, nodes) {
         let Some(number) = node.camera else { continue };
         let Some(camera) = root.cameras.get(number) else {
@@ -24,11 +28,14 @@ pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> Resul
         let named = [&camera.name, &node.name].into_iter().flatten().find(|name| !name.is_empty());
         let name = named.cloned().unwrap_or_else(|| format!("camera {number}"));
         match look(camera, world) {
-            Some(camera) => cameras.push(NamedCamera { name, camera }),
+            Some(camera) => {
+                cameras.push(NamedCamera { name, camera });
+                holders.push(index);
+            }
             None => warnings.note(format!("camera `{name}` sees nothing and is left out")),
         }
     }
-    Ok(cameras)
+    Ok((cameras, holders))
 }
 
 /// A camera sits at the origin of its node and looks along -z with y up; glTF ignores the node's
@@ -55,10 +62,14 @@ fn look(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
     })
 }
 
-/// The lights (KHR_lights_punctual) of the nodes that are shown.
-pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> Result<Vec<Light>, Error> {
+/// The lights (KHR_lights_punctual) of the nodes that are shown, and these nodes.
+pub fn lights(
+    root: &Root,
+    nodes: &Hierarchy,
+    warnings: &mut Warnings,
+) -> Result<(Vec<Light>, Vec<usize>), Error> {
     let known = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
-    let mut lights = Vec::new();
+    let (mut lights, mut holders) = (Vec::new(), Vec::new());
     for (index, node, world) in shown(root, nodes) {
         let Some(number) = node.extensions.light.as_ref().map(|light| light.light) else { continue };
         let Some(light) = known.get(number) else {
@@ -66,17 +77,20 @@ pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> Result
             return Err(Error::new(message).at(format!("node {index}")));
         };
         match kind(light, world) {
-            Some(kind) => lights.push(Light {
-                name: light.name.clone().or_else(|| node.name.clone()).unwrap_or_default(),
-                kind,
-                colour: light.color.unwrap_or([1.0; 3]),
-                intensity: light.intensity.unwrap_or(1.0),
-                range: light.range,
-            }),
+            Some(kind) => {
+                lights.push(Light {
+                    name: light.name.clone().or_else(|| node.name.clone()).unwrap_or_default(),
+                    kind,
+                    colour: light.color.unwrap_or([1.0; 3]),
+                    intensity: light.intensity.unwrap_or(1.0),
+                    range: light.range,
+                });
+                holders.push(index);
+            }
             None => warnings.note(format!("light {number} of unknown kind or without direction is left out")),
         }
     }
-    Ok(lights)
+    Ok((lights, holders))
 }
 
 fn kind(light: &JsonLight, world: DAffine3) -> Option<LightKind> {

@@ -1,0 +1,115 @@
+//! Reads the animations of a file as [`Clip`]s.
+
+use super::buffers::Buffers;
+use super::json::{Animation, AnimationSampler, Channel as JsonChannel, ChannelTarget};
+use crate::error::Error;
+use crate::pose::rig::Node;
+use crate::pose::{Channel, Clip, Interpolation, Property, Track};
+use crate::scene::Warnings;
+
+/// The clips of a file, by number. What is broken in them, or moves what no drawing shows, is left out with a warning.
+pub fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<Clip> {
+    let mut clips = Vec::new();
+    for (number, animation) in buffers.root.animations.iter().enumerate() {
+        let mut clip = Clip { name: name(number, animation), channels: Vec::new() };
+        for (index, channel) in animation.channels.iter().enumerate() {
+            match read(buffers, nodes, animation, channel) {
+                Ok(Some(channel)) => clip.channels.push(channel),
+                Ok(None) => warnings.count("animated properties that are not drawn", 1),
+                Err(error) => {
+                    let place = error.place.as_ref().map_or_else(String::new, |place| format!("{place}: "));
+                    warnings.note(format!(
+                        "animation `{}`: channel {index} is left out: {place}{}",
+                        clip.name, error.message
+                    ));
+                }
+            }
+        }
+        clips.push(clip);
+    }
+    clips
+}
+
+/// The name of an animation.
+fn name(number: usize, animation: &Animation) -> String {
+    animation.name.clone().unwrap_or_else(|| format!("animation {number}"))
+}
+
+/// One channel; none if it moves nothing that is drawn.
+fn read(
+    buffers: &Buffers,
+    nodes: &[Node],
+    animation: &Animation,
+    channel: &JsonChannel,
+) -> Result<Option<Channel>, Error> {
+    let Some((node, property)) = target(&channel.target)? else { return Ok(None) };
+    let Some(own) = nodes.get(node) else {
+        return Err(Error::new(format!("it moves node {node}, but the file has {}", nodes.len())));
+    };
+    let number = channel.sampler.ok_or_else(|| Error::new("it has no sampler"))?;
+    let Some(sampler) = animation.samplers.get(number) else {
+        return Err(Error::new(format!("it has sampler {number} of {}", animation.samplers.len())));
+    };
+    let track = track(buffers, sampler, property)?;
+    let width = match property {
+        Property::Translation | Property::Scale => 3,
+        Property::Rotation => 4,
+        Property::Weights => own.weights.len(),
+        Property::Visible => 1,
+    };
+    if track.width() != width || width == 0 {
+        return Err(Error::new(format!("{} numbers a key, where {width} are needed", track.width())));
+    }
+    Ok(Some(Channel { node, property, track }))
+}
+
+/// The node and the property that a channel moves; none if it moves nothing that is drawn.
+fn target(target: &ChannelTarget) -> Result<Option<(usize, Property)>, Error> {
+    if let Some(pointer) = &target.extensions.pointer {
+        return Ok(pointed(&pointer.pointer));
+    }
+    let property = match target.path.as_str() {
+        "translation" => Property::Translation,
+        "rotation" => Property::Rotation,
+        "scale" => Property::Scale,
+        "weights" => Property::Weights,
+        other => return Err(Error::new(format!("its path `{}` is unknown", super::uri::shown(other)))),
+    };
+    // A channel without a node is for extensions to fill.
+    Ok(target.node.map(|node| (node, property)))
+}
+
+/// What a pointer (KHR_animation_pointer) leads to.
+fn pointed(pointer: &str) -> Option<(usize, Property)> {
+    let (node, rest) = pointer.strip_prefix("/nodes/")?.split_once('/')?;
+    let property = match rest {
+        "translation" => Property::Translation,
+        "rotation" => Property::Rotation,
+        "scale" => Property::Scale,
+        "weights" => Property::Weights,
+        "extensions/KHR_node_visibility/visible" => Property::Visible,
+        _ => return None,
+    };
+    Some((node.parse().ok()?, property))
+}
+
+fn track(buffers: &Buffers, sampler: &AnimationSampler, property: Property) -> Result<Track, Error> {
+    let interpolation = match sampler.interpolation.as_deref() {
+        None | Some("LINEAR") => Interpolation::Linear,
+        Some("STEP") => Interpolation::Step,
+        Some("CUBICSPLINE") => Interpolation::CubicSpline,
+        Some(other) => {
+            return Err(Error::new(format!("its interpolation `{}` is unknown", super::uri::shown(other))));
+        }
+    };
+    let (Some(input), Some(output)) = (sampler.input, sampler.output) else {
+        return Err(Error::new("its sampler has no input or no output"));
+    };
+    let times = buffers.read(input, |[time]: [f64; 1]| time)?;
+    let values = match property {
+        Property::Translation | Property::Scale => buffers.read(output, |v: [f64; 3]| v)?.into_flattened(),
+        Property::Rotation => buffers.read(output, |v: [f64; 4]| v)?.into_flattened(),
+        Property::Weights | Property::Visible => buffers.read(output, |[value]: [f64; 1]| value)?,
+    };
+    Track::new(times, values, interpolation).map_err(Error::new)
+}

@@ -1,0 +1,155 @@
+//! Poses: where the parts and the vertices of a scene are while clips play.
+//!
+//! ```
+//! use ligne::pose::{Playing, Rigged};
+//!
+//! let pump = Rigged::open("examples/models/pump.glb")?;
+//! assert!(pump.rig.clips.is_empty());
+//! assert_eq!(pump.posed(&[])?.parts, pump.scene.parts);
+//! assert!(pump.posed(&[Playing::all(0, 1.5)]).is_err());
+//! # Ok::<(), ligne::Error>(())
+//! ```
+
+pub mod body;
+pub mod clip;
+pub mod rig;
+pub mod track;
+
+pub use body::Body;
+pub use clip::{Channel, Clip, Playing, Property};
+pub use rig::Rig;
+pub use track::{Interpolation, Track};
+
+use glam::{DAffine3, DVec3};
+
+use crate::error::Error;
+use crate::scene::{Camera, LightKind, Scene};
+use rig::Stance;
+
+/// A scene as it is stored, and what moves it.
+#[derive(Debug, Clone, Default)]
+pub struct Rigged {
+    /// The scene in the pose that the file stores.
+    pub scene: Scene,
+    /// What moves it; empty for formats without animation.
+    pub rig: Rig,
+}
+
+impl From<Scene> for Rigged {
+    /// A scene that stands still.
+    fn from(scene: Scene) -> Self {
+        Self { scene, rig: Rig::default() }
+    }
+}
+
+impl Rigged {
+    /// The scene while clips play; as it is stored if none does.
+    ///
+    /// # Errors
+    /// If a clip is none of the file's, if a time or a weight is not a number, or if a pose leads beyond all numbers.
+    pub fn posed(&self, playing: &[Playing]) -> Result<Scene, Error> {
+        for Playing { clip, time, weight } in playing {
+            if *clip >= self.rig.clips.len() {
+                let count = self.rig.clips.len();
+                return Err(Error::new(format!("there is no clip {clip}; the file has {count}")));
+            }
+            if !(time.is_finite() && weight.is_finite() && *weight >= 0.0) {
+                return Err(Error::new(format!("no time or no weight: {time} s, {weight}"))
+                    .remedy("give finite numbers, and no weight below 0"));
+            }
+        }
+        let mut scene = self.scene.clone();
+        if playing.is_empty() {
+            return Ok(scene);
+        }
+        let rig = &self.rig;
+        let stance = rig.stance(playing);
+        if let Some(node) = stance.world.iter().position(|world| !world.is_finite()) {
+            return Err(
+                Error::new("its transform is beyond all numbers at this time").at(format!("node {node}"))
+            );
+        }
+        self.move_vertices(&stance, &mut scene)?;
+        let skinned: Vec<bool> = rig.forms.iter().map(|form| form.skin.is_some()).collect();
+        let mut shown = Vec::with_capacity(scene.parts.len());
+        for (part, (node, place)) in scene.parts.iter_mut().zip(&rig.parts) {
+            // The joints have carried a skinned mesh into the world already.
+            let is_skinned = skinned.get(part.geometry).copied().unwrap_or(false);
+            let world = if is_skinned { DAffine3::IDENTITY } else { stance.world[*node] };
+            part.world_from_part = world * *place;
+            shown.push(stance.visible[*node]);
+        }
+        let mut left = shown.into_iter();
+        scene.parts.retain(|_| left.next().unwrap_or(true));
+        for (named, node) in scene.cameras.iter_mut().zip(&rig.cameras) {
+            named.camera = moved_camera(&named.camera, stance.world[*node]);
+        }
+        for (light, node) in scene.lights.iter_mut().zip(&rig.lights) {
+            light.kind = moved_light(light.kind, stance.world[*node]);
+        }
+        Ok(scene)
+    }
+
+    fn move_vertices(&self, stance: &Stance, scene: &mut Scene) -> Result<(), Error> {
+        for (geometry, form) in scene.geometries.iter_mut().zip(&self.rig.forms) {
+            let joints = form
+                .skin
+                .and_then(|skin| self.rig.skins.get(skin))
+                .map(|skin| skin.transforms(&stance.world));
+            for body in &form.bodies {
+                let (mut positions, mut normals) = (body.positions.clone(), body.normals.clone());
+                body.pose((&mut positions, &mut normals), &stance.weights[form.node], joints.as_deref());
+                if positions
+                    .iter()
+                    .zip(&body.positions)
+                    .any(|(now, rest)| rest.is_finite() && !now.is_finite())
+                {
+                    return Err(Error::new("a vertex is beyond all numbers at this time")
+                        .at(format!("node {}", form.node)));
+                }
+                let range = body.start..body.start + positions.len();
+                let finite = |(to, from): (&mut DVec3, DVec3)| {
+                    if from.is_finite() {
+                        *to = from;
+                    }
+                };
+                geometry
+                    .positions
+                    .get_mut(range.clone())
+                    .into_iter()
+                    .flatten()
+                    .zip(positions)
+                    .for_each(finite);
+                let to = geometry.normals.get_mut(range).into_iter().flatten();
+                to.zip(normals).for_each(|(to, from)| *to = from);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A camera where its node is now: at its origin, looking along -z with y up.
+fn moved_camera(camera: &Camera, world: DAffine3) -> Camera {
+    let ways = [DVec3::NEG_Z, DVec3::Y].map(|way| world.transform_vector3(way).try_normalize());
+    match ways {
+        [Some(ahead), Some(up)] => {
+            Camera { eye: world.translation, target: world.translation + ahead, up, ..*camera }
+        }
+        _ => *camera,
+    }
+}
+
+/// A light where its node is now: at its origin, shining along -z.
+fn moved_light(kind: LightKind, world: DAffine3) -> LightKind {
+    let along = |before: DVec3| world.transform_vector3(DVec3::NEG_Z).try_normalize().unwrap_or(before);
+    match kind {
+        LightKind::Directional { direction } => LightKind::Directional { direction: along(direction) },
+        LightKind::Point { .. } => LightKind::Point { position: world.translation },
+        LightKind::Spot { direction, inner_angle, outer_angle, .. } => LightKind::Spot {
+            position: world.translation,
+            direction: along(direction),
+            inner_angle,
+            outer_angle,
+        },
+    }
+}
