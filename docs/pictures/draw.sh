@@ -43,3 +43,8 @@ pump=(--size 560x400 --style toon --precision 1 --quiet)
 # Exit status 1 says that they differ.
 "$ligne" diff "$changed/old.svg" "$changed/new.svg" --image $pictures/diff-pump.svg || [ $? = 1 ]
 rm -r "$changed"
+
+# docs/animation.md: moments of a clip, seen by the file's camera
+for time in 0 1 2 3; do
+    "$ligne" draw $models/crane.glb "$pictures/crane-$time.png" --camera camera --style toon --time $time --size 320x246 --quiet
+done

@@ -37,6 +37,14 @@ pub struct Assembly {
     /// Vertical field of view in radians.
     pub fov_y: f64,
     pub aspect: f64,
+    /// The name of a clip and what turns in it.
+    pub clip: Option<(String, Vec<Turning>)>,
+}
+
+/// How a node turns: its rotations at times in seconds.
+pub struct Turning {
+    pub node: String,
+    pub keys: Vec<(f64, DQuat)>,
 }
 
 const FLOAT: u32 = 5126;
@@ -83,6 +91,38 @@ impl Buffers {
             "min": low.to_array(), "max": high.to_array(),
         });
         self.add(&bytes, VERTICES, accessor)
+    }
+
+    /// Numbers of a clip, so many an element.
+    fn keys(&mut self, shape: &str, width: usize, numbers: &[f64]) -> usize {
+        let numbers: Vec<f32> = numbers.iter().map(|value| *value as f32).collect();
+        let bytes: Vec<u8> = numbers.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let (low, high) = (numbers.first(), numbers.last());
+        let mut accessor = json!({ "componentType": FLOAT, "count": numbers.len() / width, "type": shape });
+        if width == 1 {
+            (accessor["min"], accessor["max"]) = (json!([low]), json!([high]));
+        }
+        accessor["bufferView"] = json!(self.views.len());
+        let offset = self.bytes.len();
+        self.views.push(json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len() }));
+        self.bytes.extend(bytes);
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    /// A clip in which nodes turn from key to key.
+    fn clip(&mut self, (name, turnings): &(String, Vec<Turning>), nodes: &[Value]) -> Value {
+        let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+        for Turning { node, keys } in turnings {
+            let times: Vec<f64> = keys.iter().map(|(time, _)| *time).collect();
+            let turns: Vec<f64> = keys.iter().flat_map(|(_, turn)| turn.to_array()).collect();
+            let (input, output) = (self.keys("SCALAR", 1, &times), self.keys("VEC4", 4, &turns));
+            samplers.push(json!({ "input": input, "output": output, "interpolation": "LINEAR" }));
+            let number = nodes.iter().position(|known| known["name"] == node.as_str());
+            let target = json!({ "node": number, "path": "rotation" });
+            channels.push(json!({ "sampler": samplers.len() - 1, "target": target }));
+        }
+        json!({ "name": name, "samplers": samplers, "channels": channels })
     }
 
     fn mesh(&mut self, part: &Part, material: usize, with_normals: bool) -> Value {
@@ -168,7 +208,8 @@ pub fn bytes(title: &str, assembly: &Assembly) -> Vec<u8> {
         })
         .collect();
     let lens = json!({ "yfov": assembly.fov_y, "aspectRatio": assembly.aspect, "znear": 0.01 });
-    let document = json!({
+    let clip = assembly.clip.as_ref().map(|clip| buffers.clip(clip, &nodes));
+    let mut document = json!({
         "asset": { "version": "2.0", "generator": title },
         "scene": 0,
         "scenes": [{ "nodes": [root, nodes.len() - 1] }],
@@ -180,6 +221,9 @@ pub fn bytes(title: &str, assembly: &Assembly) -> Vec<u8> {
         "bufferViews": buffers.views,
         "buffers": [{ "byteLength": buffers.bytes.len() }],
     });
+    if let Some(clip) = clip {
+        document["animations"] = json!([clip]);
+    }
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let mut out = b"glTF".to_vec();

@@ -10,6 +10,7 @@ mod brush;
 mod castle;
 mod castle_parts;
 mod cogs;
+mod crane;
 mod creased;
 mod drum;
 mod easter;
@@ -98,6 +99,7 @@ fn main() -> std::io::Result<()> {
     write("jar.obj", obj::text(title, Some("jar.mtl"), &jar, &[]).as_bytes())?;
     write("jar.mtl", jar::library(title, &jar).as_bytes())?;
     write("street.glb", &glb::bytes("ligne make_models", &street::street()))?;
+    write("crane.glb", &glb::bytes("ligne make_models", &crane::crane()))?;
     write("shelf.ply", &ply::bytes("a scanned vase and a machined gear", &shelf::shelf(), &[]))?;
     write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))?;
     write("picnic.obj", picnic::text().as_bytes())?;

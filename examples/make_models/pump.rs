@@ -98,6 +98,7 @@ pub fn pump() -> Assembly {
         target: DVec3::new(0.19, -0.07, 0.0),
         fov_y: 20.5 * PI / 180.0,
         aspect: 1.3,
+        clip: None,
     }
 }
 

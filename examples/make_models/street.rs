@@ -138,5 +138,14 @@ pub fn street() -> Assembly {
         ..Node::group("street", yard.nodes)
     };
     let (eye, target) = (DVec3::new(-9.0, 17.0, 32.0), DVec3::new(12.5, 2.0, -3.0));
-    Assembly { meshes: yard.meshes, root, with_normals: false, eye, target, fov_y: TAU / 9.0, aspect: 1.5 }
+    Assembly {
+        meshes: yard.meshes,
+        root,
+        with_normals: false,
+        eye,
+        target,
+        fov_y: TAU / 9.0,
+        aspect: 1.5,
+        clip: None,
+    }
 }

@@ -202,7 +202,11 @@ impl ClipInfo {
 
     fn line(&self) -> String {
         let begins = if self.from == 0.0 { String::new() } else { format!(", from {} s", short(self.from)) };
-        let keys = self.rate.map_or_else(String::new, |rate| format!(", {} keys a second", short(rate)));
+        let keys = |rate: f64| {
+            let rate = short(rate);
+            format!(", {rate} {} a second", if rate == "1" { "key" } else { "keys" })
+        };
+        let keys = self.rate.map_or_else(String::new, keys);
         format!("{}: {} s{begins}{keys}", named(&self.name), short(self.to - self.from))
     }
 }
@@ -352,7 +356,7 @@ mod tests {
         assert!(text.starts_with(start), "{text}");
         assert!(text.contains("    and 2 more (--json lists all)\n  1 material:\n    (no name): #cccccc\n"));
         assert!(
-            text.contains("  1 animation:\n    Walk: 2 s, from 0.5 s, 1 keys a second\n")
+            text.contains("  1 animation:\n    Walk: 2 s, from 0.5 s, 1 key a second\n")
                 && text.contains("    3 doubled faces\n"),
             "{text}"
         );

@@ -329,3 +329,31 @@ fn an_unknown_stage_is_refused_with_those_there_are() {
     }
     assert!(folder.ligne("draw --help").out.contains("docs/stages.md"));
 }
+
+#[test]
+fn a_moment_of_an_animation_is_drawn() {
+    let folder = Folder::new("moments");
+    let crane = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/crane.glb");
+    let drawn = |name: &str, more: &[&str]| {
+        folder.run(&[&["draw", crane, name, "--camera", "camera", "--size", "200"], more].concat()).done();
+        folder.text(name)
+    };
+    let stored = drawn("stored.svg", &[]);
+    let lifted = drawn("lifted.svg", &["--animation", "lift", "--time", "1.5"]);
+    assert_ne!(stored, lifted);
+    assert_eq!(lifted, drawn("same.svg", &["--time", "1.5"]));
+    assert_eq!(drawn("first.svg", &["--animation", "lift"]), drawn("zero.svg", &["--time", "0"]));
+    let beyond =
+        folder.run(&["draw", crane, "beyond.svg", "--time", "9", "--camera", "camera", "--size", "200"]);
+    assert!(beyond.done().err.contains("the animation `lift` does not last until 9 s"), "{beyond:?}");
+    assert_eq!(folder.text("beyond.svg"), drawn("end.svg", &["--time", "4"]));
+    folder
+        .run(&["draw", crane, "no.svg", "--animation", "walk"])
+        .refused("it has no animation `walk`; it has lift");
+    folder.run(&["draw", crane, "no.svg", "--time", "soon"]).refused("a number of seconds");
+    let pump = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
+    folder.run(&["draw", pump, "no.svg", "--time", "1"]).refused("it has no animations");
+    assert!(!folder.names().contains(&"no.svg".to_owned()));
+    let info = folder.run(&["info", crane]).done().out.clone();
+    assert!(info.contains("lift: 4 s, 1 key a second"), "{info}");
+}

@@ -388,6 +388,27 @@ fn street_is_made_of_many_solids_without_normals() {
 }
 
 #[test]
+fn crane_is_made_of_solids_that_turn_and_come_back() {
+    let glb = Glb::read("crane.glb");
+    assert_meshes_solid(&glb);
+    let rigged = ligne::pose::Rigged::open(path("crane.glb")).unwrap();
+    let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
+    assert_eq!((clip.name.as_str(), clip.span(), clip.channels.len()), ("lift", [0.0, 4.0], 4));
+    let at = |time: f64| {
+        let scene = rigged.posed(&[ligne::pose::Playing::all(0, time)]).unwrap();
+        scene.parts.iter().find(|part| part.name == "hook").unwrap().world_from_part
+    };
+    // The hook hangs where four turns in one another bring it: straight down but for the last.
+    let hook = at(1.0).translation;
+    let along = |length: f64, degrees: f64| {
+        glam::DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0) * length
+    };
+    let expected = glam::DVec3::new(0.5, 1.9, 0.0) + along(4.0, 60.0) + along(2.6, -20.0);
+    assert!(hook.distance(expected) < 1e-5, "{hook} {expected}");
+    assert!(at(0.0).abs_diff_eq(at(4.0), 1e-6) && !at(0.0).abs_diff_eq(at(2.0), 1.0));
+}
+
+#[test]
 fn horn_is_a_sheet_with_two_mouths_and_solids() {
     let parts = read_obj("horn.obj");
     parts[1..].iter().for_each(assert_solid);
@@ -466,6 +487,7 @@ fn all_models_together_are_small() {
         "helmet.obj",
         "helmet.mtl",
         "street.glb",
+        "crane.glb",
         "shelf.ply",
         "rack.stl",
     ];
