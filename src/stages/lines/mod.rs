@@ -67,7 +67,7 @@ pub fn extract_with(
     options: &LineOptions,
 ) -> FeatureLines {
     let mut lines = FeatureLines::default();
-    if !options.enabled {
+    if !options.enabled || options.kinds.is_empty() {
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;

@@ -1,13 +1,9 @@
 //! [`FaceBuffer`]: which face is in front at each pixel of a view.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use rayon::prelude::*;
 
 use super::Screen;
-
-/// Triangles handled by one task.
-const TASK: usize = 1 << 13;
+use super::bands::{self, Bands, Cell};
 
 /// The face nearest to the eye at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,9 +12,7 @@ pub struct FaceBuffer {
     pub columns: usize,
     /// Number of rows.
     pub rows: usize,
-    /// The bits of the nearness, which order positive numbers, above those of the face, inverted;
-    /// zero where there is no face.
-    cells: Vec<u64>,
+    cells: Vec<Cell>,
 }
 
 impl FaceBuffer {
@@ -34,24 +28,9 @@ impl FaceBuffer {
     /// Draws the triangles of some faces of a screen, as [`FaceBuffer::new`] does.
     #[must_use]
     pub fn of(screen: &Screen, draws: impl Fn(u32) -> bool + Sync) -> Self {
-        let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
-        let count = screen.triangle_count();
-        (0..count.div_ceil(TASK)).into_par_iter().for_each(|task| {
-            for id in task * TASK..((task + 1) * TASK).min(count) {
-                let (corners, face) = screen.triangle(id);
-                if !draws(face) {
-                    continue;
-                }
-                screen.cover(&corners, |pixel, nearness| {
-                    let cell = u64::from(nearness.to_bits()) << 32 | u64::from(!face);
-                    // Most triangles lose, and looking is cheaper than writing.
-                    if cell > cells[pixel].load(Ordering::Relaxed) {
-                        cells[pixel].fetch_max(cell, Ordering::Relaxed);
-                    }
-                });
-            }
-        });
-        let cells = cells.into_iter().map(AtomicU64::into_inner).collect();
+        let bands = Bands::new(screen, draws);
+        let mut cells = vec![0; screen.columns * screen.rows];
+        cells.par_chunks_mut(bands.pixels()).enumerate().for_each(|(band, cells)| bands.draw(band, cells));
         Self { columns: screen.columns, rows: screen.rows, cells }
     }
 
@@ -59,16 +38,14 @@ impl FaceBuffer {
     #[inline]
     #[must_use]
     pub fn front(&self, pixel: usize) -> Option<u32> {
-        let cell = self.cells[pixel];
-        (cell != 0).then_some(!(cell as u32))
+        bands::front(self.cells[pixel])
     }
 
     /// How near the face in front is at a pixel, on the screen's scale from 0 to 1.
     #[inline]
     #[must_use]
     pub fn nearness(&self, pixel: usize) -> Option<f32> {
-        let cell = self.cells[pixel];
-        (cell != 0).then_some(f32::from_bits((cell >> 32) as u32))
+        bands::nearness(self.cells[pixel])
     }
 }
 

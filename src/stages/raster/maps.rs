@@ -6,7 +6,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{FaceBuffer, Screen};
+use super::Screen;
+use super::bands::{Bands, front, nearness};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -24,9 +25,6 @@ pub const LONGEST_SIDE: f64 = 4096.0;
 /// parts of the depth between the two.
 const BEFORE: f64 = 0.15;
 const BEHIND: f64 = 0.1;
-
-/// Rows that are gone through by one task, one after the other.
-const BAND: usize = 16;
 
 /// What is in front at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,38 +52,43 @@ impl Maps {
     pub fn new(mesh: &Mesh, view: &View, per_unit: f64, normals: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
         let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, LONGEST_SIDE);
         let screen = Screen::of_side(mesh, view, side);
-        let buffer = FaceBuffer::new(&screen);
+        let bands = Bands::new(&screen, |_| true);
         let planes = planes(&screen, view);
-        let (columns, rows) = (buffer.columns, buffer.rows);
+        let (columns, rows) = (screen.columns, screen.rows);
+        // Zeros cost nothing before they are written, which each band does for itself.
         let mut maps = Self {
             columns,
             rows,
             scale: screen.scale(),
-            faces: vec![NO_FRONT; columns * rows],
+            faces: vec![0; columns * rows],
             normals: vec![[0.0; 3]; columns * rows],
-            depths: vec![FAR; columns * rows],
+            depths: vec![0.0; columns * rows],
             planes,
         };
         let per_depth = 1.0 / (planes[1] - planes[0]);
         let frame = &view.frame;
-        let band = BAND * columns;
-        let bands = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
-        bands.zip(maps.depths.par_chunks_mut(band)).enumerate().for_each(
-            |(number, ((faces, band_normals), depths))| {
-                let mut shown = LastShown::new();
-                for (row, faces) in faces.chunks_mut(columns).enumerate() {
-                    let y = ((number * BAND + row) as f64 + 0.5) / maps.scale;
-                    for (column, face) in faces.iter_mut().enumerate() {
-                        let own = row * columns + column;
-                        let pixel = number * band + own;
-                        let (Some(front), Some(nearness)) = (buffer.front(pixel), buffer.nearness(pixel))
-                        else {
+        let band = bands.pixels();
+        let of_band = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
+        let of_band = of_band.zip(maps.depths.par_chunks_mut(band)).enumerate();
+        of_band.for_each_init(
+            || (vec![0; band], LastShown::new()),
+            |(cells, shown), (number, ((faces, band_normals), depths))| {
+                cells.fill(0);
+                bands.draw(number, cells);
+                faces.fill(NO_FRONT);
+                depths.fill(FAR);
+                for (cells, row) in cells.chunks(columns).zip(bands.rows(number)) {
+                    let y = (row as f64 + 0.5) / maps.scale;
+                    let first = (row - bands.rows(number).start) * columns;
+                    for (column, cell) in cells.iter().enumerate() {
+                        let (Some(front), Some(nearness)) = (front(*cell), nearness(*cell)) else {
                             continue;
                         };
                         let made = || FaceNormals::new(mesh, view, front, normals(front));
                         let on_face = shown.of(front, made);
                         let depth = frame.depth_of(screen.image_nearness(nearness));
-                        *face = front;
+                        let own = first + column;
+                        faces[own] = front;
                         band_normals[own] = on_face.at([(column as f64 + 0.5) / maps.scale, y]);
                         depths[own] = (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR);
                     }

@@ -1,5 +1,6 @@
 //! Buffers of a view: they propose, exact geometry decides.
 
+mod bands;
 pub mod face_buffer;
 mod hairlines;
 pub mod maps;

@@ -1,0 +1,85 @@
+//! [`Bands`]: the triangles of a screen by the rows they lie in, so that rows can be drawn side by side.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::Screen;
+use crate::math::grouped::{Grouped, grouped};
+
+/// Rows of a band: few enough for a near cache, many enough that most triangles lie in one band.
+const ROWS: usize = 16;
+
+/// Triangles that are sorted by one task.
+const TASK: usize = 1 << 13;
+
+/// The triangles of a screen by the bands of rows they lie in.
+pub(super) struct Bands<'a> {
+    screen: &'a Screen<'a>,
+    /// Task after task, so that none has to wait for another.
+    triangles: Vec<Grouped<u32>>,
+}
+
+impl<'a> Bands<'a> {
+    /// The triangles of those faces that are drawn.
+    pub fn new(screen: &'a Screen<'a>, draws: impl Fn(u32) -> bool + Sync) -> Self {
+        let count = screen.triangle_count();
+        let of_task = |task: usize| {
+            grouped(screen.rows.div_ceil(ROWS), |put| {
+                for id in task * TASK..((task + 1) * TASK).min(count) {
+                    let (corners, face) = screen.triangle(id);
+                    let rows = screen.rows_of(&corners);
+                    if !rows.is_empty() && draws(face) {
+                        (rows.start / ROWS..rows.end.div_ceil(ROWS)).for_each(|band| put(band, id as u32));
+                    }
+                }
+            })
+        };
+        Self { screen, triangles: (0..count.div_ceil(TASK)).into_par_iter().map(of_task).collect() }
+    }
+
+    /// Pixels of a band; the last one may have fewer.
+    pub fn pixels(&self) -> usize {
+        ROWS * self.screen.columns
+    }
+
+    /// The rows of a band.
+    pub fn rows(&self, band: usize) -> Range<usize> {
+        band * ROWS..((band + 1) * ROWS).min(self.screen.rows)
+    }
+
+    /// Draws a band: in `cells`, one a pixel, zero at first, stands what is in front.
+    ///
+    /// The nearer face wins, of equally near ones that of the lesser id, whatever the order.
+    pub fn draw(&self, band: usize, cells: &mut [Cell]) {
+        let first = band * self.pixels();
+        for id in self.triangles.iter().flat_map(|of_task| of_task.of(band)) {
+            let (corners, face) = self.screen.triangle(*id as usize);
+            self.screen.cover_within(self.rows(band), &corners, |pixel, nearness| {
+                let own = &mut cells[pixel - first];
+                *own = (*own).max(cell(face, nearness));
+            });
+        }
+    }
+}
+
+/// What is in front at a pixel: the bits of the nearness, which order positive numbers, above those of the face,
+/// inverted; zero where there is no face.
+pub(super) type Cell = u64;
+
+#[inline]
+fn cell(face: u32, nearness: f32) -> Cell {
+    u64::from(nearness.to_bits()) << 32 | u64::from(!face)
+}
+
+/// The face in front.
+#[inline]
+pub(super) fn front(cell: Cell) -> Option<u32> {
+    (cell != 0).then_some(!(cell as u32))
+}
+
+/// How near the face in front is, on the screen's scale from 0 to 1.
+#[inline]
+pub(super) fn nearness(cell: Cell) -> Option<f32> {
+    (cell != 0).then_some(f32::from_bits((cell >> 32) as u32))
+}
