@@ -2,6 +2,8 @@
 //!
 //! Edges of an image lie between pixels, not on them. Of neighbouring pairs of pixels the one with the largest jump says where.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::crest::NO_ECHO;
@@ -20,11 +22,14 @@ const GRADIENT: f32 = 1.732;
 /// The least jump from one surface to another.
 const SURE: f32 = 1.01 * NO_ECHO;
 
+/// Columns that are passed over at once where nothing is an edge.
+const RUN: usize = 32;
+
 /// How much depth and normals jump between pixels, in units of what alone is an edge by its test.
 pub(super) struct Jumps<'a> {
     mesh: &'a Mesh,
     maps: &'a Maps,
-    /// Whether borders of parts and materials jump by themselves.
+    /// Whether there are several parts or materials, and borders of them jump by themselves.
     parts: bool,
     depth: f32,
     normal: f32,
@@ -36,6 +41,8 @@ pub(super) struct JumpMap {
     pub across: Vec<f32>,
     /// From the pixel above to each pixel.
     pub down: Vec<f32>,
+    /// The columns with a jump to either, row after row.
+    pub columns: Vec<Vec<u32>>,
 }
 
 impl<'a> Jumps<'a> {
@@ -46,7 +53,11 @@ impl<'a> Jumps<'a> {
             }
             EdgeTest::Opposite => OPPOSITE,
         };
-        Self { mesh, maps, parts: options.parts, depth: 1.0 / depth, normal: 1.0 / normal }
+        let differ = |face: usize| {
+            mesh.face_part[face] != mesh.face_part[0] || mesh.face_material[face] != mesh.face_material[0]
+        };
+        let parts = options.parts && (0..mesh.triangles.len()).any(differ);
+        Self { mesh, maps, parts, depth: 1.0 / depth, normal: 1.0 / normal }
     }
 
     /// The jump of depth between two neighbours, with the pixels before and behind them in line: what neither side's slope
@@ -113,22 +124,51 @@ impl<'a> Jumps<'a> {
         let mut across = vec![0.0; columns * rows];
         let mut down = vec![0.0; columns * rows];
         let row_of = across.par_chunks_mut(columns).zip(down.par_chunks_mut(columns)).enumerate();
-        row_of.for_each(|(row, (across, down))| {
-            for column in 0..columns {
-                let pixel = row * columns + column;
-                // Nothing parts what is on one face, unless the test has it.
-                let faces = &self.maps.faces;
-                let may_part = |other: usize| edges[pixel] || (self.parts && faces[pixel] != faces[other]);
-                if column > 0 && may_part(pixel - 1) {
-                    let are_edges = edges[pixel] && edges[pixel - 1];
-                    across[column] = self.of(self.line_across(column, row), are_edges);
-                }
-                if row > 0 && may_part(pixel - columns) {
-                    let are_edges = edges[pixel] && edges[pixel - columns];
-                    down[column] = self.of(self.line_down(column, row), are_edges);
+        let of_row = |(row, (across, down)): (usize, (&mut [f32], &mut [f32]))| {
+            let mut found = Vec::new();
+            for first in (0..columns).step_by(RUN) {
+                let run = first..(first + RUN).min(columns);
+                if self.may_jump(edges, row, run.clone()) {
+                    self.along(edges, row, run, across, down, &mut found);
                 }
             }
-        });
-        JumpMap { across, down }
+            found
+        };
+        JumpMap { columns: row_of.map(of_row).collect(), across, down }
+    }
+
+    /// Whether there may be a jump within a run of a row: nothing parts what is on one face, unless the test has it.
+    fn may_jump(&self, edges: &[bool], row: usize, run: Range<usize>) -> bool {
+        let own = row * self.maps.columns;
+        // All of them, which is faster than to stop at the first.
+        self.parts || edges[own + run.start..own + run.end].iter().fold(false, |any, edge| any | edge)
+    }
+
+    /// The jumps of a run of a row, and the columns that have one.
+    fn along(
+        &self,
+        edges: &[bool],
+        row: usize,
+        run: Range<usize>,
+        across: &mut [f32],
+        down: &mut [f32],
+        found: &mut Vec<u32>,
+    ) {
+        let (columns, faces) = (self.maps.columns, &self.maps.faces);
+        for column in run {
+            let pixel = row * columns + column;
+            let may_part = |other: usize| edges[pixel] || (self.parts && faces[pixel] != faces[other]);
+            if column > 0 && may_part(pixel - 1) {
+                let are_edges = edges[pixel] && edges[pixel - 1];
+                across[column] = self.of(self.line_across(column, row), are_edges);
+            }
+            if row > 0 && may_part(pixel - columns) {
+                let are_edges = edges[pixel] && edges[pixel - columns];
+                down[column] = self.of(self.line_down(column, row), are_edges);
+            }
+            if across[column] > 0.0 || down[column] > 0.0 {
+                found.push(column as u32);
+            }
+        }
     }
 }

@@ -8,6 +8,9 @@ use super::jumps::JumpMap;
 /// The four ways from a corner: right, down, left, up.
 pub(super) const WAYS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
+/// Corners that are passed over at once where no line runs.
+const RUN: usize = 64;
+
 /// The corners of pixels, and the cracks between neighbouring pixels that lines run along.
 pub(super) struct Lattice {
     /// Corners in a row: one more than pixels.
@@ -30,12 +33,13 @@ impl Lattice {
     pub fn crests(jumps: &JumpMap, columns: usize, rows: usize) -> Self {
         let stride = columns + 1;
         let mut lattice = Self { stride, height: rows + 1, flags: vec![0; stride * (rows + 1)] };
-        lattice.flags.par_chunks_mut(stride).take(rows).enumerate().for_each(|(row, flags)| {
-            for (column, flag) in flags.iter_mut().enumerate().take(columns) {
+        let of_row = lattice.flags.par_chunks_mut(stride).zip(&jumps.columns).enumerate();
+        of_row.for_each(|(row, (flags, with_jumps))| {
+            for column in with_jumps.iter().map(|column| *column as usize) {
                 let pixel = row * columns + column;
                 let down = is_crest(&jumps.across, pixel, 1, column, columns);
                 let right = is_crest(&jumps.down, pixel, columns, row, rows);
-                *flag = 2 * u8::from(down) + u8::from(right);
+                flags[column] = 2 * u8::from(down) + u8::from(right);
             }
         });
         lattice
@@ -49,17 +53,24 @@ impl Lattice {
     /// The corners that lines run through, in ascending order.
     pub fn corners(&self) -> Vec<usize> {
         let stride = self.stride;
+        let none = vec![0; stride];
         let in_row = |row: usize| {
             let own = &self.flags[row * stride..(row + 1) * stride];
-            let above = row.checked_sub(1).map(|above| &self.flags[above * stride..row * stride]);
-            (0..stride)
-                .filter(|column| {
-                    own[*column] != 0
-                        || (*column > 0 && own[*column - 1] & 1 != 0)
-                        || above.is_some_and(|above| above[*column] & 2 != 0)
-                })
-                .map(|column| row * stride + column)
-                .collect::<Vec<_>>()
+            let above = row.checked_sub(1).map_or(&*none, |above| &self.flags[above * stride..row * stride]);
+            let mut found = Vec::new();
+            for first in (0..stride).step_by(RUN) {
+                let run = first..(first + RUN).min(stride);
+                // The corner before has the flag of the way to the first one.
+                let any = own[first.saturating_sub(1)..run.end].iter().chain(&above[run.clone()]);
+                if any.fold(0, |any, flag| any | flag) != 0 {
+                    let is_on = |column: &usize| {
+                        let from_left = *column > 0 && own[*column - 1] & 1 != 0;
+                        own[*column] != 0 || from_left || above[*column] & 2 != 0
+                    };
+                    found.extend(run.filter(is_on).map(|column| row * stride + column));
+                }
+            }
+            found
         };
         (0..self.height).into_par_iter().with_min_len(64).flat_map_iter(in_row).collect()
     }
