@@ -26,6 +26,9 @@ pub const LONGEST_SIDE: f64 = 4096.0;
 const BEFORE: f64 = 0.15;
 const BEHIND: f64 = 0.1;
 
+/// Normals that are reckoned at a time.
+const LANES: usize = 4;
+
 /// What is in front at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Maps {
@@ -66,7 +69,12 @@ impl Maps {
             planes,
         };
         let per_depth = 1.0 / (planes[1] - planes[0]);
-        let frame = &view.frame;
+        let depth_at = |nearness: f32| {
+            let depth = view.frame.depth_of(screen.image_nearness(nearness));
+            (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR)
+        };
+        let centre = |i: usize| (i as f64 + 0.5) / maps.scale;
+        let across: Vec<f64> = (0..columns).map(centre).collect();
         let band = bands.pixels();
         let of_band = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
         let of_band = of_band.zip(maps.depths.par_chunks_mut(band)).enumerate();
@@ -75,22 +83,24 @@ impl Maps {
             |(cells, shown), (number, ((faces, band_normals), depths))| {
                 cells.fill(0);
                 bands.draw(number, cells);
-                faces.fill(NO_FRONT);
-                depths.fill(FAR);
+                let mut next = 0;
                 for (cells, row) in cells.chunks(columns).zip(bands.rows(number)) {
-                    let y = (row as f64 + 0.5) / maps.scale;
-                    let first = (row - bands.rows(number).start) * columns;
-                    for (column, cell) in cells.iter().enumerate() {
-                        let (Some(front), Some(nearness)) = (front(*cell), nearness(*cell)) else {
+                    let first = next;
+                    for cells in cells.chunk_by(|a, b| front(*a) == front(*b)) {
+                        let own = next..next + cells.len();
+                        next = own.end;
+                        let Some(face) = front(cells[0]) else {
+                            faces[own.clone()].fill(NO_FRONT);
+                            depths[own].fill(FAR);
                             continue;
                         };
-                        let made = || FaceNormals::new(mesh, view, front, normals(front));
-                        let on_face = shown.of(front, made);
-                        let depth = frame.depth_of(screen.image_nearness(nearness));
-                        let own = first + column;
-                        faces[own] = front;
-                        band_normals[own] = on_face.at([(column as f64 + 0.5) / maps.scale, y]);
-                        depths[own] = (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR);
+                        faces[own.clone()].fill(face);
+                        let on_face = shown.of(face, || FaceNormals::new(mesh, view, face, normals(face)));
+                        let across = &across[own.start - first..own.end - first];
+                        on_face.along(across, centre(row), &mut band_normals[own.clone()]);
+                        for (depth, cell) in depths[own].iter_mut().zip(cells) {
+                            *depth = nearness(*cell).map_or(FAR, depth_at);
+                        }
                     }
                 }
             },
@@ -170,13 +180,34 @@ impl FaceNormals {
         Self { weights: [weight(b, c, a), weight(c, a, b), weight(a, b, c)], normals }
     }
 
-    #[inline]
-    fn at(&self, [x, y]: [f64; 2]) -> [f32; 3] {
-        let mut sum = DVec3::ZERO;
-        for (weight, normal) in self.weights.iter().zip(self.normals) {
-            // Centres of pixels may lie a rounding beside their face.
-            sum += normal * (weight[0] + weight[1] * x + weight[2] * y).max(0.0);
+    /// The normals at places of a row.
+    fn along(&self, across: &[f64], y: f64, to: &mut [[f32; 3]]) {
+        // Several at a time, each in its lane.
+        for (across, to) in across.chunks(LANES).zip(to.chunks_mut(LANES)) {
+            let mut x = [0.0; LANES];
+            x[..across.len()].copy_from_slice(across);
+            let mut sums = [[0.0; LANES]; 3];
+            for (weight, normal) in self.weights.iter().zip(self.normals) {
+                for lane in 0..LANES {
+                    // Centres of pixels may lie a rounding beside their face.
+                    let weight = (weight[0] + weight[1] * x[lane] + weight[2] * y).max(0.0);
+                    sums[0][lane] += normal.x * weight;
+                    sums[1][lane] += normal.y * weight;
+                    sums[2][lane] += normal.z * weight;
+                }
+            }
+            let [xs, ys, zs] = sums;
+            let mut per_length = [0.0; LANES];
+            for lane in 0..LANES {
+                let [x, y, z] = [xs[lane], ys[lane], zs[lane]];
+                per_length[lane] = 1.0 / (x * x + y * y + z * z).sqrt();
+            }
+            for (lane, to) in to.iter_mut().enumerate() {
+                let sum = DVec3::new(xs[lane], ys[lane], zs[lane]);
+                let k = per_length[lane];
+                let normal = if k > 0.0 && k.is_finite() { sum * k } else { self.normals[0] };
+                *to = normal.to_array().map(|x| x as f32);
+            }
         }
-        sum.try_normalize().unwrap_or(self.normals[0]).to_array().map(|x| x as f32)
     }
 }

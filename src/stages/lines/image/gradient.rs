@@ -104,19 +104,24 @@ impl Gradients {
         let Self { values, columns, first, sums, padded } = self;
         let channels = image.len() / (*columns * rows);
         let wide = *columns * channels;
-        // One pixel more to both sides, so that no pixel between has to ask for the rim.
-        for (padded, row) in padded.iter_mut().zip(three(row, rows)) {
-            let row = &image[row * wide..(row + 1) * wide];
-            padded.clear();
-            let before = from.saturating_sub(1) * channels;
-            padded.extend_from_slice(&row[before..before + channels]);
-            padded.extend_from_slice(&row[from * channels..to * channels]);
-            let behind = to.min(*columns - 1) * channels;
-            padded.extend_from_slice(&row[behind..behind + channels]);
-        }
         let count = (to - from) * channels;
+        let image = three(row, rows).map(|row| &image[row * wide..(row + 1) * wide]);
+        // One pixel more to both sides, so that no pixel between has to ask for the rim.
+        let around = if from > 0 && to < *columns {
+            image.map(|row| &row[(from - 1) * channels..(to + 1) * channels])
+        } else {
+            for (padded, row) in padded.iter_mut().zip(image) {
+                padded.clear();
+                let before = from.saturating_sub(1) * channels;
+                padded.extend_from_slice(&row[before..before + channels]);
+                padded.extend_from_slice(&row[from * channels..to * channels]);
+                let behind = to.min(*columns - 1) * channels;
+                padded.extend_from_slice(&row[behind..behind + channels]);
+            }
+            [&*padded[0], &*padded[1], &*padded[2]]
+        };
         // Slices of one length, so that many pixels are taken at a time.
-        let side = |row: usize, right: usize| &padded[row][right * channels..right * channels + count];
+        let side = |row: usize, right: usize| &around[row][right * channels..right * channels + count];
         let (a, b, c) = (side(0, 0), side(0, 1), side(0, 2));
         let (d, x, e) = (side(1, 0), side(1, 1), side(1, 2));
         let (f, g, h) = (side(2, 0), side(2, 1), side(2, 2));

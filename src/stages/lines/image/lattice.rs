@@ -54,6 +54,7 @@ impl Lattice {
     pub fn corners(&self) -> Vec<usize> {
         let stride = self.stride;
         let none = vec![0; stride];
+        let any = |flags: &[u8]| flags.iter().fold(0, |any, flag| any | flag);
         let in_row = |row: usize| {
             let own = &self.flags[row * stride..(row + 1) * stride];
             let above = row.checked_sub(1).map_or(&*none, |above| &self.flags[above * stride..row * stride]);
@@ -61,8 +62,8 @@ impl Lattice {
             for first in (0..stride).step_by(RUN) {
                 let run = first..(first + RUN).min(stride);
                 // The corner before has the flag of the way to the first one.
-                let any = own[first.saturating_sub(1)..run.end].iter().chain(&above[run.clone()]);
-                if any.fold(0, |any, flag| any | flag) != 0 {
+                let any = any(&own[first.saturating_sub(1)..run.end]) | any(&above[run.clone()]);
+                if any != 0 {
                     let is_on = |column: &usize| {
                         let from_left = *column > 0 && own[*column - 1] & 1 != 0;
                         own[*column] != 0 || from_left || above[*column] & 2 != 0
