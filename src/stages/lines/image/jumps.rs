@@ -4,9 +4,8 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::crest::NO_ECHO;
+use super::jump_map::JumpMap;
 use super::{EdgeTest, ImageOptions};
 use crate::mesh::Mesh;
 use crate::raster::{Maps, NO_FRONT};
@@ -33,16 +32,6 @@ pub(super) struct Jumps<'a> {
     parts: bool,
     depth: f32,
     normal: f32,
-}
-
-/// Jumps between neighbouring pixels that may be edges; 0 elsewhere.
-pub(super) struct JumpMap {
-    /// From the pixel on the left to each pixel.
-    pub across: Vec<f32>,
-    /// From the pixel above to each pixel.
-    pub down: Vec<f32>,
-    /// The columns with a jump to either, row after row.
-    pub columns: Vec<Vec<u32>>,
 }
 
 impl<'a> Jumps<'a> {
@@ -120,21 +109,15 @@ impl<'a> Jumps<'a> {
 
     /// The jumps between pixels that are edges.
     pub fn map(&self, edges: &[bool]) -> JumpMap {
-        let (columns, rows) = (self.maps.columns, self.maps.rows);
-        let mut across = vec![0.0; columns * rows];
-        let mut down = vec![0.0; columns * rows];
-        let row_of = across.par_chunks_mut(columns).zip(down.par_chunks_mut(columns)).enumerate();
-        let of_row = |(row, (across, down)): (usize, (&mut [f32], &mut [f32]))| {
-            let mut found = Vec::new();
+        let columns = self.maps.columns;
+        JumpMap::new(columns, self.maps.rows, |row, put| {
             for first in (0..columns).step_by(RUN) {
                 let run = first..(first + RUN).min(columns);
                 if self.may_jump(edges, row, run.clone()) {
-                    self.along(edges, row, run, across, down, &mut found);
+                    self.along(edges, row, run, put);
                 }
             }
-            found
-        };
-        JumpMap { columns: row_of.map(of_row).collect(), across, down }
+        })
     }
 
     /// Whether there may be a jump within a run of a row: nothing parts what is on one face, unless the test has it.
@@ -144,30 +127,23 @@ impl<'a> Jumps<'a> {
         self.parts || edges[own + run.start..own + run.end].iter().fold(false, |any, edge| any | edge)
     }
 
-    /// The jumps of a run of a row, and the columns that have one.
-    fn along(
-        &self,
-        edges: &[bool],
-        row: usize,
-        run: Range<usize>,
-        across: &mut [f32],
-        down: &mut [f32],
-        found: &mut Vec<u32>,
-    ) {
+    /// The jumps of a run of a row.
+    fn along(&self, edges: &[bool], row: usize, run: Range<usize>, put: &mut dyn FnMut(usize, [f32; 2])) {
         let (columns, faces) = (self.maps.columns, &self.maps.faces);
         for column in run {
             let pixel = row * columns + column;
             let may_part = |other: usize| edges[pixel] || (self.parts && faces[pixel] != faces[other]);
+            let mut jumps = [0.0; 2];
             if column > 0 && may_part(pixel - 1) {
                 let are_edges = edges[pixel] && edges[pixel - 1];
-                across[column] = self.of(self.line_across(column, row), are_edges);
+                jumps[0] = self.of(self.line_across(column, row), are_edges);
             }
             if row > 0 && may_part(pixel - columns) {
                 let are_edges = edges[pixel] && edges[pixel - columns];
-                down[column] = self.of(self.line_down(column, row), are_edges);
+                jumps[1] = self.of(self.line_down(column, row), are_edges);
             }
-            if across[column] > 0.0 || down[column] > 0.0 {
-                found.push(column as u32);
+            if jumps != [0.0; 2] {
+                put(column, jumps);
             }
         }
     }

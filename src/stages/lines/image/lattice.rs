@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::crest::is_crest;
-use super::jumps::JumpMap;
+use super::jump_map::JumpMap;
 
 /// The four ways from a corner: right, down, left, up.
 pub(super) const WAYS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
@@ -30,15 +30,15 @@ pub(super) struct Crack {
 
 impl Lattice {
     /// The cracks over which more jumps than over their neighbours on both sides, and not just as an echo of what jumps near by.
-    pub fn crests(jumps: &JumpMap, columns: usize, rows: usize) -> Self {
+    pub fn crests(jumps: &JumpMap) -> Self {
+        let (columns, rows) = (jumps.columns, jumps.rows);
         let stride = columns + 1;
         let mut lattice = Self { stride, height: rows + 1, flags: vec![0; stride * (rows + 1)] };
-        let of_row = lattice.flags.par_chunks_mut(stride).zip(&jumps.columns).enumerate();
+        let of_row = lattice.flags.par_chunks_mut(stride).zip(&jumps.with_jumps).enumerate();
         of_row.for_each(|(row, (flags, with_jumps))| {
             for column in with_jumps.iter().map(|column| *column as usize) {
-                let pixel = row * columns + column;
-                let down = is_crest(&jumps.across, pixel, 1, column, columns);
-                let right = is_crest(&jumps.down, pixel, columns, row, rows);
+                let down = is_crest(|column| jumps.across(column, row), column, columns);
+                let right = is_crest(|row| jumps.down(column, row), row, rows);
                 flags[column] = 2 * u8::from(down) + u8::from(right);
             }
         });
@@ -139,13 +139,11 @@ impl Lattice {
 
     /// The jump over a crack.
     pub fn jump(&self, jumps: &JumpMap, crack: Crack) -> f32 {
-        let columns = self.stride - 1;
         let Some((corner, flag)) = self.flag(crack) else { return 0.0 };
         let [column, row] = self.place(corner);
-        if column >= columns || row >= self.height - 1 {
+        if column >= jumps.columns || row >= jumps.rows {
             return 0.0;
         }
-        let of = if flag == 1 { &jumps.down } else { &jumps.across };
-        of[row * columns + column]
+        if flag == 1 { jumps.down(column, row) } else { jumps.across(column, row) }
     }
 }
