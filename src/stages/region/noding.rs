@@ -212,9 +212,13 @@ impl Noder {
             let (mut cuts, mut own) = (Vec::new(), Vec::new());
             for tile in tiles {
                 own.clear();
-                own.extend(self.tiles.of(*tile).filter(|piece| !self.is_cut[*piece as usize]));
-                for (k, j) in own.iter().enumerate().filter(|(_, j)| **j >= self.first_new) {
-                    own[..k].iter().for_each(|i| self.meet(*i, *j, &mut cuts));
+                let whole = self.tiles.of(*tile).filter(|piece| !self.is_cut[*piece as usize]);
+                own.extend(whole.map(|piece| self.passing(piece)));
+                for (k, new) in own.iter().enumerate().filter(|(_, piece)| piece.number >= self.first_new) {
+                    own[..k]
+                        .iter()
+                        .filter(|other| new.is_near(other))
+                        .for_each(|other| new.meet(other, &mut cuts));
                 }
             }
             cuts
@@ -242,19 +246,38 @@ impl Noder {
         self.touch(first_new)
     }
 
+    fn passing(&self, number: u32) -> Passing {
+        let ends = self.ends(number);
+        let [a, b] = ends;
+        let of = |end: fn(i64, i64) -> i64| [end(a[0], b[0]), end(a[1], b[1])];
+        Passing { ends, low: of(i64::min), high: of(i64::max), number, origin: self.origins[number as usize] }
+    }
+}
+
+/// A piece in a tile, with all that is asked of it in one place.
+struct Passing {
+    ends: [GridPoint; 2],
+    low: GridPoint,
+    high: GridPoint,
+    number: u32,
+    origin: u32,
+}
+
+impl Passing {
+    /// Whether the boxes of two pieces are no more than a step apart.
+    #[inline]
+    fn is_near(&self, other: &Self) -> bool {
+        let apart =
+            |axis: usize| (self.high[axis] + 1 < other.low[axis]) | (other.high[axis] + 1 < self.low[axis]);
+        !(apart(0) | apart(1))
+    }
+
     /// Where two pieces must be cut.
-    fn meet(&self, i: u32, j: u32, cuts: &mut Vec<(u32, GridPoint)>) {
+    fn meet(&self, other: &Self, cuts: &mut Vec<(u32, GridPoint)>) {
         // Where they cross is rounded on the first of them: that is the one whose border came first.
-        let origin = |k: u32| (self.origins[k as usize], k);
-        let [i, j] = if origin(i) < origin(j) { [i, j] } else { [j, i] };
-        let ([a, b], [c, d]) = (self.ends(i), self.ends(j));
-        for axis in 0..2 {
-            if a[axis].max(b[axis]) + 1 < c[axis].min(d[axis])
-                || c[axis].max(d[axis]) + 1 < a[axis].min(b[axis])
-            {
-                return;
-            }
-        }
+        let order = |piece: &Self| (piece.origin, piece.number);
+        let [first, second] = if order(self) < order(other) { [self, other] } else { [other, self] };
+        let ([i, j], [a, b], [c, d]) = ([first.number, second.number], first.ends, second.ends);
         let before = cuts.len();
         for (piece, [a, b], p) in [(i, [a, b], c), (i, [a, b], d), (j, [c, d], a), (j, [c, d], b)] {
             if lies_on(a, b, p) {
@@ -290,13 +313,13 @@ fn dot(a: GridPoint, b: GridPoint, p: GridPoint) -> i64 {
 
 /// Whether a point lies on a piece, and is none of its ends.
 fn lies_on(a: GridPoint, b: GridPoint, p: GridPoint) -> bool {
-    if p == a || p == b {
+    let length2 = dot(a, b, b);
+    let off = orient(a, b, p) as f64;
+    // Most points are far away.
+    if off * off > ON_PIECE * length2 as f64 || p == a || p == b {
         return false;
     }
-    let length2 = dot(a, b, b);
-    let along = dot(a, b, p);
-    let off = orient(a, b, p) as f64;
-    along > 0 && along < length2 && off * off <= ON_PIECE * length2 as f64
+    (1..length2).contains(&dot(a, b, p))
 }
 
 /// The point of a piece that is nearest to a point, on the grid, and its distance squared.
