@@ -11,6 +11,7 @@ pub mod inside;
 pub mod intersections;
 pub mod isophotes;
 pub mod kind;
+mod levels;
 pub mod line;
 pub mod lit;
 pub mod options;
