@@ -107,8 +107,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn threads_do_not_change_the_result() {
+    /// Thousands of triangles of all heights, over and through each other.
+    fn crowd() -> (Mesh, View) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         for i in 0..30_000_u32 {
@@ -118,7 +118,29 @@ mod tests {
             positions.extend([[a, b, c], [a + 9.0, b, c], [a, b + 7.0, 0.5 * c]]);
             triangles.push([first, first + 1, first + 2]);
         }
-        let (mesh, view) = from_above(&positions, &triangles);
+        from_above(&positions, &triangles)
+    }
+
+    #[test]
+    fn bands_of_rows_show_what_whole_triangles_do() {
+        let (mesh, view) = crowd();
+        let screen = Screen::new(&mesh, &view);
+        let mut nearest: Vec<Option<(f32, u32)>> = vec![None; screen.columns * screen.rows];
+        for id in 0..screen.triangle_count() {
+            let (corners, face) = screen.triangle(id);
+            screen.cover(&corners, |pixel, nearness| {
+                if nearest[pixel].is_none_or(|(before, _)| nearness > before) {
+                    nearest[pixel] = Some((nearness, face));
+                }
+            });
+        }
+        let shown: Vec<Option<u32>> = nearest.iter().map(|own| own.map(|(_, face)| face)).collect();
+        assert_eq!(faces(&FaceBuffer::new(&screen)), shown);
+    }
+
+    #[test]
+    fn threads_do_not_change_the_result() {
+        let (mesh, view) = crowd();
         let screen = Screen::new(&mesh, &view);
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
