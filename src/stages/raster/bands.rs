@@ -25,13 +25,16 @@ impl<'a> Bands<'a> {
     pub fn new(screen: &'a Screen<'a>, draws: impl Fn(u32) -> bool + Sync) -> Self {
         let count = screen.triangle_count();
         let of_task = |task: usize| {
+            // Most triangles of a scan cover no pixel's centre, and are looked at no more.
+            let covering = (task * TASK..((task + 1) * TASK).min(count)).filter_map(|id| {
+                let (corners, face) = screen.triangle(id);
+                let rows = screen.rows_of(&corners)?;
+                draws(face).then_some((id as u32, rows.start / ROWS..rows.end.div_ceil(ROWS)))
+            });
+            let covering: Vec<(u32, Range<usize>)> = covering.collect();
             grouped(screen.rows.div_ceil(ROWS), |put| {
-                for id in task * TASK..((task + 1) * TASK).min(count) {
-                    let (corners, face) = screen.triangle(id);
-                    let rows = screen.rows_of(&corners);
-                    if !rows.is_empty() && draws(face) {
-                        (rows.start / ROWS..rows.end.div_ceil(ROWS)).for_each(|band| put(band, id as u32));
-                    }
+                for (id, bands) in &covering {
+                    bands.clone().for_each(|band| put(band, *id));
                 }
             })
         };

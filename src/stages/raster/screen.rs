@@ -166,10 +166,10 @@ impl<'a> Screen<'a> {
         ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
     }
 
-    /// The rows that a triangle may cover pixels in.
+    /// The rows that a triangle may cover pixels in; none if it covers no pixel.
     #[inline]
-    pub(super) fn rows_of(&self, corners: &[ScreenPoint; 3]) -> Range<usize> {
-        self.pixel_box(corners).map_or(0..0, |[_, _, top, bottom]| top as usize..bottom as usize)
+    pub(super) fn rows_of(&self, corners: &[ScreenPoint; 3]) -> Option<Range<usize>> {
+        self.pixel_box(corners).map(|[_, _, top, bottom]| top as usize..bottom as usize)
     }
 
     /// Calls `visit` with each pixel whose centre a triangle covers, and its nearness there.
