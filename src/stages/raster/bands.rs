@@ -1,10 +1,14 @@
 //! [`Bands`]: the triangles of a screen by the rows they lie in, so that rows can be drawn side by side.
+//!
+//! Sorting pays where each pixel is asked for more than its face as soon as it is drawn; a [`super::FaceBuffer`] alone is made
+//! faster without.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::Screen;
+use super::cell::{Cell, cell};
 use crate::math::grouped::{Grouped, grouped};
 
 /// Rows of a band: few enough for a near cache, many enough that most triangles lie in one band.
@@ -21,15 +25,13 @@ pub(super) struct Bands<'a> {
 }
 
 impl<'a> Bands<'a> {
-    /// The triangles of those faces that are drawn.
-    pub fn new(screen: &'a Screen<'a>, draws: impl Fn(u32) -> bool + Sync) -> Self {
+    pub fn new(screen: &'a Screen<'a>) -> Self {
         let count = screen.triangle_count();
         let of_task = |task: usize| {
             // Most triangles of a scan cover no pixel's centre, and are looked at no more.
             let covering = (task * TASK..((task + 1) * TASK).min(count)).filter_map(|id| {
-                let (corners, face) = screen.triangle(id);
-                let rows = screen.rows_of(&corners)?;
-                draws(face).then_some((id as u32, rows.start / ROWS..rows.end.div_ceil(ROWS)))
+                let rows = screen.rows_of(&screen.triangle(id).0)?;
+                Some((id as u32, rows.start / ROWS..rows.end.div_ceil(ROWS)))
             });
             let covering: Vec<(u32, Range<usize>)> = covering.collect();
             grouped(screen.rows.div_ceil(ROWS), |put| {
@@ -64,25 +66,4 @@ impl<'a> Bands<'a> {
             });
         }
     }
-}
-
-/// What is in front at a pixel: the bits of the nearness, which order positive numbers, above those of the face,
-/// inverted; zero where there is no face.
-pub(super) type Cell = u64;
-
-#[inline]
-fn cell(face: u32, nearness: f32) -> Cell {
-    u64::from(nearness.to_bits()) << 32 | u64::from(!face)
-}
-
-/// The face in front.
-#[inline]
-pub(super) fn front(cell: Cell) -> Option<u32> {
-    (cell != 0).then_some(!(cell as u32))
-}
-
-/// How near the face in front is, on the screen's scale from 0 to 1.
-#[inline]
-pub(super) fn nearness(cell: Cell) -> Option<f32> {
-    (cell != 0).then_some(f32::from_bits((cell >> 32) as u32))
 }

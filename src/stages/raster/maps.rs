@@ -7,7 +7,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Screen;
-use super::bands::{Bands, front, nearness};
+use super::bands::Bands;
+use super::cell::{front, nearness};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -55,7 +56,7 @@ impl Maps {
     pub fn new(mesh: &Mesh, view: &View, per_unit: f64, normals: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
         let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, LONGEST_SIDE);
         let screen = Screen::of_side(mesh, view, side);
-        let bands = Bands::new(&screen, |_| true);
+        let bands = Bands::new(&screen);
         let planes = planes(&screen, view);
         let (columns, rows) = (screen.columns, screen.rows);
         // Zeros cost nothing before they are written, which each band does for itself.
