@@ -11,6 +11,7 @@ pub mod inside;
 pub mod intersections;
 pub mod isophotes;
 pub mod kind;
+mod levels;
 pub mod line;
 pub mod lit;
 pub mod options;
@@ -67,7 +68,7 @@ pub fn extract_with(
     options: &LineOptions,
 ) -> FeatureLines {
     let mut lines = FeatureLines::default();
-    if !options.enabled {
+    if !options.enabled || options.kinds.is_empty() {
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;

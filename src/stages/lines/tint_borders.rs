@@ -5,7 +5,7 @@
 
 use super::Lit;
 use super::colour_cells::{Border, borders};
-use super::isophotes::{extent, pieces};
+use super::levels::{extent, pieces};
 use crate::math::oklab::{Oklab, distance2};
 use crate::scene::tints::Tints;
 

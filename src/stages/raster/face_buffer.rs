@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use super::Screen;
+use super::cell::{self, Cell, cell};
 
 /// Triangles handled by one task.
 const TASK: usize = 1 << 13;
@@ -16,9 +17,7 @@ pub struct FaceBuffer {
     pub columns: usize,
     /// Number of rows.
     pub rows: usize,
-    /// The bits of the nearness, which order positive numbers, above those of the face, inverted;
-    /// zero where there is no face.
-    cells: Vec<u64>,
+    cells: Vec<Cell>,
 }
 
 impl FaceBuffer {
@@ -43,10 +42,10 @@ impl FaceBuffer {
                     continue;
                 }
                 screen.cover(&corners, |pixel, nearness| {
-                    let cell = u64::from(nearness.to_bits()) << 32 | u64::from(!face);
+                    let own = cell(face, nearness);
                     // Most triangles lose, and looking is cheaper than writing.
-                    if cell > cells[pixel].load(Ordering::Relaxed) {
-                        cells[pixel].fetch_max(cell, Ordering::Relaxed);
+                    if own > cells[pixel].load(Ordering::Relaxed) {
+                        cells[pixel].fetch_max(own, Ordering::Relaxed);
                     }
                 });
             }
@@ -59,16 +58,14 @@ impl FaceBuffer {
     #[inline]
     #[must_use]
     pub fn front(&self, pixel: usize) -> Option<u32> {
-        let cell = self.cells[pixel];
-        (cell != 0).then_some(!(cell as u32))
+        cell::front(self.cells[pixel])
     }
 
     /// How near the face in front is at a pixel, on the screen's scale from 0 to 1.
     #[inline]
     #[must_use]
     pub fn nearness(&self, pixel: usize) -> Option<f32> {
-        let cell = self.cells[pixel];
-        (cell != 0).then_some(f32::from_bits((cell >> 32) as u32))
+        cell::nearness(self.cells[pixel])
     }
 }
 
@@ -76,6 +73,7 @@ impl FaceBuffer {
 mod tests {
     use glam::DVec3;
 
+    use super::super::bands::Bands;
     use super::*;
     use crate::mesh::{FaceId, Mesh, Soup};
     use crate::scene::{Camera, UpAxis};
@@ -130,8 +128,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn threads_do_not_change_the_result() {
+    /// Thousands of triangles of all heights, over and through each other.
+    fn crowd() -> (Mesh, View) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         for i in 0..30_000_u32 {
@@ -141,7 +139,22 @@ mod tests {
             positions.extend([[a, b, c], [a + 9.0, b, c], [a, b + 7.0, 0.5 * c]]);
             triangles.push([first, first + 1, first + 2]);
         }
-        let (mesh, view) = from_above(&positions, &triangles);
+        from_above(&positions, &triangles)
+    }
+
+    #[test]
+    fn bands_of_rows_show_what_the_buffer_does() {
+        let (mesh, view) = crowd();
+        let screen = Screen::new(&mesh, &view);
+        let bands = Bands::new(&screen);
+        let mut cells = vec![0; screen.columns * screen.rows];
+        cells.chunks_mut(bands.pixels()).enumerate().for_each(|(band, cells)| bands.draw(band, cells));
+        assert!(FaceBuffer::new(&screen).cells == cells);
+    }
+
+    #[test]
+    fn threads_do_not_change_the_result() {
+        let (mesh, view) = crowd();
         let screen = Screen::new(&mesh, &view);
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

@@ -6,7 +6,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{FaceBuffer, Screen};
+use super::Screen;
+use super::bands::Bands;
+use super::cell::{front, nearness};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -25,8 +27,8 @@ pub const LONGEST_SIDE: f64 = 4096.0;
 const BEFORE: f64 = 0.15;
 const BEHIND: f64 = 0.1;
 
-/// Rows that are gone through by one task, one after the other.
-const BAND: usize = 16;
+/// Normals that are reckoned at a time.
+const LANES: usize = 4;
 
 /// What is in front at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,40 +56,52 @@ impl Maps {
     pub fn new(mesh: &Mesh, view: &View, per_unit: f64, normals: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
         let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, LONGEST_SIDE);
         let screen = Screen::of_side(mesh, view, side);
-        let buffer = FaceBuffer::new(&screen);
+        let bands = Bands::new(&screen);
         let planes = planes(&screen, view);
-        let (columns, rows) = (buffer.columns, buffer.rows);
+        let (columns, rows) = (screen.columns, screen.rows);
+        // Zeros cost nothing before they are written, which each band does for itself.
         let mut maps = Self {
             columns,
             rows,
             scale: screen.scale(),
-            faces: vec![NO_FRONT; columns * rows],
+            faces: vec![0; columns * rows],
             normals: vec![[0.0; 3]; columns * rows],
-            depths: vec![FAR; columns * rows],
+            depths: vec![0.0; columns * rows],
             planes,
         };
         let per_depth = 1.0 / (planes[1] - planes[0]);
-        let frame = &view.frame;
-        let band = BAND * columns;
-        let bands = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
-        bands.zip(maps.depths.par_chunks_mut(band)).enumerate().for_each(
-            |(number, ((faces, band_normals), depths))| {
-                let mut shown = LastShown::new();
-                for (row, faces) in faces.chunks_mut(columns).enumerate() {
-                    let y = ((number * BAND + row) as f64 + 0.5) / maps.scale;
-                    for (column, face) in faces.iter_mut().enumerate() {
-                        let own = row * columns + column;
-                        let pixel = number * band + own;
-                        let (Some(front), Some(nearness)) = (buffer.front(pixel), buffer.nearness(pixel))
-                        else {
+        let depth_at = |nearness: f32| {
+            let depth = view.frame.depth_of(screen.image_nearness(nearness));
+            (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR)
+        };
+        let centre = |i: usize| (i as f64 + 0.5) / maps.scale;
+        let across: Vec<f64> = (0..columns).map(centre).collect();
+        let band = bands.pixels();
+        let of_band = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
+        let of_band = of_band.zip(maps.depths.par_chunks_mut(band)).enumerate();
+        of_band.for_each_init(
+            || (vec![0; band], LastShown::new()),
+            |(cells, shown), (number, ((faces, band_normals), depths))| {
+                cells.fill(0);
+                bands.draw(number, cells);
+                let mut next = 0;
+                for (cells, row) in cells.chunks(columns).zip(bands.rows(number)) {
+                    let first = next;
+                    for cells in cells.chunk_by(|a, b| front(*a) == front(*b)) {
+                        let own = next..next + cells.len();
+                        next = own.end;
+                        let Some(face) = front(cells[0]) else {
+                            faces[own.clone()].fill(NO_FRONT);
+                            depths[own].fill(FAR);
                             continue;
                         };
-                        let made = || FaceNormals::new(mesh, view, front, normals(front));
-                        let on_face = shown.of(front, made);
-                        let depth = frame.depth_of(screen.image_nearness(nearness));
-                        *face = front;
-                        band_normals[own] = on_face.at([(column as f64 + 0.5) / maps.scale, y]);
-                        depths[own] = (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR);
+                        faces[own.clone()].fill(face);
+                        let on_face = shown.of(face, || FaceNormals::new(mesh, view, face, normals(face)));
+                        let across = &across[own.start - first..own.end - first];
+                        on_face.along(across, centre(row), &mut band_normals[own.clone()]);
+                        for (depth, cell) in depths[own].iter_mut().zip(cells) {
+                            *depth = nearness(*cell).map_or(FAR, depth_at);
+                        }
                     }
                 }
             },
@@ -167,13 +181,34 @@ impl FaceNormals {
         Self { weights: [weight(b, c, a), weight(c, a, b), weight(a, b, c)], normals }
     }
 
-    #[inline]
-    fn at(&self, [x, y]: [f64; 2]) -> [f32; 3] {
-        let mut sum = DVec3::ZERO;
-        for (weight, normal) in self.weights.iter().zip(self.normals) {
-            // Centres of pixels may lie a rounding beside their face.
-            sum += normal * (weight[0] + weight[1] * x + weight[2] * y).max(0.0);
+    /// The normals at places of a row.
+    fn along(&self, across: &[f64], y: f64, to: &mut [[f32; 3]]) {
+        // Several at a time, each in its lane.
+        for (across, to) in across.chunks(LANES).zip(to.chunks_mut(LANES)) {
+            let mut x = [0.0; LANES];
+            x[..across.len()].copy_from_slice(across);
+            let mut sums = [[0.0; LANES]; 3];
+            for (weight, normal) in self.weights.iter().zip(self.normals) {
+                for lane in 0..LANES {
+                    // Centres of pixels may lie a rounding beside their face.
+                    let weight = (weight[0] + weight[1] * x[lane] + weight[2] * y).max(0.0);
+                    sums[0][lane] += normal.x * weight;
+                    sums[1][lane] += normal.y * weight;
+                    sums[2][lane] += normal.z * weight;
+                }
+            }
+            let [xs, ys, zs] = sums;
+            let mut per_length = [0.0; LANES];
+            for lane in 0..LANES {
+                let [x, y, z] = [xs[lane], ys[lane], zs[lane]];
+                per_length[lane] = 1.0 / (x * x + y * y + z * z).sqrt();
+            }
+            for (lane, to) in to.iter_mut().enumerate() {
+                let sum = DVec3::new(xs[lane], ys[lane], zs[lane]);
+                let k = per_length[lane];
+                let normal = if k > 0.0 && k.is_finite() { sum * k } else { self.normals[0] };
+                *to = normal.to_array().map(|x| x as f32);
+            }
         }
-        sum.try_normalize().unwrap_or(self.normals[0]).to_array().map(|x| x as f32)
     }
 }

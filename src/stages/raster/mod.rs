@@ -1,5 +1,7 @@
 //! Buffers of a view: they propose, exact geometry decides.
 
+mod bands;
+mod cell;
 pub mod face_buffer;
 mod hairlines;
 pub mod maps;

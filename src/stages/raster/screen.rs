@@ -3,6 +3,8 @@
 //! Single precision is enough here, since buffers only propose. Nearness is brought to the range
 //! 0 to 1 first, so that no digits are lost on far-away eyes.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -164,15 +166,33 @@ impl<'a> Screen<'a> {
         ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
     }
 
+    /// The rows that a triangle may cover pixels in; none if it covers no pixel.
+    #[inline]
+    pub(super) fn rows_of(&self, corners: &[ScreenPoint; 3]) -> Option<Range<usize>> {
+        self.pixel_box(corners).map(|[_, _, top, bottom]| top as usize..bottom as usize)
+    }
+
     /// Calls `visit` with each pixel whose centre a triangle covers, and its nearness there.
     #[inline]
     pub fn cover(&self, corners: &[ScreenPoint; 3], visit: impl FnMut(usize, f32)) {
-        let Some(pixel_box) = self.pixel_box(corners) else { return };
-        let [left, right, top, bottom] = pixel_box;
+        self.cover_within(0..self.rows, corners, visit);
+    }
+
+    /// Calls `visit` with the pixels of some rows as [`Screen::cover`] does.
+    #[inline]
+    pub(super) fn cover_within(
+        &self,
+        rows: Range<usize>,
+        corners: &[ScreenPoint; 3],
+        visit: impl FnMut(usize, f32),
+    ) {
+        let Some([left, right, top, bottom]) = self.pixel_box(corners) else { return };
+        let within = [left, right, top.max(rows.start as i32), bottom.min(rows.end as i32)];
+        // All rows of a triangle are found one way.
         if (right - left) * (bottom - top) <= FEW {
-            self.cover_few(corners, pixel_box, visit);
+            self.cover_few(corners, within, visit);
         } else {
-            self.cover_rows(corners, pixel_box, visit);
+            self.cover_rows(corners, within, visit);
         }
     }
 
@@ -227,13 +247,13 @@ impl<'a> Screen<'a> {
             return;
         }
         let plane = ScreenPlane::new([a, b, c]);
-        let sides = [(a, b), (b, c), (c, a)];
+        let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| Side::new(p, q, area));
         for row in top..bottom {
             let y = row as f32 + 0.5;
-            let (from, to) = span(&sides, area, f64::from(y), f64::from(left), f64::from(right));
-            for column in from..to {
+            let first = row as usize * self.columns;
+            for column in span(&sides, f64::from(y), f64::from(left), f64::from(right)) {
                 let q = plane.at(column as f32 + 0.5, y);
-                visit(row as usize * self.columns + column, within_corners(q, a, b, c));
+                visit(first + column, within_corners(q, a, b, c));
             }
         }
     }
@@ -268,23 +288,43 @@ fn within_corners(q: f32, a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f32
     q.min(a[2].max(b[2]).max(c[2])).max(a[2].min(b[2]).min(c[2])).max(0.0)
 }
 
+/// A side of a triangle, from a corner on, so that inside is on one hand of all three.
+struct Side {
+    x: f64,
+    y: f64,
+    dx: f64,
+    dy: f64,
+    slack: f64,
+}
+
+impl Side {
+    #[inline]
+    fn new(p: ScreenPoint, q: ScreenPoint, area: f32) -> Self {
+        let sign = f64::from(area.signum());
+        let [x, y, qx, qy] = [p[0], p[1], q[0], q[1]].map(f64::from);
+        let (dx, dy) = ((qx - x) * sign, (qy - y) * sign);
+        Self { x, y, dx, dy, slack: f64::from(SLACK) * (dx.abs() + dy.abs()) }
+    }
+}
+
 /// The columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
-fn span(sides: &[(ScreenPoint, ScreenPoint); 3], area: f32, y: f64, left: f64, right: f64) -> (usize, usize) {
+#[inline]
+fn span(sides: &[Side; 3], y: f64, left: f64, right: f64) -> Range<usize> {
     let (mut from, mut to) = (left, right);
-    let sign = f64::from(area.signum());
-    for (p, q) in sides {
-        let [px, py, qx, qy] = [p[0], p[1], q[0], q[1]].map(f64::from);
-        let (dx, dy) = ((qx - px) * sign, (qy - py) * sign);
-        let room = dx * (y - py) + f64::from(SLACK) * (dx.abs() + dy.abs());
+    for side in sides {
+        let room = side.dx * (y - side.y) + side.slack;
         // Inside is dy · (x − px) ≤ room.
-        let x = px + room / dy;
-        if dy > 0.0 {
-            to = to.min((x + 0.5).max(0.0).floor());
-        } else if dy < 0.0 {
-            from = from.max((x - 0.5).max(0.0).ceil());
+        let x = side.x + room / side.dy;
+        if side.dy > 0.0 {
+            to = to.min(x + 0.5);
+        } else if side.dy < 0.0 {
+            from = from.max(x - 0.5);
         } else if room < 0.0 {
-            return (0, 0);
+            return 0..0;
         }
     }
-    (from as usize, to as usize)
+    // By way of integers, which is much faster than rounding.
+    let from = from.min(right);
+    let whole = from as usize;
+    whole + usize::from(from > whole as f64)..to.max(0.0) as usize
 }

@@ -20,6 +20,7 @@ pub mod options;
 pub mod paint;
 mod piece;
 mod piece_grid;
+mod piece_tiles;
 mod ramps;
 pub mod samples;
 pub mod seen;

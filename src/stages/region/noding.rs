@@ -9,10 +9,8 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::math::grouped::{Grouped, grouped};
-
-/// A point of the grid.
-pub(super) type GridPoint = [i64; 2];
+pub(super) use super::piece_tiles::GridPoint;
+use super::piece_tiles::PieceTiles;
 
 /// What a piece of border lies on and parts. Stronger ones first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -60,12 +58,6 @@ pub(super) struct Noded {
 /// one of both out.
 const MOST_ROUNDS: u32 = 16;
 
-/// Pieces in a tile, on average over the page, much of which is empty.
-const PIECES_A_TILE: usize = 1;
-
-/// Most tiles across.
-const MOST_TILES: usize = 1000;
-
 /// A point this near to a piece (steps of the grid, squared) lies on it.
 const ON_PIECE: f64 = 0.5;
 
@@ -76,18 +68,21 @@ pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
     let mut noded = Noder::default();
     for ([a, b], border) in segments {
         let ends = [noded.point(*a), noded.point(*b)];
-        noded.add(ends, *border);
+        noded.add(ends, *border, noded.pieces.len() as u32);
     }
-    noded.cut_all();
-    if noded.bridge(reach) {
-        noded.cut_all();
-    }
+    noded.tiles = PieceTiles::new(&noded.points, noded.pieces.len(), |piece| noded.ends(piece));
+    noded.cut_all((0..noded.tiles.count() as u32).collect());
+    let touched = noded.bridge(reach);
+    noded.cut_all(touched);
     // Points are numbered by where they are, so that what follows does not depend on what else there is.
-    let mut points = noded.points.clone();
-    points.sort_unstable();
-    let number = |old: u32| points.binary_search(&noded.points[old as usize]).unwrap_or_default() as u32;
-    let numbers: Vec<u32> = (0..noded.points.len() as u32).map(number).collect();
-    let mut pieces: Vec<NodedPiece> = noded.pieces;
+    let mut sorted: Vec<(GridPoint, u32)> = noded.points.iter().copied().zip(0..).collect();
+    sorted.sort_unstable();
+    let mut numbers = vec![0; sorted.len()];
+    for (number, (_, old)) in sorted.iter().enumerate() {
+        numbers[*old as usize] = number as u32;
+    }
+    let points = sorted.into_iter().map(|(point, _)| point).collect();
+    let mut pieces: Vec<NodedPiece> = noded.whole().map(|(_, piece)| *piece).collect();
     for piece in &mut pieces {
         piece.ends = piece.ends.map(|end| numbers[end as usize]);
         piece.ends.sort_unstable();
@@ -103,8 +98,13 @@ struct Noder {
     points: Vec<GridPoint>,
     number: FxHashMap<GridPoint, u32>,
     pieces: Vec<NodedPiece>,
-    /// Whether each piece is new since the last round; the others are known not to meet.
-    fresh: Vec<bool>,
+    /// The number of the first piece that each is a part of.
+    origins: Vec<u32>,
+    /// Whether each piece was cut into others.
+    is_cut: Vec<bool>,
+    /// Pieces from this number on are new since the last round; the others are known not to meet.
+    first_new: u32,
+    tiles: PieceTiles,
 }
 
 impl Noder {
@@ -117,25 +117,50 @@ impl Noder {
         number
     }
 
-    fn add(&mut self, [a, b]: [u32; 2], border: Border) {
+    fn add(&mut self, [a, b]: [u32; 2], border: Border, origin: u32) {
         if a != b {
             self.pieces.push(NodedPiece { ends: [a.min(b), a.max(b)], border });
-            self.fresh.push(true);
+            self.origins.push(origin);
+            self.is_cut.push(false);
         }
     }
 
-    fn cut_all(&mut self) {
+    fn ends(&self, piece: u32) -> [GridPoint; 2] {
+        self.pieces[piece as usize].ends.map(|end| self.points[end as usize])
+    }
+
+    /// Pieces that were not cut, with their numbers.
+    fn whole(&self) -> impl Iterator<Item = (u32, &NodedPiece)> {
+        (0..).zip(&self.pieces).filter(|(number, _)| !self.is_cut[*number as usize])
+    }
+
+    /// Cuts pieces until none meet; those that are new pass these tiles.
+    fn cut_all(&mut self, mut touched: Vec<u32>) {
         for _ in 0..MOST_ROUNDS {
-            if !self.cut() {
+            if touched.is_empty() {
                 break;
             }
+            touched = self.cut(&touched);
         }
+        self.first_new = self.pieces.len() as u32;
     }
 
-    /// Leads free ends on to the nearest piece; whether there were any.
-    fn bridge(&mut self, reach: f64) -> bool {
+    /// Adds the pieces from a number on to their tiles, and tells which these are.
+    fn touch(&mut self, first: u32) -> Vec<u32> {
+        let mut touched = Vec::new();
+        for piece in first..self.pieces.len() as u32 {
+            let ends = self.ends(piece);
+            self.tiles.add(piece, ends, |tile| touched.push(tile));
+        }
+        touched.sort_unstable();
+        touched.dedup();
+        touched
+    }
+
+    /// Leads free ends on to the nearest piece; the tiles that the new pieces pass.
+    fn bridge(&mut self, reach: f64) -> Vec<u32> {
         let mut uses = vec![(0u32, Border::Hard); self.points.len()];
-        for piece in &self.pieces {
+        for (_, piece) in self.whole() {
             for end in piece.ends {
                 let (count, border) = &mut uses[end as usize];
                 *count += 1;
@@ -145,19 +170,18 @@ impl Noder {
         let free = (0..uses.len() as u32).filter(|p| uses[*p as usize].0 == 1);
         let asked: Vec<(u32, GridPoint)> = free.map(|p| (p, self.points[p as usize])).collect();
         if asked.is_empty() || reach <= 0.0 {
-            return false;
+            return Vec::new();
         }
-        let tiles = Tiles::new(&self.points, &self.pieces);
         let found: Vec<Option<GridPoint>> = asked
             .par_iter()
             .map(|(end, p)| {
                 let mut nearest: Option<(f64, GridPoint)> = None;
-                for k in tiles.around(*p, reach).flatten() {
-                    let piece = self.pieces[*k as usize];
-                    let [a, b] = piece.ends.map(|end| self.points[end as usize]);
+                for k in self.tiles.around(*p, reach).flat_map(|tile| self.tiles.of(tile)) {
+                    let [a, b] = self.ends(k);
                     let most = nearest.map_or(reach * reach, |(distance2, _)| distance2);
+                    let is_own = self.pieces[k as usize].ends.contains(end);
                     // Its box is no farther away than the piece.
-                    if piece.ends.contains(end) || beside(a, b, *p) > most {
+                    if self.is_cut[k as usize] || is_own || beside(a, b, *p) > most {
                         continue;
                     }
                     let found = foot(a, b, *p);
@@ -170,83 +194,90 @@ impl Noder {
                 nearest.map(|(_, foot)| foot)
             })
             .collect();
-        let before = self.pieces.len();
         for ((end, _), foot) in asked.iter().zip(found) {
             if let Some(foot) = foot {
                 let foot = self.point(foot);
                 let is_tone = uses[*end as usize].1.is_tone();
-                self.add([*end, foot], if is_tone { Border::SoftTone } else { Border::Soft });
+                let border = if is_tone { Border::SoftTone } else { Border::Soft };
+                self.add([*end, foot], border, self.pieces.len() as u32);
             }
         }
-        self.pieces.len() > before
+        self.touch(self.first_new)
     }
 
-    /// One round; whether anything was cut.
-    fn cut(&mut self) -> bool {
-        let tiles = Tiles::new(&self.points, &self.pieces);
-        let is_fresh = |piece: &u32| self.fresh[*piece as usize];
-        let found: Vec<Vec<(u32, GridPoint)>> = (0..tiles.pieces.count())
-            .into_par_iter()
-            .with_min_len(256)
-            .map(|tile| {
-                let tile = tiles.pieces.of(tile);
-                let mut cuts = Vec::new();
-                if !tile.iter().any(is_fresh) {
-                    return cuts;
+    /// One round: cuts new pieces and what they meet in these tiles; the tiles that the parts of them pass.
+    fn cut(&mut self, touched: &[u32]) -> Vec<u32> {
+        const TILES: usize = 256;
+        let in_tiles = |tiles: &[u32]| {
+            let (mut cuts, mut own) = (Vec::new(), Vec::new());
+            for tile in tiles {
+                own.clear();
+                let whole = self.tiles.of(*tile).filter(|piece| !self.is_cut[*piece as usize]);
+                own.extend(whole.map(|piece| self.passing(piece)));
+                for (k, new) in own.iter().enumerate().filter(|(_, piece)| piece.number >= self.first_new) {
+                    own[..k]
+                        .iter()
+                        .filter(|other| new.is_near(other))
+                        .for_each(|other| new.meet(other, &mut cuts));
                 }
-                for (k, i) in tile.iter().enumerate() {
-                    for j in &tile[k + 1..] {
-                        if is_fresh(i) || is_fresh(j) {
-                            self.meet(*i, *j, &mut cuts);
-                        }
-                    }
-                }
-                cuts
-            })
-            .collect();
-        let mut cuts: Vec<(u32, GridPoint)> = found.into_iter().flatten().collect();
+            }
+            cuts
+        };
+        let mut cuts: Vec<(u32, GridPoint)> = touched.par_chunks(TILES).flat_map_iter(in_tiles).collect();
         cuts.sort_unstable();
         cuts.dedup();
-        self.fresh.fill(false);
-        if cuts.is_empty() {
-            return false;
-        }
-        let before = std::mem::take(&mut self.pieces);
-        let was_fresh = std::mem::take(&mut self.fresh);
-        let mut at = 0;
-        for (i, piece) in before.iter().enumerate() {
-            let own = cuts[at..].iter().take_while(|cut| cut.0 as usize == i).count();
-            if own == 0 {
-                self.pieces.push(*piece);
-                self.fresh.push(was_fresh[i]);
-                continue;
-            }
-            let [a, b] = piece.ends.map(|end| self.points[end as usize]);
-            let mut inner: Vec<GridPoint> = cuts[at..at + own].iter().map(|cut| cut.1).collect();
-            at += own;
+        let first_new = self.pieces.len() as u32;
+        for cuts in cuts.chunk_by(|one, other| one.0 == other.0) {
+            let number = cuts[0].0 as usize;
+            let (piece, origin) = (self.pieces[number], self.origins[number]);
+            let [a, b] = self.ends(cuts[0].0);
+            self.is_cut[number] = true;
+            let mut inner: Vec<GridPoint> = cuts.iter().map(|cut| cut.1).collect();
             inner.sort_by_key(|p| (dot(a, b, *p), *p));
             let mut from = piece.ends[0];
             for p in inner {
                 let to = self.point(p);
-                self.add([from, to], piece.border);
+                self.add([from, to], piece.border, origin);
                 from = to;
             }
-            self.add([from, piece.ends[1]], piece.border);
+            self.add([from, piece.ends[1]], piece.border, origin);
         }
-        true
+        self.first_new = first_new;
+        self.touch(first_new)
+    }
+
+    fn passing(&self, number: u32) -> Passing {
+        let ends = self.ends(number);
+        let [a, b] = ends;
+        let of = |end: fn(i64, i64) -> i64| [end(a[0], b[0]), end(a[1], b[1])];
+        Passing { ends, low: of(i64::min), high: of(i64::max), number, origin: self.origins[number as usize] }
+    }
+}
+
+/// A piece in a tile, with all that is asked of it in one place.
+struct Passing {
+    ends: [GridPoint; 2],
+    low: GridPoint,
+    high: GridPoint,
+    number: u32,
+    origin: u32,
+}
+
+impl Passing {
+    /// Whether the boxes of two pieces are no more than a step apart.
+    #[inline]
+    fn is_near(&self, other: &Self) -> bool {
+        let apart =
+            |axis: usize| (self.high[axis] + 1 < other.low[axis]) | (other.high[axis] + 1 < self.low[axis]);
+        !(apart(0) | apart(1))
     }
 
     /// Where two pieces must be cut.
-    fn meet(&self, i: u32, j: u32, cuts: &mut Vec<(u32, GridPoint)>) {
-        let ends = |k: u32| self.pieces[k as usize].ends.map(|end| self.points[end as usize]);
-        let ([a, b], [c, d]) = (ends(i), ends(j));
-        for axis in 0..2 {
-            if a[axis].max(b[axis]) + 1 < c[axis].min(d[axis])
-                || c[axis].max(d[axis]) + 1 < a[axis].min(b[axis])
-            {
-                return;
-            }
-        }
+    fn meet(&self, other: &Self, cuts: &mut Vec<(u32, GridPoint)>) {
+        // Where they cross is rounded on the first of them: that is the one whose border came first.
+        let order = |piece: &Self| (piece.origin, piece.number);
+        let [first, second] = if order(self) < order(other) { [self, other] } else { [other, self] };
+        let ([i, j], [a, b], [c, d]) = ([first.number, second.number], first.ends, second.ends);
         let before = cuts.len();
         for (piece, [a, b], p) in [(i, [a, b], c), (i, [a, b], d), (j, [c, d], a), (j, [c, d], b)] {
             if lies_on(a, b, p) {
@@ -282,13 +313,13 @@ fn dot(a: GridPoint, b: GridPoint, p: GridPoint) -> i64 {
 
 /// Whether a point lies on a piece, and is none of its ends.
 fn lies_on(a: GridPoint, b: GridPoint, p: GridPoint) -> bool {
-    if p == a || p == b {
+    let length2 = dot(a, b, b);
+    let off = orient(a, b, p) as f64;
+    // Most points are far away.
+    if off * off > ON_PIECE * length2 as f64 || p == a || p == b {
         return false;
     }
-    let length2 = dot(a, b, b);
-    let along = dot(a, b, p);
-    let off = orient(a, b, p) as f64;
-    along > 0 && along < length2 && off * off <= ON_PIECE * length2 as f64
+    (1..length2).contains(&dot(a, b, p))
 }
 
 /// The point of a piece that is nearest to a point, on the grid, and its distance squared.
@@ -304,62 +335,6 @@ fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint) {
 fn beside(a: GridPoint, b: GridPoint, p: GridPoint) -> f64 {
     let gap = |k: usize| (a[k].min(b[k]) - p[k]).max(p[k] - a[k].max(b[k])).max(0) as f64;
     gap(0) * gap(0) + gap(1) * gap(1)
-}
-
-/// Pieces by the tiles of the page that they pass.
-struct Tiles {
-    pieces: Grouped<u32>,
-    low: GridPoint,
-    size: GridPoint,
-    across: i64,
-}
-
-impl Tiles {
-    fn new(points: &[GridPoint], pieces: &[NodedPiece]) -> Self {
-        let low = [0, 1].map(|k| points.iter().map(|p| p[k]).min().unwrap_or_default());
-        let high = [0, 1].map(|k| points.iter().map(|p| p[k]).max().unwrap_or_default());
-        let across = ((pieces.len() / PIECES_A_TILE) as f64).sqrt() as usize;
-        let across = across.clamp(1, MOST_TILES) as i64;
-        let size = [0, 1].map(|k| ((high[k] - low[k]) / across + 1).max(1));
-        let tile = |x: i64, k: usize| ((x - low[k]) / size[k]).clamp(0, across - 1);
-        let each_tile = |piece: &NodedPiece, call: &mut dyn FnMut(usize)| {
-            let [mut a, mut b] = piece.ends.map(|end| points[end as usize]);
-            if a[1] > b[1] {
-                std::mem::swap(&mut a, &mut b);
-            }
-            for row in tile(a[1] - 1, 1)..=tile(b[1] + 1, 1) {
-                // The part of the piece within this row, and a step more.
-                let (top, bottom) = (low[1] + row * size[1] - 2, low[1] + (row + 1) * size[1] + 2);
-                let at = |y: i64| {
-                    let rise = (b[1] - a[1]) as f64;
-                    let t = if rise > 0.0 { ((y - a[1]) as f64 / rise).clamp(0.0, 1.0) } else { 0.0 };
-                    a[0] as f64 + (b[0] - a[0]) as f64 * t
-                };
-                let (x, y) = if a[1] == b[1] { (a[0] as f64, b[0] as f64) } else { (at(top), at(bottom)) };
-                let from = tile(x.min(y).floor() as i64 - 2, 0);
-                for column in from..=tile(x.max(y).ceil() as i64 + 2, 0) {
-                    call((row * across + column) as usize);
-                }
-            }
-        };
-        let pieces = grouped((across * across) as usize, |put| {
-            for (number, piece) in pieces.iter().enumerate() {
-                each_tile(piece, &mut |tile| put(tile, number as u32));
-            }
-        });
-        Self { pieces, low, size, across }
-    }
-
-    /// The tiles within `reach` of a point.
-    fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = &[u32]> {
-        let reach = reach.ceil() as i64;
-        let tile = |x: i64, k: usize| ((x - self.low[k]) / self.size[k]).clamp(0, self.across - 1);
-        let range = |k: usize| tile(p[k] - reach, k)..=tile(p[k] + reach, k);
-        let columns = range(0);
-        let tiles =
-            range(1).flat_map(move |row| columns.clone().map(move |column| row * self.across + column));
-        tiles.map(|tile| self.pieces.of(tile as usize))
-    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 use kurbo::Point;
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::cells::Triangulation;
 use super::looks;
@@ -171,12 +172,16 @@ fn looks_at(
             (*k, look(lit, *face, *at, masks.get(i).copied().unwrap_or_default(), darkened))
         })
         .collect();
-    let mut table: Vec<Look> = looks.iter().map(|(_, look)| *look).collect();
+    // They are few, and come again and again.
+    let mut number: FxHashMap<Look, u32> = looks.iter().map(|(_, look)| (*look, NOTHING)).collect();
+    let mut table: Vec<Look> = number.keys().copied().collect();
     table.sort_unstable();
-    table.dedup();
+    for (look, own) in table.iter().zip(NOTHING + 1..) {
+        number.insert(*look, own);
+    }
     let mut numbers = vec![NOTHING; points.len()];
     for (k, look) in looks {
-        numbers[k] = table.binary_search(&look).map_or(NOTHING, |at| at as u32 + 1);
+        numbers[k] = number.get(&look).copied().unwrap_or(NOTHING);
     }
     (numbers, table)
 }

@@ -48,79 +48,101 @@ pub fn remove(map: &mut ViewMap, within: f64, perspective: bool, extents: &Exten
 
 /// For each edge that gives way, the range of its parameter that another covers; ascending.
 fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64, f64))> {
-    let long_enough = |e: &ViewEdge| e.invisibility == 0 && Line::of(map, e).length > SHORTEST_SHARE * within;
-    let ids: Vec<u32> =
-        (0..map.edges.len() as u32).filter(|id| long_enough(&map.edges[*id as usize])).collect();
-    let ends = |id: u32| {
-        let line = Line::of(map, &map.edges[id as usize]);
-        (vector(line.start), vector(line.end()))
-    };
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = ids
-        .iter()
-        .map(|id| ends(*id))
-        .fold(nothing, |(low, high), (p, q)| (low.min(p).min(q), high.max(p).max(q)));
-    if ids.is_empty() {
+    let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
+    let lines: Vec<(u32, Line)> = seen
+        .map(|(edge, id)| (id, Line::of(map, edge)))
+        .filter(|(_, line)| line.length > SHORTEST_SHARE * within)
+        .collect();
+    if lines.is_empty() {
         return Vec::new();
     }
-    let across = ((ids.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = lines
+        .iter()
+        .map(|(_, line)| line.ends())
+        .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
+    let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
     let grid = Grid::new(low.truncate(), high.truncate(), across);
-    let lines_of = grouped(grid.len(), |put| {
-        for id in &ids {
-            let (p, q) = ends(*id);
-            grid.walk(p, q, |tile, _, _| put(tile, *id));
+    let in_tile = grouped(grid.len(), |put| {
+        for ((_, line), number) in lines.iter().zip(0..) {
+            let [p, q] = line.ends();
+            grid.walk(p, q, |tile, _, _| put(tile, number));
         }
     });
-    let mut covered: Vec<(u32, (f64, f64))> = ids
-        .par_iter()
+    let among = Among { map, extents, within, lines, grid, in_tile };
+    let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
+        .into_par_iter()
         .with_min_len(256)
-        .flat_map_iter(|id| covered_with(map, *id, within, extents, (&grid, &lines_of)))
+        .flat_map_iter(|k| among.covered_with(k))
         .collect();
     covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
     covered
 }
 
-/// What one edge and those before it cover of each other.
-fn covered_with(
-    map: &ViewMap,
-    id: u32,
+/// The lines that are long enough to have a direction, and what tiles of a grid they pass.
+struct Among<'a> {
+    map: &'a ViewMap,
+    extents: &'a Extents,
     within: f64,
-    extents: &Extents,
-    (grid, lines_of): (&Grid, &Grouped<u32>),
-) -> Vec<(u32, (f64, f64))> {
-    let edge = &map.edges[id as usize];
-    let line = Line::of(map, edge);
-    // What lies within reach of the line lies in a tile of the line or of one of its neighbours
-    // at that distance, since tiles are convex.
-    let across = Vec2::new(-line.along.y, line.along.x) * within;
-    let mut near: Vec<u32> = Vec::new();
-    for shift in [Vec2::ZERO, across, -across] {
-        grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
-            near.extend(lines_of.of(tile).iter().filter(|other| **other < id));
-        });
-    }
-    near.sort_unstable();
-    near.dedup();
-    let mut covered = Vec::new();
-    for other_id in near {
-        let other = &map.edges[other_id as usize];
-        let joined = edge.start == other.start
-            || edge.start == other.end
-            || edge.end == other.start
-            || edge.end == other.end;
-        let within = if joined { within * JOINED_SHARE } else { within };
-        let other_line = Line::of(map, other);
-        if !line.runs_along(&other_line, within) {
-            continue;
+    /// With the numbers of their edges, ascending.
+    lines: Vec<(u32, Line)>,
+    grid: Grid,
+    in_tile: Grouped<u32>,
+}
+
+impl Among<'_> {
+    /// What one line and those before it cover of each other.
+    fn covered_with(&self, number: usize) -> Vec<(u32, (f64, f64))> {
+        let Self { map, extents, within, lines, .. } = self;
+        let (id, line) = &lines[number];
+        let edge = &map.edges[*id as usize];
+        let mut covered = Vec::new();
+        for near in self.near(number) {
+            let (other_id, other_line) = &lines[near as usize];
+            let other = &map.edges[*other_id as usize];
+            let joined = edge.start == other.start
+                || edge.start == other.end
+                || edge.end == other.start
+                || edge.end == other.end;
+            let within = if joined { within * JOINED_SHARE } else { *within };
+            if !line.runs_along(other_line, within) {
+                continue;
+            }
+            let (loser, range) = if precedence(map, extents, edge, other).is_lt() {
+                (*other_id, other_line.covered_by(line, within))
+            } else {
+                (*id, line.covered_by(other_line, within))
+            };
+            covered.extend(range.map(|range| (loser, range)));
         }
-        let (loser, range) = if precedence(map, extents, edge, other).is_lt() {
-            (other_id, other_line.covered_by(&line, within))
-        } else {
-            (id, line.covered_by(&other_line, within))
-        };
-        covered.extend(range.map(|range| (loser, range)));
+        covered
     }
-    covered
+
+    /// The lines before one that may be within reach of it, ascending: what is lies in a tile of the line or of one of its
+    /// neighbours at that distance, since tiles are convex.
+    fn near(&self, number: usize) -> Vec<u32> {
+        let (_, line) = &self.lines[number];
+        let across = Vec2::new(-line.along.y, line.along.x) * self.within;
+        let mut tiles: Vec<usize> = Vec::new();
+        for shift in [Vec2::ZERO, across, -across] {
+            self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
+                // Most lines are short, and their tile comes three times.
+                if tiles.last() != Some(&tile) {
+                    tiles.push(tile);
+                }
+            });
+        }
+        let before = |tile: &usize| {
+            let own = self.in_tile.of(*tile);
+            own[..own.partition_point(|other| (*other as usize) < number)].iter().copied()
+        };
+        let mut near: Vec<u32> = tiles.iter().flat_map(before).collect();
+        if tiles.len() > 1 {
+            near.sort_unstable();
+            near.dedup();
+        }
+        near
+    }
 }
 
 /// Which of two edges that coincide stays: the lesser. Of parts that touch the smaller one has the line.
@@ -159,6 +181,10 @@ impl Line {
 
     fn end(&self) -> Point {
         self.start + self.along * self.length
+    }
+
+    fn ends(&self) -> [DVec3; 2] {
+        [vector(self.start), vector(self.end())]
     }
 
     /// A quick test before the exact one.

@@ -78,6 +78,9 @@ pub fn decide(
     limits: &Limits,
     counting: bool,
 ) -> Visibility {
+    if segments.is_empty() {
+        return gather(segments, limits, &[], &[]);
+    }
     let grid = grid_over(segments, tiles_across(mesh.triangles.len()));
     let mut items = grouped(grid.len(), |put| {
         for (i, s) in segments.iter().enumerate() {

@@ -12,14 +12,14 @@ const ECHO_SHARE: f32 = 0.35;
 /// What jumps by more than so many edges is none: a bend of 16 degrees.
 pub(super) const NO_ECHO: f32 = 8.0;
 
-/// Whether a jump is the largest in its row or column, where it is number `at` of `count` and `step` is from one to the next.
-pub(super) fn is_crest(jumps: &[f32], id: usize, step: usize, at: usize, count: usize) -> bool {
-    let own = jumps[id];
+/// Whether number `at` of the `count` jumps of a row or column is the largest.
+pub(super) fn is_crest(jump: impl Fn(usize) -> f32, at: usize, count: usize) -> bool {
+    let own = jump(at);
     if own <= LEAST {
         return false;
     }
-    let before = |far: usize| if at >= far { jumps[id - far * step] } else { 0.0 };
-    let behind = |far: usize| if at + far < count { jumps[id + far * step] } else { 0.0 };
+    let before = |far: usize| if at >= far { jump(at - far) } else { 0.0 };
+    let behind = |far: usize| if at + far < count { jump(at + far) } else { 0.0 };
     if own <= before(1) || own < behind(1) {
         return false;
     }

@@ -2,9 +2,10 @@
 //!
 //! Edges of an image lie between pixels, not on them. Of neighbouring pairs of pixels the one with the largest jump says where.
 
-use rayon::prelude::*;
+use std::ops::Range;
 
 use super::crest::NO_ECHO;
+use super::jump_map::JumpMap;
 use super::{EdgeTest, ImageOptions};
 use crate::mesh::Mesh;
 use crate::raster::{Maps, NO_FRONT};
@@ -20,22 +21,17 @@ const GRADIENT: f32 = 1.732;
 /// The least jump from one surface to another.
 const SURE: f32 = 1.01 * NO_ECHO;
 
+/// Columns that are passed over at once where nothing is an edge.
+const RUN: usize = 32;
+
 /// How much depth and normals jump between pixels, in units of what alone is an edge by its test.
 pub(super) struct Jumps<'a> {
     mesh: &'a Mesh,
     maps: &'a Maps,
-    /// Whether borders of parts and materials jump by themselves.
+    /// Whether there are several parts or materials, and borders of them jump by themselves.
     parts: bool,
     depth: f32,
     normal: f32,
-}
-
-/// Jumps between neighbouring pixels that may be edges; 0 elsewhere.
-pub(super) struct JumpMap {
-    /// From the pixel on the left to each pixel.
-    pub across: Vec<f32>,
-    /// From the pixel above to each pixel.
-    pub down: Vec<f32>,
 }
 
 impl<'a> Jumps<'a> {
@@ -46,7 +42,11 @@ impl<'a> Jumps<'a> {
             }
             EdgeTest::Opposite => OPPOSITE,
         };
-        Self { mesh, maps, parts: options.parts, depth: 1.0 / depth, normal: 1.0 / normal }
+        let differ = |face: usize| {
+            mesh.face_part[face] != mesh.face_part[0] || mesh.face_material[face] != mesh.face_material[0]
+        };
+        let parts = options.parts && (0..mesh.triangles.len()).any(differ);
+        Self { mesh, maps, parts, depth: 1.0 / depth, normal: 1.0 / normal }
     }
 
     /// The jump of depth between two neighbours, with the pixels before and behind them in line: what neither side's slope
@@ -109,26 +109,42 @@ impl<'a> Jumps<'a> {
 
     /// The jumps between pixels that are edges.
     pub fn map(&self, edges: &[bool]) -> JumpMap {
-        let (columns, rows) = (self.maps.columns, self.maps.rows);
-        let mut across = vec![0.0; columns * rows];
-        let mut down = vec![0.0; columns * rows];
-        let row_of = across.par_chunks_mut(columns).zip(down.par_chunks_mut(columns)).enumerate();
-        row_of.for_each(|(row, (across, down))| {
-            for column in 0..columns {
-                let pixel = row * columns + column;
-                // Nothing parts what is on one face, unless the test has it.
-                let faces = &self.maps.faces;
-                let may_part = |other: usize| edges[pixel] || (self.parts && faces[pixel] != faces[other]);
-                if column > 0 && may_part(pixel - 1) {
-                    let are_edges = edges[pixel] && edges[pixel - 1];
-                    across[column] = self.of(self.line_across(column, row), are_edges);
-                }
-                if row > 0 && may_part(pixel - columns) {
-                    let are_edges = edges[pixel] && edges[pixel - columns];
-                    down[column] = self.of(self.line_down(column, row), are_edges);
+        let columns = self.maps.columns;
+        JumpMap::new(columns, self.maps.rows, |row, put| {
+            for first in (0..columns).step_by(RUN) {
+                let run = first..(first + RUN).min(columns);
+                if self.may_jump(edges, row, run.clone()) {
+                    self.along(edges, row, run, put);
                 }
             }
-        });
-        JumpMap { across, down }
+        })
+    }
+
+    /// Whether there may be a jump within a run of a row: nothing parts what is on one face, unless the test has it.
+    fn may_jump(&self, edges: &[bool], row: usize, run: Range<usize>) -> bool {
+        let own = row * self.maps.columns;
+        // All of them, which is faster than to stop at the first.
+        self.parts || edges[own + run.start..own + run.end].iter().fold(false, |any, edge| any | edge)
+    }
+
+    /// The jumps of a run of a row.
+    fn along(&self, edges: &[bool], row: usize, run: Range<usize>, put: &mut dyn FnMut(usize, [f32; 2])) {
+        let (columns, faces) = (self.maps.columns, &self.maps.faces);
+        for column in run {
+            let pixel = row * columns + column;
+            let may_part = |other: usize| edges[pixel] || (self.parts && faces[pixel] != faces[other]);
+            let mut jumps = [0.0; 2];
+            if column > 0 && may_part(pixel - 1) {
+                let are_edges = edges[pixel] && edges[pixel - 1];
+                jumps[0] = self.of(self.line_across(column, row), are_edges);
+            }
+            if row > 0 && may_part(pixel - columns) {
+                let are_edges = edges[pixel] && edges[pixel - columns];
+                jumps[1] = self.of(self.line_down(column, row), are_edges);
+            }
+            if jumps != [0.0; 2] {
+                put(column, jumps);
+            }
+        }
     }
 }

@@ -3,10 +3,13 @@
 use rayon::prelude::*;
 
 use super::crest::is_crest;
-use super::jumps::JumpMap;
+use super::jump_map::JumpMap;
 
 /// The four ways from a corner: right, down, left, up.
 pub(super) const WAYS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
+
+/// Corners that are passed over at once where no line runs.
+const RUN: usize = 64;
 
 /// The corners of pixels, and the cracks between neighbouring pixels that lines run along.
 pub(super) struct Lattice {
@@ -27,15 +30,16 @@ pub(super) struct Crack {
 
 impl Lattice {
     /// The cracks over which more jumps than over their neighbours on both sides, and not just as an echo of what jumps near by.
-    pub fn crests(jumps: &JumpMap, columns: usize, rows: usize) -> Self {
+    pub fn crests(jumps: &JumpMap) -> Self {
+        let (columns, rows) = (jumps.columns, jumps.rows);
         let stride = columns + 1;
         let mut lattice = Self { stride, height: rows + 1, flags: vec![0; stride * (rows + 1)] };
-        lattice.flags.par_chunks_mut(stride).take(rows).enumerate().for_each(|(row, flags)| {
-            for (column, flag) in flags.iter_mut().enumerate().take(columns) {
-                let pixel = row * columns + column;
-                let down = is_crest(&jumps.across, pixel, 1, column, columns);
-                let right = is_crest(&jumps.down, pixel, columns, row, rows);
-                *flag = 2 * u8::from(down) + u8::from(right);
+        let of_row = lattice.flags.par_chunks_mut(stride).zip(&jumps.with_jumps).enumerate();
+        of_row.for_each(|(row, (flags, with_jumps))| {
+            for column in with_jumps.iter().map(|column| *column as usize) {
+                let down = is_crest(|column| jumps.across(column, row), column, columns);
+                let right = is_crest(|row| jumps.down(column, row), row, rows);
+                flags[column] = 2 * u8::from(down) + u8::from(right);
             }
         });
         lattice
@@ -49,17 +53,25 @@ impl Lattice {
     /// The corners that lines run through, in ascending order.
     pub fn corners(&self) -> Vec<usize> {
         let stride = self.stride;
+        let none = vec![0; stride];
+        let any = |flags: &[u8]| flags.iter().fold(0, |any, flag| any | flag);
         let in_row = |row: usize| {
             let own = &self.flags[row * stride..(row + 1) * stride];
-            let above = row.checked_sub(1).map(|above| &self.flags[above * stride..row * stride]);
-            (0..stride)
-                .filter(|column| {
-                    own[*column] != 0
-                        || (*column > 0 && own[*column - 1] & 1 != 0)
-                        || above.is_some_and(|above| above[*column] & 2 != 0)
-                })
-                .map(|column| row * stride + column)
-                .collect::<Vec<_>>()
+            let above = row.checked_sub(1).map_or(&*none, |above| &self.flags[above * stride..row * stride]);
+            let mut found = Vec::new();
+            for first in (0..stride).step_by(RUN) {
+                let run = first..(first + RUN).min(stride);
+                // The corner before has the flag of the way to the first one.
+                let any = any(&own[first.saturating_sub(1)..run.end]) | any(&above[run.clone()]);
+                if any != 0 {
+                    let is_on = |column: &usize| {
+                        let from_left = *column > 0 && own[*column - 1] & 1 != 0;
+                        own[*column] != 0 || from_left || above[*column] & 2 != 0
+                    };
+                    found.extend(run.filter(is_on).map(|column| row * stride + column));
+                }
+            }
+            found
         };
         (0..self.height).into_par_iter().with_min_len(64).flat_map_iter(in_row).collect()
     }
@@ -127,13 +139,11 @@ impl Lattice {
 
     /// The jump over a crack.
     pub fn jump(&self, jumps: &JumpMap, crack: Crack) -> f32 {
-        let columns = self.stride - 1;
         let Some((corner, flag)) = self.flag(crack) else { return 0.0 };
         let [column, row] = self.place(corner);
-        if column >= columns || row >= self.height - 1 {
+        if column >= jumps.columns || row >= jumps.rows {
             return 0.0;
         }
-        let of = if flag == 1 { &jumps.down } else { &jumps.across };
-        of[row * columns + column]
+        if flag == 1 { jumps.down(column, row) } else { jumps.across(column, row) }
     }
 }

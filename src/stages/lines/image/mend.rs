@@ -1,6 +1,6 @@
 //! Closes small gaps in lines between pixels, and takes off spurs.
 
-use super::jumps::JumpMap;
+use super::jump_map::JumpMap;
 use super::lattice::{Crack, Lattice};
 
 /// Gaps of up to this many cracks are closed, where there is a jump all the way.

@@ -7,6 +7,7 @@ mod around;
 mod crest;
 pub mod dilate;
 pub mod gradient;
+mod jump_map;
 mod jumps;
 mod lattice;
 pub mod loose;

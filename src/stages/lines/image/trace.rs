@@ -6,7 +6,8 @@ use rustc_hash::FxHashMap;
 
 use super::ImageOptions;
 use super::crest::NO_ECHO;
-use super::jumps::{JumpMap, Jumps};
+use super::jump_map::JumpMap;
+use super::jumps::Jumps;
 use super::lattice::{Crack, Lattice};
 use super::mend::{close_gaps, take_off_spurs};
 use super::paths::{Path, paths};
@@ -57,7 +58,7 @@ pub struct ImageLines {
 pub fn trace(mesh: &Mesh, maps: &Maps, edges: &[bool], options: &ImageOptions) -> ImageLines {
     let jumps = Jumps::new(mesh, maps, options);
     let jump_map = jumps.map(edges);
-    let mut lattice = Lattice::crests(&jump_map, maps.columns, maps.rows);
+    let mut lattice = Lattice::crests(&jump_map);
     close_gaps(&mut lattice, &jump_map);
     take_off_spurs(&mut lattice);
     let mut paths = paths(&lattice);
