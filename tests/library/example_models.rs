@@ -401,7 +401,8 @@ fn crane_is_made_of_solids_that_turn_and_come_back() {
     // The hook hangs where four turns in one another bring it: straight down but for the last.
     let hook = at(1.0).translation;
     let along = |length: f64, degrees: f64| {
-        glam::DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0) * length
+        use ligne::math::function::{cos, sin};
+        glam::DVec3::new(cos(degrees.to_radians()), sin(degrees.to_radians()), 0.0) * length
     };
     let expected = glam::DVec3::new(0.5, 1.9, 0.0) + along(4.0, 60.0) + along(2.6, -20.0);
     assert!(hook.distance(expected) < 1e-5, "{hook} {expected}");

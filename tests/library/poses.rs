@@ -4,6 +4,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DMat4, DVec3};
 use ligne::Scene;
+use ligne::math::function::{acos, cos, sin};
 use ligne::pose::{Playing, Rigged};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -140,13 +141,13 @@ impl Plain {
                 }
                 _ if turns => {
                     let dot: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
-                    let angle = dot.abs().min(1.0).acos();
+                    let angle = acos(dot.abs().min(1.0));
                     let sign = dot.signum();
                     if angle < 1e-7 {
                         a
                     } else {
-                        let (u, v) = (((1.0 - t) * angle).sin(), sign * (t * angle).sin());
-                        (0..4).map(|i| (u * a[i] + v * b[i]) / angle.sin()).collect()
+                        let (u, v) = (sin((1.0 - t) * angle), sign * sin(t * angle));
+                        (0..4).map(|i| (u * a[i] + v * b[i]) / sin(angle)).collect()
                     }
                 }
                 _ => (0..width).map(|i| a[i] * (1.0 - t) + b[i] * t).collect(),
@@ -256,16 +257,16 @@ impl Plain {
                 }
             }
             if skin.is_some() {
-                let sets: Vec<(Vec<Vec<f64>>, Vec<Vec<f64>>)> = (0..4)
+                let sets: Vec<[Vec<Vec<f64>>; 2]> = (0..4)
                     .filter(|k| !attributes[format!("JOINTS_{k}")].is_null())
                     .map(|k| {
                         let read = |name: &str| self.read(&attributes[format!("{name}_{k}")]);
-                        (read("JOINTS"), read("WEIGHTS"))
+                        [read("JOINTS"), read("WEIGHTS")]
                     })
                     .collect();
                 for (vertex, p) in own.iter_mut().enumerate() {
                     let (mut sum, mut total) = (DVec3::ZERO, 0.0);
-                    for (numbers, shares) in &sets {
+                    for [numbers, shares] in &sets {
                         for (joint, share) in numbers[vertex].iter().zip(&shares[vertex]) {
                             sum += joints[*joint as usize].transform_point3(*p) * *share;
                             total += share;
@@ -397,8 +398,10 @@ impl Arm {
             (0..9_u8).flat_map(|k| [0, 2, 1, 1, 2, 3].map(|i| f32::from(2 * k + i))).collect();
         let index = add("SCALAR", 1, &indices);
         let times = add("SCALAR", 1, &[0.5, 1.0, 2.0]);
-        let turn =
-            |degrees: f32| [0.0, 0.0, (degrees.to_radians() / 2.0).sin(), (degrees.to_radians() / 2.0).cos()];
+        let turn = |degrees: f64| {
+            let half = degrees.to_radians() / 2.0;
+            [0.0, 0.0, sin(half) as f32, cos(half) as f32]
+        };
         let turns = add("VEC4", 4, &[turn(0.0), turn(70.0), turn(-100.0)].concat());
         let moves = add(
             "VEC3",
