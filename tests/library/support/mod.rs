@@ -13,6 +13,7 @@ pub mod patches;
 pub mod piercings;
 pub mod pipeline;
 pub mod plain_fills;
+pub mod plain_gltf;
 pub mod polygon_lines;
 pub mod polygon_truth;
 pub mod polygons;
