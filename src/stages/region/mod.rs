@@ -14,6 +14,7 @@ mod flat;
 pub mod ground;
 pub mod level_curves;
 mod looks;
+mod meeting;
 mod merge;
 mod noding;
 pub mod options;

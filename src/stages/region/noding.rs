@@ -9,6 +9,7 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::meeting::{Passing, beside, dot, foot};
 pub(super) use super::piece_tiles::GridPoint;
 use super::piece_tiles::PieceTiles;
 
@@ -57,9 +58,6 @@ pub(super) struct Noded {
 /// Rounds of cutting at most. What still crosses then is left to the triangulation, which leaves
 /// one of both out.
 const MOST_ROUNDS: u32 = 16;
-
-/// A point this near to a piece (steps of the grid, squared) lies on it.
-const ON_PIECE: f64 = 0.5;
 
 /// Cuts segments of a grid. Ends that hang free, but no farther than `reach` from another piece, are
 /// led on to it: tone borders end at the faces' own contour, which lies a little inside or outside of
@@ -213,7 +211,7 @@ impl Noder {
             for tile in tiles {
                 own.clear();
                 let whole = self.tiles.of(*tile).filter(|piece| !self.is_cut[*piece as usize]);
-                own.extend(whole.map(|piece| self.passing(piece)));
+                own.extend(whole.map(|k| Passing::new(self.ends(k), k, self.origins[k as usize])));
                 for (k, new) in own.iter().enumerate().filter(|(_, piece)| piece.number >= self.first_new) {
                     own[..k]
                         .iter()
@@ -245,100 +243,11 @@ impl Noder {
         self.first_new = first_new;
         self.touch(first_new)
     }
-
-    fn passing(&self, number: u32) -> Passing {
-        let ends = self.ends(number);
-        let [a, b] = ends;
-        let of = |end: fn(i64, i64) -> i64| [end(a[0], b[0]), end(a[1], b[1])];
-        Passing { ends, low: of(i64::min), high: of(i64::max), number, origin: self.origins[number as usize] }
-    }
-}
-
-/// A piece in a tile, with all that is asked of it in one place.
-struct Passing {
-    ends: [GridPoint; 2],
-    low: GridPoint,
-    high: GridPoint,
-    number: u32,
-    origin: u32,
-}
-
-impl Passing {
-    /// Whether the boxes of two pieces are no more than a step apart.
-    #[inline]
-    fn is_near(&self, other: &Self) -> bool {
-        let apart =
-            |axis: usize| (self.high[axis] + 1 < other.low[axis]) | (other.high[axis] + 1 < self.low[axis]);
-        !(apart(0) | apart(1))
-    }
-
-    /// Where two pieces must be cut.
-    fn meet(&self, other: &Self, cuts: &mut Vec<(u32, GridPoint)>) {
-        // Where they cross is rounded on the first of them: that is the one whose border came first.
-        let order = |piece: &Self| (piece.origin, piece.number);
-        let [first, second] = if order(self) < order(other) { [self, other] } else { [other, self] };
-        let ([i, j], [a, b], [c, d]) = ([first.number, second.number], first.ends, second.ends);
-        let before = cuts.len();
-        for (piece, [a, b], p) in [(i, [a, b], c), (i, [a, b], d), (j, [c, d], a), (j, [c, d], b)] {
-            if lies_on(a, b, p) {
-                cuts.push((piece, p));
-            }
-        }
-        if cuts.len() > before {
-            return;
-        }
-        let sides = [orient(a, b, c), orient(a, b, d), orient(c, d, a), orient(c, d, b)];
-        if sides[0].signum() * sides[1].signum() < 0 && sides[2].signum() * sides[3].signum() < 0 {
-            let t = sides[2] as f64 / (sides[2] - sides[3]) as f64;
-            let at = |k: usize| a[k] + ((b[k] - a[k]) as f64 * t).round() as i64;
-            let p = [at(0), at(1)];
-            for (piece, [a, b]) in [(i, [a, b]), (j, [c, d])] {
-                if p != a && p != b {
-                    cuts.push((piece, p));
-                }
-            }
-        }
-    }
-}
-
-/// Twice the area of a triangle, positive where it turns from x to y.
-fn orient(a: GridPoint, b: GridPoint, c: GridPoint) -> i64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-/// How far along a piece a point lies, times the piece's length.
-fn dot(a: GridPoint, b: GridPoint, p: GridPoint) -> i64 {
-    (b[0] - a[0]) * (p[0] - a[0]) + (b[1] - a[1]) * (p[1] - a[1])
-}
-
-/// Whether a point lies on a piece, and is none of its ends.
-fn lies_on(a: GridPoint, b: GridPoint, p: GridPoint) -> bool {
-    let length2 = dot(a, b, b);
-    let off = orient(a, b, p) as f64;
-    // Most points are far away.
-    if off * off > ON_PIECE * length2 as f64 || p == a || p == b {
-        return false;
-    }
-    (1..length2).contains(&dot(a, b, p))
-}
-
-/// The point of a piece that is nearest to a point, on the grid, and its distance squared.
-fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint) {
-    let t = (dot(a, b, p) as f64 / (dot(a, b, b) as f64).max(1.0)).clamp(0.0, 1.0);
-    let at = |k: usize| a[k] + ((b[k] - a[k]) as f64 * t).round() as i64;
-    let foot = [at(0), at(1)];
-    let (x, y) = ((foot[0] - p[0]) as f64, (foot[1] - p[1]) as f64);
-    (x * x + y * y, foot)
-}
-
-/// The distance squared of a point from the box around a piece.
-fn beside(a: GridPoint, b: GridPoint, p: GridPoint) -> f64 {
-    let gap = |k: usize| (a[k].min(b[k]) - p[k]).max(p[k] - a[k].max(b[k])).max(0) as f64;
-    gap(0) * gap(0) + gap(1) * gap(1)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::meeting::{lies_on, orient};
     use super::*;
 
     /// Points anywhere in a square, always the same.
