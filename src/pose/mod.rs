@@ -29,7 +29,8 @@ use rig::Stance;
 /// A scene as it is stored, and what moves it.
 #[derive(Debug, Clone, Default)]
 pub struct Rigged {
-    /// The scene in the pose that the file stores.
+    /// The scene in the pose that the file stores. The rig knows parts, geometries, cameras and lights by their places: leave some out
+    /// of what [`Rigged::posed`] gives, not here.
     pub scene: Scene,
     /// What moves it; empty for formats without animation.
     pub rig: Rig,

@@ -26,11 +26,12 @@ type Shown = (usize, Option<usize>, Vec<u64>, Option<usize>);
 /// geometries and parts is added to the rig.
 pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarchy) -> Result<(), Error> {
     let rigged = !rig.clips.is_empty();
-    let morphs = |node: usize| {
-        let channels = rig.clips.iter().flat_map(|clip| &clip.channels);
-        channels.into_iter().any(|channel| channel.node == node && channel.property == Property::Weights)
-    };
-    let morphing: Vec<bool> = (0..nodes.rest.len()).map(morphs).collect();
+    let mut morphing = vec![false; nodes.rest.len()];
+    for channel in rig.clips.iter().flat_map(|clip| &clip.channels) {
+        if let Some(own) = morphing.get_mut(channel.node) {
+            *own |= channel.property == Property::Weights;
+        }
+    }
     let mut skins: BTreeMap<usize, Skin> = BTreeMap::new();
     let mut known: BTreeMap<Shown, usize> = BTreeMap::new();
     let mut reach: Vec<DVec3> = Vec::new();
