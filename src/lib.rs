@@ -39,6 +39,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::unwrap_used)]
 
+pub mod animate;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

@@ -117,7 +117,7 @@ fn open(request: &DrawRequest) -> Result<Scene, Error> {
     scene_at(Rigged::open(&request.model)?, &request.animation, request.time)
 }
 
-fn default_dpi(unit: Unit) -> f64 {
+pub(super) fn default_dpi(unit: Unit) -> f64 {
     match unit {
         Unit::Px => SCREEN_DPI,
         Unit::Mm => PRINT_DPI,
@@ -180,12 +180,12 @@ fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Res
 }
 
 /// Triangles that are shown, instances counted each.
-fn triangles(scene: &Scene) -> u64 {
+pub(super) fn triangles(scene: &Scene) -> u64 {
     let geometries = scene.parts.iter().filter_map(|part| scene.geometries.get(part.geometry));
     geometries.map(|geometry| geometry.triangles.len() as u64).sum()
 }
 
-fn paths(drawing: &Drawing) -> u64 {
+pub(super) fn paths(drawing: &Drawing) -> u64 {
     drawing.layers.iter().map(|layer| layer.marks.len() as u64).sum()
 }
 

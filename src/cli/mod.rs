@@ -1,5 +1,6 @@
 //! The command line: what was typed, what is meant, one file a command.
 
+mod animate;
 mod completions;
 mod config;
 mod defaults;
@@ -56,6 +57,8 @@ struct Cli {
 enum Command {
     /// Draw a model
     Draw(Box<draw_args::DrawArgs>),
+    /// Draw the frames of an animation, or of a turn round a model
+    Animate(Box<animate::AnimateArgs>),
     /// Compare two drawings by geometry
     Diff(Box<diff::DiffArgs>),
     /// Draw every case of a folder and compare it with the approved drawing
@@ -97,6 +100,7 @@ pub fn main() -> ExitCode {
         Command::Draw(args) => {
             request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
         }
+        Command::Animate(args) => animate::run(*args).map(all_well),
         Command::Diff(args) => diff::run(&args),
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
         Command::Fmt(args) => fmt::run(&args),

@@ -30,7 +30,11 @@ pub(super) fn scene_at(rigged: Rigged, names: &[String], time: Option<f64>) -> R
     Ok(scene)
 }
 
-fn playing(clips: &[Clip], names: &[String], time: f64) -> Result<Vec<Playing>, Error> {
+/// The clips of these names, in equal shares, at a time.
+///
+/// # Errors
+/// If there are no clips, if none has such a name, and if none is named of several.
+pub(super) fn playing(clips: &[Clip], names: &[String], time: f64) -> Result<Vec<Playing>, Error> {
     let known = || clips.iter().map(|clip| clip.name.as_str()).collect::<Vec<_>>().join(", ");
     if clips.is_empty() {
         return Err(Error::new("it has no animations").remedy("leave out --animation and --time"));

@@ -135,6 +135,19 @@ impl Staging {
         Ok(())
     }
 
+    /// A file beside a place, to be written bit by bit; it comes to its place with all others.
+    pub(super) fn create(&mut self, path: &Path) -> Result<fs::File, Error> {
+        self.add(path, &[])?;
+        let written = self.files.last().map(|file| file.written.as_path());
+        let file = fs::OpenOptions::new().read(true).write(true).open(written.unwrap_or(path));
+        file.map_err(|error| cannot_write(path, error))
+    }
+
+    /// Where the last file is written until it comes to its place.
+    pub(super) fn last(&self) -> Option<&Path> {
+        self.files.last().map(|file| file.written.as_path())
+    }
+
     /// Makes a folder, unless it is there already.
     pub(super) fn make_folder(&mut self, path: &Path) -> Result<(), Error> {
         if !path.is_dir() {

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::export::{Grouping, PngOptions, Resolution, SvgOptions};
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
+use crate::pose::Rigged;
 use crate::render::defects;
 use crate::scene::{Scene, Warnings};
 use crate::style::Style;
@@ -30,8 +31,27 @@ pub(super) fn keep_parts(scene: &mut Scene, only: &[String], hide: &[String]) ->
     if only.is_empty() && hide.is_empty() {
         return Ok(());
     }
-    let names: Vec<String> = scene.parts.iter().map(|p| p.name.clone()).collect();
+    let names = part_names(scene);
     scene.keep_parts(only, hide);
+    check_left(scene, &names)
+}
+
+/// Leaves the same parts, and what moves them.
+pub(super) fn keep_moving_parts(rigged: &mut Rigged, only: &[String], hide: &[String]) -> Result<(), Error> {
+    if only.is_empty() && hide.is_empty() {
+        return Ok(());
+    }
+    let names = part_names(&rigged.scene);
+    rigged.keep_parts(only, hide);
+    check_left(&rigged.scene, &names)
+}
+
+fn part_names(scene: &Scene) -> Vec<String> {
+    scene.parts.iter().map(|part| part.name.clone()).collect()
+}
+
+/// Refuses a scene of which nothing is left.
+fn check_left(scene: &Scene, names: &[String]) -> Result<(), Error> {
     if scene.parts.is_empty() {
         let mut shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
         shown.dedup();
@@ -48,12 +68,17 @@ pub(super) fn mesh_warnings(scene: &Scene) -> Warnings {
 
 /// The drawing as SVG.
 pub(super) fn svg(drawing: &Drawing, choices: &SvgChoices) -> Vec<u8> {
+    drawing.to_svg(&svg_options(choices)).into_bytes()
+}
+
+/// How SVG is written, for the exporter.
+pub(super) fn svg_options(choices: &SvgChoices) -> SvgOptions {
     let group = match choices.group {
         GroupBy::Layer => Grouping::Layer,
         GroupBy::Part => Grouping::Part,
     };
     let id_prefix = choices.id_prefix.clone().unwrap_or_default();
-    drawing.to_svg(&SvgOptions { precision: choices.precision, id_prefix, group }).into_bytes()
+    SvgOptions { precision: choices.precision, id_prefix, group }
 }
 
 /// The drawing as PNG, at so many pixels to the inch.

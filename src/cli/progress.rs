@@ -20,7 +20,7 @@ const CLEAR: &str = "\r\x1b[K";
 
 /// A bar that moves while work goes on; dropping it clears the line.
 pub(super) struct Progress {
-    shown: Option<(Sender<&'static str>, JoinHandle<()>)>,
+    shown: Option<(Sender<String>, JoinHandle<()>)>,
 }
 
 impl Progress {
@@ -33,7 +33,7 @@ impl Progress {
         let (sender, steps) = mpsc::channel();
         let thread = std::thread::spawn(move || {
             let started = Instant::now();
-            let mut step = "";
+            let mut step = String::new();
             let mut visible = false;
             loop {
                 match steps.recv_timeout(if visible { TICK } else { PATIENCE }) {
@@ -43,7 +43,7 @@ impl Progress {
                 }
                 if started.elapsed() >= PATIENCE {
                     visible = true;
-                    show(&picture(started.elapsed(), step, &name));
+                    show(&picture(started.elapsed(), &step, &name));
                 }
             }
             if visible {
@@ -54,10 +54,10 @@ impl Progress {
     }
 
     /// Says what is being done now.
-    pub(super) fn step(&self, name: &'static str) {
+    pub(super) fn step(&self, name: impl Into<String>) {
         if let Some((sender, _)) = &self.shown {
             // A bar that has ended is no reason to stop working.
-            let _ = sender.send(name);
+            let _ = sender.send(name.into());
         }
     }
 }

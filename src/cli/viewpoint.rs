@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use glam::DVec3;
+
 use super::paper::{Extent, Measure, Paper};
 use crate::drawing::Unit;
 use crate::error::Error;
@@ -61,6 +63,19 @@ pub(super) struct Viewpoint {
 /// Where the camera record is wrong, where the model has no such camera, and where the margin
 /// leaves nothing of the page.
 pub(super) fn viewpoint(view: &View, sheet: &Sheet, scene: &Scene) -> Result<Viewpoint, Error> {
+    viewpoint_on(view, sheet, scene, || Ok(world_points(scene)))
+}
+
+/// Chooses the camera and the sheet as [`viewpoint`] does, where the frame is to hold `points` (world).
+///
+/// # Errors
+/// As [`viewpoint`], and what the points say.
+pub(super) fn viewpoint_on(
+    view: &View,
+    sheet: &Sheet,
+    scene: &Scene,
+    points: impl FnOnce() -> Result<Vec<DVec3>, Error>,
+) -> Result<Viewpoint, Error> {
     let square = Extent { width: DEFAULT_FRAME_PX, height: DEFAULT_FRAME_PX };
     let (extent, unit) = sheet.extent.unwrap_or((square, Unit::Px));
     let (direction, lens) = match view {
@@ -85,7 +100,7 @@ pub(super) fn viewpoint(view: &View, sheet: &Sheet, scene: &Scene) -> Result<Vie
         Lens::Orthographic { .. } => Projection::Orthographic { height: 1.0 },
     };
     let margin = if paper.margin > 0.0 { MARGIN_WITHIN_MARGIN } else { MARGIN };
-    let points = world_points(scene);
+    let points = points()?;
     let aimed = direction.with_frame(width, height).with_projection(projection);
     let camera = aimed.fit_points(&points, margin);
     let mut found = Viewpoint { camera, paper, warning: None };
@@ -117,7 +132,11 @@ fn model_mm(scene: &Scene) -> f64 {
 
 /// A camera of a file: it keeps its own frame unless a sheet is asked for.
 fn recorded(sheet: &Sheet, scene: &Scene, name: &str) -> Result<Viewpoint, Error> {
-    let camera = open_camera(scene, name)?;
+    on_sheet(sheet, open_camera(scene, name)?)
+}
+
+/// A camera that keeps its own frame unless a sheet is asked for.
+pub(super) fn on_sheet(sheet: &Sheet, camera: Camera) -> Result<Viewpoint, Error> {
     let own = (Extent { width: camera.width, height: camera.height }, Unit::Px);
     let (extent, unit) = sheet.extent.unwrap_or(own);
     let paper = Paper::new(extent, unit, sheet.margin)?;

@@ -14,6 +14,8 @@
 
 mod attributes;
 pub(crate) mod canonical;
+#[cfg(feature = "film")]
+pub mod film;
 pub(crate) mod number;
 pub(crate) mod order;
 mod path_data;
@@ -34,5 +36,5 @@ mod svg_image;
 pub(crate) mod xml;
 
 #[cfg(feature = "png")]
-pub use png::{PngOptions, Resolution};
+pub use png::{Pixels, PngOptions, Resolution};
 pub use svg::{Grouping, SvgOptions};

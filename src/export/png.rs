@@ -45,6 +45,19 @@ impl PngOptions {
     }
 }
 
+/// A drawing as pixels, row by row from the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pixels {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Four bytes a pixel: red, green, blue (not multiplied by alpha) and alpha.
+    pub rgba: Vec<u8>,
+    /// Pixels an inch.
+    pub dpi: f64,
+}
+
 impl Drawing {
     /// The drawing as a PNG file; transparent where the page has no background.
     ///
@@ -52,12 +65,22 @@ impl Drawing {
     /// If the picture would have no pixels, or more than memory should hold, or if the drawing
     /// has more paths than the rasteriser takes.
     pub fn to_png(&self, options: &PngOptions) -> Result<Vec<u8>, Error> {
+        let Pixels { width, height, rgba, dpi } = self.to_pixels(options)?;
+        let opaque = self.page.background.is_some_and(|colour| colour.a == 255);
+        encode([width, height], rgba, opaque, dpi)
+            .map_err(|error| Error::new(format!("cannot write PNG: {error}")))
+    }
+
+    /// The drawing as pixels, as they are in its PNG file.
+    ///
+    /// # Errors
+    /// As [`Drawing::to_png`].
+    pub fn to_pixels(&self, options: &PngOptions) -> Result<Pixels, Error> {
         let (width, height, dpi) = self.pixels(options)?;
         let mut pixmap = Pixmap::new(width, height)
             .ok_or_else(|| Error::new(format!("there is no memory for {width} x {height} pixels")))?;
         self.paint(&mut pixmap)?;
-        let opaque = self.page.background.is_some_and(|colour| colour.a == 255);
-        encode(pixmap, opaque, dpi).map_err(|error| Error::new(format!("cannot write PNG: {error}")))
+        Ok(Pixels { width, height, rgba: pixmap.take_demultiplied(), dpi })
     }
 
     /// Paints the drawing: what shows pictures from their pixels, and all between them as its SVG text says.
@@ -127,9 +150,12 @@ impl Drawing {
 }
 
 /// The file; without an alpha channel if every pixel is opaque.
-fn encode(pixmap: Pixmap, opaque: bool, dpi: f64) -> Result<Vec<u8>, png::EncodingError> {
-    let (width, height) = (pixmap.width(), pixmap.height());
-    let mut pixels = pixmap.take_demultiplied();
+fn encode(
+    [width, height]: [u32; 2],
+    mut pixels: Vec<u8>,
+    opaque: bool,
+    dpi: f64,
+) -> Result<Vec<u8>, png::EncodingError> {
     if opaque {
         let mut to = 0;
         for from in (0..pixels.len()).step_by(4) {

@@ -20,10 +20,12 @@ pub use clip::{Channel, Clip, Playing, Property};
 pub use rig::Rig;
 pub use track::{Interpolation, Track};
 
+use std::collections::BTreeSet;
+
 use glam::{DAffine3, DVec3};
 
 use crate::error::Error;
-use crate::scene::{Camera, LightKind, Scene};
+use crate::scene::{Camera, LightKind, NamedCamera, Scene};
 use rig::Stance;
 
 /// A scene as it is stored, and what moves it.
@@ -49,27 +51,13 @@ impl Rigged {
     /// # Errors
     /// If a clip is none of the file's, if a time or a weight is not a number, or if a pose leads beyond all numbers.
     pub fn posed(&self, playing: &[Playing]) -> Result<Scene, Error> {
-        for Playing { clip, time, weight } in playing {
-            if *clip >= self.rig.clips.len() {
-                let count = self.rig.clips.len();
-                return Err(Error::new(format!("there is no clip {clip}; the file has {count}")));
-            }
-            if !(time.is_finite() && weight.is_finite() && *weight >= 0.0) {
-                return Err(Error::new(format!("no time or no weight: {time} s, {weight}"))
-                    .remedy("give finite numbers, and no weight below 0"));
-            }
-        }
+        self.check(playing)?;
         let mut scene = self.scene.clone();
         if playing.is_empty() {
             return Ok(scene);
         }
         let rig = &self.rig;
-        let stance = rig.stance(playing);
-        if let Some(node) = stance.world.iter().position(|world| !world.is_finite()) {
-            return Err(
-                Error::new("its transform is beyond all numbers at this time").at(format!("node {node}"))
-            );
-        }
+        let stance = self.stance(playing)?;
         self.move_vertices(&stance, &mut scene)?;
         let skinned: Vec<bool> = rig.forms.iter().map(|form| form.skin.is_some()).collect();
         let mut shown = Vec::with_capacity(scene.parts.len());
@@ -89,6 +77,59 @@ impl Rigged {
             light.kind = moved_light(light.kind, stance.world[*node]);
         }
         Ok(scene)
+    }
+
+    /// The cameras of the scene while clips play; cheaper than all of it.
+    ///
+    /// # Errors
+    /// As [`Rigged::posed`].
+    pub fn cameras(&self, playing: &[Playing]) -> Result<Vec<NamedCamera>, Error> {
+        self.check(playing)?;
+        if playing.is_empty() {
+            return Ok(self.scene.cameras.clone());
+        }
+        let stance = self.stance(playing)?;
+        let moved = |(named, node): (&NamedCamera, &usize)| {
+            let camera = moved_camera(&named.camera, stance.world[*node]);
+            NamedCamera { camera, ..named.clone() }
+        };
+        Ok(self.scene.cameras.iter().zip(&self.rig.cameras).map(moved).collect())
+    }
+
+    /// Keeps the parts that [`Scene::keep_parts`] would, also for what moves them.
+    pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
+        let names: Vec<String> = self.scene.parts.iter().map(|part| part.name.clone()).collect();
+        self.scene.keep_parts(only, hide);
+        // Whole names stay or go, so that what stays can be told by name.
+        let kept: BTreeSet<&str> = self.scene.parts.iter().map(|part| part.name.as_str()).collect();
+        let mut stays = names.iter().map(|name| kept.contains(name.as_str()));
+        self.rig.parts.retain(|_| stays.next().unwrap_or(true));
+    }
+
+    /// Where the nodes are while clips play.
+    fn stance(&self, playing: &[Playing]) -> Result<Stance, Error> {
+        let stance = self.rig.stance(playing);
+        match stance.world.iter().position(|world| !world.is_finite()) {
+            Some(node) => {
+                Err(Error::new("its transform is beyond all numbers at this time").at(format!("node {node}")))
+            }
+            None => Ok(stance),
+        }
+    }
+
+    /// Refuses what cannot play.
+    fn check(&self, playing: &[Playing]) -> Result<(), Error> {
+        for Playing { clip, time, weight } in playing {
+            if *clip >= self.rig.clips.len() {
+                let count = self.rig.clips.len();
+                return Err(Error::new(format!("there is no clip {clip}; the file has {count}")));
+            }
+            if !(time.is_finite() && weight.is_finite() && *weight >= 0.0) {
+                return Err(Error::new(format!("no time or no weight: {time} s, {weight}"))
+                    .remedy("give finite numbers, and no weight below 0"));
+            }
+        }
+        Ok(())
     }
 
     fn move_vertices(&self, stance: &Stance, scene: &mut Scene) -> Result<(), Error> {

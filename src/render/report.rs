@@ -27,6 +27,23 @@ pub struct StagesMs {
     pub write: f64,
 }
 
+impl std::ops::AddAssign for StagesMs {
+    fn add_assign(&mut self, other: Self) {
+        let Self { load, topology, pose, features, visibility, chains, strokes, regions, hatching, write } =
+            other;
+        self.load += load;
+        self.topology += topology;
+        self.pose += pose;
+        self.features += features;
+        self.visibility += visibility;
+        self.chains += chains;
+        self.strokes += strokes;
+        self.regions += regions;
+        self.hatching += hatching;
+        self.write += write;
+    }
+}
+
 /// How much of everything there was.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[non_exhaustive]
@@ -59,6 +76,28 @@ pub struct Counts {
     pub leaks: u64,
     /// Bytes of all outputs together, the report left out.
     pub bytes_out: u64,
+}
+
+impl std::ops::AddAssign for Counts {
+    fn add_assign(&mut self, other: Self) {
+        let Self { triangles, vertices, edges, feature_edges, ray_tests, .. } = other;
+        let Self { contour_curves, contour_bare, contour_folds, chains, paths, points, .. } = other;
+        let Self { regions, leaks, bytes_out, .. } = other;
+        self.triangles += triangles;
+        self.vertices += vertices;
+        self.edges += edges;
+        self.feature_edges += feature_edges;
+        self.ray_tests += ray_tests;
+        self.contour_curves += contour_curves;
+        self.contour_bare += contour_bare;
+        self.contour_folds += contour_folds;
+        self.chains += chains;
+        self.paths += paths;
+        self.points += points;
+        self.regions += regions;
+        self.leaks += leaks;
+        self.bytes_out += bytes_out;
+    }
 }
 
 /// What a drawing took and what it holds.

@@ -1,0 +1,100 @@
+//! Frames: a scene drawn again and again while clips play or the camera moves.
+//!
+//! ```
+//! use ligne::animate::{Animator, Moment, Timeline};
+//! use ligne::drawing::{Page, Unit};
+//! use ligne::pose::{Playing, Rigged};
+//! use ligne::{Camera, Style};
+//!
+//! let crane = Rigged::open("examples/models/crane.glb")?;
+//! let [from, to] = crane.rig.clips[0].span();
+//! let timeline = Timeline::between(from, to, 2.0)?;
+//! let camera = Camera::three_quarter().with_frame(300.0, 300.0).fit(&crane.scene);
+//! let page = Page { width: 300.0, height: 300.0, unit: Unit::Px, background: None };
+//! let style = Style::default();
+//! let mut animator = Animator::new(&crane, &style);
+//! for frame in timeline.drawn() {
+//!     let playing = vec![Playing::all(0, timeline.time(frame))];
+//!     let drawing = animator.step(&Moment { playing, camera, page })?;
+//!     assert!(!drawing.layers.is_empty());
+//! }
+//! # Ok::<(), ligne::Error>(())
+//! ```
+
+mod reach;
+mod timeline;
+mod turntable;
+
+use std::sync::OnceLock;
+
+pub use reach::reach;
+pub use timeline::Timeline;
+pub use turntable::Turntable;
+
+use crate::drawing::{Drawing, Page};
+use crate::error::Error;
+use crate::pose::{Playing, Rigged};
+use crate::render::{Prepared, Report, Stopwatch};
+use crate::scene::Camera;
+use crate::style::Style;
+
+/// What a frame shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moment {
+    /// The clips that play, and when; none for the stored pose.
+    pub playing: Vec<Playing>,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// What it is drawn on; the camera's frame is in its middle.
+    pub page: Page,
+}
+
+/// Draws one moment after another.
+///
+/// A moment's drawing depends on nothing but the moment: any may be drawn alone, in any order, by any number of threads.
+#[derive(Debug)]
+pub struct Animator<'a> {
+    rigged: &'a Rigged,
+    style: &'a Style,
+    /// What all moments share in which no clip plays.
+    still: OnceLock<Prepared<'a>>,
+    shown: Option<Drawing>,
+}
+
+impl<'a> Animator<'a> {
+    /// Of a scene and what moves it, in a style.
+    #[must_use]
+    pub fn new(rigged: &'a Rigged, style: &'a Style) -> Self {
+        Self { rigged, style, still: OnceLock::new(), shown: None }
+    }
+
+    /// Poses the scene, draws it, and lends the drawing until the next step.
+    ///
+    /// # Errors
+    /// As [`Animator::draw`].
+    pub fn step(&mut self, moment: &Moment) -> Result<&Drawing, Error> {
+        let (drawing, _) = self.draw(moment)?;
+        Ok(self.shown.insert(drawing))
+    }
+
+    /// The drawing of a moment, and what it took.
+    ///
+    /// # Errors
+    /// If a clip is none of the model's, if a pose leads beyond all numbers, or if the camera can take no picture.
+    pub fn draw(&self, moment: &Moment) -> Result<(Drawing, Report), Error> {
+        let Moment { playing, camera, page } = moment;
+        let mut watch = Stopwatch::start();
+        if playing.is_empty() {
+            let still = self.still.get_or_init(|| Prepared::new(&self.rigged.scene, self.style));
+            return still.draw(camera, *page, None);
+        }
+        let scene = self.rigged.posed(playing)?;
+        let pose = watch.lap_ms();
+        let prepared = Prepared::new(&scene, self.style);
+        let preparing = watch.lap_ms();
+        let (drawing, mut report) = prepared.draw(camera, *page, None)?;
+        report.stages_ms.pose = pose;
+        report.stages_ms.topology += preparing;
+        Ok((drawing, report))
+    }
+}

@@ -1,0 +1,138 @@
+//! [`Timeline`]: which frames there are, when each is, and which of them are drawn.
+
+use crate::error::Error;
+
+/// More frames than this are refused: half a day of film.
+const MOST_FRAMES: f64 = 1e6;
+
+/// Share of a frame by which a span may be longer than whole frames: what rounding of seconds may add.
+const SLACK: f64 = 1e-6;
+
+/// Equally long frames, some of which hold the drawing of the one before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timeline {
+    from: f64,
+    fps: f64,
+    frames: usize,
+    hold: usize,
+}
+
+impl Timeline {
+    /// Frames between two times, in seconds, so many a second: one at the begin, none at the end, so that what ends as it
+    /// began runs round. One frame where the two are the same.
+    ///
+    /// # Errors
+    /// If a time is not a number, if the end is before the begin, or if the rate is not above 0 and at most 1000.
+    pub fn between(from: f64, to: f64, fps: f64) -> Result<Self, Error> {
+        if !(from.is_finite() && to.is_finite() && from <= to) {
+            return Err(Error::new(format!("no time passes from {from} s to {to} s"))
+                .remedy("let the end be behind the begin"));
+        }
+        let frames = ((to - from) * fps - SLACK).ceil().max(1.0);
+        if frames > MOST_FRAMES {
+            return Err(Error::new(format!("{frames} frames are too many"))
+                .remedy("draw a shorter time, or fewer frames a second"));
+        }
+        Self::of_frames(frames as usize, from, fps)
+    }
+
+    /// So many frames from a time on.
+    ///
+    /// # Errors
+    /// If there is no frame, if the time is not a number, or if the rate is not above 0 and at most 1000.
+    pub fn of_frames(frames: usize, from: f64, fps: f64) -> Result<Self, Error> {
+        if !(fps > 0.0 && fps <= 1000.0) {
+            return Err(Error::new(format!("{fps} frames a second cannot be shown"))
+                .remedy("give a number above 0, at most 1000"));
+        }
+        if frames == 0 || frames as f64 > MOST_FRAMES || !from.is_finite() {
+            return Err(Error::new(format!("{frames} frames cannot be drawn"))
+                .remedy("give a number from 1 to a million"));
+        }
+        Ok(Self { from, fps, frames, hold: 1 })
+    }
+
+    /// The same with every drawing held for so many frames: on twos, on threes.
+    #[must_use]
+    pub fn holding(self, frames: usize) -> Self {
+        Self { hold: frames.max(1), ..self }
+    }
+
+    /// How many frames there are.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    /// Frames a second.
+    #[must_use]
+    pub fn fps(&self) -> f64 {
+        self.fps
+    }
+
+    /// For how many frames a drawing is held.
+    #[must_use]
+    pub fn hold(&self) -> usize {
+        self.hold
+    }
+
+    /// The frames that are drawn, in order; others hold the drawing before them.
+    pub fn drawn(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.frames).step_by(self.hold)
+    }
+
+    /// The frame whose drawing a frame shows.
+    #[must_use]
+    pub fn held(&self, frame: usize) -> usize {
+        frame - frame % self.hold
+    }
+
+    /// For how many frames a drawing is shown.
+    #[must_use]
+    pub fn shown(&self, drawn: usize) -> usize {
+        self.hold.min(self.frames.saturating_sub(drawn))
+    }
+
+    /// When a frame is, in seconds.
+    #[must_use]
+    pub fn time(&self, frame: usize) -> f64 {
+        self.from + frame as f64 / self.fps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_fill_the_time_without_its_end() -> Result<(), Error> {
+        for (to, fps, frames) in [(4.0, 12.0, 48), (0.1, 30.0, 3), (0.0, 24.0, 1), (1.01, 10.0, 11)] {
+            let timeline = Timeline::between(0.0, to, fps)?;
+            assert_eq!(timeline.frames(), frames, "{to} s");
+        }
+        let timeline = Timeline::between(-1.0, 0.0, 10.0)?.holding(3);
+        assert_eq!(timeline.drawn().collect::<Vec<_>>(), [0, 3, 6, 9]);
+        assert_eq!(
+            (0..10).map(|frame| timeline.held(frame)).collect::<Vec<_>>(),
+            [0, 0, 0, 3, 3, 3, 6, 6, 6, 9]
+        );
+        assert_eq!((timeline.shown(6), timeline.shown(9)), (3, 1));
+        assert!((timeline.time(9) + 0.1).abs() < 1e-12);
+        Ok(())
+    }
+
+    #[test]
+    fn what_is_no_time_is_refused() {
+        for (from, to, fps) in [
+            (0.0, -1.0, 12.0),
+            (f64::NAN, 1.0, 12.0),
+            (0.0, f64::INFINITY, 12.0),
+            (0.0, 1.0, 0.0),
+            (0.0, 1.0, f64::NAN),
+            (0.0, 1e9, 1000.0),
+        ] {
+            assert!(Timeline::between(from, to, fps).is_err(), "{from} {to} {fps}");
+        }
+        assert!(Timeline::of_frames(0, 0.0, 12.0).is_err());
+    }
+}

@@ -1,0 +1,79 @@
+//! [`Turntable`]: a camera that goes round a model.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use crate::math::function::{cos, sin};
+use crate::scene::framing::world_points;
+use crate::scene::{Camera, Scene, UpAxis};
+
+/// A turn round an upright axis in equal steps; the camera goes to its right, so that the model turns clockwise seen from above.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turntable {
+    /// A point on the axis, world.
+    pub centre: DVec3,
+    /// Upwards along the axis, a unit vector.
+    pub axis: DVec3,
+    /// Steps of a whole turn.
+    pub steps: usize,
+}
+
+impl Turntable {
+    /// Round the middle of a scene.
+    #[must_use]
+    pub fn round(scene: &Scene, steps: usize) -> Self {
+        let points = world_points(scene);
+        let low = points.iter().copied().reduce(DVec3::min).unwrap_or_default();
+        let high = points.iter().copied().reduce(DVec3::max).unwrap_or_default();
+        let axis = match scene.up {
+            UpAxis::Y => DVec3::Y,
+            UpAxis::Z => DVec3::Z,
+        };
+        Self { centre: low / 2.0 + high / 2.0, axis, steps: steps.max(1) }
+    }
+
+    /// From where things are before the turn to where they are after so many steps.
+    #[must_use]
+    pub fn turn(&self, step: usize) -> DAffine3 {
+        // Whole turns end exactly where they began.
+        let share = (step % self.steps) as f64 / self.steps as f64;
+        let angle = std::f64::consts::TAU * share;
+        let (sine, cosine, axis) = (sin(angle), cos(angle), self.axis);
+        let turned = |v: DVec3| v * cosine + axis.cross(v) * sine + axis * axis.dot(v) * (1.0 - cosine);
+        let turn = DMat3::from_cols(turned(DVec3::X), turned(DVec3::Y), turned(DVec3::Z));
+        DAffine3::from_mat3_translation(turn, self.centre - turn * self.centre)
+    }
+
+    /// The camera after so many steps.
+    #[must_use]
+    pub fn camera(&self, first: &Camera, step: usize) -> Camera {
+        if step.is_multiple_of(self.steps) {
+            return *first;
+        }
+        let turn = self.turn(step);
+        Camera {
+            eye: turn.transform_point3(first.eye),
+            target: turn.transform_point3(first.target),
+            up: turn.transform_vector3(first.up),
+            ..*first
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::NamedView;
+
+    #[test]
+    fn a_quarter_turn_leads_from_the_front_to_the_right() {
+        for up in [UpAxis::Y, UpAxis::Z] {
+            let axis = if up == UpAxis::Y { DVec3::Y } else { DVec3::Z };
+            let table = Turntable { centre: DVec3::ZERO, axis, steps: 4 };
+            let [front, right] = [NamedView::Front, NamedView::Right].map(|view| Camera::named(view, up));
+            let turned = table.camera(&front, 1);
+            assert!((turned.eye - right.eye).length() < 1e-12, "{up:?}");
+            assert!((turned.up - right.up).length() < 1e-12);
+            assert_eq!(table.camera(&front, 4), front);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What was typed after `ligne animate`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::draw_args::HowArgs;
+
+const EXAMPLES: &str = "Examples:
+  ligne animate crane.glb crane.svg                    one SVG that moves
+  ligne animate crane.glb 'frames/%04d.svg' --fps 24 --hold 2
+  ligne animate fox.glb fox.gif --animation Run --style toon --size 400
+  ligne animate drive.glb turn.webp --turntable 36
+  ligne animate crane.glb 'frames/%04d.png' --shard 1/4 --resume";
+
+/// What was typed after `ligne animate`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(in crate::cli) struct AnimateArgs {
+    /// The model: .obj, .gltf, .glb, .stl or .ply
+    pub(super) model: PathBuf,
+
+    /// One file of all frames: .svg, .gif, .png, .webp, .mp4 or .webm; or a file for each, its number in the
+    /// place of %04d: 'frames/%04d.svg' (.png, .pdf)
+    pub(super) out: PathBuf,
+
+    #[command(flatten)]
+    pub(super) how: HowArgs,
+
+    /// Frames a second
+    #[arg(long, value_name = "N", default_value_t = 12.0, help_heading = "Frames")]
+    pub(super) fps: f64,
+
+    /// The time of the first frame [default: when the animation begins]
+    #[arg(long, value_name = "SECONDS", help_heading = "Frames", allow_hyphen_values = true)]
+    pub(super) from: Option<f64>,
+
+    /// The time at which the last frame is over [default: when the animation ends]
+    #[arg(long, value_name = "SECONDS", help_heading = "Frames", allow_hyphen_values = true,
+        conflicts_with_all = ["turntable", "path"])]
+    pub(super) to: Option<f64>,
+
+    /// Show every drawing for so many frames: 2 draws on twos
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Frames",
+        value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) hold: u16,
+
+    /// Go round the model in so many frames
+    #[arg(long, value_name = "N", help_heading = "Frames", conflicts_with = "path",
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(super) turntable: Option<u32>,
+
+    /// See each frame by a camera of its own: a list of camera records
+    #[arg(long, value_name = "FILE.json", help_heading = "Frames",
+        conflicts_with_all = ["camera", "view", "azimuth", "elevation", "fov", "ortho", "scale"])]
+    pub(super) path: Option<PathBuf>,
+
+    /// Draw the Kth of every N frames only, so that N computers share the work
+    #[arg(long, value_name = "K/N", help_heading = "Frames", value_parser = shard)]
+    pub(super) shard: Option<Shard>,
+
+    /// Leave frames as they are that have been written already
+    #[arg(long, help_heading = "Frames")]
+    pub(super) resume: bool,
+
+    /// Write what the frames took and what they hold, as JSON; - for standard output
+    #[arg(long, value_name = "FILE.json", help_heading = "Output")]
+    pub(super) report: Option<PathBuf>,
+}
+
+/// Some of all frames: every `of`th, from the `first` on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shard {
+    pub(super) first: usize,
+    pub(super) of: usize,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match numbers {
+        Some((k, of)) if (1..=of).contains(&k) => Ok(Shard { first: k - 1, of }),
+        _ => Err("write K/N, such as 1/4 for the first of four".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_count_from_one() {
+        assert_eq!(shard("1/4"), Ok(Shard { first: 0, of: 4 }));
+        assert_eq!(shard("4/4"), Ok(Shard { first: 3, of: 4 }));
+        for wrong in ["0/4", "5/4", "1", "a/b", "1/0", "-1/2"] {
+            assert!(shard(wrong).is_err(), "{wrong}");
+        }
+    }
+}

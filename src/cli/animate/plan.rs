@@ -1,0 +1,177 @@
+//! [`Plan`]: what each frame shows.
+
+use std::path::Path;
+
+use glam::DAffine3;
+use serde_json::Value;
+
+use super::args::AnimateArgs;
+use crate::animate::{Moment, Timeline, Turntable, reach};
+use crate::cli::moment::playing;
+use crate::cli::paper::Paper;
+use crate::cli::request::DrawRequest;
+use crate::cli::viewpoint::{View, Viewpoint, on_sheet, viewpoint_on};
+use crate::drawing::Page;
+use crate::error::Error;
+use crate::math::colour::Colour;
+use crate::pose::{Playing, Rigged};
+use crate::scene::Camera;
+
+/// What each frame shows.
+#[derive(Debug)]
+pub(super) struct Plan {
+    pub(super) course: Course,
+    eye: Eye,
+    paper: Paper,
+    pub(super) warnings: Vec<String>,
+}
+
+/// What moves, and when.
+#[derive(Debug)]
+pub(super) struct Course {
+    pub(super) timeline: Timeline,
+    /// The clips that play, each with its share, at no time yet.
+    clips: Vec<Playing>,
+    turntable: Option<Turntable>,
+}
+
+/// From where frames are seen.
+#[derive(Debug)]
+enum Eye {
+    /// All from one place, unless the model is turned.
+    Still(Camera),
+    /// By a camera of the model, which may move.
+    OfModel(String),
+    /// Each by its own.
+    Path(Vec<Camera>),
+}
+
+impl Plan {
+    /// Decides it.
+    ///
+    /// # Errors
+    /// If nothing moves, if a clip or a camera is not there, if a time is none.
+    pub(super) fn new(args: &AnimateArgs, request: &DrawRequest, rigged: &Rigged) -> Result<Self, Error> {
+        let clips = &rigged.rig.clips;
+        let moves = args.turntable.is_some() || args.path.is_some();
+        let still = clips.is_empty() && request.animation.is_empty();
+        if still && !moves {
+            return Err(Error::new("nothing moves in this model").in_file(&request.model).remedy(
+                "go round it with --turntable 36, or along a path of cameras with --path FILE.json",
+            ));
+        }
+        let own = if moves && request.animation.is_empty() {
+            Vec::new()
+        } else {
+            playing(clips, &request.animation, 0.0)
+                .map_err(|error| without_time(error).in_file(&request.model))?
+        };
+        let spans = own.iter().filter_map(|own| clips.get(own.clip)).map(|clip| clip.span());
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let span = spans.fold(none, |[from, to], own| [from.min(own[0]), to.max(own[1])]);
+        let [begins, ends] = if span[0] <= span[1] { span } else { [0.0, 0.0] };
+        let cameras = args.path.as_deref().map(open_path).transpose()?;
+        let from = args.from.unwrap_or(begins);
+        let frames = args.turntable.map(|steps| steps as usize).or(cameras.as_ref().map(Vec::len));
+        let timeline = match frames {
+            Some(frames) => Timeline::of_frames(frames, from, args.fps),
+            None => Timeline::between(from, args.to.unwrap_or(ends), args.fps),
+        };
+        let timeline = timeline?.holding(usize::from(args.hold));
+        let mut warnings = Vec::new();
+        let last = timeline.time(timeline.frames() - 1);
+        if !own.is_empty() && (from < begins - 1e-9 || last > ends + 1e-9) {
+            warnings.push(format!("the animation lasts from {begins} s to {ends} s; it stands still beyond"));
+        }
+        let turntable = args.turntable.map(|steps| Turntable::round(&rigged.scene, steps as usize));
+        let course = Course { timeline, clips: own, turntable };
+        let Viewpoint { camera, paper, warning } = match cameras.as_ref().and_then(|path| path.first()) {
+            Some(first) => on_sheet(&request.sheet, *first)?,
+            None => viewpoint_on(&request.view, &request.sheet, &rigged.scene, || course.reach(rigged))?,
+        };
+        warnings.extend(warning);
+        let named = |name: &str| rigged.scene.cameras.iter().any(|own| own.name == name);
+        let eye = match (cameras, &request.view) {
+            (Some(cameras), _) => Eye::Path(cameras),
+            (None, View::Recorded(name)) if named(name) => Eye::OfModel(name.clone()),
+            (None, _) => Eye::Still(camera),
+        };
+        Ok(Self { course, eye, paper, warnings })
+    }
+
+    /// What a frame shows.
+    ///
+    /// # Errors
+    /// If a pose leads beyond all numbers.
+    pub(super) fn moment(
+        &self,
+        rigged: &Rigged,
+        frame: usize,
+        background: Option<Colour>,
+    ) -> Result<Moment, Error> {
+        let playing = self.course.playing(frame);
+        let camera = match &self.eye {
+            Eye::Still(camera) => *camera,
+            Eye::Path(cameras) => cameras
+                .get(frame)
+                .copied()
+                .ok_or_else(|| Error::new(format!("frame {frame} has no camera on the path")))?,
+            Eye::OfModel(name) => {
+                let cameras = rigged.cameras(&playing)?;
+                let own = cameras.iter().find(|own| own.name == *name).map(|own| own.camera);
+                own.ok_or_else(|| Error::new(format!("there is no camera `{name}`")))?
+            }
+        };
+        let camera = self.course.turntable.map_or(camera, |table| table.camera(&camera, frame));
+        let (width, height) = self.paper.frame();
+        let page = Page { background, ..self.paper.page() };
+        Ok(Moment { playing, camera: camera.with_frame(width, height), page })
+    }
+}
+
+impl Course {
+    fn playing(&self, frame: usize) -> Vec<Playing> {
+        let time = self.timeline.time(frame);
+        self.clips.iter().map(|own| Playing { time, ..*own }).collect()
+    }
+
+    /// All points that are to be in the frame, as the first camera sees them.
+    fn reach(&self, rigged: &Rigged) -> Result<Vec<glam::DVec3>, Error> {
+        let moved = |frame| match self.turntable {
+            Some(table) => table.turn(table.steps - frame % table.steps),
+            None => DAffine3::IDENTITY,
+        };
+        let poses: Vec<_> = self.timeline.drawn().map(|frame| (self.playing(frame), moved(frame))).collect();
+        reach(rigged, &poses)
+    }
+}
+
+/// Frames have times of their own.
+fn without_time(error: Error) -> Error {
+    match error.remedy.as_deref() {
+        Some("leave out --animation and --time") => error.remedy("leave out --animation"),
+        _ => error,
+    }
+}
+
+/// The cameras of a path: a list of camera records.
+fn open_path(path: &Path) -> Result<Vec<Camera>, Error> {
+    let remedy = "write a list of camera records: [{\"type\": \"perspective\", …}, …]";
+    let text =
+        std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
+    let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+        .map_err(|error| Error::new(format!("this is not JSON: {error}")).in_file(path).remedy(remedy))?;
+    let Value::Array(records) = value else {
+        return Err(Error::new("this is not a list").in_file(path).remedy(remedy));
+    };
+    if records.is_empty() {
+        return Err(Error::new("there is no camera on this path").in_file(path).remedy(remedy));
+    }
+    let camera = |(number, record): (usize, &Value)| {
+        Camera::from_json(&record.to_string()).map_err(|error| {
+            let place = error.place.as_ref().map_or(String::new(), |place| format!(", {place}"));
+            error.at(format!("camera {number}{place}")).in_file(path)
+        })
+    };
+    records.iter().enumerate().map(camera).collect()
+}
