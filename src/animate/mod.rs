@@ -34,7 +34,7 @@ pub use turntable::Turntable;
 use crate::drawing::{Drawing, Page};
 use crate::error::Error;
 use crate::pose::{Playing, Rigged};
-use crate::render::{Prepared, Report, Stopwatch};
+use crate::render::{Report, Resting, Stopwatch};
 use crate::scene::Camera;
 use crate::style::Style;
 
@@ -56,8 +56,8 @@ pub struct Moment {
 pub struct Animator<'a> {
     rigged: &'a Rigged,
     style: &'a Style,
-    /// What all moments share in which no clip plays.
-    still: OnceLock<Prepared<'a>>,
+    /// What all moments share.
+    resting: OnceLock<Resting<'a>>,
     shown: Option<Drawing>,
 }
 
@@ -65,7 +65,7 @@ impl<'a> Animator<'a> {
     /// Of a scene and what moves it, in a style.
     #[must_use]
     pub fn new(rigged: &'a Rigged, style: &'a Style) -> Self {
-        Self { rigged, style, still: OnceLock::new(), shown: None }
+        Self { rigged, style, resting: OnceLock::new(), shown: None }
     }
 
     /// Poses the scene, draws it, and lends the drawing until the next step.
@@ -84,13 +84,14 @@ impl<'a> Animator<'a> {
     pub fn draw(&self, moment: &Moment) -> Result<(Drawing, Report), Error> {
         let Moment { playing, camera, page } = moment;
         let mut watch = Stopwatch::start();
+        let resting = self.resting.get_or_init(|| Resting::new(&self.rigged.scene, self.style));
         if playing.is_empty() {
-            let still = self.still.get_or_init(|| Prepared::new(&self.rigged.scene, self.style));
-            return still.draw(camera, *page, None);
+            return resting.still().draw(camera, *page, None);
         }
+        watch.lap_ms();
         let scene = self.rigged.posed(playing)?;
         let pose = watch.lap_ms();
-        let prepared = Prepared::new(&scene, self.style);
+        let prepared = resting.posed(&scene);
         let preparing = watch.lap_ms();
         let (drawing, mut report) = prepared.draw(camera, *page, None)?;
         report.stages_ms.pose = pose;

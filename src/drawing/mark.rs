@@ -152,6 +152,8 @@ pub struct Provenance {
     pub material: Option<std::sync::Arc<str>>,
     /// How many surfaces hide the line; 0 for visible ones.
     pub invisibility: u16,
+    /// What the line is known by in all frames of an animation; 0 for none.
+    pub identity: u64,
     /// What there is to say of the mark: its title in SVG, which viewers show beside it.
     pub note: Option<std::sync::Arc<str>>,
 }

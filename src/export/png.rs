@@ -58,6 +58,24 @@ pub struct Pixels {
     pub dpi: f64,
 }
 
+impl Pixels {
+    /// The same on white paper, all opaque.
+    #[must_use]
+    pub fn on_white(&self) -> Self {
+        let mut rgba = self.rgba.clone();
+        for pixel in rgba.chunks_exact_mut(4) {
+            if let [red, green, blue, alpha] = pixel {
+                let clear = 255 - u32::from(*alpha);
+                for channel in [red, green, blue] {
+                    *channel = ((u32::from(*channel) * u32::from(*alpha) + 255 * clear + 127) / 255) as u8;
+                }
+                *alpha = 255;
+            }
+        }
+        Self { rgba, ..*self }
+    }
+}
+
 impl Drawing {
     /// The drawing as a PNG file; transparent where the page has no background.
     ///

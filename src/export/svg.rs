@@ -360,6 +360,16 @@ fn write_gradient(out: &mut Vec<u8>, gradient: &Gradient, id: &str, decimals: De
     out.extend_from_slice(b"</linearGradient>\n");
 }
 
+/// Letters of an identity: enough that no two lines of a drawing share one but by a chance of one in thousands.
+const ID_LETTERS: u32 = 6;
+
+/// An identity in letters and digits.
+fn short_id(identity: u64) -> String {
+    const DIGITS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstuvwxy";
+    let digit = |place: u32| char::from(DIGITS[(identity >> (5 * place) & 31) as usize]);
+    (0..ID_LETTERS).map(digit).collect()
+}
+
 /// One path.
 fn write_mark(
     out: &mut Vec<u8>,
@@ -393,6 +403,9 @@ fn write_mark(
     }
     if provenance.invisibility > 0 {
         named(b" data-invisibility=\"", &provenance.invisibility.to_string());
+    }
+    if provenance.identity > 0 {
+        named(b" data-id=\"", &short_id(provenance.identity));
     }
     if let Paint::Outline(outline) = &mark.paint {
         out.extend_from_slice(b" data-axis=\"");

@@ -42,6 +42,27 @@ pub fn smooth(seed: u64, x: f64) -> f64 {
     here + (next - here) * (t * t * (3.0 - 2.0 * t))
 }
 
+/// Smooth noise in [-1, 1] at a place in space: a number by chance at every corner of a lattice of unit cubes, joined likewise.
+/// Places that are no numbers give 0.
+#[must_use]
+pub fn solid(seed: u64, place: [f64; 3]) -> f64 {
+    if !place.iter().all(|x| x.is_finite()) {
+        return 0.0;
+    }
+    let floor = place.map(f64::floor);
+    let ease = |t: f64| t * t * (3.0 - 2.0 * t);
+    let t = [0, 1, 2].map(|axis| ease(place[axis] - floor[axis]));
+    let at = |corner: usize| {
+        let word =
+            |axis: usize| ((floor[axis] as i64).wrapping_add((corner >> axis & 1) as i64)).cast_unsigned();
+        2.0 * unit(hash(seed, &[word(0), word(1), word(2)])) - 1.0
+    };
+    let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
+    let along = |corner: usize| mix(at(corner), at(corner + 1), t[0]);
+    let across = |corner: usize| mix(along(corner), along(corner + 2), t[1]);
+    mix(across(0), across(4), t[2])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,6 +113,21 @@ mod tests {
             high = high.max(smooth(5, x));
         }
         assert!((-1.0..-0.95).contains(&low) && (0.95..=1.0).contains(&high), "{low} {high}");
+    }
+
+    #[test]
+    fn noise_in_space_is_smooth_and_takes_its_range() {
+        let (mut least, mut most, mut last) = (1.0_f64, -1.0_f64, None);
+        for step in 0..100_000 {
+            let x = f64::from(step) * 0.01;
+            let value = solid(7, [x, 0.3 * x, -0.7 * x]);
+            (least, most) = (least.min(value), most.max(value));
+            assert!(last.is_none_or(|last: f64| (last - value).abs() < 0.06), "{x}");
+            last = Some(value);
+        }
+        assert!(least > -1.0 && least < -0.8 && most < 1.0 && most > 0.8, "{least} {most}");
+        assert_eq!(solid(7, [f64::NAN, 0.0, 0.0]), 0.0);
+        assert_ne!(solid(7, [0.5; 3]), solid(8, [0.5; 3]));
     }
 
     #[test]

@@ -18,6 +18,7 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
+mod anchors;
 mod beside;
 pub mod defects;
 mod fills;
@@ -30,6 +31,7 @@ mod on_surface;
 mod patterns;
 mod pictures;
 pub mod report;
+mod resting;
 pub mod stage;
 mod stages;
 mod under;
@@ -41,6 +43,7 @@ use kurbo::{PathEl, Vec2};
 
 pub use maps::MapFiles;
 pub use report::{Report, Stopwatch};
+pub use resting::Resting;
 pub use stage::Stage;
 
 use crate::chain;
@@ -53,10 +56,12 @@ use crate::math::colour::Colour;
 use crate::mesh::Mesh;
 use crate::region::Ground;
 use crate::scene::{Camera, Scene, Warnings, cutout, paint::Paints};
+use crate::shape::Patches;
 use crate::stroke::{self, InkContext, Parting};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, Ahead, ViewMap};
+use anchors::Anchors;
 use beside::Beside;
 use fills::{Colours, Fills, Paintable};
 use glass::Behind;
@@ -132,17 +137,24 @@ pub struct Prepared<'a> {
     style: &'a Style,
     sought: LineOptions,
     /// Where surfaces are painted or hatched, or lines take their colour: the paints of the scene.
-    paints: Option<Paints>,
+    paints: Option<Arc<Paints>>,
     surface: Surface,
     /// For views that need finer triangles it is made anew.
     paintable: Option<Paintable>,
     search: LateSearch,
+    /// Where lines are told to stay on the model.
+    anchors: Option<Anchors>,
 }
 
 impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+        Self::with_patches(scene, style).0
+    }
+
+    /// Does so, and tells the patches of its surface.
+    fn with_patches(scene: &'a Scene, style: &'a Style) -> (Self, Option<Patches>) {
         let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
         let left = glass::left(scene, style);
         let mut paints = needs_paints.then(|| Paints::of(&left, &style.textures));
@@ -154,12 +166,13 @@ impl<'a> Prepared<'a> {
         paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
-        let surface = Surface::new(mesh, &sought);
+        let (surface, patches) = Surface::with_patches(mesh, &sought);
         let paintable = paints
             .as_ref()
             .filter(|_| fills::asks_surface(style))
             .map(|paints| Paintable::new(&surface, paints));
-        Self { scene, warnings, style, sought, paints, surface, paintable, search: LateSearch::default() }
+        let (paints, search) = (paints.map(Arc::new), LateSearch::default());
+        (Self { scene, warnings, style, sought, paints, surface, paintable, search, anchors: None }, patches)
     }
 
     /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
@@ -215,7 +228,7 @@ impl<'a> Prepared<'a> {
 
         let refined = self.surface.refined_for(camera);
         let surface = refined.as_ref().unwrap_or(&self.surface);
-        let own = refined.as_ref().zip(paints.as_ref()).filter(|_| fills::asks_surface(style));
+        let own = refined.as_ref().zip(paints.as_deref()).filter(|_| fills::asks_surface(style));
         let own = own.map(|(surface, paints)| Paintable::new(surface, paints));
         let paintable = own.as_ref().or(self.paintable.as_ref());
         let view = View::new(&surface.mesh, camera);
@@ -227,8 +240,8 @@ impl<'a> Prepared<'a> {
         let mut warnings = Vec::new();
         let px = Length::px(1.0).in_unit(unit);
         let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
-        let textures = paints.as_ref().map(of);
-        let colours = paints.as_ref().zip(textures.as_ref());
+        let textures = paints.as_deref().map(of);
+        let colours = paints.as_deref().zip(textures.as_ref());
         let panes = glass::Panes::of(surface, scene, style);
         // What one sees through casts no shadow.
         let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
@@ -316,9 +329,12 @@ impl<'a> Prepared<'a> {
         let margin = margin(camera, &page);
         let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
         beside::ask(&mut chains, &beside);
-        let paints = paints.as_ref();
+        let paints = paints.as_deref();
         let colours = paints.zip(textures).map(|(paints, textures)| Colours { paints, textures });
         under::ask(&mut chains, &beside, lines, colours, blacks.as_ref());
+        if let Some(anchors) = &self.anchors {
+            anchors.ask(&mut chains, camera, margin);
+        }
         let names = beside::names(lines, surface, &style.stroke);
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =

@@ -25,6 +25,7 @@ fn mark(data: &str, paint: Paint, classes: &[&'static str], part: Option<&str>) 
         path: BezPath::from_svg(data).unwrap(),
         paint,
         provenance: Provenance {
+            identity: 0,
             classes: classes.to_vec(),
             tone: None,
             part: part.map(Arc::from),

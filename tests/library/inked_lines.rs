@@ -38,6 +38,7 @@ fn chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
     let depth = |i: usize| depths[0] + (depths[1] - depths[0]) * i as f64 / last as f64;
     let samples: Vec<Sample> = (0..=last).map(|i| Sample::new(depth(i), 1.0)).collect();
     let mut chain = Chain {
+        identity: 0,
         points,
         samples,
         closed,

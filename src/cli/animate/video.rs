@@ -59,8 +59,10 @@ impl Video {
         if running.size != [pixels.width, pixels.height] {
             return Err(Error::new("a frame is of another size than the first"));
         }
+        // Films know no clear pixels that all players show.
+        let paper = pixels.on_white();
         for _ in 0..ticks {
-            if running.frames.write_all(&pixels.rgba).is_err() {
+            if running.frames.write_all(&paper.rgba).is_err() {
                 return self.end();
             }
         }
@@ -95,11 +97,8 @@ impl Video {
         command.args(["-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"]);
         command.args(["-s", &format!("{}x{}", size[0], size[1]), "-r", &format!("{}", self.fps), "-i", "-"]);
         command.args(["-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"]);
-        // Both codecs want even sides, and know no clear pixels that all players show: all is put on white.
-        let even = "color=white,format=rgba[paper];[paper][0:v]scale2ref[paper][ink];\
-                    [paper][ink]overlay=shortest=1:format=rgb,pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,\
-                    format=yuv420p";
-        command.args(["-filter_complex", even]);
+        // Both codecs want even sides.
+        command.args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p"]);
         match self.format {
             FilmFormat::Webm => {
                 command.args(["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-f", "webm"]);

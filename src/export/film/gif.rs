@@ -42,7 +42,7 @@ impl<W: Write> GifFilm<W> {
     /// # Errors
     /// If it cannot be written, if it is of another size than the first, or larger than the format allows.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
-        let now = on_white(pixels);
+        let now = pixels.on_white();
         if now.width.max(now.height) > LONGEST_SIDE {
             return Err(Error::new("GIF holds no more than 65535 pixels a side").remedy("draw smaller"));
         }
@@ -104,21 +104,6 @@ impl<W: Write> GifFilm<W> {
         let encoder = self.encoder.ok_or_else(|| Error::new("a film needs a frame"))?;
         encoder.into_inner().map_err(cannot_write)
     }
-}
-
-/// The pixels on white paper.
-pub(super) fn on_white(pixels: &Pixels) -> Pixels {
-    let mut rgba = pixels.rgba.clone();
-    for pixel in rgba.chunks_exact_mut(4) {
-        if let [red, green, blue, alpha] = pixel {
-            let clear = 255 - u32::from(*alpha);
-            for channel in [red, green, blue] {
-                *channel = ((u32::from(*channel) * u32::from(*alpha) + 255 * clear + 127) / 255) as u8;
-            }
-            *alpha = 255;
-        }
-    }
-    Pixels { rgba, ..*pixels }
 }
 
 fn cannot_write(error: EncodingError) -> Error {

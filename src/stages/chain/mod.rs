@@ -7,6 +7,7 @@ mod doubles;
 mod finish;
 pub(crate) mod fit;
 mod gaps;
+pub(crate) mod identity;
 mod line;
 mod link;
 pub mod options;
@@ -25,7 +26,7 @@ mod unfold;
 
 pub use options::ChainOptions;
 pub use removed::{Reason, Removed};
-pub use sample::{Sample, Under};
+pub use sample::{Anchor, Sample, Under};
 
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
@@ -72,6 +73,8 @@ pub struct Chain {
     pub covered: [bool; 2],
     /// Smallest number of the feature segments that it has pieces of.
     pub segment: u32,
+    /// What it is known by from frame to frame; 0 where nobody asked.
+    pub identity: u64,
     /// The curve that is drawn: fitted Béziers, or the polyline of `points`.
     pub path: BezPath,
 }
@@ -197,6 +200,7 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
         smooth: raw.smooth,
         covered: raw.covered,
         segment: raw.segment,
+        identity: 0,
         path,
     }
 }

@@ -254,6 +254,7 @@ fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
 fn provenance(look: Look, context: &HatchContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
+        identity: 0,
         classes: vec!["hatch"],
         tone: None,
         part: context.parts.get(look.part.index()).and_then(name),

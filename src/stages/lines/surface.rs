@@ -36,26 +36,48 @@ pub struct Surface {
 impl Surface {
     /// The surface of a mesh, as the options have it.
     #[must_use]
-    pub fn new(mut mesh: Mesh, options: &LineOptions) -> Self {
+    pub fn new(mesh: Mesh, options: &LineOptions) -> Self {
+        Self::with_patches(mesh, options).0
+    }
+
+    /// The surface of a mesh, and its patches where any are round, so that [`Surface::posed`] can follow when it moves.
+    #[must_use]
+    pub fn with_patches(mut mesh: Mesh, options: &LineOptions) -> (Self, Option<Patches>) {
         if !options.enabled {
-            return Self { mesh, ..Self::default() };
+            return (Self { mesh, ..Self::default() }, None);
         }
         if options.contours == Contours::Mesh {
             let hard = HardEdges::above(&mesh, options.crease_deg);
             let (origins, pieces) = patches::origins_and_pieces(&mesh);
-            return Self { mesh, hard, origins, pieces, ..Self::default() };
+            return (Self { mesh, hard, origins, pieces, ..Self::default() }, None);
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
             mesh.forget_normals(|face| !patches.believed[face as usize]);
         }
         let smooth = normals(&mesh, &patches);
+        let surface = Self {
+            mesh,
+            hard: patches.hard.clone(),
+            smooth,
+            origins: patches.origins.clone(),
+            pieces: patches.pieces.clone(),
+            refined: false,
+        };
+        (surface, Some(patches))
+    }
+
+    /// This surface with its mesh moved, but creased and round where it was: both are how it is meant, and not how it bends
+    /// at a moment. `patches` are those that it was made with.
+    #[must_use]
+    pub fn posed(&self, mesh: Mesh, patches: Option<&Patches>) -> Self {
+        let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches));
         Self {
             mesh,
-            hard: patches.hard,
             smooth,
-            origins: patches.origins,
-            pieces: patches.pieces,
+            hard: self.hard.clone(),
+            origins: self.origins.clone(),
+            pieces: self.pieces.clone(),
             refined: false,
         }
     }

@@ -10,6 +10,7 @@ pub(crate) mod groups;
 pub mod ids;
 pub mod needle;
 mod order;
+pub mod posed;
 mod sheets;
 pub mod solid;
 pub mod soup;
@@ -25,6 +26,7 @@ pub use edges::{EdgeFaces, Edges};
 pub use extents::{Extent, Extents};
 pub use groups::Groups;
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
+pub use posed::Sources;
 pub use soup::{EdgeMark, Soup, Wire};
 
 /// A welded triangle mesh.

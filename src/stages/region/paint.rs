@@ -116,6 +116,7 @@ fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
 pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
+        identity: 0,
         classes: Vec::new(),
         tone: Some(look.tone),
         part: context.parts.get(look.part.index()).and_then(name),

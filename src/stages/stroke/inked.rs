@@ -118,6 +118,7 @@ impl Inked<'_> {
                 seed: pass_seed,
                 pins,
                 round: axis.closed.then(|| axis.length()),
+                solid: hash(context.seed, &[part(self.chain, self.identities), pass]),
             };
             for (k, piece) in pieces.iter().enumerate() {
                 let mut piece = piece.clone();
@@ -216,9 +217,17 @@ impl Inked<'_> {
     }
 }
 
+/// What tells the part of a chain from others.
+fn part(chain: &Chain, identities: &[u64]) -> u64 {
+    identities.get(chain.part.index()).copied().unwrap_or_default()
+}
+
 /// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where it runs along them,
 /// elsewhere from about where it begins. `identities` tell parts apart.
 fn identity(chain: &Chain, identities: &[u64], context: &InkContext) -> u64 {
+    if chain.identity != 0 {
+        return chain.identity;
+    }
     let known = context.names.get(chain.segment as usize).copied().unwrap_or(0);
     let begins = || {
         let cell = |x: f64| ((x / (CELL_PX * context.px())).floor() as i64).cast_unsigned();
@@ -226,8 +235,7 @@ fn identity(chain: &Chain, identities: &[u64], context: &InkContext) -> u64 {
         hash(1, &[cell(p.x), cell(p.y)])
     };
     let place = if known == 0 { begins() } else { known };
-    let part = identities.get(chain.part.index()).copied().unwrap_or_default();
-    hash(place, &[chain.kind as u64, part])
+    hash(place, &[chain.kind as u64, part(chain, identities)])
 }
 
 /// What the widths of a chain follow.

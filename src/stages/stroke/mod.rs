@@ -238,6 +238,7 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
         part: context.parts.get(chain.part.index()).and_then(name),
         material: context.materials.get(chain.material.index()).and_then(|(text, _)| name(text)),
         invisibility: chain.invisibility,
+        identity: chain.identity,
         note: None,
     }
 }

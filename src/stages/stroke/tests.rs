@@ -24,6 +24,7 @@ fn chain(kind: LineKind, x: f64) -> Chain {
         smooth: false,
         covered: [false; 2],
         segment: 0,
+        identity: 0,
         path,
     }
 }

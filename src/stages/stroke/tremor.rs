@@ -3,7 +3,9 @@
 use kurbo::Vec2;
 
 use super::axis::Axis;
-use crate::math::noise::{hash, smooth};
+use crate::chain::Anchor;
+use crate::math::function::{ln, pow};
+use crate::math::noise::{hash, smooth, solid};
 
 /// Ends and corners stay, and the line is whole in its motion this part of a wave away from them.
 const PINNED: f64 = 0.4;
@@ -28,6 +30,9 @@ pub(super) struct Tremor {
     pub pins: Vec<f64>,
     /// Length of a closed chain.
     pub round: Option<f64>,
+    /// The seed where lines know their place on the model: there the waves run over its surface and not along the line, so that
+    /// they stay while it moves, however much of the line is seen.
+    pub solid: u64,
 }
 
 impl Tremor {
@@ -40,9 +45,11 @@ impl Tremor {
         let moved = (0..n).map(|i| {
             let arc = axis.arcs[i];
             let along = axis.direction(i, super::sides::REACH);
-            let across = Vec2::new(along.y, -along.x) * (self.amplitude * self.pin(arc) * self.tremor(arc));
+            let at =
+                Place { arc, anchor: axis.samples.get(i).map(|sample| sample.anchor).unwrap_or_default() };
+            let across = Vec2::new(along.y, -along.x) * (self.amplitude * self.pin(arc) * self.tremor(at));
             let drift = if self.stray > 0.0 {
-                let [x, y] = [2, 3].map(|word| self.noise(word, arc, self.wave * DRIFT));
+                let [x, y] = [2, 3].map(|word| self.noise(word, at, self.wave * DRIFT));
                 Vec2::new(x, y) * (self.stray * std::f64::consts::FRAC_1_SQRT_2)
             } else {
                 Vec2::ZERO
@@ -55,9 +62,9 @@ impl Tremor {
     }
 
     /// The finer and the longer wave together, -1 to 1.
-    fn tremor(&self, arc: f64) -> f64 {
+    fn tremor(&self, at: Place) -> f64 {
         let [length, share] = FINE;
-        (1.0 - share) * self.noise(0, arc, self.wave) + share * self.noise(1, arc, self.wave * length)
+        (1.0 - share) * self.noise(0, at, self.wave) + share * self.noise(1, at, self.wave * length)
     }
 
     /// 0 at a pin, 1 away from all.
@@ -72,11 +79,14 @@ impl Tremor {
     }
 
     /// Noise along the chain; in a closed one it comes back to where it began.
-    fn noise(&self, word: u64, arc: f64, wave: f64) -> f64 {
-        let seed = hash(self.seed, &[word]);
+    fn noise(&self, word: u64, Place { arc, anchor }: Place, wave: f64) -> f64 {
         if wave <= 0.0 {
             return 0.0;
         }
+        if anchor.is_known() {
+            return on_surface(hash(self.solid, &[word]), anchor, wave);
+        }
+        let seed = hash(self.seed, &[word]);
         let Some(round) = self.round else { return smooth(seed, arc / wave) };
         let arc = arc.rem_euclid(round);
         // Over its last wave it turns into what comes before its beginning.
@@ -85,6 +95,28 @@ impl Tremor {
         let before = |arc: f64| smooth(seed, arc / wave);
         before(arc) * (1.0 - share) + before(arc - round) * share
     }
+}
+
+/// Where a point of an axis is: along it, and on the model.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    arc: f64,
+    anchor: Anchor,
+}
+
+/// Noise on the surface of the model, in waves about so long on the page. Waves have lengths that are powers of two on the
+/// model, and as it comes nearer one turns into the next.
+fn on_surface(seed: u64, anchor: Anchor, wave: f64) -> f64 {
+    let exponent = ln(f64::from(anchor.scale) / wave) / std::f64::consts::LN_2;
+    if !exponent.is_finite() {
+        return 0.0;
+    }
+    let (coarse, t) = (exponent.floor(), exponent - exponent.floor());
+    let at = |octave: f64| {
+        let waves = pow(2.0, octave);
+        solid(hash(seed, &[(octave as i64).cast_unsigned()]), anchor.place.map(|x| f64::from(x) * waves))
+    };
+    (1.0 - t) * at(coarse) + t * at(coarse + 1.0)
 }
 
 /// The part of a way that keeps it within a limit, without a kink.

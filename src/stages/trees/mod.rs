@@ -5,6 +5,7 @@ pub mod boxes;
 mod dual_boxes;
 pub mod dual_tree;
 pub mod intersect;
+pub mod nearest;
 pub mod ray_tree;
 pub mod trace;
 pub mod triangle_pair;

@@ -1,0 +1,102 @@
+//! [`Resting`]: a scene made ready at rest, from which its poses are made ready.
+//!
+//! What does not change when a figure moves is found once, at rest: which vertices are one and which faces meet at which edge, where the
+//! surface is creased and where it is round, the paints and the pictures they come from. Places, normals, lines and all that
+//! is seen of them are found for every pose.
+
+use super::anchors::Anchors;
+use super::fills::{self, Paintable};
+use super::late_search::LateSearch;
+use super::{Prepared, glass};
+use crate::mesh::Sources;
+use crate::scene::cutout::Cut;
+use crate::scene::{Geometry, Scene};
+use crate::shape::Patches;
+use crate::style::Style;
+
+/// A scene made ready at rest, for drawings whose strokes last while it moves.
+///
+/// ```
+/// use ligne::drawing::{Page, Unit};
+/// use ligne::pose::{Playing, Rigged};
+/// use ligne::render::Resting;
+/// use ligne::{Camera, Style};
+///
+/// let crane = Rigged::open("examples/models/crane.glb")?;
+/// let style = Style::default();
+/// let resting = Resting::new(&crane.scene, &style);
+/// let posed = crane.posed(&[Playing::all(0, 1.5)])?;
+/// let camera = Camera::three_quarter().fit(&posed);
+/// let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+/// let (drawing, _) = resting.posed(&posed).draw(&camera, page, None)?;
+/// assert!(drawing.layers.iter().flat_map(|layer| &layer.marks).all(|mark| mark.provenance.identity != 0));
+/// # Ok::<(), ligne::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Resting<'a> {
+    scene: &'a Scene,
+    style: &'a Style,
+    still: Prepared<'a>,
+    patches: Option<Patches>,
+    /// None where the mesh cannot be followed: then every pose is made ready from the start.
+    sources: Option<Sources>,
+}
+
+impl<'a> Resting<'a> {
+    /// Makes a scene ready that stands as it is stored.
+    #[must_use]
+    pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+        let (still, patches) = Prepared::with_patches(scene, style);
+        let sources = Sources::of(&still.surface.mesh, &still.scene.to_soup());
+        let still = still.anchored(scene, &scene.geometries);
+        Self { scene, style, still, patches, sources }
+    }
+
+    /// The scene as it is stored.
+    #[must_use]
+    pub fn still(&self) -> &Prepared<'a> {
+        &self.still
+    }
+
+    /// The scene in a pose: the same parts and triangles, elsewhere.
+    ///
+    /// Where parts have come or gone, or vertices have parted that are one at rest, the pose is made ready from the start.
+    #[must_use]
+    pub fn posed<'b>(&self, posed: &'b Scene) -> Prepared<'b>
+    where
+        'a: 'b,
+    {
+        let prepared = self.following(posed).unwrap_or_else(|| Prepared::new(posed, self.style));
+        prepared.anchored(posed, &self.scene.geometries)
+    }
+
+    /// A pose in which the mesh is that at rest, moved.
+    fn following<'b>(&self, posed: &'b Scene) -> Option<Prepared<'b>>
+    where
+        'a: 'b,
+    {
+        let style = self.style;
+        let names = |scene: &Scene| scene.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>();
+        if names(self.scene) != names(posed) {
+            return None;
+        }
+        let left = glass::left(posed, style);
+        let Cut { scene, warnings, .. } = glass::cut(posed, &left);
+        let mesh = self.still.surface.mesh.posed(self.sources.as_ref()?, &scene.to_soup())?;
+        let surface = self.still.surface.posed(mesh, self.patches.as_ref());
+        let paints = self.still.paints.clone();
+        let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
+        let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
+        let search = LateSearch::default();
+        let sought = fills::sought(style);
+        Some(Prepared { scene, warnings, style, sought, paints, surface, paintable, search, anchors: None })
+    }
+}
+
+impl Prepared<'_> {
+    /// With strokes that last while the model moves: they are named after where on the model at rest they are, and what of them
+    /// varies by chance varies over its surface. `posed` is the scene that this was made of, and `rest` its geometries as they rest.
+    fn anchored(self, posed: &Scene, rest: &[Geometry]) -> Self {
+        Self { anchors: Some(Anchors::new(posed, rest)), ..self }
+    }
+}
