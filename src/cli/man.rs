@@ -25,14 +25,14 @@ const VARIABLES_DO: [&str; 2] = [
 ];
 
 /// Commands that read `ligne.toml`.
-const CONFIGURED: [&str; 3] = ["draw", "diff", "test"];
+const CONFIGURED: [&str; 4] = ["draw", "animate", "diff", "test"];
 
 const FILES: [&str; 4] = [
     "What a project draws with unless told otherwise: looked for in the working folder and in each folder above it. \
      An option on the command line wins over an environment variable, a variable over this file, and the file \
      over what is built in. An option that excludes a configured one (--azimuth a view, --size a page) displaces it; \
      --set adds to configured changes. --no-config leaves the file aside.",
-    "[draw] says how models are drawn, by ligne draw and ligne diff; its keys are the long names of options: style, set (a table of style keys, or a list of texts), \
+    "[draw] says how models are drawn, by ligne draw, ligne animate and ligne diff; its keys are the long names of options: style, set (a table of style keys, or a list of texts), \
      seed, camera, view, azimuth, elevation, fov, ortho, up, only, hide, animation, time, size, page, landscape, margin, scale, \
      background, precision, dpi, group, id-prefix, threads, quiet, strict.",
     "[diff] holds tolerance: within which distance lines and fills count as the same, as text or as a table. \

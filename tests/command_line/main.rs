@@ -2,6 +2,7 @@
 
 mod folder;
 
+mod animate;
 mod calls;
 mod cases;
 mod config;

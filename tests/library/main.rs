@@ -2,6 +2,7 @@
 
 mod support;
 
+mod animate;
 mod architecture;
 mod chains;
 mod closed_forms;

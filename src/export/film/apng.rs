@@ -19,13 +19,14 @@ pub struct ApngFilm<W: Write> {
     writer: Option<Writer<W>>,
     pace: Pace,
     frames: u32,
+    written: u32,
     before: Option<Pixels>,
 }
 
 impl<W: Write> ApngFilm<W> {
     /// A film of so many frames, which must all be given, and so many ticks a second.
     pub fn new(out: W, fps: f64, frames: u32) -> Self {
-        Self { out: Some(out), writer: None, pace: Pace::new(fps), frames, before: None }
+        Self { out: Some(out), writer: None, pace: Pace::new(fps), frames, written: 0, before: None }
     }
 
     /// Adds a frame that is shown for so many ticks.
@@ -33,6 +34,9 @@ impl<W: Write> ApngFilm<W> {
     /// # Errors
     /// If it cannot be written, if it is of another size than the first, or one too many.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
+        if self.written == self.frames {
+            return Err(Error::new(format!("this film was to have {} frames", self.frames)));
+        }
         let changed = match &self.before {
             Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
                 return Err(Error::new("a frame is of another size than the first"));
@@ -43,6 +47,7 @@ impl<W: Write> ApngFilm<W> {
         let delay = self.pace.next(ticks, f64::from(PER_SECOND)).min(u32::from(u16::MAX)) as u16;
         self.write(pixels, changed, delay).map_err(cannot_write)?;
         self.before = Some(pixels.clone());
+        self.written += 1;
         Ok(())
     }
 
@@ -76,6 +81,9 @@ impl<W: Write> ApngFilm<W> {
     /// If the end cannot be written, or if frames are missing.
     pub fn finish(self) -> Result<(), Error> {
         let writer = self.writer.ok_or_else(|| Error::new("a film needs a frame"))?;
+        if self.written < self.frames {
+            return Err(Error::new(format!("this film has {} of {} frames", self.written, self.frames)));
+        }
         writer.finish().map_err(cannot_write)
     }
 }

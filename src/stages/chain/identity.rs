@@ -16,7 +16,7 @@ use crate::lines::LineKind;
 use crate::math::function::ln;
 use crate::math::noise::{hash, unit};
 
-/// Cells along the diagonal of a model, from coarse to fine, for contours of round surfaces, which creep over these while
+/// Cells along the diagonal of a model, from coarse to fine, for contours, which creep over these while
 /// the eye moves, and for all others, which stay.
 const SLIDING: [f64; 5] = [3.0, 8.0, 24.0, 72.0, 500.0];
 const STAYING: [f64; 5] = [24.0, 72.0, 216.0, 650.0, 4000.0];
@@ -70,7 +70,7 @@ fn is_anchored(chain: &Chain) -> bool {
 
 /// The best lot of the cells of a chain.
 fn best_lot(chain: &Chain, parts: &[u64], level: usize) -> u64 {
-    let slides = chain.smooth && chain.kind == LineKind::Contour;
+    let slides = chain.kind == LineKind::Contour;
     let cells = if slides { SLIDING[level] } else { STAYING[level] };
     let part = parts.get(chain.part.index()).copied().unwrap_or_default();
     let mut weights: Vec<([i64; 3], f64)> = Vec::new();

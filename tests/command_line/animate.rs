@@ -1,0 +1,186 @@
+//! `ligne animate`: frames as files and as films, shared and resumed, and what is refused.
+
+use crate::folder::Folder;
+
+const CRANE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/crane.glb");
+const GEAR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/gear.obj");
+
+fn animate(folder: &Folder, model: &str, out: &str, more: &str) -> crate::folder::Run {
+    let more: Vec<&str> = more.split_whitespace().collect();
+    folder.run(&[&["animate", model, out, "--size", "160"], &more[..]].concat())
+}
+
+#[test]
+fn frames_are_files_with_numbers() {
+    let folder = Folder::new("frames");
+    let run = animate(&folder, CRANE, "f/%03d.svg", "--fps 2");
+    assert!(run.done().err.starts_with("f/%03d.svg: 8 frames, "), "{run:?}");
+    assert_eq!(folder.names_in("f").first().map(String::as_str), Some("000.svg"));
+    assert_eq!(folder.names_in("f").len(), 8);
+    assert!(folder.text("f/003.svg").contains(" data-id=\""));
+    assert_ne!(folder.text("f/000.svg"), folder.text("f/003.svg"));
+    // On twos every drawing stands twice.
+    animate(&folder, CRANE, "held/%d.svg", "--fps 4 --hold 2 --quiet").done();
+    assert_eq!(folder.names_in("held").len(), 16);
+    for frame in 0..8 {
+        let of = |frame: usize| folder.text(&format!("held/{frame}.svg"));
+        assert_eq!(of(2 * frame), of(2 * frame + 1));
+        assert_eq!(of(2 * frame), folder.text(&format!("f/{frame:03}.svg")));
+    }
+    animate(&folder, CRANE, "p/%d.png", "--from 1 --to 2 --fps 2 --threads 1").done();
+    animate(&folder, CRANE, "p/%d.pdf", "--from 1 --to 2 --fps 2").done();
+    assert_eq!(folder.names_in("p"), ["0.pdf", "0.png", "1.pdf", "1.png"]);
+}
+
+#[test]
+fn shards_and_resumed_runs_make_the_frames_of_one_run() {
+    let folder = Folder::new("shards");
+    animate(&folder, CRANE, "all/%d.svg", "--fps 3 --style sketch --threads 2").done();
+    for shard in ["2/3", "1/3", "3/3"] {
+        animate(&folder, CRANE, "parts/%d.svg", &format!("--fps 3 --style sketch --threads 1 --shard {shard}"))
+            .done();
+    }
+    assert_eq!(folder.names_in("all"), folder.names_in("parts"));
+    for name in folder.names_in("all") {
+        assert_eq!(folder.text(&format!("all/{name}")), folder.text(&format!("parts/{name}")), "{name}");
+    }
+    // What is there stays; what is missing is drawn.
+    folder.write("parts/4.svg", "drawn already");
+    std::fs::remove_file(folder.path("parts/5.svg")).unwrap();
+    let run = animate(&folder, CRANE, "parts/%d.svg", "--fps 3 --style sketch --resume");
+    assert!(run.done().err.contains("12 frames, 1 drawing, "), "{run:?}");
+    assert_eq!(folder.text("parts/4.svg"), "drawn already");
+    assert_eq!(folder.text("parts/5.svg"), folder.text("all/5.svg"));
+}
+
+#[test]
+fn films_are_written_whole() {
+    let folder = Folder::new("films");
+    for (name, begins) in [
+        ("a.svg", &b"<svg "[..]),
+        ("a.gif", b"GIF89a"),
+        ("a.png", b"\x89PNG"),
+        ("a.webp", b"RIFF"),
+    ] {
+        animate(&folder, CRANE, name, "--fps 2 --quiet").done();
+        assert!(folder.read(name).starts_with(begins), "{name}");
+    }
+    animate(&folder, CRANE, "b.svg", "--fps 2 --quiet --threads 1").done();
+    assert_eq!(folder.text("a.svg"), folder.text("b.svg"));
+    let turn = animate(&folder, GEAR, "turn.svg", "--turntable 6 --report r.json");
+    assert!(turn.done().err.starts_with("turn.svg: 6 frames, "), "{turn:?}");
+    let report: serde_json::Value = serde_json::from_str(&folder.text("r.json")).unwrap();
+    assert_eq!((report["frames"].as_u64(), report["drawings"].as_u64()), (Some(6), Some(6)));
+    assert!(report["stages_ms"]["visibility"].as_f64() > Some(0.0) && report["counts"]["paths"].as_u64() > Some(6));
+    assert_eq!(folder.names(), ["a.gif", "a.png", "a.svg", "a.webp", "b.svg", "r.json", "turn.svg"]);
+}
+
+#[test]
+fn a_path_of_cameras_gives_each_frame_its_own() {
+    let folder = Folder::with_cubes("path");
+    let record = |x: f64| {
+        format!(
+            "{{\"type\":\"perspective\",\"eye\":[{x},3,9],\"target\":[0,0,0],\"up\":[0,1,0],\"fov_y_deg\":35}}"
+        )
+    };
+    folder.write("path.json", &format!("[{},{}]", record(0.0), record(4.0)));
+    folder.ligne("animate cubes.obj p/%d.svg --path path.json --size 200").done();
+    for (frame, x) in [(0, 0.0), (1, 4.0)] {
+        folder.write("one.json", &record(x));
+        folder.ligne("draw cubes.obj one.svg --camera one.json --size 200").done();
+        let drawn = folder.text(&format!("p/{frame}.svg"));
+        let plain: String = drawn.split(" data-id=\"").map(|part| part.split_once("\" d=").map_or(part.to_owned(), |(_, rest)| format!(" d={rest}"))).collect();
+        assert_eq!(plain, folder.text("one.svg"));
+    }
+    folder.write("bad.json", "[{\"eye\": 3}]");
+    folder.ligne("animate cubes.obj p/%d.svg --path bad.json").refused("camera 0");
+    folder.write("none.json", "[]");
+    folder.ligne("animate cubes.obj p/%d.svg --path none.json").refused("no camera on this path");
+    folder.ligne("animate cubes.obj p/%d.svg --path absent.json").refused("absent.json");
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_and_nothing_is_written() {
+    let folder = Folder::with_cubes("refused");
+    let refused = |line: &str, why: &str| {
+        folder.ligne(line).refused(why);
+    };
+    refused("animate cubes.obj f.svg", "--turntable 36");
+    refused("animate cubes.obj f.svg --animation Walk", "it has no animations; leave out --animation");
+    refused("animate cubes.obj f.pdf --turntable 4", "a PDF does not move");
+    refused("animate cubes.obj f.avi --turntable 4", "films are not written as .avi");
+    refused("animate cubes.obj - --turntable 4", "standard output");
+    refused("animate cubes.obj %s.svg --turntable 4", "where the number of a frame stands");
+    refused("animate cubes.obj f.svg --turntable 4 --time 2", "--from and --to");
+    refused("animate cubes.obj f.svg --turntable 4 --shard 1/2", "a file for each frame");
+    refused("animate cubes.obj f.gif --turntable 4 --resume", "a file for each frame");
+    refused("animate cubes.obj f.svg --turntable 0", "0");
+    refused("animate cubes.obj f.svg --turntable 4 --fps 0", "frames a second");
+    refused("animate cubes.obj f.svg --turntable 4 --fps nan", "frames a second");
+    refused("animate cubes.obj f.svg --turntable 4 --hold 0", "0");
+    refused("animate cubes.obj f.svg --turntable 4 --path p.json", "cannot be used with");
+    refused("animate cubes.obj cubes.obj --turntable 4", "films are not written as .obj");
+    refused("animate cubes.obj no/such/f.svg --turntable 4", "there is no folder");
+    refused("animate none.obj f.svg --turntable 4", "none.obj");
+    let crane = |more: &str, why: &str| {
+        animate(&folder, CRANE, "f.svg", more).refused(why);
+    };
+    crane("--animation walk", "it has no animation `walk`; it has lift");
+    crane("--from 3 --to 1", "let the end be behind the begin");
+    crane("--to 1e12", "too many");
+    crane("--shard 3/2", "K/N");
+    assert_eq!(folder.names(), ["cubes.obj"]);
+    let beyond = animate(&folder, CRANE, "f.svg", "--to 5 --fps 1");
+    assert!(beyond.done().err.contains("the animation lasts from 0 s to 4 s"), "{beyond:?}");
+    animate(&folder, CRANE, "g.svg", "--to 5 --fps 1 --strict").refused("stands still beyond");
+}
+
+#[test]
+fn without_ffmpeg_a_video_is_refused_clearly() {
+    let folder = Folder::new("video");
+    let run = folder.run_with(&[("PATH", "")], &format!("animate {CRANE} f.mp4 --fps 2"));
+    run.refused("there is no ffmpeg");
+    assert!(folder.names().is_empty());
+    if std::process::Command::new("ffmpeg").arg("-version").output().is_err() {
+        println!("skipped: no ffmpeg to write a video with");
+        return;
+    }
+    for name in ["a.mp4", "b.mp4"] {
+        animate(&folder, CRANE, name, "--fps 5 --hold 2 --size 161").done();
+    }
+    assert_eq!(folder.read("a.mp4"), folder.read("b.mp4"));
+    assert_eq!(folder.read("a.mp4").get(4..8), Some(&b"ftyp"[..]));
+}
+
+/// Browsers that are asked what they show of an animated SVG.
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+#[test]
+fn a_browser_plays_an_animated_svg() {
+    let there = |name: &&&str| std::process::Command::new(name).arg("--version").output().is_ok();
+    let Some(browser) = BROWSERS.iter().find(there) else {
+        println!("skipped: no browser to play an animated SVG in");
+        return;
+    };
+    let folder = Folder::new("browser");
+    animate(&folder, CRANE, "a.svg", "--fps 2 --quiet").done();
+    let script = "<script>const svg = document.querySelector('svg'), used = svg.querySelector(':scope > use'), seen = [];\n\
+        svg.pauseAnimations();\n\
+        for (const time of [0, 0.6, 1.1, 3.9, 4.1]) { svg.setCurrentTime(time); seen.push(used.href.animVal); }\n\
+        document.body.append('seen ' + seen.join(' ') + ' end');</script>";
+    let text = folder.text("a.svg").replace("xmlns:inkscape", "data-inkscape").replace("inkscape:", "data-");
+    folder.write("page.html", &format!("<!doctype html><body>{text}{script}"));
+    let output = std::process::Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
+        .arg(format!("--user-data-dir={}", folder.path("profile").display()))
+        .arg(folder.path("page.html"))
+        .output()
+        .unwrap();
+    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
+    let seen = dom.rsplit_once("seen ").and_then(|(_, rest)| rest.split_once(" end")).map(|(seen, _)| seen);
+    if seen.is_none() {
+        println!("skipped: {browser} shows no page here: {}", String::from_utf8_lossy(&output.stderr));
+        return;
+    }
+    assert_eq!(seen, Some("#frame-0 #frame-1 #frame-2 #frame-7 #frame-0"), "{dom}");
+}

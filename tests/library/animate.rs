@@ -1,0 +1,336 @@
+//! Frames: each by itself, held, seen all round, with strokes that last, and as films that other decoders read back.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
+
+use glam::DAffine3;
+use kurbo::Shape;
+use ligne::animate::{Animator, Moment, Timeline, Turntable, reach};
+use ligne::drawing::{Drawing, LayerKind, Page, Unit};
+use ligne::export::film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
+use ligne::export::{Pixels, PngOptions};
+use ligne::pose::{Playing, Rigged};
+use ligne::render::Prepared;
+use ligne::{Camera, Style, SvgOptions};
+
+const SIDE: f64 = 300.0;
+
+fn crane() -> Rigged {
+    Rigged::open("examples/models/crane.glb").unwrap()
+}
+
+fn page() -> Page {
+    Page { width: SIDE, height: SIDE, unit: Unit::Px, background: None }
+}
+
+/// Moments of the crane's clip, so many a second.
+fn moments(crane: &Rigged, fps: f64) -> Vec<Moment> {
+    let [from, to] = crane.rig.clips[0].span();
+    let timeline = Timeline::between(from, to, fps).unwrap();
+    let playing = |frame: usize| vec![Playing::all(0, timeline.time(frame))];
+    let poses: Vec<_> = timeline.drawn().map(|frame| (playing(frame), DAffine3::IDENTITY)).collect();
+    let points = reach(crane, &poses).unwrap();
+    let camera = Camera::three_quarter().with_frame(SIDE, SIDE).fit_points(&points, 0.05);
+    timeline.drawn().map(|frame| Moment { playing: playing(frame), camera, page: page() }).collect()
+}
+
+fn drawings(moments: &[Moment], crane: &Rigged, style: &Style) -> Vec<Drawing> {
+    let animator = Animator::new(crane, style);
+    moments.iter().map(|moment| animator.draw(moment).unwrap().0).collect()
+}
+
+/// The lengths of strokes by what they are known by.
+fn strokes(drawing: &Drawing) -> BTreeMap<u64, f64> {
+    let mut strokes = BTreeMap::new();
+    for layer in drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines) {
+        for mark in &layer.marks {
+            *strokes.entry(mark.provenance.identity).or_default() += mark.path.perimeter(0.1);
+        }
+    }
+    strokes
+}
+
+#[test]
+fn a_frame_depends_on_nothing_but_its_moment() {
+    let (crane, style) = (crane(), Style::load("sketch", &[]).unwrap());
+    let moments = moments(&crane, 2.0);
+    let svg = |drawing: &Drawing| drawing.to_svg(&SvgOptions::default());
+    let mut animator = Animator::new(&crane, &style);
+    let run: Vec<String> = moments.iter().map(|moment| svg(animator.step(moment).unwrap())).collect();
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    for (moment, text) in moments.iter().zip(&run).rev() {
+        let alone = one.install(|| Animator::new(&crane, &style).draw(moment).unwrap().0);
+        assert_eq!(svg(&alone), *text);
+    }
+    assert_eq!(run.iter().collect::<BTreeSet<_>>().len(), run.len(), "something moves in every frame");
+}
+
+#[test]
+fn what_follows_from_the_rest_is_what_would_be_made_from_the_start() {
+    let crane = crane();
+    for name in ["ink", "toon"] {
+        let style = Style::load(name, &[]).unwrap();
+        for moment in moments(&crane, 1.0) {
+            let (followed, report) = Animator::new(&crane, &style).draw(&moment).unwrap();
+            let posed = crane.posed(&moment.playing).unwrap();
+            let (anew, other) =
+                Prepared::new(&posed, &style).draw(&moment.camera, moment.page, None).unwrap();
+            assert_eq!(report.counts.edges, other.counts.edges);
+            let plain = |drawing: &Drawing| {
+                let mut drawing = drawing.clone();
+                let marks = drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks);
+                marks.for_each(|mark| mark.provenance.identity = 0);
+                drawing.to_svg(&SvgOptions::default())
+            };
+            assert_eq!(plain(&followed), plain(&anew), "{name}");
+        }
+    }
+}
+
+#[test]
+fn every_stroke_of_a_frame_has_a_name_of_its_own_and_keeps_it() {
+    let (crane, style) = (crane(), Style::load("ink", &[]).unwrap());
+    let frames: Vec<BTreeMap<u64, f64>> =
+        drawings(&moments(&crane, 24.0)[..24], &crane, &style).iter().map(strokes).collect();
+    let (mut kept, mut all) = (0.0, 0.0);
+    for pair in frames.windows(2) {
+        assert!(!pair[0].contains_key(&0), "a stroke without a name");
+        let common = pair[1].iter().filter_map(|(id, length)| Some(length.min(*pair[0].get(id)?)));
+        kept += common.sum::<f64>();
+        all += pair[0].values().sum::<f64>().min(pair[1].values().sum());
+    }
+    assert!(kept > 0.97 * all, "{}", kept / all);
+    for drawing in drawings(&moments(&crane, 1.0), &crane, &style) {
+        let marks = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
+        let names: Vec<u64> =
+            marks.flat_map(|layer| &layer.marks).map(|mark| mark.provenance.identity).collect();
+        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len());
+    }
+}
+
+#[test]
+fn tremor_stays_on_the_model() {
+    // A square that moves over the page, and farther from the edge of what hides it: its lines shake alike wherever it is.
+    let style = Style::load("ink", &["stroke.hand.tremor=3".to_owned()]);
+    let Ok(style) = style else { panic!("{style:?}") };
+    let crane = crane();
+    let moments = moments(&crane, 24.0);
+    let base = |drawing: &Drawing| {
+        let marks = drawing.layers.iter().flat_map(|layer| layer.marks.clone());
+        let of_base = marks.filter(|mark| mark.provenance.part.as_deref() == Some("base"));
+        of_base.map(|mark| (mark.provenance.identity, mark.path.to_svg())).collect::<BTreeMap<_, _>>()
+    };
+    let frames: Vec<_> = drawings(&moments[..6], &crane, &style).iter().map(base).collect();
+    for pair in frames.windows(2) {
+        let same = pair[0].iter().filter(|(id, path)| pair[1].get(id) == Some(path)).count();
+        assert!(same * 4 >= pair[0].len() * 3, "{same} of {}", pair[0].len());
+    }
+}
+
+#[test]
+fn a_turntable_sees_all_of_a_model_from_all_sides() {
+    let rigged = Rigged::open("examples/models/gear.obj").unwrap();
+    let table = Turntable::round(&rigged.scene, 8);
+    let poses: Vec<_> = (0..8).map(|step| (Vec::new(), table.turn(8 - step))).collect();
+    let points = reach(&rigged, &poses).unwrap();
+    let first = Camera::three_quarter_of(rigged.scene.up).with_frame(SIDE, SIDE).fit_points(&points, 0.05);
+    let style = Style::default();
+    let animator = Animator::new(&rigged, &style);
+    let mut touched = 0.0_f64;
+    for step in 0..8 {
+        let camera = table.camera(&first, step);
+        let (drawing, _) = animator.draw(&Moment { playing: Vec::new(), camera, page: page() }).unwrap();
+        let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
+        let bounds = marks.map(|mark| mark.path.bounding_box()).reduce(|a, b| a.union(b)).unwrap();
+        assert!(bounds.x0 > 0.0 && bounds.y0 > 0.0 && bounds.x1 < SIDE && bounds.y1 < SIDE, "{bounds:?}");
+        touched = touched.max(bounds.width().max(bounds.height()));
+    }
+    assert!(touched > 0.85 * SIDE, "{touched}");
+}
+
+/// What a film of SVG shows in a frame: its text with all that is used put in its place.
+fn resolved(film: &str, frame: usize) -> Vec<String> {
+    let text = film.replace("xlink:href", "href");
+    let document = usvg::roxmltree::Document::parse(&text).unwrap();
+    let by_id = |id: &str| document.descendants().find(|node| node.attribute("id") == Some(id)).unwrap();
+    fn walk<'a>(
+        node: usvg::roxmltree::Node<'a, 'a>,
+        shift: (f64, f64),
+        by_id: &dyn Fn(&str) -> usvg::roxmltree::Node<'a, 'a>,
+        out: &mut Vec<String>,
+    ) {
+        let number = |name: &str| node.attribute(name).map_or(0.0, |text| text.parse::<f64>().unwrap());
+        match node.tag_name().name() {
+            "use" => {
+                let target = by_id(node.attribute("href").unwrap().trim_start_matches('#'));
+                walk(target, (shift.0 + number("x"), shift.1 + number("y")), by_id, out);
+            }
+            "path" => {
+                let path = kurbo::BezPath::from_svg(node.attribute("d").unwrap()).unwrap();
+                let moved = kurbo::Affine::translate(shift) * path;
+                let first = moved.elements()[0];
+                let rest: Vec<String> = moved.elements()[1..]
+                    .iter()
+                    .map(|element| format!("{:.1?}", kurbo::Affine::translate((0.01, 0.01)) * *element))
+                    .collect();
+                let class = node.attribute("class").unwrap_or_default();
+                out.push(format!("{class} {:.1?} {rest:?}", kurbo::Affine::translate((0.01, 0.01)) * first));
+            }
+            _ => node.children().for_each(|child| walk(child, shift, by_id, out)),
+        }
+    }
+    let mut out = Vec::new();
+    walk(by_id(&format!("frame-{frame}")), (0.0, 0.0), &by_id, &mut out);
+    out
+}
+
+#[test]
+fn an_animated_svg_shows_its_frames() {
+    for name in ["ink", "toon", "comic"] {
+        let (crane, style) = (crane(), Style::load(name, &[]).unwrap());
+        let drawings = drawings(&moments(&crane, 3.0), &crane, &style);
+        let mut film = SvgFilm::new(12.0, &SvgOptions::default());
+        drawings.iter().for_each(|drawing| film.push(drawing, 4));
+        let film = film.finish();
+        assert!(film.contains("dur=\"4s\"") && film.contains("calcMode=\"discrete\""), "{name}");
+        let mut single = 0;
+        for (number, drawing) in drawings.iter().enumerate() {
+            let mut alone = SvgFilm::new(12.0, &SvgOptions::default());
+            alone.push(drawing, 1);
+            let alone = alone.finish();
+            single += alone.len();
+            assert_eq!(resolved(&film, number), resolved(&alone, 0), "{name}, frame {number}");
+        }
+        assert!(film.len() < single, "{name}: {} of {single}", film.len());
+        usvg::Tree::from_str(&film, &usvg::Options::default()).unwrap();
+    }
+}
+
+#[test]
+fn what_does_not_move_is_written_once() {
+    let (crane, style) = (crane(), Style::load("ink", &[]).unwrap());
+    let moments = moments(&crane, 3.0);
+    let animator = Animator::new(&crane, &style);
+    let (still, _) = animator.draw(&moments[0]).unwrap();
+    let mut film = SvgFilm::new(12.0, &SvgOptions::default().with_id_prefix("a-"));
+    (0..5).for_each(|_| film.push(&still, 2));
+    let text = film.finish();
+    assert_eq!(text.matches("<g id=\"a-frame-").count(), 1);
+    assert!(!text.contains("<animate"), "nothing moves");
+    assert!(SvgFilm::new(12.0, &SvgOptions::default()).finish().is_empty());
+}
+
+/// Frames as pixels, with few colours and with clear paper.
+fn pixels(style: &str, background: bool) -> Vec<Pixels> {
+    let set = if background { vec!["page.background=#fdf6e3".to_owned()] } else { Vec::new() };
+    let (crane, style) = (crane(), Style::load(style, &set).unwrap());
+    let moments: Vec<Moment> = moments(&crane, 2.0)
+        .into_iter()
+        .map(|moment| Moment { page: Page { background: style.background, ..moment.page }, ..moment })
+        .collect();
+    let drawings = drawings(&moments, &crane, &style);
+    drawings.iter().map(|drawing| drawing.to_pixels(&PngOptions::default()).unwrap()).collect()
+}
+
+#[test]
+fn gif_is_read_back_with_its_times() {
+    for background in [true, false] {
+        let frames = pixels("ink", background);
+        let mut film = GifFilm::new(Vec::new(), 24.0);
+        frames.iter().for_each(|frame| film.push(frame, 5).unwrap());
+        let bytes = film.finish().unwrap();
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options.read_info(Cursor::new(bytes)).unwrap();
+        let mut screen = vec![0_u8; (SIDE * SIDE) as usize * 4];
+        let (mut count, mut delays, mut worst) = (0, 0_u32, 0);
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            delays += u32::from(frame.delay);
+            for y in 0..usize::from(frame.height) {
+                for x in 0..usize::from(frame.width) {
+                    let from = (y * usize::from(frame.width) + x) * 4;
+                    let to = ((y + usize::from(frame.top)) * SIDE as usize + x + usize::from(frame.left)) * 4;
+                    if frame.buffer[from + 3] > 0 {
+                        screen[to..to + 4].copy_from_slice(&frame.buffer[from..from + 4]);
+                    }
+                }
+            }
+            let wanted = frames[count].on_white();
+            let apart = screen.iter().zip(&wanted.rgba).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+            worst = worst.max(apart);
+            count += 1;
+        }
+        assert_eq!(count, frames.len());
+        assert_eq!(delays, (frames.len() as f64 * 500.0 / 24.0).round() as u32);
+        assert!(worst <= 16, "{worst}");
+    }
+    assert!(GifFilm::new(Vec::new(), 24.0).finish().is_err());
+}
+
+#[test]
+fn png_is_read_back_exactly() {
+    let frames = pixels("ink", false);
+    let mut bytes = Vec::new();
+    let mut film = ApngFilm::new(&mut bytes, 24.0, frames.len() as u32);
+    frames.iter().for_each(|frame| film.push(frame, 5).unwrap());
+    film.finish().unwrap();
+    let mut reader = png::Decoder::new(Cursor::new(&bytes)).read_info().unwrap();
+    assert_eq!(reader.info().animation_control().unwrap().num_frames as usize, frames.len());
+    let side = SIDE as usize;
+    let mut screen = vec![0_u8; side * side * 4];
+    let mut seconds = 0.0;
+    for wanted in &frames {
+        let mut part = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut part).unwrap();
+        let control = *reader.info().frame_control().unwrap();
+        seconds += f64::from(control.delay_num) / f64::from(control.delay_den);
+        let (width, height) = (control.width as usize, control.height as usize);
+        for y in 0..height {
+            let to = ((y + control.y_offset as usize) * side + control.x_offset as usize) * 4;
+            screen[to..to + width * 4].copy_from_slice(&part[y * width * 4..][..width * 4]);
+        }
+        assert!(screen == wanted.rgba);
+    }
+    assert!((seconds - frames.len() as f64 * 5.0 / 24.0).abs() < 1e-3, "{seconds}");
+    let mut short = ApngFilm::new(Vec::new(), 24.0, 2);
+    short.push(&frames[0], 1).unwrap();
+    assert!(short.finish().is_err(), "a frame is missing");
+}
+
+#[test]
+fn webp_is_read_back_exactly() {
+    let frames = pixels("ink", false);
+    let mut film = WebpFilm::new(24.0);
+    frames.iter().for_each(|frame| film.push(frame, 5).unwrap());
+    let bytes = film.finish().unwrap();
+    let mut decoder = image_webp::WebPDecoder::new(Cursor::new(&bytes)).unwrap();
+    assert!(decoder.is_animated() && decoder.has_alpha());
+    assert_eq!(
+        (decoder.num_frames() as usize, decoder.dimensions()),
+        (frames.len(), (SIDE as u32, SIDE as u32))
+    );
+    let mut milliseconds = 0;
+    for wanted in &frames {
+        let mut screen = vec![0; decoder.output_buffer_size().unwrap()];
+        milliseconds += decoder.read_frame(&mut screen).unwrap();
+        let same = |(a, b): (&[u8], &[u8])| a == b || (a[3] == 0 && b[3] == 0);
+        assert!(screen.chunks(4).zip(wanted.rgba.chunks(4)).all(same));
+    }
+    assert_eq!(milliseconds, (frames.len() as f64 * 5000.0 / 24.0).round() as u32);
+    assert!(WebpFilm::new(24.0).finish().is_err());
+}
+
+#[test]
+fn frames_of_another_size_are_refused() {
+    let [a, b] =
+        [8, 9].map(|width| Pixels { width, height: 4, rgba: vec![255; width as usize * 16], dpi: 96.0 });
+    let mut gif = GifFilm::new(Vec::new(), 12.0);
+    gif.push(&a, 1).unwrap();
+    assert!(gif.push(&b, 1).is_err());
+    let mut png = ApngFilm::new(Vec::new(), 12.0, 2);
+    png.push(&a, 1).unwrap();
+    assert!(png.push(&b, 1).is_err());
+    let mut webp = WebpFilm::new(12.0);
+    webp.push(&a, 1).unwrap();
+    assert!(webp.push(&b, 1).is_err());
+}
