@@ -111,7 +111,7 @@ fn every_stroke_of_a_frame_has_a_name_of_its_own_and_keeps_it() {
 #[test]
 fn tremor_stays_on_the_model() {
     // A square that moves over the page, and farther from the edge of what hides it: its lines shake alike wherever it is.
-    let style = Style::load("ink", &["stroke.hand.tremor=3".to_owned()]);
+    let style = Style::load("ink", &["pen.hand.tremor=3".to_owned()]);
     let Ok(style) = style else { panic!("{style:?}") };
     let crane = crane();
     let moments = moments(&crane, 24.0);
