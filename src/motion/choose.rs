@@ -27,12 +27,14 @@ impl Body {
     }
 }
 
-/// All bodies of a scene that clips may move: parts, and those of skins joint by joint.
-pub(super) fn bodies(rigged: &Rigged) -> Vec<Body> {
+/// The bodies of those parts of a scene that move: parts, and those of skins joint by joint.
+pub(super) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body> {
     let (scene, rig) = (&rigged.scene, &rigged.rig);
     let parts = identities(scene.parts.iter().map(|part| part.name.as_str()));
     let mut bodies = Vec::new();
-    for (part, ((node, _), shown)) in rig.parts.iter().zip(&scene.parts).enumerate() {
+    for (part, ((node, _), shown)) in
+        rig.parts.iter().zip(&scene.parts).enumerate().filter(|(part, _)| moves(*part))
+    {
         let identity = parts.get(part).copied().unwrap_or_default();
         let is_skinned = rig.forms.get(shown.geometry).is_some_and(|form| form.skin.is_some());
         if !is_skinned {

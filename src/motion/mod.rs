@@ -25,6 +25,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::error::Error;
+use crate::math::function::cos;
 use crate::pose::{Moment, Playing, Rigged};
 use crate::scene::{Mover, Scene, Trail};
 use choose::{Body, Choice, bodies};
@@ -61,19 +62,19 @@ fn movers(
     seed: u64,
     scene: &mut Scene,
 ) -> Vec<Mover> {
-    let choice = Choice::new(rigged, options);
-    let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, options.step)));
+    let (choice, step) = (Choice::new(rigged, options), 1.0 / options.rate);
+    let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, step)));
     // Where each part of the file stands among those that are shown.
     let mut places = 0..;
     let places: Vec<Option<usize>> = (0..rigged.scene.parts.len())
         .map(|part| now.is_shown(part).then(|| places.next()).flatten())
         .collect();
-    let found: Vec<(usize, Body, Starts, bool)> = bodies(rigged)
+    let found: Vec<(usize, Body, Starts, bool)> = bodies(rigged, |part| now.differs(&before, part))
         .into_par_iter()
         .filter_map(|body| {
             let place = places.get(body.part).copied().flatten()?;
             let starts = Starts::new(rigged, &body, options, seed);
-            let speed = starts.speed(body.part, [&now, &before], options.step);
+            let speed = starts.speed(body.part, [&now, &before], step);
             let chosen = choice.takes(&body, speed);
             (speed > 0.0 && (chosen || choice.asks_page)).then_some((place, body, starts, chosen))
         })
@@ -90,23 +91,39 @@ fn movers(
         return Vec::new();
     }
     let longest = found.iter().flat_map(|(_, _, starts, _)| &starts.lines).map(|line| line.segments).max();
-    let interval = options.step / POINTS_A_SEGMENT as f64;
+    let interval = step / POINTS_A_SEGMENT as f64;
     let buffer: Vec<Moment> = (0..=longest.unwrap_or(0) * POINTS_A_SEGMENT)
         .into_par_iter()
         .map(|k| rigged.at(&earlier(playing, interval * k as f64)))
         .collect();
+    let above: Vec<Option<usize>> = found.iter().map(|(_, body, ..)| above(rigged, body, &found)).collect();
     found
         .into_par_iter()
-        .map(|(place, body, starts, chosen)| Mover {
+        .zip(above)
+        .map(|((place, body, starts, chosen), above)| Mover {
             part: place,
             material: starts.material,
             identity: body.identity,
+            above,
             chosen,
             interval,
-            trails: trails(body.part, &starts, options.path, &buffer),
+            trails: trails(body.part, &starts, options, &buffer),
             body: if options.over { Vec::new() } else { triangles(scene, place, &body) },
         })
         .collect()
+}
+
+/// Of the joint of a body, the place of the next one that it hangs on among those of the same part.
+fn above(rigged: &Rigged, body: &Body, all: &[(usize, Body, Starts, bool)]) -> Option<usize> {
+    let mut node = body.node;
+    loop {
+        node = rigged.rig.nodes.get(node)?.parent?;
+        let of_node =
+            |(_, other, ..): &(usize, Body, Starts, bool)| other.part == body.part && other.node == node;
+        if let Some(place) = all.iter().position(of_node) {
+            return Some(place);
+        }
+    }
 }
 
 /// The same clips some seconds before.
@@ -115,13 +132,13 @@ fn earlier(playing: &[Playing], seconds: f64) -> Vec<Playing> {
 }
 
 /// The ways of the vertices that lines begin at.
-fn trails(part: usize, starts: &Starts, path: Path, buffer: &[Moment]) -> Vec<Trail> {
+fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Moment]) -> Vec<Trail> {
     let middle = |moment: &Moment| {
         let places: Vec<DVec3> =
             starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex)).collect();
         places.iter().sum::<DVec3>() / places.len().max(1) as f64
     };
-    let way: Vec<DVec3> = match path {
+    let way: Vec<DVec3> = match options.path {
         Path::Vertex => Vec::new(),
         Path::Body => buffer.iter().map(middle).collect(),
     };
@@ -130,15 +147,32 @@ fn trails(part: usize, starts: &Starts, path: Path, buffer: &[Moment]) -> Vec<Tr
         .map(|line| {
             let count = line.segments * POINTS_A_SEGMENT + 1;
             let own = |moment: &Moment| moment.place(part, line.vertex);
-            let points = match (path, buffer.first().and_then(own), way.first()) {
+            let mut points: Vec<DVec3> = match (options.path, buffer.first().and_then(own), way.first()) {
                 (Path::Body, Some(here), Some(now)) => {
                     way.iter().take(count).map(|then| here + (*then - *now)).collect()
                 }
                 _ => buffer.iter().take(count).map_while(own).collect(),
             };
-            Trail { line: line.number, rule: line.rule, points }
+            end_at_turn(&mut points, options.turn);
+            Trail { line: line.number, named: line.named, rule: line.rule, points }
         })
         .collect()
+}
+
+/// Leaves out of a way what lies before the place where it ran elsewhere than now by more than so many degrees.
+fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
+    if degrees >= 180.0 {
+        return;
+    }
+    let least = cos(degrees.to_radians());
+    let mut now: Option<DVec3> = None;
+    let turns = |pair: &[DVec3; 2]| {
+        let Some(way) = (pair[0] - pair[1]).try_normalize() else { return false };
+        way.dot(*now.get_or_insert(way)) < least
+    };
+    if let Some(end) = points.array_windows().position(turns) {
+        points.truncate(end + 1);
+    }
 }
 
 /// The triangles of a body in the world.

@@ -25,9 +25,9 @@ pub struct MotionOptions {
     /// How many segments long lines are. Default: 20.
     #[serde(deserialize_with = "count")]
     pub segments: u32,
-    /// How many seconds a segment stands for. Default: 1/24.
-    #[serde(deserialize_with = "seconds")]
-    pub step: f64,
+    /// How many segments stand for a second. Default: 24.
+    #[serde(deserialize_with = "rate")]
+    pub rate: f64,
     /// Names of parts, nodes and joints that leave lines, with all that hangs on them. Default: none.
     #[serde(deserialize_with = "globs")]
     pub parts: Vec<Glob>,
@@ -35,6 +35,9 @@ pub struct MotionOptions {
     pub speed: Option<Speed>,
     /// Whose way lines show. Default: vertex.
     pub path: Path,
+    /// A line ends where the way ran elsewhere than now by more than this many degrees; 180 = nowhere. Default: 150.
+    #[serde(deserialize_with = "angle")]
+    pub turn: f64,
     /// Whether lines run over the body that leaves them, where they lie in front of it. Default: false.
     pub over: bool,
     /// Width of lines. Default: 1 px.
@@ -54,10 +57,11 @@ impl Default for MotionOptions {
             enabled: false,
             lines: 7,
             segments: 20,
-            step: 1.0 / 24.0,
+            rate: 24.0,
             parts: Vec::new(),
             speed: None,
             path: Path::default(),
+            turn: 150.0,
             over: false,
             width: Length::px(1.0),
             colour: Ink::Fixed(Colour::BLACK),
@@ -120,13 +124,25 @@ fn some_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>,
     count(deserializer).map(Some)
 }
 
-/// A time.
-fn seconds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let seconds = f64::deserialize(deserializer)?;
-    if (1e-6..=1e6).contains(&seconds) {
-        Ok(seconds)
+/// So many a second.
+fn rate<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let rate = f64::deserialize(deserializer)?;
+    if (1e-3..=1e4).contains(&rate) {
+        Ok(rate)
     } else {
-        Err(D::Error::custom(format!("{seconds} s is no step; write seconds above 0, such as 0.04")))
+        Err(D::Error::custom(format!(
+            "{rate} segments a second are none; write a number from 0.001 to 10000"
+        )))
+    }
+}
+
+/// An angle of 0 to 180 degrees.
+fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let degrees = f64::deserialize(deserializer)?;
+    if (0.0..=180.0).contains(&degrees) {
+        Ok(degrees)
+    } else {
+        Err(D::Error::custom(format!("{degrees} is not how far a way turns; write degrees from 0 to 180")))
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) struct Start {
     pub number: usize,
     /// The vertex of the part at which it begins.
     pub vertex: usize,
+    /// Whether the style says so.
+    pub named: bool,
     /// How long it is.
     pub segments: usize,
     /// The entry of the style's list that is for it.
@@ -70,6 +72,7 @@ impl Starts {
             own.lines.push(Start {
                 number,
                 vertex,
+                named: named.is_some(),
                 segments: change.length.unwrap_or(options.segments) as usize,
                 rule,
                 visible: change.visible.unwrap_or(true),

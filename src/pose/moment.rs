@@ -51,6 +51,20 @@ impl Moment<'_> {
         node.and_then(|node| self.stance.visible.get(node).copied()).unwrap_or(true)
     }
 
+    /// Whether a part may lie elsewhere, or have another shape, than at another moment of the same scene.
+    #[must_use]
+    pub fn differs(&self, other: &Self, part: usize) -> bool {
+        let Rigged { scene, rig } = self.rigged;
+        let (Some((node, _)), Some(shown)) = (rig.parts.get(part), scene.parts.get(part)) else {
+            return false;
+        };
+        let form = rig.forms.get(shown.geometry);
+        let weights = |stance: &Stance| form.and_then(|form| stance.weights.get(form.node).cloned());
+        form.is_some_and(|form| form.skin.is_some())
+            || self.stance.world.get(*node) != other.stance.world.get(*node)
+            || weights(&self.stance) != weights(&other.stance)
+    }
+
     /// Where a vertex of a part is in the world; both count as they stand in the file. `None` if there is no such vertex, or it is beyond
     /// all numbers.
     #[must_use]

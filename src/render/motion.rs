@@ -1,5 +1,8 @@
 //! Motion lines: the trails of what moves, beside and behind all else.
 
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use crate::chain::{self, Chain, ChainOptions};
@@ -44,11 +47,12 @@ impl<'a> Trails<'a> {
         let movers = scene.movers.as_deref().filter(|_| options.enabled)?;
         let mut lines = FeatureLines::default();
         let (mut rules, mut names, mut bodies) = (Vec::new(), Vec::new(), Vec::new());
-        for mover in
-            movers.iter().filter(|mover| leaves_lines(mover, options, &view.frame, mesh.origin, unit))
-        {
+        let leaving: Vec<bool> =
+            movers.iter().map(|mover| leaves_lines(mover, options, &view.frame, mesh.origin, unit)).collect();
+        for (mover, share) in movers.iter().zip(shares(movers, &leaving, options.lines as usize)) {
             let first = lines.segments.len() as u32;
-            for trail in &mover.trails {
+            for trail in mover.trails.iter().filter(|trail| trail.line < share || (trail.named && share > 0))
+            {
                 let before = lines.segments.len();
                 add(&mut lines, mesh, scene, mover, trail);
                 let name = hash(mover.identity, &[trail.line as u64]).max(1);
@@ -101,6 +105,28 @@ fn leaves_lines(mover: &Mover, options: &MotionOptions, frame: &Frame, origin: D
     let ways: Vec<f64> = mover.trails.iter().filter_map(way).collect();
     let seconds = mover.interval * POINTS_A_SEGMENT as f64;
     ways.iter().sum::<f64>() / ways.len().max(1) as f64 / seconds > least.in_unit(unit)
+}
+
+/// How many lines each mover draws: none if it leaves none; all if it moves alone. Those that hang together, such as the joints of
+/// an arm, share the lines of one body, the outermost first.
+fn shares(movers: &[Mover], leaving: &[bool], lines: usize) -> Vec<usize> {
+    let above = |mover: usize| movers[mover].above.filter(|above| leaving[*above]);
+    let way = |mover: usize| std::iter::successors(Some(mover), |at| above(*at));
+    let mut limbs: BTreeMap<usize, Vec<(Reverse<usize>, usize)>> = BTreeMap::new();
+    for mover in (0..movers.len()).filter(|mover| leaving[*mover]) {
+        let innermost = way(mover).last().unwrap_or(mover);
+        limbs.entry(innermost).or_default().push((Reverse(way(mover).count()), mover));
+    }
+    let mut shares = vec![0; movers.len()];
+    for mut limb in limbs.into_values() {
+        limb.sort_unstable();
+        let count = limb.len();
+        for (rank, (_, mover)) in limb.into_iter().enumerate() {
+            let share = lines / count + usize::from(rank < lines % count);
+            shares[mover] = if count == 1 { usize::MAX } else { share };
+        }
+    }
+    shares
 }
 
 /// Adds a trail to the lines; where it stands still it has no length.

@@ -11,6 +11,8 @@ pub struct Mover {
     pub material: Option<u32>,
     /// What tells it from others at all times of a clip.
     pub identity: u64,
+    /// Of a joint, which of the movers it hangs on; those that hang together and leave lines share the lines of one body.
+    pub above: Option<usize>,
     /// Whether it leaves lines wherever it is seen from; else it does if it is fast enough on the page.
     pub chosen: bool,
     /// Seconds from a point of a trail to the next one.
@@ -26,6 +28,8 @@ pub struct Mover {
 pub struct Trail {
     /// Which of the lines of its mover it is.
     pub line: usize,
+    /// Whether the style says where it begins.
+    pub named: bool,
     /// Which entry of the style's list of lines is for it, if one is.
     pub rule: Option<usize>,
     /// Where it was in the world: now, an interval ago, and so on.
