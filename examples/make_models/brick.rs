@@ -99,7 +99,7 @@ pub fn brick() -> Assembly {
     let clay = block(DVec3::new(-0.22, -0.11, -0.13), DVec3::new(0.22, 0.11, 0.13));
     let flying = node("brick", CLAY, clay, DVec3::new(-2.2, 1.2, -0.42), Vec::new());
     let flying = Node { leaves_lines: true, ..flying };
-    let pavement = block(DVec3::new(-2.4, -0.06, -1.0), DVec3::new(2.4, 0.0, 0.8));
+    let pavement = block(DVec3::new(-1.8, -0.06, -0.9), DVec3::new(1.8, 0.0, 0.7));
     let pavement = node("pavement", STONE, pavement, DVec3::ZERO, Vec::new());
     let root = Node::group("street corner", vec![pavement, man, flying]);
 
@@ -130,9 +130,9 @@ pub fn brick() -> Assembly {
         meshes,
         root,
         with_normals: false,
-        eye: DVec3::new(0.5, 1.7, 6.4),
-        target: DVec3::new(0.05, 1.05, 0.0),
-        fov_y: TAU / 9.0,
+        eye: DVec3::new(0.5, 1.6, 6.4),
+        target: DVec3::new(0.0, 1.08, 0.0),
+        fov_y: TAU / 12.0,
         aspect: 1.3,
         clip: Some(("fly".to_owned(), moving)),
     }

@@ -171,8 +171,9 @@ pub(crate) fn curve(
 /// times farther.
 const INSIDE_SMOOTH: f64 = 3.0;
 
-/// Trails are where they are: smoothing may move them less by this factor, and only makes them round.
-const MOTION_SMOOTH: f64 = 0.1;
+/// Trails are where they are: smoothing may move them less by this factor, and only makes them round; curves keep nearer to them.
+const MOTION_SMOOTH: f64 = 0.04;
+const MOTION_FIT: f64 = 0.25;
 
 /// Lines found in the image were pulled taut: smoothing may move them this many times farther.
 const IMAGE_SMOOTH: f64 = 0.5;
@@ -187,6 +188,7 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
     }
     if raw.class.kind == LineKind::Motion {
         t.smooth *= MOTION_SMOOTH;
+        t.fit *= MOTION_FIT;
         t.clean = true;
     }
     let (line, path) = finish(&raw.line, t);
