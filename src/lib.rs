@@ -51,6 +51,7 @@ pub mod export;
 pub mod load;
 #[doc(hidden)]
 pub mod math;
+pub mod motion;
 pub mod pose;
 pub mod render;
 pub mod scene;

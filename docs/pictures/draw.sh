@@ -48,3 +48,9 @@ rm -r "$changed"
 for time in 0 1 2 3; do
     "$ligne" draw $models/crane.glb "$pictures/crane-$time.png" --camera camera --style toon --time $time --size 320x246 --quiet
 done
+
+# docs/motion.md: a brick flies past a man
+brick=(--camera camera --size 480x370 --set motion.enabled=true --quiet)
+"$ligne" draw $models/brick.glb $pictures/motion-brick.png --time 1 --style toon "${brick[@]}"
+"$ligne" draw $models/brick.glb $pictures/motion-fist.png --time 1.05 --style comic "${brick[@]}" \
+    --set motion.parts=fist-right --set motion.segments=10 --set motion.taper=1 --set motion.width=2

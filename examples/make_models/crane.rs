@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DQuat, DVec3};
 use ligne::math::function::{cos, sin};
 
-use crate::glb::{Assembly, Node, Turning};
+use crate::glb::{Assembly, Moving, Node, Way};
 use crate::part::{Material, Part, together};
 use crate::solid::Solid;
 use crate::sweep::{block, turned};
@@ -20,7 +20,7 @@ const BOOM: f64 = 4.0;
 const JIB: f64 = 2.6;
 
 /// A turn about an axis, in degrees; sines and cosines are the same everywhere.
-fn turn(axis: DVec3, degrees: f64) -> DQuat {
+pub fn turn(axis: DVec3, degrees: f64) -> DQuat {
     let half = degrees / 720.0 * TAU;
     let v = axis * sin(half);
     DQuat::from_xyzw(v.x, v.y, v.z, cos(half))
@@ -78,9 +78,9 @@ pub fn crane() -> Assembly {
         vec![cab],
     );
     // Each turns about its own axis from one second to the next.
-    let turning = |node: &str, axis: DVec3, degrees: [f64; 5]| Turning {
-        node: node.to_owned(),
-        keys: degrees.iter().enumerate().map(|(k, degrees)| (k as f64, turn(axis, *degrees))).collect(),
+    let turning = |node: &str, axis: DVec3, degrees: [f64; 5]| {
+        let keys = degrees.iter().enumerate().map(|(k, degrees)| (k as f64, turn(axis, *degrees)));
+        Moving { node: node.to_owned(), way: Way::Turns(keys.collect()) }
     };
     let turnings = vec![
         turning("cab", DVec3::Y, [0.0, 0.0, 50.0, 50.0, 0.0]),

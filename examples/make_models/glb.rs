@@ -15,6 +15,8 @@ pub struct Node {
     pub scale: f64,
     /// Which of the assembly's meshes.
     pub mesh: Option<usize>,
+    /// Whether the file says that it leaves motion lines.
+    pub leaves_lines: bool,
     pub children: Vec<Node>,
 }
 
@@ -22,7 +24,15 @@ impl Node {
     /// A node without a mesh that holds others.
     pub fn group(name: &str, children: Vec<Node>) -> Node {
         let (translation, rotation) = (DVec3::ZERO, DQuat::IDENTITY);
-        Node { name: name.to_owned(), translation, rotation, scale: 1.0, mesh: None, children }
+        Node {
+            name: name.to_owned(),
+            translation,
+            rotation,
+            scale: 1.0,
+            mesh: None,
+            leaves_lines: false,
+            children,
+        }
     }
 }
 
@@ -37,14 +47,22 @@ pub struct Assembly {
     /// Vertical field of view in radians.
     pub fov_y: f64,
     pub aspect: f64,
-    /// The name of a clip and what turns in it.
-    pub clip: Option<(String, Vec<Turning>)>,
+    /// The name of a clip and what moves in it.
+    pub clip: Option<(String, Vec<Moving>)>,
 }
 
-/// How a node turns: its rotations at times in seconds.
-pub struct Turning {
+/// How a node moves.
+pub struct Moving {
     pub node: String,
-    pub keys: Vec<(f64, DQuat)>,
+    pub way: Way,
+}
+
+/// What changes of a node, at times in seconds.
+pub enum Way {
+    /// How it is turned.
+    Turns(Vec<(f64, DQuat)>),
+    /// Where it is and how fast it goes there, metres a second.
+    Flies(Vec<(f64, DVec3, DVec3)>),
 }
 
 const FLOAT: u32 = 5126;
@@ -110,16 +128,28 @@ impl Buffers {
         self.accessors.len() - 1
     }
 
-    /// A clip in which nodes turn from key to key.
-    fn clip(&mut self, (name, turnings): &(String, Vec<Turning>), nodes: &[Value]) -> Value {
+    /// A clip in which nodes move from key to key.
+    fn clip(&mut self, (name, moving): &(String, Vec<Moving>), nodes: &[Value]) -> Value {
         let (mut samplers, mut channels) = (Vec::new(), Vec::new());
-        for Turning { node, keys } in turnings {
-            let times: Vec<f64> = keys.iter().map(|(time, _)| *time).collect();
-            let turns: Vec<f64> = keys.iter().flat_map(|(_, turn)| turn.to_array()).collect();
-            let (input, output) = (self.keys("SCALAR", 1, &times), self.keys("VEC4", 4, &turns));
-            samplers.push(json!({ "input": input, "output": output, "interpolation": "LINEAR" }));
+        for Moving { node, way } in moving {
+            let (input, output, how, what) = match way {
+                Way::Turns(keys) => {
+                    let times: Vec<f64> = keys.iter().map(|(time, _)| *time).collect();
+                    let turns: Vec<f64> = keys.iter().flat_map(|(_, turn)| turn.to_array()).collect();
+                    (self.keys("SCALAR", 1, &times), self.keys("VEC4", 4, &turns), "LINEAR", "rotation")
+                }
+                Way::Flies(keys) => {
+                    let times: Vec<f64> = keys.iter().map(|(time, ..)| *time).collect();
+                    // Each key has its speed before it and behind it.
+                    let ways = keys.iter().flat_map(|(_, at, speed)| [*speed, *at, *speed]);
+                    let ways: Vec<f64> = ways.flat_map(|vector| vector.to_array()).collect();
+                    let input = self.keys("SCALAR", 1, &times);
+                    (input, self.keys("VEC3", 3, &ways), "CUBICSPLINE", "translation")
+                }
+            };
+            samplers.push(json!({ "input": input, "output": output, "interpolation": how }));
             let number = nodes.iter().position(|known| known["name"] == node.as_str());
-            let target = json!({ "node": number, "path": "rotation" });
+            let target = json!({ "node": number, "path": what });
             channels.push(json!({ "sampler": samplers.len() - 1, "target": target }));
         }
         json!({ "name": name, "samplers": samplers, "channels": channels })
@@ -161,6 +191,9 @@ fn flatten(node: &Node, nodes: &mut Vec<Value>) -> usize {
     }
     if let Some(mesh) = node.mesh {
         record["mesh"] = json!(mesh);
+    }
+    if node.leaves_lines {
+        record["extras"] = json!({ "motion": true });
     }
     if !children.is_empty() {
         record["children"] = json!(children);

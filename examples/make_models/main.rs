@@ -6,6 +6,7 @@ mod bear;
 mod bevels;
 mod biplane;
 mod bracket;
+mod brick;
 mod brush;
 mod castle;
 mod castle_parts;
@@ -100,6 +101,7 @@ fn main() -> std::io::Result<()> {
     write("jar.mtl", jar::library(title, &jar).as_bytes())?;
     write("street.glb", &glb::bytes("ligne make_models", &street::street()))?;
     write("crane.glb", &glb::bytes("ligne make_models", &crane::crane()))?;
+    write("brick.glb", &glb::bytes("ligne make_models", &brick::brick()))?;
     write("shelf.ply", &ply::bytes("a scanned vase and a machined gear", &shelf::shelf(), &[]))?;
     write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))?;
     write("picnic.obj", picnic::text().as_bytes())?;

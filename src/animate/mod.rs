@@ -33,6 +33,7 @@ pub use turntable::Turntable;
 
 use crate::drawing::{Drawing, Page};
 use crate::error::Error;
+use crate::motion;
 use crate::pose::{Playing, Rigged};
 use crate::render::{Report, Resting, Stopwatch};
 use crate::scene::Camera;
@@ -89,7 +90,7 @@ impl<'a> Animator<'a> {
             return resting.still().draw(camera, *page, None);
         }
         watch.lap_ms();
-        let scene = self.rigged.posed(playing)?;
+        let scene = motion::posed(self.rigged, playing, &self.style.motion, self.style.seed)?;
         let pose = watch.lap_ms();
         let prepared = resting.posed(&scene);
         let preparing = watch.lap_ms();

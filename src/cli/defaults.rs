@@ -122,9 +122,9 @@ fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<Given>, Error> {
     Ok(match command {
         "draw" => find()?.map(|config| config.draw),
         // Frames have times of their own.
-        "animate" => find()?.map(|config| {
-            config.draw.into_iter().filter(|given| given.option != "time").collect()
-        }),
+        "animate" => {
+            find()?.map(|config| config.draw.into_iter().filter(|given| given.option != "time").collect())
+        }
         "diff" => find()?.map(Config::diff),
         _ => None,
     }

@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch};
 use crate::scene::Scene;
+use crate::style::Style;
 
 /// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
 const SCREEN_DPI: f64 = 96.0;
@@ -63,7 +64,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
-    let mut scene = open(request)?;
+    let mut scene = open(request, &style)?;
     pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
     if let Some(up) = request.up {
         scene.up = up;
@@ -110,11 +111,11 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
 }
 
 /// The model, at the moment that is asked for.
-fn open(request: &DrawRequest) -> Result<Scene, Error> {
+fn open(request: &DrawRequest, style: &Style) -> Result<Scene, Error> {
     if request.animation.is_empty() && request.time.is_none() {
         return Scene::open(&request.model);
     }
-    scene_at(Rigged::open(&request.model)?, &request.animation, request.time)
+    scene_at(Rigged::open(&request.model)?, &request.animation, request.time, style)
 }
 
 pub(super) fn default_dpi(unit: Unit) -> f64 {

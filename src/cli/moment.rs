@@ -1,15 +1,22 @@
 //! The moment of an animation that is drawn.
 
 use crate::error::Error;
+use crate::motion;
 use crate::pose::{Clip, Playing, Rigged};
 use crate::scene::Scene;
+use crate::style::Style;
 
-/// The scene at a time while clips of these names play, with equal shares; as it is stored if neither is asked for. Where the file
-/// has one clip, a time is enough.
+/// The scene at a time while clips of these names play, with equal shares, and what leaves motion lines in a style; as it is stored if
+/// neither is asked for. Where the file has one clip, a time is enough.
 ///
 /// # Errors
 /// If no clip has such a name, if it is not told which one plays, and what posing says.
-pub(super) fn scene_at(rigged: Rigged, names: &[String], time: Option<f64>) -> Result<Scene, Error> {
+pub(super) fn scene_at(
+    rigged: Rigged,
+    names: &[String],
+    time: Option<f64>,
+    style: &Style,
+) -> Result<Scene, Error> {
     if names.is_empty() && time.is_none() {
         return Ok(rigged.scene);
     }
@@ -19,7 +26,7 @@ pub(super) fn scene_at(rigged: Rigged, names: &[String], time: Option<f64>) -> R
     };
     let (clips, time) = (&rigged.rig.clips, time.unwrap_or(0.0));
     let playing = playing(clips, names, time).map_err(in_file)?;
-    let mut scene = rigged.posed(&playing).map_err(in_file)?;
+    let mut scene = motion::posed(&rigged, &playing, &style.motion, style.seed).map_err(in_file)?;
     for Clip { name, .. } in
         playing.iter().filter_map(|own| clips.get(own.clip)).filter(|clip| !has(clip, time))
     {

@@ -62,6 +62,33 @@ impl Body {
         }
     }
 
+    /// Where one vertex is, moved as [`Body::pose`] moves all.
+    #[must_use]
+    pub fn place(&self, vertex: usize, weights: &[f64], joints: Option<&[DAffine3]>) -> Option<DVec3> {
+        let mut position = *self.positions.get(vertex)?;
+        for (target, &weight) in self.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+            position += weight * target.positions.get(vertex).copied().unwrap_or_default();
+        }
+        Some(joints.map_or(position, |joints| self.blend(vertex, joints).transform_point3(position)))
+    }
+
+    /// The joint that moves a vertex most, the first of several; none if none does.
+    #[must_use]
+    pub fn first_joint(&self, vertex: usize) -> Option<usize> {
+        let mut most: Option<(u32, f64)> = None;
+        for set in &self.sets {
+            let (Some(four), Some(share)) = (set.joints.get(vertex), set.weights.get(vertex)) else {
+                continue;
+            };
+            for (joint, weight) in four.iter().zip(share) {
+                if *weight > most.map_or(0.0, |(_, most)| most) {
+                    most = Some((*joint, *weight));
+                }
+            }
+        }
+        most.map(|(joint, _)| joint as usize)
+    }
+
     /// How the joints together move a vertex.
     fn blend(&self, vertex: usize, joints: &[DAffine3]) -> DAffine3 {
         let mut blend = DAffine3::ZERO;

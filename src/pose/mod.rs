@@ -12,11 +12,13 @@
 
 pub mod body;
 pub mod clip;
+pub mod moment;
 pub mod rig;
 pub mod track;
 
 pub use body::Body;
 pub use clip::{Channel, Clip, Playing, Property};
+pub use moment::Moment;
 pub use rig::Rig;
 pub use track::{Interpolation, Track};
 

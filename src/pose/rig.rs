@@ -29,6 +29,10 @@ pub struct Rig {
 /// A place that others hang on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
+    /// The name it is known by.
+    pub name: String,
+    /// Whether the file says that it leaves motion lines, with all that hangs on it.
+    pub leaves_lines: bool,
     /// The number of the one it hangs on.
     pub parent: Option<usize>,
     /// Where it rests in that.

@@ -27,6 +27,7 @@ mod hatching;
 mod image;
 mod late_search;
 mod maps;
+mod motion;
 mod on_surface;
 mod patterns;
 mod pictures;
@@ -67,6 +68,7 @@ use fills::{Colours, Fills, Paintable};
 use glass::Behind;
 use hatching::Hatching;
 use late_search::LateSearch;
+use motion::Trails;
 use stages::Made;
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
@@ -356,6 +358,10 @@ impl<'a> Prepared<'a> {
         };
         match stage {
             None => {
+                let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
+                let centre = |map: &mut ViewMap| centre_on_page(map, camera, &page);
+                let trails = Trails::of((clear, view, camera), scene, style, page.unit, centre);
+                layers.extend(trails.iter().flat_map(|trails| trails.ink(&context)));
                 layers.extend(stroke::ink(&chains, &context, &style.stroke));
                 layers.extend(hatch::tooth(&page, &style.paper, style.seed));
             }
@@ -379,6 +385,9 @@ impl<'a> Prepared<'a> {
         report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
         report.warnings.extend(warnings);
         report.warnings.extend(hatching::too_dark(style, page.unit));
+        if style.motion.enabled && scene.movers.is_none() {
+            report.warnings.push(motion::NO_MOMENT.to_owned());
+        }
         let warnings = report.warnings.clone();
         (Drawing { title: title(scene), page, layers, warnings }, report)
     }

@@ -29,6 +29,7 @@ pub mod select;
 pub(crate) mod texels;
 pub(crate) mod texture;
 pub(crate) mod tints;
+pub mod trails;
 pub(crate) mod varied;
 pub mod views;
 pub mod warnings;
@@ -45,6 +46,7 @@ pub use light::{Light, LightKind};
 pub use material::{Alpha, Filter, Material, Wrap};
 pub use paint::{Paint, Paints};
 pub use texture::options::{TextureFill, TextureOptions};
+pub use trails::{Mover, Trail};
 pub use views::NamedView;
 pub use warnings::Warnings;
 
@@ -88,6 +90,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The file's cameras, in world space.
     pub cameras: Vec<NamedCamera>,
+    /// What moves at this moment and may leave motion lines; `None` where nobody asked (see [`crate::motion`]).
+    pub movers: Option<Vec<Mover>>,
     /// What had to be dropped or mended while reading.
     pub warnings: Warnings,
 }

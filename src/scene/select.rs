@@ -8,8 +8,24 @@ impl Scene {
     /// `*` stands for any characters, `?` for any one; case counts.
     pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
         let matches = |globs: &[String], name: &str| globs.iter().any(|glob| glob_matches(glob, name));
-        self.parts
-            .retain(|part| (only.is_empty() || matches(only, &part.name)) && !matches(hide, &part.name));
+        let stays = |name: &str| (only.is_empty() || matches(only, name)) && !matches(hide, name);
+        let mut place = 0;
+        let places: Vec<Option<usize>> = self
+            .parts
+            .iter()
+            .map(|part| {
+                let own = stays(&part.name).then_some(place);
+                place += usize::from(own.is_some());
+                own
+            })
+            .collect();
+        self.parts.retain(|part| stays(&part.name));
+        if let Some(movers) = &mut self.movers {
+            movers.retain_mut(|mover| {
+                let place = places.get(mover.part).copied().flatten();
+                place.inspect(|place| mover.part = *place).is_some()
+            });
+        }
     }
 }
 

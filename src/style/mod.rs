@@ -32,6 +32,7 @@ use crate::field::{LightOptions, ShadeOptions, ToneOptions};
 use crate::hatch::{HatchOptions, Paper, Pattern};
 use crate::lines::LineOptions;
 use crate::math::colour::Colour;
+use crate::motion::MotionOptions;
 use crate::region::RegionOptions;
 use crate::scene::{GlassOptions, TextureOptions};
 use crate::stroke::StrokeOptions;
@@ -65,6 +66,8 @@ pub struct Style {
     pub hatch: HatchOptions,
     /// What becomes of materials that one sees through.
     pub glass: GlassOptions,
+    /// Which bodies leave motion lines, and how these are drawn.
+    pub motion: MotionOptions,
     /// The hand: seeds everything that varies by chance, and changes nothing else. Default: 0.
     pub seed: u64,
 }

@@ -19,6 +19,7 @@ use crate::hatch::Paper;
 use crate::lines::{LineKind, LineOptions};
 use crate::math::colour::Colour;
 use crate::math::picture::Picture;
+use crate::motion::MotionOptions;
 use crate::scene::GlassOptions;
 use crate::stroke::fraction::fraction;
 use crate::stroke::pen::dash;
@@ -43,6 +44,7 @@ pub(super) struct Sheet {
     pub fills: FillsTable,
     hatching: HatchingTable,
     glass: GlassOptions,
+    motion: MotionOptions,
 }
 
 /// The table `[page]`.
@@ -156,6 +158,7 @@ impl Sheet {
             shade,
             hatch,
             glass: self.glass,
+            motion: self.motion,
             seed: self.seed,
         }
     }

@@ -37,8 +37,13 @@ fn shards_and_resumed_runs_make_the_frames_of_one_run() {
     let folder = Folder::new("shards");
     animate(&folder, CRANE, "all/%d.svg", "--fps 3 --style sketch --threads 2").done();
     for shard in ["2/3", "1/3", "3/3"] {
-        animate(&folder, CRANE, "parts/%d.svg", &format!("--fps 3 --style sketch --threads 1 --shard {shard}"))
-            .done();
+        animate(
+            &folder,
+            CRANE,
+            "parts/%d.svg",
+            &format!("--fps 3 --style sketch --threads 1 --shard {shard}"),
+        )
+        .done();
     }
     assert_eq!(folder.names_in("all"), folder.names_in("parts"));
     for name in folder.names_in("all") {
@@ -56,12 +61,9 @@ fn shards_and_resumed_runs_make_the_frames_of_one_run() {
 #[test]
 fn films_are_written_whole() {
     let folder = Folder::new("films");
-    for (name, begins) in [
-        ("a.svg", &b"<svg "[..]),
-        ("a.gif", b"GIF89a"),
-        ("a.png", b"\x89PNG"),
-        ("a.webp", b"RIFF"),
-    ] {
+    for (name, begins) in
+        [("a.svg", &b"<svg "[..]), ("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.webp", b"RIFF")]
+    {
         animate(&folder, CRANE, name, "--fps 2 --quiet").done();
         assert!(folder.read(name).starts_with(begins), "{name}");
     }
@@ -71,7 +73,10 @@ fn films_are_written_whole() {
     assert!(turn.done().err.starts_with("turn.svg: 6 frames, "), "{turn:?}");
     let report: serde_json::Value = serde_json::from_str(&folder.text("r.json")).unwrap();
     assert_eq!((report["frames"].as_u64(), report["drawings"].as_u64()), (Some(6), Some(6)));
-    assert!(report["stages_ms"]["visibility"].as_f64() > Some(0.0) && report["counts"]["paths"].as_u64() > Some(6));
+    assert!(
+        report["stages_ms"]["visibility"].as_f64() > Some(0.0)
+            && report["counts"]["paths"].as_u64() > Some(6)
+    );
     assert_eq!(folder.names(), ["a.gif", "a.png", "a.svg", "a.webp", "b.svg", "r.json", "turn.svg"]);
 }
 
@@ -89,7 +94,10 @@ fn a_path_of_cameras_gives_each_frame_its_own() {
         folder.write("one.json", &record(x));
         folder.ligne("draw cubes.obj one.svg --camera one.json --size 200").done();
         let drawn = folder.text(&format!("p/{frame}.svg"));
-        let plain: String = drawn.split(" data-id=\"").map(|part| part.split_once("\" d=").map_or(part.to_owned(), |(_, rest)| format!(" d={rest}"))).collect();
+        let plain: String = drawn
+            .split(" data-id=\"")
+            .map(|part| part.split_once("\" d=").map_or(part.to_owned(), |(_, rest)| format!(" d={rest}")))
+            .collect();
         assert_eq!(plain, folder.text("one.svg"));
     }
     folder.write("bad.json", "[{\"eye\": 3}]");

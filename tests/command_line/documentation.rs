@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 11] = [
+const DOCUMENTS: [&str; 12] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -12,6 +12,7 @@ const DOCUMENTS: [&str; 11] = [
     "docs/exactness.md",
     "docs/fills.md",
     "docs/lines.md",
+    "docs/motion.md",
     "docs/smooth.md",
     "docs/stages.md",
     "docs/testing.md",

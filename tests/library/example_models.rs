@@ -410,6 +410,24 @@ fn crane_is_made_of_solids_that_turn_and_come_back() {
 }
 
 #[test]
+fn brick_is_made_of_solids_and_flies_as_it_was_thrown() {
+    let glb = Glb::read("brick.glb");
+    assert_meshes_solid(&glb);
+    let rigged = ligne::pose::Rigged::open(path("brick.glb")).unwrap();
+    let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
+    assert_eq!((clip.name.as_str(), clip.span()), ("fly", [0.0, 1.5]));
+    let marked: Vec<&str> =
+        rigged.rig.nodes.iter().filter(|node| node.leaves_lines).map(|node| node.name.as_str()).collect();
+    assert_eq!(marked, ["brick"]);
+    for time in [0.0, 0.4, 0.75, 1.1, 1.5] {
+        let scene = rigged.posed(&[ligne::pose::Playing::all(0, time)]).unwrap();
+        let at = scene.parts.iter().find(|part| part.name == "brick").unwrap().world_from_part.translation;
+        let thrown = glam::DVec3::new(-2.2 + 2.9 * time, 1.2 + (2.0 - 1.3 * time) * time, -0.42);
+        assert!(at.distance(thrown) < 1e-5, "{time}: {at} {thrown}");
+    }
+}
+
+#[test]
 fn horn_is_a_sheet_with_two_mouths_and_solids() {
     let parts = read_obj("horn.obj");
     parts[1..].iter().for_each(assert_solid);
@@ -489,6 +507,7 @@ fn all_models_together_are_small() {
         "helmet.mtl",
         "street.glb",
         "crane.glb",
+        "brick.glb",
         "shelf.ply",
         "rack.stl",
     ];

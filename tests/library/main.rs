@@ -33,6 +33,7 @@ mod loading;
 mod locality;
 mod marked_edges;
 mod models;
+mod motion;
 mod painted_surfaces;
 mod paper;
 mod patterns;

@@ -130,6 +130,7 @@ pub struct Node {
     pub rotation: Option<[f64; 4]>,
     pub scale: Option<[f64; 3]>,
     pub weights: Option<Vec<f64>>,
+    pub extras: serde_json::Value,
     pub extensions: NodeExtensions,
 }
 

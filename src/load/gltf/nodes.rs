@@ -1,6 +1,7 @@
 //! [`Hierarchy`]: which nodes are shown, in which order, and where each stands in the world.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+use serde_json::Value;
 
 use super::json::{Node, Root};
 use crate::error::Error;
@@ -27,6 +28,8 @@ impl Hierarchy {
         let parents = parents(&root.nodes, warnings)?;
         let rest: Vec<rig::Node> = (root.nodes.iter().zip(&parents).enumerate())
             .map(|(index, (node, parent))| rig::Node {
+                name: name(root, index),
+                leaves_lines: node.extras.get("motion").and_then(Value::as_bool).unwrap_or(false),
                 parent: *parent,
                 rest: placement(node, index, warnings),
                 weights: weights(root, node),

@@ -174,6 +174,10 @@ pub(crate) fn curve(
 /// times farther.
 const INSIDE_SMOOTH: f64 = 3.0;
 
+/// Trails are where they are: smoothing may move them less by this factor, and only makes them round; curves keep nearer to them.
+const MOTION_SMOOTH: f64 = 0.04;
+const MOTION_FIT: f64 = 0.25;
+
 /// Lines found in the image were pulled taut: smoothing may move them this many times farther.
 const IMAGE_SMOOTH: f64 = 0.5;
 
@@ -183,6 +187,11 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
     }
     if raw.class.kind == LineKind::Image {
         t.smooth *= IMAGE_SMOOTH;
+        t.clean = true;
+    }
+    if raw.class.kind == LineKind::Motion {
+        t.smooth *= MOTION_SMOOTH;
+        t.fit *= MOTION_FIT;
         t.clean = true;
     }
     let (line, path) = finish(&raw.line, t);

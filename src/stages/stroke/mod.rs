@@ -45,7 +45,7 @@ use crate::chain::{Chain, Under};
 use crate::drawing::{
     ImagePaint, Layer, LayerKind, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit,
 };
-use crate::lines::HiddenLines;
+use crate::lines::{HiddenLines, LineKind};
 use crate::math::colour::Colour;
 use crate::math::identity::identities;
 use axis::Axis;
@@ -74,27 +74,53 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     hidden.sort_by_key(rank);
     visible.sort_by_key(rank);
     let (behind, all) = (hidden.len(), [hidden, visible].concat());
-    let pens: Vec<Pen> = all.par_iter().map(|chain| selection.pen(chain)).collect();
-    let tinted = chains.iter().flat_map(|chain| &chain.samples).any(|s| s.under != Under::default());
-    let mut hidden: Vec<Vec<Mark>> = if tinted || pens.iter().any(Pen::has_hand) {
-        handmade(&all, &pens, context)
-    } else {
-        all.par_iter()
-            .zip(&pens)
-            .map(|(chain, pen)| mark(chain, context, pen).into_iter().collect())
-            .collect()
-    };
+    let pens: Vec<Pen> = all.par_iter().map(|chain| selection.pen(chain, options.pen.clone())).collect();
+    let mut hidden = marks(&all, &pens, context);
     let visible = hidden.split_off(behind);
-    let mut layers = Vec::new();
-    for (kind, marks) in [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)] {
-        let marks: Vec<Mark> = marks.into_iter().flatten().collect();
-        let parted = match options.layers.by {
-            LayersBy::Visibility => vec![Layer { kind, pen: None, ordered: false, marks }],
-            LayersBy::Pen => by_pen(kind, marks, context.unit),
-        };
-        layers.extend(parted.into_iter().filter(|layer| !layer.marks.is_empty()));
+    let layers = [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)];
+    layers
+        .into_iter()
+        .flat_map(|(kind, marks)| layers_of(kind, marks, options.layers, context.unit))
+        .collect()
+}
+
+/// Turns chains of motion lines into the layer `motion`, each with the pen of its own that `pen` gives, changed only by rules that
+/// name this kind of line.
+#[must_use]
+pub fn ink_motion(
+    chains: &[Chain],
+    context: &InkContext,
+    options: &StrokeOptions,
+    pen: impl Fn(&Chain) -> Pen + Sync,
+) -> Vec<Layer> {
+    let names_it = |rule: &&Rule| rule.when.kinds.contains(&LineKind::Motion);
+    let rules = options.rules.iter().filter(names_it).cloned().collect();
+    let options = StrokeOptions { rules, ..options.clone() };
+    let selection = options.selection(context);
+    let all: Vec<&Chain> = chains.iter().collect();
+    let pens: Vec<Pen> = all.par_iter().map(|chain| selection.pen(chain, pen(chain))).collect();
+    layers_of(LayerKind::Motion, marks(&all, &pens, context), options.layers, context.unit)
+}
+
+/// The marks of each chain.
+fn marks(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Mark>> {
+    let tinted = chains.iter().flat_map(|chain| &chain.samples).any(|s| s.under != Under::default());
+    if tinted || pens.iter().any(Pen::has_hand) {
+        return handmade(chains, pens, context);
     }
-    if options.layers.order == Order::Travel {
+    let plain = chains.par_iter().zip(pens);
+    plain.map(|(chain, pen)| mark(chain, context, pen).into_iter().collect()).collect()
+}
+
+/// The layers of a kind that marks make; none if there are no marks.
+fn layers_of(kind: LayerKind, marks: Vec<Vec<Mark>>, options: LayerOptions, unit: Unit) -> Vec<Layer> {
+    let marks: Vec<Mark> = marks.into_iter().flatten().collect();
+    let mut layers = match options.by {
+        LayersBy::Visibility => vec![Layer { kind, pen: None, ordered: false, marks }],
+        LayersBy::Pen => by_pen(kind, marks, unit),
+    };
+    layers.retain(|layer| !layer.marks.is_empty());
+    if options.order == Order::Travel {
         for layer in &mut layers {
             layer.marks = travel::shorten(std::mem::take(&mut layer.marks));
             layer.ordered = true;

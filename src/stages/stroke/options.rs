@@ -109,9 +109,8 @@ impl StrokeOptions {
 }
 
 impl Selection<'_> {
-    /// The pen of a chain.
-    pub(super) fn pen(&self, chain: &Chain) -> Pen {
-        let mut pen = self.options.pen.clone();
+    /// The pen of a chain, from the one that rules start from.
+    pub(super) fn pen(&self, chain: &Chain, mut pen: Pen) -> Pen {
         let behind = if chain.veiled { self.behind_glass } else { 1.0 };
         let named = |table: &[bool], index: usize, glob: &Option<Glob>| {
             table.get(index).copied().unwrap_or(glob.is_none())

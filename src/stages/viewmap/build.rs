@@ -50,6 +50,24 @@ pub fn build_through(
     [asked.map(&behind, None), asked.map(&behind, Some(&front))]
 }
 
+/// The view map of what is seen of plain lines, of which is known what is hidden.
+pub(super) fn of_hidden(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+    hidden: &[Vec<Layer>],
+) -> ViewMap {
+    let limits = Limits::new(&view.frame);
+    let mut builder = Builder::new(mesh, view, lines, HiddenPieces::Contours);
+    for (segment, hidden) in segments.iter().zip(hidden) {
+        builder.add(segment, Seen { hidden, backed: &[] }, limits.piece, true);
+    }
+    let mut map = builder.map;
+    doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
+    map
+}
+
 /// Lines in the image, of which visibility is asked.
 struct Asked<'a> {
     mesh: &'a Mesh,
@@ -94,14 +112,7 @@ impl<'a> Asked<'a> {
     /// The map of what is seen; or of what is seen so, but not with another mesh before it.
     fn map(&self, told: &Told, but: Option<&Told>) -> ViewMap {
         let Self { mesh, view, lines, limits, .. } = self;
-        let mut builder = Builder {
-            mesh,
-            view,
-            lines,
-            map: ViewMap::default(),
-            vertex_of_end: vec![UNSET; mesh.positions.len() + lines.points.len()],
-            hidden: self.hidden,
-        };
+        let mut builder = Builder::new(mesh, view, lines, self.hidden);
         let (mut layers, mut beside): (Vec<Layer>, Vec<Interval>) = (Vec::new(), Vec::new());
         let (mut others, mut unused) = (Vec::new(), Vec::new());
         let mut question = 0;
@@ -184,7 +195,12 @@ struct SegmentPart {
     silhouette: bool,
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
+    fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines, hidden: HiddenPieces) -> Self {
+        let vertex_of_end = vec![UNSET; mesh.positions.len() + lines.points.len()];
+        Self { mesh, view, lines, map: ViewMap::default(), vertex_of_end, hidden }
+    }
+
     /// Adds what is seen of a segment, and unless `only_seen` what is hidden as far as it is kept.
     fn add(&mut self, segment: &ImageSegment, seen: Seen, shortest: f64, only_seen: bool) {
         let source = &self.lines.segments[segment.source as usize];

@@ -18,6 +18,7 @@ mod runs;
 mod sides;
 mod teeth;
 mod tile;
+pub mod trails;
 pub mod visibility;
 mod witnesses;
 
@@ -25,3 +26,4 @@ pub use ahead::{Ahead, Way};
 pub use build::{build, build_through};
 pub use front::{Front, front_faces};
 pub use graph::{ContourCounts, SeenContour, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+pub use trails::{Beside, build_beside};

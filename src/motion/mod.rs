@@ -1,0 +1,192 @@
+//! Motion lines: the ways that vertices of bodies have come, up to a moment of a clip.
+//!
+//! ```
+//! use ligne::drawing::LayerKind;
+//! use ligne::pose::{Playing, Rigged};
+//! use ligne::{Camera, Style, motion, render};
+//!
+//! let model = Rigged::open("examples/models/brick.glb")?;
+//! let style = Style::load("ink", &["motion.enabled=true".to_owned()])?;
+//! let scene = motion::posed(&model, &[Playing::all(0, 1.0)], &style.motion, style.seed)?;
+//! let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &style)?;
+//! assert!(drawing.layers.iter().any(|layer| layer.kind == LayerKind::Motion));
+//! # Ok::<(), ligne::Error>(())
+//! ```
+//!
+//! Source: Adam Lake, Carl Marshall, Mark Harris and Marc Blackstein, "Stylized rendering techniques for scalable real-time
+//! 3D animation", NPAR 2000, section 5. Their buffer of translations is filled frame by frame; here the clips are asked where
+//! things were, so that a moment is drawn alike whether others were drawn before it or not.
+
+mod choose;
+pub mod options;
+mod starts;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::error::Error;
+use crate::math::function::cos;
+use crate::pose::{Moment, Playing, Rigged};
+use crate::scene::{Mover, Scene, Trail};
+use choose::{Body, Choice, bodies};
+use starts::Starts;
+
+pub use options::{LineChange, MotionOptions, Path, Speed};
+
+/// Points of a trail for each of its segments: what bends is drawn as a curve, however long a segment is.
+pub const POINTS_A_SEGMENT: usize = 4;
+
+/// The scene while clips play, as [`Rigged::posed`] has it, with all in it that may leave motion lines if the options have them
+/// drawn. `seed` chooses the vertices at which lines begin.
+///
+/// # Errors
+/// As [`Rigged::posed`].
+pub fn posed(
+    rigged: &Rigged,
+    playing: &[Playing],
+    options: &MotionOptions,
+    seed: u64,
+) -> Result<Scene, Error> {
+    let mut scene = rigged.posed(playing)?;
+    if options.enabled && !playing.is_empty() {
+        scene.movers = Some(movers(rigged, playing, options, seed, &mut scene));
+    }
+    Ok(scene)
+}
+
+/// The bodies that move at a moment and may leave lines, and the ways of their vertices.
+fn movers(
+    rigged: &Rigged,
+    playing: &[Playing],
+    options: &MotionOptions,
+    seed: u64,
+    scene: &mut Scene,
+) -> Vec<Mover> {
+    let (choice, step) = (Choice::new(rigged, options), 1.0 / options.rate);
+    let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, step)));
+    // Where each part of the file stands among those that are shown.
+    let mut places = 0..;
+    let places: Vec<Option<usize>> = (0..rigged.scene.parts.len())
+        .map(|part| now.is_shown(part).then(|| places.next()).flatten())
+        .collect();
+    let found: Vec<(usize, Body, Starts, bool)> = bodies(rigged, |part| now.differs(&before, part))
+        .into_par_iter()
+        .filter_map(|body| {
+            let place = places.get(body.part).copied().flatten()?;
+            let starts = Starts::new(rigged, &body, options, seed);
+            let speed = starts.speed(body.part, [&now, &before], step);
+            let chosen = choice.takes(&body, speed);
+            (speed > 0.0 && (chosen || choice.asks_page)).then_some((place, body, starts, chosen))
+        })
+        .collect();
+    for (_, body, starts, _) in &found {
+        for number in &starts.missing {
+            let part = rigged.scene.parts.get(body.part).map_or("", |part| &part.name);
+            scene
+                .warnings
+                .note(format!("a motion line begins at vertex {number}, which part '{part}' lacks"));
+        }
+    }
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let longest = found.iter().flat_map(|(_, _, starts, _)| &starts.lines).map(|line| line.segments).max();
+    let interval = step / POINTS_A_SEGMENT as f64;
+    let buffer: Vec<Moment> = (0..=longest.unwrap_or(0) * POINTS_A_SEGMENT)
+        .into_par_iter()
+        .map(|k| rigged.at(&earlier(playing, interval * k as f64)))
+        .collect();
+    let above: Vec<Option<usize>> = found.iter().map(|(_, body, ..)| above(rigged, body, &found)).collect();
+    found
+        .into_par_iter()
+        .zip(above)
+        .map(|((place, body, starts, chosen), above)| Mover {
+            part: place,
+            material: starts.material,
+            identity: body.identity,
+            above,
+            chosen,
+            interval,
+            trails: trails(body.part, &starts, options, &buffer),
+            body: if options.over { Vec::new() } else { triangles(scene, place, &body) },
+        })
+        .collect()
+}
+
+/// Of the joint of a body, the place of the next one that it hangs on among those of the same part.
+fn above(rigged: &Rigged, body: &Body, all: &[(usize, Body, Starts, bool)]) -> Option<usize> {
+    let mut node = body.node;
+    loop {
+        node = rigged.rig.nodes.get(node)?.parent?;
+        let of_node =
+            |(_, other, ..): &(usize, Body, Starts, bool)| other.part == body.part && other.node == node;
+        if let Some(place) = all.iter().position(of_node) {
+            return Some(place);
+        }
+    }
+}
+
+/// The same clips some seconds before.
+fn earlier(playing: &[Playing], seconds: f64) -> Vec<Playing> {
+    playing.iter().map(|own| Playing { time: own.time - seconds, ..*own }).collect()
+}
+
+/// The ways of the vertices that lines begin at.
+fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Moment]) -> Vec<Trail> {
+    let middle = |moment: &Moment| {
+        let places: Vec<DVec3> =
+            starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex)).collect();
+        places.iter().sum::<DVec3>() / places.len().max(1) as f64
+    };
+    let way: Vec<DVec3> = match options.path {
+        Path::Vertex => Vec::new(),
+        Path::Body => buffer.iter().map(middle).collect(),
+    };
+    let lines = starts.lines.iter().filter(|line| line.visible);
+    lines
+        .map(|line| {
+            let count = line.segments * POINTS_A_SEGMENT + 1;
+            let own = |moment: &Moment| moment.place(part, line.vertex);
+            let mut points: Vec<DVec3> = match (options.path, buffer.first().and_then(own), way.first()) {
+                (Path::Body, Some(here), Some(now)) => {
+                    way.iter().take(count).map(|then| here + (*then - *now)).collect()
+                }
+                _ => buffer.iter().take(count).map_while(own).collect(),
+            };
+            end_at_turn(&mut points, options.turn);
+            Trail { line: line.number, named: line.named, rule: line.rule, points }
+        })
+        .collect()
+}
+
+/// Leaves out of a way what lies before the place where it ran elsewhere than now by more than so many degrees.
+fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
+    if degrees >= 180.0 {
+        return;
+    }
+    let least = cos(degrees.to_radians());
+    let mut now: Option<DVec3> = None;
+    let turns = |pair: &[DVec3; 2]| {
+        let Some(way) = (pair[0] - pair[1]).try_normalize() else { return false };
+        way.dot(*now.get_or_insert(way)) < least
+    };
+    if let Some(end) = points.array_windows().position(turns) {
+        points.truncate(end + 1);
+    }
+}
+
+/// The triangles of a body in the world.
+fn triangles(scene: &Scene, place: usize, body: &Body) -> Vec<[DVec3; 3]> {
+    let Some(part) = scene.parts.get(place) else { return Vec::new() };
+    let Some(geometry) = scene.geometries.get(part.geometry) else { return Vec::new() };
+    let corner = |vertex: u32| {
+        let position = geometry.positions.get(vertex as usize)?;
+        Some(part.world_from_part.transform_point3(*position))
+    };
+    let own = geometry.triangles.iter().filter(|corners| corners.iter().any(|corner| body.holds(*corner)));
+    let placed = own.filter_map(|corners| {
+        let [a, b, c] = corners.map(corner);
+        Some([a?, b?, c?])
+    });
+    placed.collect()
+}

@@ -1,0 +1,95 @@
+//! [`Moment`]: where single vertices are while clips play.
+
+use glam::{DAffine3, DVec3};
+
+use super::clip::Playing;
+use super::rig::Stance;
+use super::{Body, Rigged};
+
+/// A rigged scene while clips play, to be asked for a few of its vertices: far less work than to pose it all.
+#[derive(Debug)]
+pub struct Moment<'a> {
+    rigged: &'a Rigged,
+    stance: Stance,
+    /// How the joints of each geometry move its vertices, if it has any.
+    joints: Vec<Option<Vec<DAffine3>>>,
+}
+
+impl Rigged {
+    /// The rig while clips play; clips that the file does not have move nothing.
+    #[must_use]
+    pub fn at(&self, playing: &[Playing]) -> Moment<'_> {
+        let stance = self.rig.stance(playing);
+        let joints = self.rig.forms.iter().map(|form| {
+            let skin = form.skin.and_then(|skin| self.rig.skins.get(skin))?;
+            Some(skin.transforms(&stance.world))
+        });
+        let joints = joints.collect();
+        Moment { rigged: self, stance, joints }
+    }
+
+    /// The node that moves a vertex of a part: of a skinned one the joint that moves it most, else the node of the part. Both count as
+    /// they stand in the file.
+    #[must_use]
+    pub fn carrier(&self, part: usize, vertex: usize) -> Option<usize> {
+        let node = self.rig.parts.get(part)?.0;
+        let joint = || {
+            let form = self.rig.forms.get(self.scene.parts.get(part)?.geometry)?;
+            let skin = self.rig.skins.get(form.skin?)?;
+            let (body, own) = body_of(&form.bodies, vertex)?;
+            skin.joints.get(body.first_joint(own)?).copied()
+        };
+        Some(joint().unwrap_or(node))
+    }
+}
+
+impl Moment<'_> {
+    /// Whether a part, as it stands in the file, is shown.
+    #[must_use]
+    pub fn is_shown(&self, part: usize) -> bool {
+        let node = self.rigged.rig.parts.get(part).map(|(node, _)| *node);
+        node.and_then(|node| self.stance.visible.get(node).copied()).unwrap_or(true)
+    }
+
+    /// Whether a part may lie elsewhere, or have another shape, than at another moment of the same scene.
+    #[must_use]
+    pub fn differs(&self, other: &Self, part: usize) -> bool {
+        let Rigged { scene, rig } = self.rigged;
+        let (Some((node, _)), Some(shown)) = (rig.parts.get(part), scene.parts.get(part)) else {
+            return false;
+        };
+        let form = rig.forms.get(shown.geometry);
+        let weights = |stance: &Stance| form.and_then(|form| stance.weights.get(form.node).cloned());
+        form.is_some_and(|form| form.skin.is_some())
+            || self.stance.world.get(*node) != other.stance.world.get(*node)
+            || weights(&self.stance) != weights(&other.stance)
+    }
+
+    /// Where a vertex of a part is in the world; both count as they stand in the file. `None` if there is no such vertex, or it is beyond
+    /// all numbers.
+    #[must_use]
+    pub fn place(&self, part: usize, vertex: usize) -> Option<DVec3> {
+        let Rigged { scene, rig } = self.rigged;
+        let shown = scene.parts.get(part)?;
+        let rest = *scene.geometries.get(shown.geometry)?.positions.get(vertex)?;
+        let Some((node, within)) = rig.parts.get(part) else {
+            return Some(shown.world_from_part.transform_point3(rest));
+        };
+        let form = rig.forms.get(shown.geometry);
+        let body = form.and_then(|form| Some((body_of(&form.bodies, vertex)?, form.node)));
+        let joints = self.joints.get(shown.geometry).and_then(Option::as_deref);
+        let own = match body {
+            Some(((body, own), node)) => body.place(own, self.stance.weights.get(node)?, joints)?,
+            None => rest,
+        };
+        let is_skinned = form.is_some_and(|form| form.skin.is_some());
+        let world = if is_skinned { DAffine3::IDENTITY } else { *self.stance.world.get(*node)? };
+        Some((world * *within).transform_point3(own)).filter(|place| place.is_finite())
+    }
+}
+
+/// The body that holds a vertex of a geometry, and which of its own that is.
+fn body_of(bodies: &[Body], vertex: usize) -> Option<(&Body, usize)> {
+    let holds = |body: &&Body| vertex >= body.start && vertex - body.start < body.positions.len();
+    bodies.iter().find(holds).map(|body| (body, vertex - body.start))
+}
