@@ -72,6 +72,9 @@ impl<'a> Trails<'a> {
         let mut chains = chain::link(&map, &exact, unit, HiddenLines::None);
         chains
             .retain(|chain| chain.points.windows(2).map(|two| length(two[1] - two[0])).sum::<f64>() >= tidy);
+        for chain in &mut chains {
+            chain.identity = names.get(chain.segment as usize).copied().unwrap_or_default();
+        }
         Some(Self { chains, rules, names, style })
     }
 
