@@ -1,0 +1,133 @@
+//! [`Kind`]: which way a point may go, by the edges at it that must stay; and the planes it must stay near.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::fans::Fans;
+use super::flat::{Flat, NONE};
+use super::quadric::Quadric;
+
+/// How much a plane that holds a border in its place counts, against the area of the faces beside it.
+const BORDER_WEIGHT: f64 = 10.0;
+
+/// The same for seams of materials, pictures and colours, and for edges that the file marks.
+const SEAM_WEIGHT: f64 = 1.0;
+
+/// The same for creases, which their two faces hold by themselves.
+const CREASE_WEIGHT: f64 = 0.25;
+
+/// Edges between faces whose normals have a lesser cosine are creases.
+const CREASE_COSINE: f64 = 0.7;
+
+/// Which way a point may go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// To any neighbour: nothing at it must stay.
+    Plain,
+    /// Along a border or a seam, to the next point on it.
+    Line,
+    /// Nowhere, as long as others can go: borders or seams meet or end here.
+    Corner,
+}
+
+/// What is known of a point at first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Site {
+    pub kind: Kind,
+    /// The next points on its line.
+    pub along: [u32; 2],
+    pub quadric: Quadric,
+}
+
+/// An edge at a point, as one face has it.
+#[derive(Clone, Copy)]
+struct Side {
+    other: u32,
+    opposite: u32,
+    face: u32,
+    /// What must be the same on both sides of an edge within a surface.
+    signature: [u32; 3],
+    marked: bool,
+}
+
+/// What is known at first of each point.
+pub(super) fn sites(flat: &Flat, corners: &[[u32; 3]], fans: &Fans) -> Vec<Site> {
+    let geometry = flat.geometry_of();
+    let of = |sides: &mut Vec<Side>, point: usize| site(flat, corners, fans, &geometry, sides, point as u32);
+    (0..fans.len()).into_par_iter().with_min_len(1024).map_init(Vec::new, of).collect()
+}
+
+fn site(
+    flat: &Flat,
+    corners: &[[u32; 3]],
+    fans: &Fans,
+    geometry: &[u32],
+    sides: &mut Vec<Side>,
+    point: u32,
+) -> Site {
+    let place = |point: u32| flat.points[point as usize];
+    let mut site = Site { kind: Kind::Plain, along: [NONE; 2], quadric: Quadric::default() };
+    let mut weight = 0.0;
+    sides.clear();
+    for &face in fans.about(point) {
+        let f = face as usize;
+        let places = corners[f].map(place);
+        let normal = doubled_area(places);
+        weight = flat.weights[geometry[f] as usize];
+        if let Some(unit) = normal.try_normalize() {
+            site.quadric.add(&Quadric::of_plane(unit, places[0], 0.5 * normal.length()));
+        }
+        let Some(k) = corners[f].iter().position(|p| *p == point) else { continue };
+        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+        let class = |k: usize| flat.class[flat.faces[f][k] as usize];
+        let marks = flat.marked.get(f).copied().unwrap_or_default();
+        for (end, opposite, marked) in [(next, last, marks[k]), (last, next, marks[last])] {
+            let signature = [class(k), class(end), flat.material[f]];
+            sides.push(Side { other: corners[f][end], opposite: corners[f][opposite], face, signature, marked });
+        }
+    }
+    sides.sort_unstable_by_key(|side| (side.other, side.opposite, side.signature, side.face));
+    let mut lines = 0;
+    for edge in sides.chunk_by(|a, b| a.other == b.other) {
+        let along = place(edge[0].other) - place(point);
+        let normal = |side: &Side| doubled_area(corners[side.face as usize].map(place)).normalize_or_zero();
+        let strength = match strength(edge) {
+            Some(strength) => {
+                if let Some(slot) = site.along.get_mut(lines) {
+                    *slot = edge[0].other;
+                }
+                lines += 1;
+                strength
+            }
+            None if normal(&edge[0]).dot(normal(&edge[edge.len() - 1])) < CREASE_COSINE => CREASE_WEIGHT,
+            None => continue,
+        };
+        for side in edge {
+            let Some(upright) = along.cross(normal(side)).try_normalize() else { continue };
+            site.quadric.add(&Quadric::of_plane(upright, place(point), strength * along.length_squared()));
+        }
+    }
+    site.kind = match lines {
+        0 => Kind::Plain,
+        2 => Kind::Line,
+        _ => Kind::Corner,
+    };
+    site.quadric = site.quadric.scaled(weight);
+    site
+}
+
+/// How strongly an edge is held, if it must stay: a border, where surfaces meet, a seam. Two faces at the same place
+/// count as one: what matters is that the surface goes on to two sides.
+fn strength(edge: &[Side]) -> Option<f64> {
+    let (one, other) = edge.split_at(edge.partition_point(|side| side.opposite == edge[0].opposite));
+    if other.is_empty() || other.iter().any(|side| side.opposite != other[0].opposite) {
+        return Some(BORDER_WEIGHT);
+    }
+    let same = one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.signature == b.signature);
+    (!same || edge.iter().any(|side| side.marked)).then_some(SEAM_WEIGHT)
+}
+
+/// The normal of a face of three places, as long as twice its area.
+pub(super) fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}

@@ -1,0 +1,175 @@
+//! The order of collapses: at each moment the one that adds least error.
+
+use super::collapse::Collapser;
+use super::flat::{Flat, NONE};
+use super::heap::Heap;
+use super::kinds::Kind;
+use super::record::Record;
+
+/// What keeps faces that cost nothing in shape: a part of the fourth power of the length that a point falls.
+const LENGTH_COST: f64 = 1e-10;
+
+/// Where borders and seams meet, points go only when all others have gone.
+const CORNER_COST: f64 = 1e4;
+
+/// How often points that could not go are asked again after all others have gone.
+const ROUNDS: usize = 8;
+
+/// How many faces a scene has: those of each geometry, as often as it is shown.
+pub(super) struct Budget<'a> {
+    /// How often each geometry is shown.
+    pub shown: &'a [u64],
+    /// How many faces there may be in all.
+    pub most: u64,
+}
+
+/// The collapses of a surface in their order, until it has no more faces than it may, or none can go.
+pub(super) fn collapses(flat: Flat, budget: &Budget) -> Record {
+    let mut queue = Queue::new(Collapser::new(flat), budget);
+    queue.start();
+    for _ in 0..ROUNDS {
+        let before = queue.surface.record.steps.len();
+        queue.run();
+        if queue.faces <= budget.most || queue.surface.record.steps.len() == before {
+            break;
+        }
+        queue.start();
+    }
+    queue.surface.record
+}
+
+struct Queue<'a> {
+    surface: Collapser,
+    heap: Heap,
+    /// Where each point would fall.
+    targets: Vec<u32>,
+    budget: &'a Budget<'a>,
+    /// How many faces there are now, instances counted.
+    faces: u64,
+    /// How often each face is shown.
+    geometry: Vec<u32>,
+    ring: Vec<u32>,
+    choices: Vec<(f64, u32, u32)>,
+}
+
+impl<'a> Queue<'a> {
+    fn new(surface: Collapser, budget: &'a Budget<'a>) -> Self {
+        let geometry = surface.flat.geometry_of();
+        let shown = |face: usize| budget.shown.get(geometry[face] as usize).copied().unwrap_or(0);
+        let alive = surface.corners.iter().enumerate().filter(|(_, corners)| corners[0] != NONE);
+        let faces = alive.map(|(face, _)| shown(face)).sum();
+        let (heap, targets) = (Heap::new(&[]), vec![NONE; surface.fans.len()]);
+        Self { surface, heap, targets, budget, faces, geometry, ring: Vec::new(), choices: Vec::new() }
+    }
+
+    /// Lets all points wait that may go anywhere.
+    fn start(&mut self) {
+        let best: Vec<Option<(f64, u32)>> =
+            (0..self.targets.len() as u32).map(|point| self.best(point)).collect();
+        for (target, best) in self.targets.iter_mut().zip(&best) {
+            *target = best.map_or(NONE, |best| best.1);
+        }
+        self.heap = Heap::new(&best.iter().map(|best| best.map(|best| best.0)).collect::<Vec<_>>());
+    }
+
+    fn run(&mut self) {
+        while self.faces > self.budget.most {
+            let Some((cost, point)) = self.heap.pop() else { return };
+            self.targets[point as usize] = NONE;
+            let Some((next, target, neighbour)) = self.first_sound(point) else { continue };
+            if next > cost {
+                self.targets[point as usize] = target;
+                self.heap.set(point, next);
+                continue;
+            }
+            self.surface.collapse(point, target, neighbour);
+            for face in self.surface.last_removed() {
+                let geometry = self.geometry[*face as usize] as usize;
+                self.faces -= self.budget.shown.get(geometry).copied().unwrap_or(0);
+            }
+            self.renew(point, target);
+        }
+    }
+
+    /// What it costs if a point falls onto another.
+    fn cost(&self, from: u32, to: u32) -> f64 {
+        let place = |point: u32| self.surface.flat.points[point as usize];
+        let site = &self.surface.sites[from as usize];
+        let (at, target) = (place(from), place(to));
+        let long = at.distance_squared(target);
+        let extra = if site.kind == Kind::Corner { CORNER_COST } else { 0.0 };
+        site.quadric.at(target) + LENGTH_COST * long * long + extra
+    }
+
+    /// Whether a point of one kind may fall onto one that is no point of its line.
+    fn allows(&self, from: u32, to: u32) -> bool {
+        let site = &self.surface.sites[from as usize];
+        match site.kind {
+            Kind::Plain => true,
+            Kind::Line => site.along.contains(&to),
+            Kind::Corner => self.surface.sites[to as usize].kind != Kind::Plain,
+        }
+    }
+
+    /// Where a point falls at the least cost, without a look at whether it may.
+    fn best(&self, point: u32) -> Option<(f64, u32)> {
+        let mut best: Option<(f64, u32)> = None;
+        for face in self.surface.fans.about(point) {
+            for other in self.surface.corners[*face as usize] {
+                if other != NONE && other != point && self.allows(point, other) {
+                    let cost = self.cost(point, other);
+                    if best.is_none_or(|best| (cost, other) < best) {
+                        best = Some((cost, other));
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Where a point falls at the least cost of where it may: the cost, the target, and which neighbour that is.
+    fn first_sound(&mut self, point: u32) -> Option<(f64, u32, u32)> {
+        let (mut ring, mut choices) = (std::mem::take(&mut self.ring), std::mem::take(&mut self.choices));
+        self.surface.neighbours(point, &mut ring);
+        choices.clear();
+        for (number, other) in ring.iter().enumerate().filter(|(_, other)| self.allows(point, **other)) {
+            choices.push((self.cost(point, *other), *other, number as u32));
+        }
+        choices.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let found = choices.iter().find(|choice| self.surface.may(point, choice.1, &ring)).copied();
+        (self.ring, self.choices) = (ring, choices);
+        found
+    }
+
+    /// Lets the points wait anew about which a collapse has changed what they may do or what it costs.
+    fn renew(&mut self, gone: u32, target: u32) {
+        self.wait(target);
+        let mut ring = std::mem::take(&mut self.ring);
+        self.surface.neighbours(target, &mut ring);
+        for &point in &ring {
+            let aim = self.targets[point as usize];
+            let is_plain = self.surface.sites[point as usize].kind == Kind::Plain;
+            match self.heap.cost(point) {
+                Some(cost) if is_plain && aim != gone => {
+                    let new = self.cost(point, target);
+                    if new < cost {
+                        self.targets[point as usize] = target;
+                        self.heap.set(point, new);
+                    }
+                }
+                _ => self.wait(point),
+            }
+        }
+        self.ring = ring;
+    }
+
+    fn wait(&mut self, point: u32) {
+        match self.best(point) {
+            Some((cost, target)) => {
+                self.targets[point as usize] = target;
+                self.heap.set(point, cost);
+            }
+            None => self.heap.remove(point),
+        }
+    }
+}

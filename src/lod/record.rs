@@ -1,0 +1,49 @@
+//! [`Record`]: collapses in their order, each with all that is needed to do it and to undo it.
+
+use std::ops::Range;
+
+use super::flat::Wedge;
+
+/// One collapse: a point falls onto a neighbour. The first may be none, but the faces without area going.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Step {
+    /// Which of the neighbours of the point it falls onto, for the file.
+    pub from: u32,
+    pub neighbour: u32,
+    /// Where its changes and its removed faces end in the lists of all.
+    pub changes_end: u32,
+    pub removed_end: u32,
+}
+
+/// A corner of a face that gets another wedge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Change {
+    /// Three times the face, and which of its corners.
+    pub corner: u32,
+    pub before: u32,
+    pub after: u32,
+}
+
+/// Collapses in their order, each with all that is needed to do it and to undo it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Record {
+    pub steps: Vec<Step>,
+    pub changes: Vec<Change>,
+    pub removed: Vec<u32>,
+    /// What the corners are made of.
+    pub wedges: Vec<Wedge>,
+    /// The wedges of each face before any step.
+    pub faces: Vec<[u32; 3]>,
+    /// The faces of each geometry.
+    pub ranges: Vec<Range<usize>>,
+}
+
+impl Record {
+    /// The changes and the removed faces of a step.
+    pub fn of_step(&self, step: usize) -> (&[Change], &[u32]) {
+        let before = step.checked_sub(1).map(|before| self.steps[before]);
+        let (changes, removed) = before.map_or((0, 0), |step| (step.changes_end, step.removed_end));
+        let Step { changes_end, removed_end, .. } = self.steps[step];
+        (&self.changes[changes as usize..changes_end as usize], &self.removed[removed as usize..removed_end as usize])
+    }
+}
