@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::fans::Fans;
 use super::flat::{Flat, NONE};
-use super::kinds::{Kind, Site, doubled_area, sites};
+use super::kinds::{Kind, Site, sites};
 use super::record::{Change, Record, Step};
 
 /// The number of the step that takes away faces without area.
@@ -27,13 +27,14 @@ pub(super) struct Collapser {
     pub fans: Fans,
     pub sites: Vec<Site>,
     pub record: Record,
-    geometry: Vec<u32>,
     /// What is marked, by the number of the question that marked it last.
     marks: Vec<u32>,
     question: u32,
     /// What the collapse that was asked for last would change and remove.
     changes: Vec<Change>,
     removed: Vec<u32>,
+    /// Of each removed face the wedges at both points, and the geometry.
+    carried: Vec<[u32; 3]>,
 }
 
 impl Collapser {
@@ -44,25 +45,25 @@ impl Collapser {
         let is_none = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
         let fans = Fans::new(flat.points.len(), &corners, |face| is_none(corners[face]));
         let sites = sites(&flat, &corners, &fans);
-        let mut record = Record {
-            wedges: flat.wedges.clone(),
-            faces: flat.faces.clone(),
-            ranges: flat.ranges.clone(),
-            ..Record::default()
-        };
+        let mut faces = vec![[NONE; 3]; flat.faces.len()];
+        for (number, wedges) in flat.in_file.iter().zip(&flat.faces) {
+            faces[*number as usize] = *wedges;
+        }
+        let (wedges, ranges) = (flat.wedges.clone(), flat.ranges.clone());
+        let mut record = Record { wedges, faces, ranges, ..Record::default() };
         for (face, corners) in corners.iter_mut().enumerate().filter(|(_, corners)| is_none(**corners)) {
             if corners[0] != NONE {
-                record.removed.push(face as u32);
+                record.removed.push(flat.in_file[face]);
             }
             *corners = [NONE; 3];
         }
         if !record.removed.is_empty() {
             let removed_end = record.removed.len() as u32;
-            record.steps.push(Step { from: SWEEP, neighbour: 0, changes_end: 0, removed_end });
+            record.steps.push(Step { from: SWEEP, to: SWEEP, changes_end: 0, removed_end });
         }
-        let (geometry, marks) = (flat.geometry_of(), vec![0; flat.points.len()]);
-        let (changes, removed, question) = (Vec::new(), Vec::new(), 0);
-        Self { flat, corners, fans, sites, record, geometry, marks, question, changes, removed }
+        let marks = vec![0; flat.points.len()];
+        let (changes, removed, carried, question) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        Self { flat, corners, fans, sites, record, marks, question, changes, removed, carried }
     }
 
     /// The neighbours of a point, each once, in the order of its faces.
@@ -70,8 +71,9 @@ impl Collapser {
         into.clear();
         self.question += 1;
         for &face in self.fans.about(point) {
-            for other in self.corners[face as usize] {
-                if other != NONE && other != point && self.marks[other as usize] != self.question {
+            let corners = self.corners[face as usize];
+            for other in others(corners, point) {
+                if corners[0] != NONE && self.marks[other as usize] != self.question {
                     self.marks[other as usize] = self.question;
                     into.push(other);
                 }
@@ -80,46 +82,43 @@ impl Collapser {
     }
 
     /// Whether a point may fall onto a neighbour: the surface stays as connected as it is, no face turns over, and each
-    /// corner finds a wedge at the other point. `ring` are the neighbours of the point.
-    pub fn may(&mut self, from: u32, to: u32, ring: &[u32]) -> bool {
-        self.is_sound(from, to, ring) && self.keeps_sides(from, to) && self.find_changes(from, to)
+    /// corner finds a wedge at the other point.
+    pub fn may(&mut self, from: u32, to: u32) -> bool {
+        self.is_sound(from, to) && self.keeps_sides(from, to) && self.find_changes(from, to)
     }
 
     /// The link condition: the neighbours that both have are those that a face has with both.
-    fn is_sound(&mut self, from: u32, to: u32, ring: &[u32]) -> bool {
+    fn is_sound(&mut self, from: u32, to: u32) -> bool {
         self.question += 2;
         let (common, opposite) = (self.question - 1, self.question);
-        for point in ring {
-            self.marks[*point as usize] = common;
-        }
         let (mut opposites, mut stays) = (0, false);
         for &face in self.fans.about(from) {
             let corners = self.corners[face as usize];
+            if corners[0] == NONE {
+                continue;
+            }
             let with_both = corners.contains(&to);
-            stays |= corners[0] != NONE && !with_both;
-            for other in corners {
-                if with_both && other != from && other != to && self.marks[other as usize] == common {
-                    self.marks[other as usize] = opposite;
-                    opposites += 1;
-                }
+            stays |= !with_both;
+            for other in others(corners, from).into_iter().filter(|other| *other != to) {
+                let mark = &mut self.marks[other as usize];
+                opposites += u32::from(with_both && *mark != opposite);
+                *mark = if with_both { opposite } else { common.max(*mark) };
             }
         }
-        let doubled = |corners: [u32; 3]| {
-            let beside = corners.iter().filter(|p| self.marks[**p as usize] == opposite).count();
-            beside == 2
-        };
         for &face in self.fans.about(to) {
             let corners = self.corners[face as usize];
             if corners[0] == NONE || corners.contains(&from) {
                 continue;
             }
             stays = true;
-            // A neighbour of both that no face has with both would become an edge of four faces, and a face beyond
-            // two opposite points the back of another.
-            if corners.iter().any(|p| self.marks[*p as usize] == common && *p != to) {
+            let [b, c] = others(corners, to);
+            let marks = [self.marks[b as usize], self.marks[c as usize]];
+            // A neighbour of both that no face has with both would become an end of an edge of four faces, and a face
+            // beyond two opposite points the back of another.
+            if marks.contains(&common) {
                 return false;
             }
-            if opposites > 1 && doubled(corners) && self.has_face(from, to, corners) {
+            if marks == [opposite; 2] && self.has_face(from, to, corners) {
                 return false;
             }
         }
@@ -134,16 +133,14 @@ impl Collapser {
 
     /// Whether no face turns over or shrinks to a line.
     fn keeps_sides(&self, from: u32, to: u32) -> bool {
-        let place = |point: u32| self.flat.points[point as usize];
-        let target = place(to);
+        let (at, target) = (self.sites[from as usize].place, self.sites[to as usize].place);
         self.fans.about(from).iter().all(|face| {
             let corners = self.corners[*face as usize];
             if corners[0] == NONE || corners.contains(&to) {
                 return true;
             }
-            let before = corners.map(place);
-            let after = [0, 1, 2].map(|k| if corners[k] == from { target } else { before[k] });
-            keeps_side(before, after)
+            let [b, c] = others(corners, from);
+            keeps_side(at, target, [self.sites[b as usize].place, self.sites[c as usize].place])
         })
     }
 
@@ -151,55 +148,46 @@ impl Collapser {
     fn find_changes(&mut self, from: u32, to: u32) -> bool {
         self.changes.clear();
         self.removed.clear();
-        let about = self.fans.about(from);
-        let alive = |face: u32| self.corners[face as usize][0] != NONE;
-        self.removed.extend(
-            about.iter().filter(|face| alive(**face) && self.corners[**face as usize].contains(&to)),
-        );
-        for &face in about {
+        self.carried.clear();
+        for &face in self.fans.about(from) {
+            let corners = self.corners[face as usize];
+            if corners.contains(&to) {
+                self.removed.push(face);
+                let wedge = |point: u32| corners.iter().position(|p| *p == point).map_or(NONE, |k| self.flat.faces[face as usize][k]);
+                self.carried.push([wedge(from), wedge(to), self.flat.geometry[face as usize]]);
+            }
+        }
+        for &face in self.fans.about(from) {
             let corners = self.corners[face as usize];
             if corners[0] == NONE || corners.contains(&to) {
                 continue;
             }
             let Some(k) = corners.iter().position(|p| *p == from) else { continue };
             let before = self.flat.faces[face as usize][k];
-            let Some(after) = self.wedge_for(face, before, from, to) else { return false };
+            let Some(after) = self.wedge_for(face, before, to) else { return false };
             self.changes.push(Change { corner: 3 * face + k as u32, before, after });
         }
         true
     }
 
-    /// The wedge at `to` that carries on the wedge of a face at `from`: that of a face with both whose wedge at `from` is
-    /// the same, or like it; else one of `to` that is like it.
-    fn wedge_for(&self, face: u32, wedge: u32, from: u32, to: u32) -> Option<u32> {
-        let wedge_at = |face: u32, point: u32| {
-            let k = self.corners[face as usize].iter().position(|p| *p == point)?;
-            Some(self.flat.faces[face as usize][k])
-        };
-        let own = |other: &&u32| self.geometry[**other as usize] == self.geometry[face as usize];
-        let mut best: Option<(f32, u32)> = None;
-        for &other in self.removed.iter().filter(own) {
-            let (Some(at_from), Some(at_to)) = (wedge_at(other, from), wedge_at(other, to)) else { continue };
-            if at_from == wedge {
-                return Some(at_to);
-            }
-            let likeness = self.likeness(wedge, at_from);
-            if likeness >= 0.0 && best.is_none_or(|best| likeness > best.0) {
-                best = Some((likeness, at_to));
-            }
+    /// The wedge at `to` that carries on the wedge of a face: that of a face which goes and whose wedge was the same, or
+    /// like it; else one of `to` that is like it.
+    fn wedge_for(&self, face: u32, wedge: u32, to: u32) -> Option<u32> {
+        let geometry = self.flat.geometry[face as usize];
+        let carried = self.carried.iter().filter(|[.., own]| *own == geometry);
+        if let Some([_, at_to, _]) = carried.clone().find(|[at_from, ..]| *at_from == wedge) {
+            return Some(*at_to);
         }
-        if let Some((_, wedge)) = best {
+        let like = carried.map(|[at_from, at_to, _]| (self.likeness(wedge, *at_from), *at_to));
+        if let Some((_, wedge)) = most_alike(like.filter(|(likeness, _)| *likeness >= 0.0)) {
             return Some(wedge);
         }
-        let mut best: Option<(f32, u32)> = None;
-        for &other in self.fans.about(to).iter().filter(own) {
-            let Some(at_to) = wedge_at(other, to) else { continue };
-            let likeness = self.likeness(wedge, at_to);
-            if best.is_none_or(|best| likeness > best.0) {
-                best = Some((likeness, at_to));
-            }
-        }
-        best.map(|best| best.1)
+        let own = self.fans.about(to).iter().filter(|other| self.flat.geometry[**other as usize] == geometry);
+        let wedges = own.filter_map(|other| {
+            let k = self.corners[*other as usize].iter().position(|point| *point == to)?;
+            Some(self.flat.faces[*other as usize][k])
+        });
+        most_alike(wedges.map(|other| (self.likeness(wedge, other), other))).map(|(_, wedge)| wedge)
     }
 
     /// How alike two wedges are: by their normals, 0 to 2, and below 0 if what must not change along an edge differs.
@@ -210,8 +198,17 @@ impl Collapser {
         (1.0 + ax * bx + ay * by + az * bz).max(0.0) - if same { 0.0 } else { 4.0 }
     }
 
+    /// Lets a point fall onto a neighbour again, as a file says; false if they are no neighbours.
+    pub fn replay(&mut self, from: u32, to: u32) -> bool {
+        let fits = self.find_changes(from, to) && !self.removed.is_empty();
+        if fits {
+            self.collapse(from, to);
+        }
+        fits
+    }
+
     /// Lets a point fall onto its neighbour, as [`Self::may`] has found it just now.
-    pub fn collapse(&mut self, from: u32, to: u32, neighbour: u32) {
+    pub fn collapse(&mut self, from: u32, to: u32) {
         for change in &self.changes {
             let (face, k) = ((change.corner / 3) as usize, (change.corner % 3) as usize);
             self.flat.faces[face][k] = change.after;
@@ -226,10 +223,13 @@ impl Collapser {
         let quadric = self.sites[from as usize].quadric;
         self.sites[to as usize].quadric.add(&quadric);
         self.mend_lines(from, to);
-        self.record.changes.append(&mut self.changes);
-        self.record.removed.append(&mut self.removed);
+        let in_file = &self.flat.in_file;
+        let corner = |corner: u32| 3 * in_file[(corner / 3) as usize] + corner % 3;
+        let changes = self.changes.iter().map(|change| Change { corner: corner(change.corner), ..*change });
+        self.record.changes.extend(changes);
+        self.record.removed.extend(self.removed.iter().map(|face| in_file[*face as usize]));
         let (changes_end, removed_end) = (self.record.changes.len() as u32, self.record.removed.len() as u32);
-        self.record.steps.push(Step { from, neighbour, changes_end, removed_end });
+        self.record.steps.push(Step { from, to, changes_end, removed_end });
     }
 
     /// Lines that went through a point go on from the point that it fell onto.
@@ -242,8 +242,9 @@ impl Collapser {
                 self.relink(to, from, beyond);
                 self.relink(beyond, from, to);
             }
-            Kind::Corner => {
-                self.sites[to as usize].kind = Kind::Corner;
+            Kind::Knot | Kind::Corner => {
+                let target = &mut self.sites[to as usize].kind;
+                *target = if *target == Kind::Corner { Kind::Corner } else { kind };
                 for at in 0..self.fans.about(to).len() {
                     for point in self.corners[self.fans.about(to)[at] as usize] {
                         self.relink(point, from, to);
@@ -259,18 +260,34 @@ impl Collapser {
         }
     }
 
-    /// The removed faces of the last collapse.
-    pub fn last_removed(&self) -> &[u32] {
-        self.record.steps.len().checked_sub(1).map_or(&[], |last| self.record.of_step(last).1)
+    /// The faces that the last collapse removed, or that the next would.
+    pub fn removed(&self) -> &[u32] {
+        &self.removed
     }
 }
 
-/// Whether a face looks to the same side after a corner has moved, and has an area worth the name if it had one.
-fn keeps_side(before: [DVec3; 3], after: [DVec3; 3]) -> bool {
-    let (old, new) = (doubled_area(before), doubled_area(after));
+/// The first of those that are most alike.
+fn most_alike(choices: impl Iterator<Item = (f32, u32)>) -> Option<(f32, u32)> {
+    choices.reduce(|best, other| if other.0 > best.0 { other } else { best })
+}
+
+/// The corners of a face after one of them, in their order.
+#[inline]
+pub(super) fn others([a, b, c]: [u32; 3], point: u32) -> [u32; 2] {
+    match point {
+        _ if a == point => [b, c],
+        _ if b == point => [c, a],
+        _ => [a, b],
+    }
+}
+
+/// Whether a face looks to the same side after its first corner has moved, and has an area worth the name if it had one.
+#[inline]
+fn keeps_side(before: DVec3, after: DVec3, [b, c]: [DVec3; 2]) -> bool {
+    let side = c - b;
+    let (old, new) = ((b - before).cross(side), (b - after).cross(side));
     let (old_squared, new_squared) = (old.length_squared(), new.length_squared());
-    let [a, b, c] = after;
-    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    let longest = side.length_squared().max((b - after).length_squared()).max((c - after).length_squared());
     if new_squared <= NEEDLE * NEEDLE * longest * longest {
         return old_squared <= new_squared;
     }

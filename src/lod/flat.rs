@@ -3,11 +3,13 @@
 use std::ops::Range;
 
 use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
 
 use super::weld::Weld;
 use crate::math::function::cbrt;
 use crate::math::noise::hash;
 use crate::mesh::EdgeMark;
+use crate::mesh::space_curve::{CELLS, along_curve};
 use crate::scene::{Geometry, Material, Scene};
 
 /// No vertex, no normal, no texture coordinates, no point.
@@ -42,11 +44,15 @@ pub(super) struct Flat {
     pub normals: Vec<[f32; 3]>,
     /// The wedges of each face; those of no face that is drawn are [`NONE`].
     pub faces: Vec<[u32; 3]>,
+    /// The number of each face in the file: those of all geometries, one after another.
+    pub in_file: Vec<u32>,
+    /// The geometry of each face.
+    pub geometry: Vec<u32>,
     /// The material of each face, [`NONE`] for none.
     pub material: Vec<u32>,
     /// Whether the sides 0-1, 1-2, 2-0 of each face are marked as lines, or empty.
     pub marked: Vec<[bool; 3]>,
-    /// The faces of each geometry.
+    /// The faces of each geometry in the file.
     pub ranges: Vec<Range<usize>>,
     /// How much an error of each geometry counts: by how large its instances are, for each of them.
     pub weights: Vec<f64>,
@@ -82,6 +88,7 @@ impl Flat {
             let own = geometry.material.unwrap_or(NONE);
             flat.material.extend(geometry.triangle_material.iter().take(count - first));
             flat.material.resize(count, own);
+            flat.geometry.resize(count, number as u32);
             if !geometry.edge_marks.is_empty() {
                 flat.marked.resize(first, [false; 3]);
                 let is_line = |mark: EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Contour);
@@ -98,6 +105,7 @@ impl Flat {
             flat.ranges.push(first..count);
         }
         flat.points = weld.into_points();
+        flat.put_in_order();
         flat
     }
 
@@ -132,16 +140,37 @@ impl Flat {
         }
     }
 
+    /// Numbers points along a curve that fills space, and puts faces in the order of their points, so that neighbours lie
+    /// near each other in memory.
+    fn put_in_order(&mut self) {
+        let along = |place: DVec3| along_curve(place, 1.0 / CELLS);
+        let codes = self.points.par_iter().enumerate().map(|(point, place)| (along(*place), point as u32));
+        let mut order: Vec<(u64, u32)> = codes.collect();
+        order.par_sort_unstable();
+        let mut numbers = vec![NONE; order.len()];
+        for (number, (_, point)) in order.iter().enumerate() {
+            numbers[*point as usize] = number as u32;
+        }
+        self.points = order.iter().map(|(_, point)| self.points[*point as usize]).collect();
+        self.point_of.iter_mut().for_each(|point| *point = numbers[*point as usize]);
+
+        let first = |corners: &[u32; 3]| corners.iter().copied().min().unwrap_or(NONE);
+        let keys = self.corners().into_par_iter().enumerate();
+        let keys = keys.map(|(face, corners)| u64::from(first(&corners)) << 32 | face as u64);
+        let mut keys: Vec<u64> = keys.collect();
+        keys.par_sort_unstable();
+        self.in_file = keys.iter().map(|key| *key as u32).collect();
+        let order = &self.in_file;
+        self.faces = in_order(&self.faces, order);
+        self.material = in_order(&self.material, order);
+        self.geometry = in_order(&self.geometry, order);
+        self.marked = in_order(&self.marked, order);
+    }
+
     /// The points of the corners of each face; [`NONE`] for faces that are not drawn.
     pub fn corners(&self) -> Vec<[u32; 3]> {
         let point = |wedge: u32| self.point_of.get(wedge as usize).copied().unwrap_or(NONE);
         self.faces.iter().map(|wedges| wedges.map(point)).collect()
-    }
-
-    /// The geometry of each face.
-    pub fn geometry_of(&self) -> Vec<u32> {
-        let runs = self.ranges.iter().enumerate();
-        runs.flat_map(|(geometry, range)| std::iter::repeat_n(geometry as u32, range.len())).collect()
     }
 }
 
@@ -199,6 +228,10 @@ impl Frame {
     fn place(&self, point: DVec3) -> DVec3 {
         (point - self.middle) * self.scale
     }
+}
+
+fn in_order<T: Copy>(values: &[T], order: &[u32]) -> Vec<T> {
+    if values.is_empty() { Vec::new() } else { order.iter().map(|which| values[*which as usize]).collect() }
 }
 
 /// A number for all that must not change along an edge.

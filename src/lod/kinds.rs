@@ -26,7 +26,9 @@ pub(super) enum Kind {
     Plain,
     /// Along a border or a seam, to the next point on it.
     Line,
-    /// Nowhere, as long as others can go: borders or seams meet or end here.
+    /// Along any of the borders and seams that meet or end here, or to where others do.
+    Knot,
+    /// Nowhere, as long as others can go: texture coordinates, colours or materials meet, and one would cover another.
     Corner,
 }
 
@@ -37,6 +39,8 @@ pub(super) struct Site {
     /// The next points on its line.
     pub along: [u32; 2],
     pub quadric: Quadric,
+    /// Where it is.
+    pub place: DVec3,
 }
 
 /// An edge at a point, as one face has it.
@@ -52,28 +56,21 @@ struct Side {
 
 /// What is known at first of each point.
 pub(super) fn sites(flat: &Flat, corners: &[[u32; 3]], fans: &Fans) -> Vec<Site> {
-    let geometry = flat.geometry_of();
-    let of = |sides: &mut Vec<Side>, point: usize| site(flat, corners, fans, &geometry, sides, point as u32);
+    let of = |sides: &mut Vec<Side>, point: usize| site(flat, corners, fans, sides, point as u32);
     (0..fans.len()).into_par_iter().with_min_len(1024).map_init(Vec::new, of).collect()
 }
 
-fn site(
-    flat: &Flat,
-    corners: &[[u32; 3]],
-    fans: &Fans,
-    geometry: &[u32],
-    sides: &mut Vec<Side>,
-    point: u32,
-) -> Site {
+fn site(flat: &Flat, corners: &[[u32; 3]], fans: &Fans, sides: &mut Vec<Side>, point: u32) -> Site {
     let place = |point: u32| flat.points[point as usize];
-    let mut site = Site { kind: Kind::Plain, along: [NONE; 2], quadric: Quadric::default() };
+    let mut site =
+        Site { kind: Kind::Plain, along: [NONE; 2], quadric: Quadric::default(), place: place(point) };
     let mut weight = 0.0;
     sides.clear();
     for &face in fans.about(point) {
         let f = face as usize;
         let places = corners[f].map(place);
         let normal = doubled_area(places);
-        weight = flat.weights[geometry[f] as usize];
+        weight = flat.weights[flat.geometry[f] as usize];
         if let Some(unit) = normal.try_normalize() {
             site.quadric.add(&Quadric::of_plane(unit, places[0], 0.5 * normal.length()));
         }
@@ -110,10 +107,17 @@ fn site(
     site.kind = match lines {
         0 => Kind::Plain,
         2 => Kind::Line,
+        _ if sides.iter().all(|side| is_like(side, &sides[0])) => Kind::Knot,
         _ => Kind::Corner,
     };
     site.quadric = site.quadric.scaled(weight);
     site
+}
+
+/// Whether two faces at a point have there all that must not change along an edge in common.
+fn is_like(one: &Side, other: &Side) -> bool {
+    let [class, _, material] = one.signature;
+    class == other.signature[0] && material == other.signature[2]
 }
 
 /// How strongly an edge is held, if it must stay: a border, where surfaces meet, a seam. Two faces at the same place

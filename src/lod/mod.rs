@@ -16,6 +16,7 @@
 
 mod collapse;
 mod fans;
+mod file;
 mod flat;
 mod heap;
 mod kinds;
@@ -27,6 +28,9 @@ mod weld;
 
 pub use levels::Levels;
 
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
 use crate::scene::Scene;
 use flat::Flat;
 use levels::shown;
@@ -51,6 +55,26 @@ impl Detail {
     pub fn down_to(scene: &Scene, faces: u64) -> Self {
         let budget = Budget { shown: &shown(scene), most: faces };
         Self { record: collapses(Flat::of(scene), &budget) }
+    }
+
+    /// The bytes of a file that [`Self::read`] reads faster than they were found. `scene` is the one they were found for.
+    #[must_use]
+    pub fn to_bytes(&self, scene: &Scene) -> Vec<u8> {
+        file::written(&self.record, scene)
+    }
+
+    /// The collapses of a scene from the bytes of a file.
+    ///
+    /// # Errors
+    /// If the bytes are no such file, are damaged, or are of another scene.
+    pub fn read(bytes: &[u8], scene: &Scene) -> Result<Self, Error> {
+        Ok(Self { record: file::read(bytes, scene)? })
+    }
+
+    /// Where such a file is looked for: beside the model, with its name and the ending `.ligne-lod`.
+    #[must_use]
+    pub fn beside(model: &Path) -> PathBuf {
+        model.with_extension("ligne-lod")
     }
 
     /// The scene in full, to go from there to any level.

@@ -1,6 +1,6 @@
 //! The order of collapses: at each moment the one that adds least error.
 
-use super::collapse::Collapser;
+use super::collapse::{Collapser, others};
 use super::flat::{Flat, NONE};
 use super::heap::Heap;
 use super::kinds::Kind;
@@ -46,20 +46,17 @@ struct Queue<'a> {
     budget: &'a Budget<'a>,
     /// How many faces there are now, instances counted.
     faces: u64,
-    /// How often each face is shown.
-    geometry: Vec<u32>,
     ring: Vec<u32>,
-    choices: Vec<(f64, u32, u32)>,
+    choices: Vec<(f64, u32)>,
 }
 
 impl<'a> Queue<'a> {
     fn new(surface: Collapser, budget: &'a Budget<'a>) -> Self {
-        let geometry = surface.flat.geometry_of();
-        let shown = |face: usize| budget.shown.get(geometry[face] as usize).copied().unwrap_or(0);
+        let shown = |face: usize| budget.shown.get(surface.flat.geometry[face] as usize).copied().unwrap_or(0);
         let alive = surface.corners.iter().enumerate().filter(|(_, corners)| corners[0] != NONE);
         let faces = alive.map(|(face, _)| shown(face)).sum();
         let (heap, targets) = (Heap::new(&[]), vec![NONE; surface.fans.len()]);
-        Self { surface, heap, targets, budget, faces, geometry, ring: Vec::new(), choices: Vec::new() }
+        Self { surface, heap, targets, budget, faces, ring: Vec::new(), choices: Vec::new() }
     }
 
     /// Lets all points wait that may go anywhere.
@@ -75,70 +72,83 @@ impl<'a> Queue<'a> {
     fn run(&mut self) {
         while self.faces > self.budget.most {
             let Some((cost, point)) = self.heap.pop() else { return };
-            self.targets[point as usize] = NONE;
-            let Some((next, target, neighbour)) = self.first_sound(point) else { continue };
-            if next > cost {
-                self.targets[point as usize] = target;
-                self.heap.set(point, next);
+            let target = std::mem::replace(&mut self.targets[point as usize], NONE);
+            if !self.surface.may(point, target) {
+                self.wait_for_next(point, (cost, target));
                 continue;
             }
-            self.surface.collapse(point, target, neighbour);
-            for face in self.surface.last_removed() {
-                let geometry = self.geometry[*face as usize] as usize;
+            self.surface.collapse(point, target);
+            for face in self.surface.removed() {
+                let geometry = self.surface.flat.geometry[*face as usize] as usize;
                 self.faces -= self.budget.shown.get(geometry).copied().unwrap_or(0);
             }
             self.renew(point, target);
         }
     }
 
-    /// What it costs if a point falls onto another.
+    /// What it costs if a point falls onto another: how much farther from all planes that ever were about it it comes to lie.
+    #[inline]
     fn cost(&self, from: u32, to: u32) -> f64 {
-        let place = |point: u32| self.surface.flat.points[point as usize];
         let site = &self.surface.sites[from as usize];
-        let (at, target) = (place(from), place(to));
-        let long = at.distance_squared(target);
+        let target = self.surface.sites[to as usize].place;
+        let long = site.place.distance_squared(target);
         let extra = if site.kind == Kind::Corner { CORNER_COST } else { 0.0 };
-        site.quadric.at(target) + LENGTH_COST * long * long + extra
+        site.quadric.at(target) - site.quadric.at(site.place) + LENGTH_COST * long * long + extra
     }
 
-    /// Whether a point of one kind may fall onto one that is no point of its line.
+    /// Whether a point that has lines through it may fall onto another.
     fn allows(&self, from: u32, to: u32) -> bool {
         let site = &self.surface.sites[from as usize];
         match site.kind {
             Kind::Plain => true,
             Kind::Line => site.along.contains(&to),
-            Kind::Corner => self.surface.sites[to as usize].kind != Kind::Plain,
+            Kind::Knot | Kind::Corner => self.surface.sites[to as usize].kind != Kind::Plain,
         }
     }
 
     /// Where a point falls at the least cost, without a look at whether it may.
     fn best(&self, point: u32) -> Option<(f64, u32)> {
-        let mut best: Option<(f64, u32)> = None;
+        let mut best = (f64::INFINITY, NONE);
+        let mut ask = |other: u32| {
+            let choice = (self.cost(point, other), other);
+            if choice < best {
+                best = choice;
+            }
+        };
+        let is_plain = self.surface.sites[point as usize].kind == Kind::Plain;
         for face in self.surface.fans.about(point) {
-            for other in self.surface.corners[*face as usize] {
-                if other != NONE && other != point && self.allows(point, other) {
-                    let cost = self.cost(point, other);
-                    if best.is_none_or(|best| (cost, other) < best) {
-                        best = Some((cost, other));
-                    }
-                }
+            let corners = self.surface.corners[*face as usize];
+            if corners[0] == NONE {
+                continue;
+            }
+            let [next, last] = others(corners, point);
+            if is_plain {
+                // In the middle of a surface each neighbour comes next in one face.
+                ask(next);
+            } else {
+                [next, last].into_iter().filter(|other| self.allows(point, *other)).for_each(&mut ask);
             }
         }
-        best
+        (best.1 != NONE).then_some(best)
     }
 
-    /// Where a point falls at the least cost of where it may: the cost, the target, and which neighbour that is.
-    fn first_sound(&mut self, point: u32) -> Option<(f64, u32, u32)> {
-        let (mut ring, mut choices) = (std::mem::take(&mut self.ring), std::mem::take(&mut self.choices));
+    /// Lets a point that may not fall where it would wait for the next best place of all.
+    fn wait_for_next(&mut self, point: u32, refused: (f64, u32)) {
+        let mut ring = std::mem::take(&mut self.ring);
         self.surface.neighbours(point, &mut ring);
-        choices.clear();
-        for (number, other) in ring.iter().enumerate().filter(|(_, other)| self.allows(point, **other)) {
-            choices.push((self.cost(point, *other), *other, number as u32));
+        self.choices.clear();
+        for other in &ring {
+            if *other != refused.1 && self.allows(point, *other) {
+                self.choices.push((self.cost(point, *other), *other));
+            }
         }
-        choices.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let found = choices.iter().find(|choice| self.surface.may(point, choice.1, &ring)).copied();
-        (self.ring, self.choices) = (ring, choices);
-        found
+        self.choices.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let (surface, choices) = (&mut self.surface, &self.choices);
+        if let Some((cost, target)) = choices.iter().find(|choice| surface.may(point, choice.1)).copied() {
+            self.targets[point as usize] = target;
+            self.heap.set(point, cost);
+        }
+        self.ring = ring;
     }
 
     /// Lets the points wait anew about which a collapse has changed what they may do or what it costs.

@@ -15,6 +15,7 @@ pub(super) struct Quadric {
 
 impl Quadric {
     /// The squared distance from the plane through a point with a unit normal, so many times.
+    #[inline]
     pub fn of_plane(normal: DVec3, through: DVec3, weight: f64) -> Self {
         let distance = -normal.dot(through);
         let scaled = normal * weight;
@@ -27,8 +28,11 @@ impl Quadric {
     }
 
     /// Adds another's planes.
+    #[inline]
     pub fn add(&mut self, other: &Self) {
-        self.a.iter_mut().zip(other.a).for_each(|(own, other)| *own += other);
+        for (own, other) in self.a.iter_mut().zip(other.a) {
+            *own += other;
+        }
         self.b += other.b;
         self.c += other.c;
     }

@@ -7,9 +7,10 @@ use super::flat::Wedge;
 /// One collapse: a point falls onto a neighbour. The first may be none, but the faces without area going.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Step {
-    /// Which of the neighbours of the point it falls onto, for the file.
+    /// The point that falls.
     pub from: u32,
-    pub neighbour: u32,
+    /// The neighbour that it falls onto.
+    pub to: u32,
     /// Where its changes and its removed faces end in the lists of all.
     pub changes_end: u32,
     pub removed_end: u32,
