@@ -73,7 +73,9 @@ pub(super) fn detail(model: &Path, scene: &mut Scene, faces: u64) -> Detail {
     if let Ok(bytes) = std::fs::read(&beside) {
         match Detail::read(&bytes, scene) {
             Ok(detail) => return detail,
-            Err(error) => scene.warnings.note(format!("{} is left aside: {}", beside.display(), error.message)),
+            Err(error) => {
+                scene.warnings.note(format!("{} is left aside: {}", beside.display(), error.message))
+            }
         }
     }
     Detail::down_to(scene, faces)

@@ -127,7 +127,8 @@ impl Collapser {
 
     /// Whether a point has a face with the two corners that are not `apex` of another face.
     fn has_face(&self, point: u32, apex: u32, [a, b, c]: [u32; 3]) -> bool {
-        let has = |face: &&u32| [a, b, c].iter().all(|p| *p == apex || self.corners[**face as usize].contains(p));
+        let has =
+            |face: &&u32| [a, b, c].iter().all(|p| *p == apex || self.corners[**face as usize].contains(p));
         self.fans.about(point).iter().find(has).is_some()
     }
 
@@ -153,7 +154,12 @@ impl Collapser {
             let corners = self.corners[face as usize];
             if corners.contains(&to) {
                 self.removed.push(face);
-                let wedge = |point: u32| corners.iter().position(|p| *p == point).map_or(NONE, |k| self.flat.faces[face as usize][k]);
+                let wedge = |point: u32| {
+                    corners
+                        .iter()
+                        .position(|p| *p == point)
+                        .map_or(NONE, |k| self.flat.faces[face as usize][k])
+                };
                 self.carried.push([wedge(from), wedge(to), self.flat.geometry[face as usize]]);
             }
         }

@@ -119,7 +119,9 @@ fn sum_of(flat: &Flat) -> u64 {
     });
     sum.add_triples(&flat.faces);
     sum.add_all(flat.wedges.iter(), |wedge| {
-        u64::from(wedge.vertex) ^ u64::from(wedge.normal).rotate_left(21) ^ u64::from(wedge.uv).rotate_left(42)
+        u64::from(wedge.vertex)
+            ^ u64::from(wedge.normal).rotate_left(21)
+            ^ u64::from(wedge.uv).rotate_left(42)
     });
     sum.add_all(flat.class.iter(), |class| u64::from(*class));
     sum.add_all(flat.normals.as_flattened().iter(), |part| u64::from(part.to_bits()));

@@ -5,9 +5,10 @@ use std::ops::Range;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-use super::weld::Weld;
+use super::weld::{Weld, joined};
 use crate::math::function::cbrt;
 use crate::math::noise::hash;
+use crate::math::tolerance::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
 use crate::mesh::EdgeMark;
 use crate::mesh::space_curve::{CELLS, along_curve};
 use crate::scene::{Geometry, Material, Scene};
@@ -28,7 +29,7 @@ pub(super) struct Wedge {
 
 /// The triangles of a scene that are drawn, each geometry once.
 ///
-/// Points are what lies at exactly one place; the wedges at a point differ in vertex, normal or texture
+/// Points are what lies at one place; the wedges at a point differ in vertex, normal or texture
 /// coordinates. Geometries that are shown once are welded with each other, where they stand.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Flat {
@@ -66,7 +67,7 @@ impl Flat {
         let textured = scene.materials.iter().any(is_textured);
         let vertices = scene.geometries.iter().map(|geometry| geometry.positions.len()).sum();
         let mut weld = Weld::with_room(vertices);
-        let mut flat = Self::default();
+        let (mut flat, mut reaches) = (Self::default(), Vec::new());
         let has_normals = scene.geometries.iter().any(|geometry| !geometry.corner_normals.is_empty());
         for (number, (geometry, shown)) in scene.geometries.iter().zip(&shown).enumerate() {
             let first = flat.faces.len();
@@ -74,8 +75,12 @@ impl Flat {
                 Some(shown) => {
                     // Copies lie elsewhere than the first does: what touches it does not touch them.
                     let group = if shown.count == 1 { 0 } else { number as u32 + 1 };
-                    let places = geometry.positions.iter().map(|p| frame.place(shown.place.transform_point3(*p)));
+                    let places =
+                        geometry.positions.iter().map(|p| frame.place(shown.place.transform_point3(*p)));
                     let points: Vec<u32> = places.map(|place| weld.point(group, place)).collect();
+                    let reach = reach(geometry) * cbrt(shown.place.matrix3.determinant().abs()) * frame.scale;
+                    reaches.resize(weld.len(), 0.0);
+                    points.iter().for_each(|point| reaches[*point as usize] = reach);
                     flat.append(number, geometry, &points, textured);
                     flat.weights.push(shown.weight);
                 }
@@ -92,19 +97,25 @@ impl Flat {
             if !geometry.edge_marks.is_empty() {
                 flat.marked.resize(first, [false; 3]);
                 let is_line = |mark: EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Contour);
-                flat.marked.extend(geometry.edge_marks.iter().take(count - first).map(|marks| marks.map(is_line)));
+                flat.marked
+                    .extend(geometry.edge_marks.iter().take(count - first).map(|marks| marks.map(is_line)));
             }
             if !flat.marked.is_empty() {
                 flat.marked.resize(count, [false; 3]);
             }
             if has_normals {
                 let from = flat.normals.len();
-                let of = |wedge: &Wedge| geometry.normals.get(wedge.normal as usize).copied().map_or([0.0; 3], unit);
+                let of = |wedge: &Wedge| {
+                    geometry.normals.get(wedge.normal as usize).copied().map_or([0.0; 3], unit)
+                };
                 flat.normals.extend(flat.wedges[from..].iter().map(of));
             }
             flat.ranges.push(first..count);
         }
         flat.points = weld.into_points();
+        if let Some(joined) = joined(&flat.points, &flat.corners(), &reaches) {
+            flat.point_of.iter_mut().for_each(|point| *point = joined[*point as usize]);
+        }
         flat.put_in_order();
         flat
     }
@@ -199,6 +210,18 @@ fn shown(scene: &Scene) -> Vec<Option<Shown>> {
         shown.weight /= shown.count as f64;
     }
     all
+}
+
+/// Within which distance the vertices of a geometry are one where they lie on open edges.
+fn reach(geometry: &Geometry) -> f64 {
+    let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for point in &geometry.positions {
+        (least, greatest) = (least.min(*point), greatest.max(*point));
+    }
+    let largest = least.abs().max(greatest.abs()).max_element();
+    let written = if geometry.single_precision { WELD_OF_F32_COORDINATE * largest } else { 0.0 };
+    let reach = (WELD_OF_PART * least.distance(greatest)).max(written);
+    if reach.is_finite() { reach } else { 0.0 }
 }
 
 /// A frame in which the scene is about as large as 1.

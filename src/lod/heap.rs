@@ -24,8 +24,11 @@ fn before(a: (f64, u32), b: (f64, u32)) -> bool {
 impl Heap {
     /// All points from 0 that have a cost.
     pub fn new(costs: &[Option<f64>]) -> Self {
-        let nodes: Vec<(f64, u32)> =
-            costs.iter().enumerate().filter_map(|(point, cost)| cost.map(|cost| (cost, point as u32))).collect();
+        let nodes: Vec<(f64, u32)> = costs
+            .iter()
+            .enumerate()
+            .filter_map(|(point, cost)| cost.map(|cost| (cost, point as u32)))
+            .collect();
         let mut heap = Self { nodes, places: vec![OUT; costs.len()] };
         for (place, &(_, point)) in heap.nodes.iter().enumerate() {
             heap.places[point as usize] = place as u32;

@@ -26,7 +26,7 @@ pub(super) enum Kind {
     Plain,
     /// Along a border or a seam, to the next point on it.
     Line,
-    /// Along any of the borders and seams that meet or end here, or to where others do.
+    /// To any neighbour, though borders meet here, or more than two faces at an edge: those are held by planes alone.
     Knot,
     /// Nowhere, as long as others can go: texture coordinates, colours or materials meet, and one would cover another.
     Corner,
@@ -80,7 +80,13 @@ fn site(flat: &Flat, corners: &[[u32; 3]], fans: &Fans, sides: &mut Vec<Side>, p
         let marks = flat.marked.get(f).copied().unwrap_or_default();
         for (end, opposite, marked) in [(next, last, marks[k]), (last, next, marks[last])] {
             let signature = [class(k), class(end), flat.material[f]];
-            sides.push(Side { other: corners[f][end], opposite: corners[f][opposite], face, signature, marked });
+            sides.push(Side {
+                other: corners[f][end],
+                opposite: corners[f][opposite],
+                face,
+                signature,
+                marked,
+            });
         }
     }
     sides.sort_unstable_by_key(|side| (side.other, side.opposite, side.signature, side.face));
@@ -124,8 +130,11 @@ fn is_like(one: &Side, other: &Side) -> bool {
 /// count as one: what matters is that the surface goes on to two sides.
 fn strength(edge: &[Side]) -> Option<f64> {
     let (one, other) = edge.split_at(edge.partition_point(|side| side.opposite == edge[0].opposite));
-    if other.is_empty() || other.iter().any(|side| side.opposite != other[0].opposite) {
+    if other.is_empty() {
         return Some(BORDER_WEIGHT);
+    }
+    if other.iter().any(|side| side.opposite != other[0].opposite) {
+        return Some(SEAM_WEIGHT);
     }
     let same = one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.signature == b.signature);
     (!same || edge.iter().any(|side| side.marked)).then_some(SEAM_WEIGHT)

@@ -58,7 +58,8 @@ impl<'a> Levels<'a> {
     pub fn seek(&mut self, scene: &Scene, most: u64) -> Result<u64, Error> {
         self.check(scene)?;
         let shown = shown(scene);
-        let count = |levels: &Self| -> u64 { levels.left.iter().zip(&shown).map(|(left, shown)| left * shown).sum() };
+        let count =
+            |levels: &Self| -> u64 { levels.left.iter().zip(&shown).map(|(left, shown)| left * shown).sum() };
         let mut faces = count(self);
         let saved = |levels: &Self, step: usize| -> u64 {
             let (_, removed) = levels.record.of_step(step);
@@ -119,12 +120,14 @@ impl<'a> Levels<'a> {
             ..Geometry::default()
         };
         if !from.corner_normals.is_empty() {
-            geometry.corner_normals = kept.iter().map(|face| wedges(face).map(|wedge| wedge.normal)).collect();
+            geometry.corner_normals =
+                kept.iter().map(|face| wedges(face).map(|wedge| wedge.normal)).collect();
         }
         if !from.corner_uvs.is_empty() {
             geometry.corner_uvs = kept.iter().map(|face| wedges(face).map(|wedge| wedge.uv)).collect();
         }
-        let corners = geometry.triangles.as_flattened_mut().iter_mut().chain(geometry.wires.as_flattened_mut());
+        let corners =
+            geometry.triangles.as_flattened_mut().iter_mut().chain(geometry.wires.as_flattened_mut());
         let vertices = packed(from.positions.len(), corners);
         geometry.positions = picked(&from.positions, vertices.iter().copied());
         geometry.colours = picked(&from.colours, vertices.iter().copied());
@@ -171,7 +174,8 @@ impl<'a> Levels<'a> {
         if counts.eq(self.record.ranges.iter().map(ExactSizeIterator::len)) {
             return Ok(());
         }
-        Err(Error::new("these levels of detail are of another scene").remedy("give a pose of the scene they were made for"))
+        Err(Error::new("these levels of detail are of another scene")
+            .remedy("give a pose of the scene they were made for"))
     }
 }
 
@@ -185,7 +189,11 @@ pub(super) fn shown(scene: &Scene) -> Vec<u64> {
 }
 
 fn picked<T: Copy>(values: &[T], which: impl Iterator<Item = usize>) -> Vec<T> {
-    if values.is_empty() { Vec::new() } else { which.filter_map(|which| values.get(which).copied()).collect() }
+    if values.is_empty() {
+        Vec::new()
+    } else {
+        which.filter_map(|which| values.get(which).copied()).collect()
+    }
 }
 
 /// Numbers anew, in their order, what is pointed to of `count` things; returns which these are.

@@ -1,5 +1,7 @@
 //! The order of collapses: at each moment the one that adds least error.
 
+use rayon::prelude::*;
+
 use super::collapse::{Collapser, others};
 use super::flat::{Flat, NONE};
 use super::heap::Heap;
@@ -52,7 +54,8 @@ struct Queue<'a> {
 
 impl<'a> Queue<'a> {
     fn new(surface: Collapser, budget: &'a Budget<'a>) -> Self {
-        let shown = |face: usize| budget.shown.get(surface.flat.geometry[face] as usize).copied().unwrap_or(0);
+        let shown =
+            |face: usize| budget.shown.get(surface.flat.geometry[face] as usize).copied().unwrap_or(0);
         let alive = surface.corners.iter().enumerate().filter(|(_, corners)| corners[0] != NONE);
         let faces = alive.map(|(face, _)| shown(face)).sum();
         let (heap, targets) = (Heap::new(&[]), vec![NONE; surface.fans.len()]);
@@ -62,7 +65,7 @@ impl<'a> Queue<'a> {
     /// Lets all points wait that may go anywhere.
     fn start(&mut self) {
         let best: Vec<Option<(f64, u32)>> =
-            (0..self.targets.len() as u32).map(|point| self.best(point)).collect();
+            (0..self.targets.len() as u32).into_par_iter().map(|point| self.best(point)).collect();
         for (target, best) in self.targets.iter_mut().zip(&best) {
             *target = best.map_or(NONE, |best| best.1);
         }
@@ -102,7 +105,8 @@ impl<'a> Queue<'a> {
         match site.kind {
             Kind::Plain => true,
             Kind::Line => site.along.contains(&to),
-            Kind::Knot | Kind::Corner => self.surface.sites[to as usize].kind != Kind::Plain,
+            Kind::Knot => true,
+            Kind::Corner => self.surface.sites[to as usize].kind != Kind::Plain,
         }
     }
 

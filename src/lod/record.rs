@@ -45,6 +45,9 @@ impl Record {
         let before = step.checked_sub(1).map(|before| self.steps[before]);
         let (changes, removed) = before.map_or((0, 0), |step| (step.changes_end, step.removed_end));
         let Step { changes_end, removed_end, .. } = self.steps[step];
-        (&self.changes[changes as usize..changes_end as usize], &self.removed[removed as usize..removed_end as usize])
+        (
+            &self.changes[changes as usize..changes_end as usize],
+            &self.removed[removed as usize..removed_end as usize],
+        )
     }
 }
