@@ -113,16 +113,28 @@ impl Collapser {
             stays = true;
             let [b, c] = others(corners, to);
             let marks = [self.marks[b as usize], self.marks[c as usize]];
-            // A neighbour of both that no face has with both would become an end of an edge of four faces, and a face
-            // beyond two opposite points the back of another.
-            if marks.contains(&common) {
+            // A neighbour of both that no face has with both would become an end of an edge of four faces, unless the
+            // three go round a hole, which closes.
+            let mut ends = [b, c].into_iter().zip(marks).filter(|(_, mark)| *mark == common);
+            if ends.any(|(end, _)| !self.is_hole([from, to, end])) {
                 return false;
             }
-            if marks == [opposite; 2] && self.has_face(from, to, corners) {
+            // A face whose other corners are about both points would be the back of another.
+            if marks.iter().all(|mark| *mark >= common) && self.has_face(from, to, corners) {
                 return false;
             }
         }
         stays && opposites > 0
+    }
+
+    /// Whether three neighbours go round a hole: each of their edges is that of one face, and not all of the same.
+    fn is_hole(&self, points: [u32; 3]) -> bool {
+        let [a, b, c] = points;
+        [[a, b, c], [b, c, a], [c, a, b]].into_iter().all(|[from, to, beyond]| {
+            let about = self.fans.about(from).iter().map(|face| self.corners[*face as usize]);
+            let mut beside = about.filter(|corners| corners[0] != NONE && corners.contains(&to));
+            beside.next().is_some_and(|corners| !corners.contains(&beyond)) && beside.next().is_none()
+        })
     }
 
     /// Whether a point has a face with the two corners that are not `apex` of another face.
@@ -247,6 +259,11 @@ impl Collapser {
                 let beyond = along[usize::from(along[0] == to)];
                 self.relink(to, from, beyond);
                 self.relink(beyond, from, to);
+                // Round a hole that has closed there is no line any more.
+                let ends = [to, beyond].map(|point| self.sites.get(point as usize).map(|site| site.along));
+                if ends == [Some([beyond; 2]), Some([to; 2])] {
+                    [to, beyond].iter().for_each(|point| self.sites[*point as usize].kind = Kind::Knot);
+                }
             }
             Kind::Knot | Kind::Corner => {
                 let target = &mut self.sites[to as usize].kind;

@@ -28,7 +28,7 @@ pub(super) enum Kind {
     Line,
     /// To any neighbour, though borders meet here, or more than two faces at an edge: those are held by planes alone.
     Knot,
-    /// Nowhere, as long as others can go: texture coordinates, colours or materials meet, and one would cover another.
+    /// To points on other lines, at a price: texture coordinates, colours or materials meet here, and one would cover another.
     Corner,
 }
 

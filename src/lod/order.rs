@@ -11,8 +11,9 @@ use super::record::Record;
 /// What keeps faces that cost nothing in shape: a part of the fourth power of the length that a point falls.
 const LENGTH_COST: f64 = 1e-10;
 
-/// Where borders and seams meet, points go only when all others have gone.
-const CORNER_COST: f64 = 1e4;
+/// Where borders and seams meet in a point, how far it falls counts besides, for this share of the faces about it: there what
+/// one texture, colour or material covers is covered by another.
+const CORNER_SHARE: f64 = 0.1;
 
 /// How often points that could not go are asked again after all others have gone.
 const ROUNDS: usize = 8;
@@ -95,8 +96,9 @@ impl<'a> Queue<'a> {
         let site = &self.surface.sites[from as usize];
         let target = self.surface.sites[to as usize].place;
         let long = site.place.distance_squared(target);
-        let extra = if site.kind == Kind::Corner { CORNER_COST } else { 0.0 };
-        site.quadric.at(target) - site.quadric.at(site.place) + LENGTH_COST * long * long + extra
+        let covered =
+            if site.kind == Kind::Corner { CORNER_SHARE * site.quadric.weight() * long } else { 0.0 };
+        site.quadric.at(target) - site.quadric.at(site.place) + LENGTH_COST * long * long + covered
     }
 
     /// Whether a point that has lines through it may fall onto another.

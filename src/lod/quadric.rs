@@ -42,6 +42,12 @@ impl Quadric {
         Self { a: self.a.map(|a| a * by), b: self.b * by, c: self.c * by }
     }
 
+    /// How much all planes weigh together.
+    pub fn weight(&self) -> f64 {
+        let [xx, _, _, yy, _, zz] = self.a;
+        xx + yy + zz
+    }
+
     /// The sum at a point, never below zero.
     #[inline]
     pub fn at(&self, p: DVec3) -> f64 {
@@ -66,6 +72,7 @@ mod tests {
         let far = (p - DVec3::new(1.0, 2.0, 3.0)).dot(normal);
         assert!((sum.at(p) - (2.0 * far * far + 0.5 * 36.0)).abs() < 1e-12);
         assert!((sum.scaled(3.0).at(p) - 3.0 * sum.at(p)).abs() < 1e-11);
+        assert!((sum.weight() - 2.5).abs() < 1e-12);
         assert!(sum.at(DVec3::new(1.0, 2.0, 1.0)) > 0.0);
         assert_eq!(Quadric::default().at(p), 0.0);
     }

@@ -9,4 +9,5 @@ mod diff;
 mod documentation;
 mod draw;
 mod fmt;
+mod lod;
 mod pictures;
