@@ -239,7 +239,7 @@ impl Collapser {
         let alive = |face: u32| corners[face as usize][0] != NONE;
         self.fans.merge(from, to, alive, alive);
         let quadric = self.sites[from as usize].quadric;
-        self.sites[to as usize].quadric.add(&quadric);
+        self.sites[to as usize].take(&quadric);
         self.mend_lines(from, to);
         let in_file = &self.flat.in_file;
         let corner = |corner: u32| 3 * in_file[(corner / 3) as usize] + corner % 3;

@@ -41,6 +41,16 @@ pub(super) struct Site {
     pub quadric: Quadric,
     /// Where it is.
     pub place: DVec3,
+    /// How far it is from its planes there, by the quadric.
+    pub error: f64,
+}
+
+impl Site {
+    /// Takes over the planes of a point that falls here.
+    pub fn take(&mut self, quadric: &Quadric) {
+        self.quadric.add(quadric);
+        self.error = self.quadric.at(self.place);
+    }
 }
 
 /// An edge at a point, as one face has it.
@@ -56,24 +66,40 @@ struct Side {
 
 /// What is known at first of each point.
 pub(super) fn sites(flat: &Flat, corners: &[[u32; 3]], fans: &Fans) -> Vec<Site> {
-    let of = |sides: &mut Vec<Side>, point: usize| site(flat, corners, fans, sides, point as u32);
+    let normal = |corners: &[u32; 3]| match corners.contains(&NONE) {
+        true => DVec3::ZERO,
+        false => doubled_area(corners.map(|point| flat.points[point as usize])),
+    };
+    // The unit normal of each face, and its area.
+    let planes: Vec<(DVec3, f64)> = corners
+        .par_iter()
+        .map(normal)
+        .map(|normal| {
+            let length = normal.length();
+            if length > 0.0 { (normal / length, 0.5 * length) } else { (DVec3::ZERO, 0.0) }
+        })
+        .collect();
+    let of = |sides: &mut Vec<Side>, point: usize| site(flat, corners, fans, &planes, sides, point as u32);
     (0..fans.len()).into_par_iter().with_min_len(1024).map_init(Vec::new, of).collect()
 }
 
-fn site(flat: &Flat, corners: &[[u32; 3]], fans: &Fans, sides: &mut Vec<Side>, point: u32) -> Site {
-    let place = |point: u32| flat.points[point as usize];
-    let mut site =
-        Site { kind: Kind::Plain, along: [NONE; 2], quadric: Quadric::default(), place: place(point) };
-    let mut weight = 0.0;
+fn site(
+    flat: &Flat,
+    corners: &[[u32; 3]],
+    fans: &Fans,
+    planes: &[(DVec3, f64)],
+    sides: &mut Vec<Side>,
+    point: u32,
+) -> Site {
+    let place = flat.points[point as usize];
+    let mut quadric = Quadric::default();
+    let (mut weight, mut lines, mut along) = (0.0, 0, [NONE; 2]);
     sides.clear();
     for &face in fans.about(point) {
         let f = face as usize;
-        let places = corners[f].map(place);
-        let normal = doubled_area(places);
         weight = flat.weights[flat.geometry[f] as usize];
-        if let Some(unit) = normal.try_normalize() {
-            site.quadric.add(&Quadric::of_plane(unit, places[0], 0.5 * normal.length()));
-        }
+        let (normal, area) = planes[f];
+        quadric.add(&Quadric::of_plane(normal, place, area));
         let Some(k) = corners[f].iter().position(|p| *p == point) else { continue };
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);
         let class = |k: usize| flat.class[flat.faces[f][k] as usize];
@@ -90,13 +116,12 @@ fn site(flat: &Flat, corners: &[[u32; 3]], fans: &Fans, sides: &mut Vec<Side>, p
         }
     }
     sides.sort_unstable_by_key(|side| (side.other, side.opposite, side.signature, side.face));
-    let mut lines = 0;
     for edge in sides.chunk_by(|a, b| a.other == b.other) {
-        let along = place(edge[0].other) - place(point);
-        let normal = |side: &Side| doubled_area(corners[side.face as usize].map(place)).normalize_or_zero();
+        let way = flat.points[edge[0].other as usize] - place;
+        let normal = |side: &Side| planes[side.face as usize].0;
         let strength = match strength(edge) {
             Some(strength) => {
-                if let Some(slot) = site.along.get_mut(lines) {
+                if let Some(slot) = along.get_mut(lines) {
                     *slot = edge[0].other;
                 }
                 lines += 1;
@@ -106,18 +131,18 @@ fn site(flat: &Flat, corners: &[[u32; 3]], fans: &Fans, sides: &mut Vec<Side>, p
             None => continue,
         };
         for side in edge {
-            let Some(upright) = along.cross(normal(side)).try_normalize() else { continue };
-            site.quadric.add(&Quadric::of_plane(upright, place(point), strength * along.length_squared()));
+            let Some(upright) = way.cross(normal(side)).try_normalize() else { continue };
+            quadric.add(&Quadric::of_plane(upright, place, strength * way.length_squared()));
         }
     }
-    site.kind = match lines {
+    let kind = match lines {
         0 => Kind::Plain,
         2 => Kind::Line,
         _ if sides.iter().all(|side| is_like(side, &sides[0])) => Kind::Knot,
         _ => Kind::Corner,
     };
-    site.quadric = site.quadric.scaled(weight);
-    site
+    let quadric = quadric.scaled(weight);
+    Site { kind, along, quadric, place, error: quadric.at(place) }
 }
 
 /// Whether two faces at a point have there all that must not change along an edge in common.
@@ -141,6 +166,6 @@ fn strength(edge: &[Side]) -> Option<f64> {
 }
 
 /// The normal of a face of three places, as long as twice its area.
-pub(super) fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
+fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }

@@ -98,7 +98,7 @@ impl<'a> Queue<'a> {
         let long = site.place.distance_squared(target);
         let covered =
             if site.kind == Kind::Corner { CORNER_SHARE * site.quadric.weight() * long } else { 0.0 };
-        site.quadric.at(target) - site.quadric.at(site.place) + LENGTH_COST * long * long + covered
+        site.quadric.at(target) - site.error + LENGTH_COST * long * long + covered
     }
 
     /// Whether a point that has lines through it may fall onto another.
