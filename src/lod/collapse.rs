@@ -16,8 +16,11 @@ pub(super) const SWEEP: u32 = NONE;
 /// A face may not turn by more than the angle of this cosine in one collapse.
 const TURN_COSINE: f64 = 0.2;
 
-/// A face whose area is less than this part of the square of its longest side is none.
-const NEEDLE: f64 = 1e-7;
+/// A face is slim whose height is less than this part of its longest side.
+const SLIM: f64 = 0.05;
+
+/// A slim face may become no slimmer than this part of what it was, in one collapse.
+const SLIMMER: f64 = 0.3;
 
 /// A surface whose points fall onto their neighbours.
 pub(super) struct Collapser {
@@ -304,15 +307,21 @@ pub(super) fn others([a, b, c]: [u32; 3], point: u32) -> [u32; 2] {
     }
 }
 
-/// Whether a face looks to the same side after its first corner has moved, and has an area worth the name if it had one.
+/// Whether a face looks to the same side after its first corner has moved, and neither vanishes nor becomes a needle.
 #[inline]
 fn keeps_side(before: DVec3, after: DVec3, [b, c]: [DVec3; 2]) -> bool {
     let side = c - b;
     let (old, new) = ((b - before).cross(side), (b - after).cross(side));
     let (old_squared, new_squared) = (old.length_squared(), new.length_squared());
-    let longest = side.length_squared().max((b - after).length_squared()).max((c - after).length_squared());
-    if new_squared <= NEEDLE * NEEDLE * longest * longest {
-        return old_squared <= new_squared;
+    let longest =
+        |at: DVec3| side.length_squared().max((b - at).length_squared()).max((c - at).length_squared());
+    let (old_longest, new_longest) = (longest(before), longest(after));
+    // Twice the area over the square of the longest side, squared: how stout a face is.
+    let (old_stout, new_stout) =
+        (old_squared * new_longest * new_longest, new_squared * old_longest * old_longest);
+    let is_slim = new_squared < SLIM * SLIM * new_longest * new_longest;
+    if is_slim && new_stout < SLIMMER * SLIMMER * old_stout || new_squared == 0.0 {
+        return old_squared == 0.0;
     }
     let turned = old.dot(new);
     turned >= 0.0 && turned * turned >= TURN_COSINE * TURN_COSINE * old_squared * new_squared
