@@ -6,9 +6,9 @@
 use glam::DVec3;
 
 use super::fans::Fans;
-use super::flat::{Flat, NONE};
+use super::flat::Flat;
 use super::kinds::{Kind, Site, sites};
-use super::record::{Change, Record, Step};
+use super::record::{Change, NONE, Record, Step};
 
 /// The number of the step that takes away faces without area.
 pub(super) const SWEEP: u32 = NONE;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
+use super::record::{NONE, Wedge};
 use super::weld::{Weld, joined};
 use crate::math::function::cbrt;
 use crate::math::noise::hash;
@@ -12,20 +13,6 @@ use crate::math::tolerance::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
 use crate::mesh::EdgeMark;
 use crate::mesh::space_curve::{CELLS, along_curve};
 use crate::scene::{Geometry, Material, Scene};
-
-/// No vertex, no normal, no texture coordinates, no point.
-pub(super) const NONE: u32 = u32::MAX;
-
-/// What a corner of a face is made of: one of the values that meet at a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Wedge {
-    /// The vertex, in its geometry.
-    pub vertex: u32,
-    /// The normal, in its geometry.
-    pub normal: u32,
-    /// The texture coordinates, in their geometry.
-    pub uv: u32,
-}
 
 /// The triangles of a scene that are drawn, each geometry once.
 ///

@@ -4,8 +4,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::fans::Fans;
-use super::flat::{Flat, NONE};
+use super::flat::Flat;
 use super::quadric::Quadric;
+use super::record::NONE;
 
 /// How much a plane that holds a border in its place counts, against the area of the faces beside it.
 const BORDER_WEIGHT: f64 = 10.0;

@@ -1,7 +1,6 @@
 //! [`Levels`]: a scene at any number of faces, from where it was to where it is asked for next.
 
-use super::flat::NONE;
-use super::record::Record;
+use super::record::{NONE, Record};
 use crate::error::Error;
 use crate::scene::{Geometry, Scene};
 

@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::collapse::{Collapser, others};
-use super::flat::{Flat, NONE};
+use super::flat::Flat;
 use super::heap::Heap;
 use super::kinds::Kind;
-use super::record::Record;
+use super::record::{NONE, Record};
 
 /// What keeps faces that cost nothing in shape: a part of the fourth power of the length that a point falls.
 const LENGTH_COST: f64 = 1e-10;

@@ -2,7 +2,19 @@
 
 use std::ops::Range;
 
-use super::flat::Wedge;
+/// No vertex, no normal, no texture coordinates, no point.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// What a corner of a face is made of: one of the values that meet at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Wedge {
+    /// The vertex, in its geometry.
+    pub vertex: u32,
+    /// The normal, in its geometry.
+    pub normal: u32,
+    /// The texture coordinates, in their geometry.
+    pub uv: u32,
+}
 
 /// One collapse: a point falls onto a neighbour. The first may be none, but the faces without area going.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::flat::NONE;
+use super::record::NONE;
 use crate::mesh::weld::near;
 
 const FREE: u32 = u32::MAX;
