@@ -49,6 +49,7 @@ pub mod drawing;
 mod error;
 pub mod export;
 pub mod load;
+pub mod lod;
 #[doc(hidden)]
 pub mod math;
 pub mod motion;

@@ -5,7 +5,7 @@ use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
-use super::{number, pipeline, print, say};
+use super::{lod, number, pipeline, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::pose::Rigged;
@@ -65,7 +65,6 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
     let mut scene = open(request, &style)?;
-    pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
     if let Some(up) = request.up {
         scene.up = up;
     }
@@ -110,12 +109,18 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded, maps })
 }
 
-/// The model, at the moment that is asked for.
+/// The model: at the moment, with the parts, and with as many faces as asked for.
 fn open(request: &DrawRequest, style: &Style) -> Result<Scene, Error> {
-    if request.animation.is_empty() && request.time.is_none() {
-        return Scene::open(&request.model);
+    let stands = request.animation.is_empty() && request.time.is_none();
+    let mut rigged = if stands { Scene::open(&request.model)?.into() } else { Rigged::open(&request.model)? };
+    // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
+    let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
+    let mut scene = scene_at(rigged, &request.animation, request.time, style)?;
+    pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
+    match coarse {
+        Some((detail, faces)) => lod::reduced(&scene, &detail, faces),
+        None => Ok(scene),
     }
-    scene_at(Rigged::open(&request.model)?, &request.animation, request.time, style)
 }
 
 pub(super) fn default_dpi(unit: Unit) -> f64 {

@@ -117,6 +117,10 @@ pub(super) struct HowArgs {
         allow_hyphen_values = true)]
     pub(super) time: Option<f64>,
 
+    /// Draw with no more than so many faces: those go first whose loss changes the shape least (docs/detail.md)
+    #[arg(long, value_name = "N", help_heading = "View", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) faces: Option<u64>,
+
     /// Size of the drawing in px: 1000x800, or 1000 for a square [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",
         value_parser = paper::size_px)]

@@ -10,6 +10,7 @@ mod draw_args;
 mod fmt;
 mod info;
 mod keys;
+mod lod;
 mod man;
 mod moment;
 mod number;
@@ -67,6 +68,8 @@ enum Command {
     Fmt(fmt::FmtArgs),
     /// Say what is in a model file, and what is wrong with it
     Info(info::InfoArgs),
+    /// Write beside a model in which order it loses its faces
+    Lod(lod::LodArgs),
     /// List the built-in styles, or show one
     Styles(styles::StylesArgs),
     /// Write a completion script for a shell
@@ -105,6 +108,7 @@ pub fn main() -> ExitCode {
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
         Command::Fmt(args) => fmt::run(&args),
         Command::Info(args) => info::run(&args).map(all_well),
+        Command::Lod(args) => lod::run(&args).map(all_well),
         Command::Styles(args) => styles::run(&args).map(all_well),
         Command::Completions(args) => completions::run(&args).map(all_well),
         Command::Man(args) => man::run(&args).map(all_well),

@@ -31,6 +31,8 @@ pub(super) struct DrawRequest {
     /// The names of the animations that play, and when.
     pub(super) animation: Vec<String>,
     pub(super) time: Option<f64>,
+    /// How many faces there may be.
+    pub(super) faces: Option<u64>,
     pub(super) sheet: Sheet,
     pub(super) svg: SvgChoices,
     pub(super) dpi: Option<f64>,
@@ -103,6 +105,7 @@ impl DrawRequest {
             hide: args.hide,
             animation: args.animation,
             time: args.time,
+            faces: args.faces,
             sheet: Sheet {
                 extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
                 margin: args.margin,
@@ -156,7 +159,7 @@ fn check_apart(
 }
 
 /// Whether two paths lead to one file, as far as that can be told before writing.
-fn same_file(a: &Path, b: &Path) -> bool {
+pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b && a.is_file(),
         _ => a == b,
@@ -242,6 +245,8 @@ mod tests {
             "m.stl --stage cells",
             "m.stl --dpi 0",
             "m.stl --up x",
+            "m.stl --faces 0",
+            "m.stl --faces many",
         ];
         for line in wrong {
             assert!(request(line).is_err(), "{line}");

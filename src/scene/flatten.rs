@@ -78,7 +78,8 @@ impl Scene {
     }
 
     /// The geometry of a part that can be placed.
-    pub(crate) fn geometry_of(&self, part: &Part) -> Option<&Geometry> {
+    #[must_use]
+    pub fn geometry_of(&self, part: &Part) -> Option<&Geometry> {
         let determinant = part.world_from_part.matrix3.determinant();
         let can_be_placed = determinant != 0.0 && determinant.is_finite() && part.world_from_part.is_finite();
         self.geometries.get(part.geometry).filter(|_| can_be_placed)

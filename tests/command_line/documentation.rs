@@ -9,6 +9,7 @@ const DOCUMENTS: [&str; 12] = [
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "docs/styles.md",
+    "docs/detail.md",
     "docs/exactness.md",
     "docs/fills.md",
     "docs/lines.md",
@@ -95,7 +96,7 @@ fn tests_that_documents_name_are_there() {
 
 #[test]
 fn options_that_the_readme_names_are_there() {
-    let help: String = ["draw", "diff", "fmt", "test"]
+    let help: String = ["draw", "diff", "fmt", "test", "lod"]
         .map(|command| {
             let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
             String::from_utf8(help.stdout).unwrap()
@@ -105,6 +106,7 @@ fn options_that_the_readme_names_are_there() {
     let mut options = 0;
     for document in [
         "README.md",
+        "docs/detail.md",
         "docs/fills.md",
         "docs/styles.md",
         "docs/smooth.md",

@@ -10,4 +10,5 @@ mod diff;
 mod documentation;
 mod draw;
 mod fmt;
+mod lod;
 mod pictures;

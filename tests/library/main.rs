@@ -31,6 +31,7 @@ mod intersections;
 mod lines_inside;
 mod loading;
 mod locality;
+mod lod;
 mod marked_edges;
 mod models;
 mod motion;

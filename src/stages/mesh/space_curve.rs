@@ -12,11 +12,11 @@ use glam::DVec3;
 
 /// Cells of the curve from zero along each axis and to either side: as many as three coordinates fit in 64
 /// bits. Within a cell the places themselves are compared.
-pub(super) const CELLS: f64 = (1u32 << 20) as f64;
+pub(crate) const CELLS: f64 = (1u32 << 20) as f64;
 
 /// How far along the curve the cell of a place lies: first come the signs, then the cells from zero outward.
 /// What lies beyond all cells, unused, counts as in the last.
-pub(super) fn along_curve(place: DVec3, cell: f64) -> u64 {
+pub(crate) fn along_curve(place: DVec3, cell: f64) -> u64 {
     let number = |x: f64| {
         let from_zero = (x.abs() / cell).min(CELLS - 1.0) as u64;
         // The places below zero are a mirror image, so that coordinates grow along the curve.

@@ -1,0 +1,94 @@
+//! `ligne lod`: the order in which a model loses its faces, written beside it; and models with as many faces as asked for.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::number::{bytes as size, counted, grouped};
+use super::output::{Staging, check_place};
+use super::request::same_file;
+use super::say;
+use crate::error::Error;
+use crate::lod::Detail;
+use crate::render::Stopwatch;
+use crate::scene::Scene;
+
+/// What was typed.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  ligne lod bunny.obj                        writes bunny.ligne-lod beside the model
+  ligne lod bunny.obj levels/bunny.ligne-lod
+  ligne draw bunny.obj --faces 5000          takes it from there, if it is of this model
+
+Without such a file drawings with --faces are the same, but take longer.")]
+pub(super) struct LodArgs {
+    /// The model: .obj, .gltf, .glb, .stl or .ply
+    model: PathBuf,
+
+    /// The file to write [default: beside the model, with its name]
+    #[arg(value_name = "OUT.ligne-lod")]
+    out: Option<PathBuf>,
+
+    /// Say nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Finds all collapses of the model, and writes them.
+pub(super) fn run(args: &LodArgs) -> Result<(), Error> {
+    let out = args.out.clone().unwrap_or_else(|| Detail::beside(&args.model));
+    check_place(&out)?;
+    if same_file(&out, &args.model) {
+        return Err(Error::new("the levels of detail would overwrite the model")
+            .in_file(&out)
+            .remedy("give them another name"));
+    }
+    let scene = Scene::open(&args.model)?;
+    let mut watch = Stopwatch::start();
+    let detail = Detail::of(&scene);
+    let took = watch.lap_ms();
+    let bytes = detail.to_bytes(&scene);
+    let mut staging = Staging::default();
+    staging.add(&out, &bytes)?;
+    staging.commit()?;
+    if !args.quiet {
+        let mut levels = detail.levels();
+        let fewest = levels.seek(&scene, 0)?;
+        say(&format!(
+            "{}: {} down to {}, {}, {}, {took:.0} ms",
+            out.display(),
+            counted(scene.triangle_count() as u64, "face"),
+            grouped(fewest),
+            counted(levels.deepest() as u64, "level"),
+            size(bytes.len() as u64),
+        ));
+    }
+    Ok(())
+}
+
+/// The levels of detail of a model: from the file beside it, or else found anew, down to so many faces. What keeps such a
+/// file from being taken is noted in the scene.
+pub(super) fn detail(model: &Path, scene: &mut Scene, faces: u64) -> Detail {
+    let beside = Detail::beside(model);
+    if let Ok(bytes) = std::fs::read(&beside) {
+        match Detail::read(&bytes, scene) {
+            Ok(detail) => return detail,
+            Err(error) => {
+                scene.warnings.note(format!("{} is left aside: {}", beside.display(), error.message))
+            }
+        }
+    }
+    Detail::down_to(scene, faces)
+}
+
+/// A pose of the scene that the levels are of, with no more than so many faces, or with the fewest there may be.
+pub(super) fn reduced(scene: &Scene, detail: &Detail, faces: u64) -> Result<Scene, Error> {
+    let mut levels = detail.levels();
+    let fewest = levels.seek(scene, faces)?;
+    let mut scene = levels.scene(scene)?;
+    if fewest > faces {
+        let fewest = counted(fewest, "face");
+        scene.warnings.note(format!("it keeps {fewest}: its pieces cannot be drawn with fewer"));
+    }
+    Ok(scene)
+}

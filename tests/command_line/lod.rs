@@ -1,0 +1,64 @@
+//! Levels of detail on the command line: written beside the model, taken from there, and found anew where they do not fit.
+
+use crate::folder::Folder;
+
+/// A folder with a goose of 390 faces and two cubes.
+fn with_goose(name: &str) -> Folder {
+    let folder = Folder::with_cubes(name);
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/goose.obj");
+    folder.write("goose.obj", &std::fs::read_to_string(example).expect("the goose"));
+    folder
+}
+
+#[test]
+fn levels_are_written_beside_the_model_and_change_no_drawing() {
+    let folder = with_goose("lod");
+    let run = folder.ligne("draw goose.obj found.svg --faces 200");
+    let line = run.done().err.trim_end();
+    assert!(line.ends_with(" triangles") && line.lines().count() == 1, "{run:?}");
+    let run = folder.ligne("lod goose.obj");
+    let line = run.done().err.trim_end();
+    assert!(line.starts_with("goose.ligne-lod: 390 faces down to ") && line.ends_with(" ms"), "{run:?}");
+    assert_eq!(run.out, "");
+    folder.ligne("draw goose.obj taken.svg --faces 200 --threads 1").done();
+    assert_eq!(folder.text("found.svg"), folder.text("taken.svg"));
+    folder.ligne("draw goose.obj full.svg").done();
+    folder.ligne("draw goose.obj all.svg --faces 9999999").done();
+    assert_eq!(folder.text("full.svg"), folder.text("all.svg"));
+    assert_ne!(folder.text("full.svg"), folder.text("taken.svg"));
+}
+
+#[test]
+fn levels_of_another_model_are_left_aside() {
+    let folder = with_goose("lod-foreign");
+    folder.ligne("draw goose.obj own.svg --faces 200").done();
+    assert_eq!(folder.ligne("lod cubes.obj goose.ligne-lod --quiet").done().err, "");
+    let run = folder.ligne("draw goose.obj foreign.svg --faces 200");
+    run.done().says(
+        "warning: goose.obj: goose.ligne-lod is left aside: these levels of detail are of another model",
+    );
+    assert_eq!(folder.text("own.svg"), folder.text("foreign.svg"));
+    folder.write("goose.ligne-lod", "nothing of the kind");
+    folder.ligne("draw goose.obj foreign.svg --faces 200").done().says("this is no file of levels of detail");
+    folder.ligne("draw goose.obj strict.svg --faces 200 --strict").refused("left aside");
+}
+
+#[test]
+fn as_many_faces_are_kept_as_the_pieces_need() {
+    let folder = with_goose("lod-few");
+    let run = folder.ligne("draw cubes.obj --faces 3");
+    run.done().says("warning: cubes.obj: it keeps 8 faces: its pieces cannot be drawn with fewer");
+    folder.ligne("draw cubes.obj knob.svg --faces 5 --only knob").done().says(" 4 triangles");
+    folder.ligne("draw cubes.obj --faces 0").refused("--faces");
+}
+
+#[test]
+fn levels_are_not_written_over_a_model_or_without_one() {
+    let folder = with_goose("lod-wrong");
+    folder.ligne("lod goose.obj goose.obj").refused("would overwrite the model");
+    folder.ligne("lod gone.obj").refused("gone.obj: ");
+    folder.ligne("lod goose.obj nowhere/goose.ligne-lod").refused("there is no folder nowhere");
+    folder.write("broken.obj", "f 1 2 3\n");
+    folder.ligne("lod broken.obj").refused("broken.obj: ");
+    assert_eq!(folder.names(), ["broken.obj", "cubes.obj", "goose.obj"]);
+}
