@@ -21,12 +21,16 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
+mod budget;
+mod level;
 mod reach;
 mod timeline;
 mod turntable;
 
 use std::sync::OnceLock;
 
+pub use budget::Budget;
+pub use level::Level;
 pub use reach::reach;
 pub use timeline::Timeline;
 pub use turntable::Turntable;
@@ -36,7 +40,7 @@ use crate::error::Error;
 use crate::motion;
 use crate::pose::{Playing, Rigged};
 use crate::render::{Report, Resting, Stopwatch};
-use crate::scene::Camera;
+use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
 /// What a frame shows.
@@ -56,6 +60,8 @@ pub struct Moment {
 #[derive(Debug)]
 pub struct Animator<'a> {
     rigged: &'a Rigged,
+    /// Where it has fewer faces than the model.
+    level: Option<&'a Level<'a>>,
     style: &'a Style,
     /// What all moments share.
     resting: OnceLock<Resting<'a>>,
@@ -66,7 +72,30 @@ impl<'a> Animator<'a> {
     /// Of a scene and what moves it, in a style.
     #[must_use]
     pub fn new(rigged: &'a Rigged, style: &'a Style) -> Self {
-        Self { rigged, style, resting: OnceLock::new(), shown: None }
+        Self { rigged, level: None, style, resting: OnceLock::new(), shown: None }
+    }
+
+    /// The same with the faces of a level of its scene.
+    #[must_use]
+    pub fn at_level(rigged: &'a Rigged, level: &'a Level<'a>, style: &'a Style) -> Self {
+        Self { level: Some(level), ..Self::new(rigged, style) }
+    }
+
+    /// The same, with all made ready that moments share, which else the first drawing does.
+    #[must_use]
+    pub fn ready(self) -> Self {
+        self.resting();
+        self
+    }
+
+    /// The scene at rest that is drawn.
+    #[must_use]
+    pub fn rest(&self) -> &'a Scene {
+        self.level.map_or(&self.rigged.scene, |level| &level.rest)
+    }
+
+    fn resting(&self) -> &Resting<'a> {
+        self.resting.get_or_init(|| Resting::new(self.rest(), self.style))
     }
 
     /// Poses the scene, draws it, and lends the drawing until the next step.
@@ -85,12 +114,16 @@ impl<'a> Animator<'a> {
     pub fn draw(&self, moment: &Moment) -> Result<(Drawing, Report), Error> {
         let Moment { playing, camera, page } = moment;
         let mut watch = Stopwatch::start();
-        let resting = self.resting.get_or_init(|| Resting::new(&self.rigged.scene, self.style));
+        let resting = self.resting();
         if playing.is_empty() {
             return resting.still().draw(camera, *page, None);
         }
         watch.lap_ms();
         let scene = motion::posed(self.rigged, playing, &self.style.motion, self.style.seed)?;
+        let scene = match self.level {
+            Some(level) => level.posed(&scene)?,
+            None => scene,
+        };
         let pose = watch.lap_ms();
         let prepared = resting.posed(&scene);
         let preparing = watch.lap_ms();

@@ -55,6 +55,15 @@ pub(in crate::cli) struct AnimateArgs {
         conflicts_with_all = ["camera", "view", "azimuth", "elevation", "fov", "ortho", "scale"])]
     pub(super) path: Option<PathBuf>,
 
+    /// Hold every frame within this time, with as few faces as that needs: docs/detail.md
+    #[arg(long, value_name = "TIME", help_heading = "Frames", value_parser = super::detail::budget,
+        conflicts_with_all = ["faces", "shard", "resume"])]
+    pub(super) budget: Option<f64>,
+
+    /// The numbers of faces of all drawings: written with --budget, read without
+    #[arg(long, value_name = "FILE", help_heading = "Frames", conflicts_with = "faces")]
+    pub(super) levels: Option<PathBuf>,
+
     /// Draw the Kth of every N frames only, so that N computers share the work
     #[arg(long, value_name = "K/N", help_heading = "Frames", value_parser = shard)]
     pub(super) shard: Option<Shard>,

@@ -1,0 +1,219 @@
+//! [`Stage`]: all that frames are drawn with, and where they go from there.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::args::AnimateArgs;
+use super::destination::{FilmFormat, Numbered};
+use super::detail::Faces;
+use super::film::{Film, Frame};
+use super::plan::Plan;
+use super::{Total, refuse_warnings};
+use crate::animate::{Animator, Budget, Level};
+use crate::cli::output::{Format, Staging};
+use crate::cli::progress::Progress;
+use crate::cli::request::DrawRequest;
+use crate::cli::{draw, pipeline};
+use crate::drawing::Drawing;
+use crate::error::Error;
+use crate::export::{PngOptions, Resolution};
+use crate::lod::Detail;
+use crate::pose::Rigged;
+use crate::render::{Report, Stopwatch};
+use crate::style::Style;
+
+/// All that frames are drawn with.
+pub(super) struct Stage<'a> {
+    pub(super) args: &'a AnimateArgs,
+    pub(super) request: &'a DrawRequest,
+    pub(super) plan: &'a Plan,
+    pub(super) rigged: &'a Rigged,
+    pub(super) style: &'a Style,
+    /// The levels of detail of the model, where any but the finest may be asked for.
+    pub(super) detail: Option<&'a Detail>,
+    pub(super) faces: Faces,
+    pub(super) progress: &'a Progress,
+}
+
+/// A frame that was made.
+struct Made {
+    /// None if it is written already.
+    frame: Option<Frame>,
+    report: Report,
+    /// How long it took until it was drawn.
+    ms: f64,
+}
+
+impl Stage<'_> {
+    /// A file for each frame, written as soon as it is drawn.
+    pub(super) fn numbered(&self, numbered: &Numbered, total: &mut Total) -> Result<(), Error> {
+        let folder = &numbered.folder;
+        if !folder.as_os_str().is_empty() && !folder.is_dir() {
+            std::fs::create_dir_all(folder)
+                .map_err(|error| Error::io("cannot create the folder", error).in_file(folder))?;
+        }
+        let timeline = self.plan.course.timeline;
+        let mine = |drawn: &usize| {
+            self.args.shard.is_none_or(|shard| (drawn / timeline.hold()) % shard.of == shard.first)
+        };
+        let missing = |drawn: &usize| {
+            !self.args.resume || (0..timeline.shown(*drawn)).any(|held| !numbered.path(drawn + held).exists())
+        };
+        let frames: Vec<usize> = timeline.drawn().filter(mine).collect();
+        total.frames = frames.iter().map(|drawn| timeline.shown(*drawn) as u64).sum();
+        let frames: Vec<usize> = frames.into_iter().filter(missing).collect();
+        let one = |animator: &Animator, drawn: usize| -> Result<Made, Error> {
+            let (drawing, mut report, ms) = self.draw(animator, drawn)?;
+            let mut watch = Stopwatch::start();
+            let bytes = match numbered.format {
+                Format::Png => pipeline::png(&drawing, self.dpi(&drawing))?,
+                #[cfg(feature = "pdf")]
+                Format::Pdf => drawing.to_pdf(),
+                Format::Svg | Format::SvgToStdout => pipeline::svg(&drawing, &self.request.svg),
+            };
+            for held in 0..timeline.shown(drawn) {
+                let mut staging = Staging::default();
+                staging.add(&numbered.path(drawn + held), &bytes)?;
+                staging.commit()?;
+                report.counts.bytes_out += bytes.len() as u64;
+            }
+            report.stages_ms.write = watch.lap_ms();
+            Ok(Made { frame: None, report, ms })
+        };
+        self.in_order(&frames, one, |_, _| Ok(0.0), total)
+    }
+
+    /// All frames in one file.
+    pub(super) fn film(&self, path: &Path, format: FilmFormat, total: &mut Total) -> Result<(), Error> {
+        let timeline = self.plan.course.timeline;
+        let frames: Vec<usize> = timeline.drawn().collect();
+        total.frames = timeline.frames() as u64;
+        let in_file = |error: Error| match error.file {
+            None => error.in_file(path),
+            Some(_) => error,
+        };
+        let mut film =
+            Film::new(path, format, timeline.fps(), frames.len(), &self.request.svg).map_err(in_file)?;
+        let one = |animator: &Animator, drawn: usize| -> Result<Made, Error> {
+            let (drawing, mut report, ms) = self.draw(animator, drawn)?;
+            let mut watch = Stopwatch::start();
+            let frame = if format.is_vector() {
+                Frame::Vector(Box::new(drawing))
+            } else {
+                let options = PngOptions::of_resolution(Resolution::Dpi(self.dpi(&drawing)));
+                Frame::Pixels(drawing.to_pixels(&options).map_err(in_file)?)
+            };
+            report.stages_ms.write = watch.lap_ms();
+            Ok(Made { frame: Some(frame), report, ms })
+        };
+        let put = |drawn: usize, frame: &Frame| {
+            let mut watch = Stopwatch::start();
+            film.push(frame, timeline.shown(drawn) as u32).map_err(in_file)?;
+            Ok(watch.lap_ms())
+        };
+        self.in_order(&frames, one, put, total)?;
+        let mut watch = Stopwatch::start();
+        total.counts.bytes_out = film.finish().map_err(in_file)?;
+        total.stages_ms.write += watch.lap_ms();
+        Ok(())
+    }
+
+    /// Draws the frame of a number.
+    fn draw(&self, animator: &Animator, frame: usize) -> Result<(Drawing, Report, f64), Error> {
+        let mut watch = Stopwatch::start();
+        let moment = self.plan.moment(self.rigged, frame, self.style.background)?;
+        let (drawing, mut report) = animator.draw(&moment).map_err(|error| match error.file {
+            None => error.in_file(&self.request.model),
+            Some(_) => error,
+        })?;
+        let ms = watch.lap_ms();
+        report.counts.triangles = draw::triangles(animator.rest());
+        report.counts.paths = draw::paths(&drawing);
+        refuse_warnings(self.request, report.warnings.iter())?;
+        Ok((drawing, report, ms))
+    }
+
+    fn dpi(&self, drawing: &Drawing) -> f64 {
+        self.request.dpi.unwrap_or(draw::default_dpi(drawing.page.unit))
+    }
+
+    /// Makes frames and takes them in their order, with as many faces as each may have.
+    fn in_order(
+        &self,
+        frames: &[usize],
+        make: impl Fn(&Animator, usize) -> Result<Made, Error> + Sync,
+        mut put: impl FnMut(usize, &Frame) -> Result<f64, Error>,
+        total: &mut Total,
+    ) -> Result<(), Error> {
+        let mut take = |drawn: usize, made: &Made, total: &mut Total| {
+            if let Some(frame) = &made.frame {
+                total.stages_ms.write += put(drawn, frame)?;
+            }
+            total.add(&made.report, made.ms);
+            Ok(())
+        };
+        let Some(detail) = self.detail else {
+            let animator = Animator::new(self.rigged, self.style);
+            return self.at_once(&animator, frames, &make, &mut take, total);
+        };
+        let level = |faces: u64| Level::of(detail, &self.rigged.scene, faces);
+        let faces_of = |drawn: usize| match &self.faces {
+            Faces::Listed(list) => list.get(drawn / self.plan.course.timeline.hold()).copied(),
+            Faces::Most(most) => Some(*most),
+            Faces::All | Faces::Budget(_) => None,
+        };
+        let Faces::Budget(ms) = self.faces else {
+            for frames in frames.chunk_by(|a, b| faces_of(*a) == faces_of(*b)) {
+                let faces = frames.first().and_then(|drawn| faces_of(*drawn)).unwrap_or(u64::MAX);
+                let level = level(faces)?;
+                let animator = Animator::at_level(self.rigged, &level, self.style);
+                total.faces.extend(frames.iter().map(|_| faces));
+                self.at_once(&animator, frames, &make, &mut take, total)?;
+            }
+            return Ok(());
+        };
+        // One after another: what another frame does meanwhile would be in the time of each.
+        let mut budget = Budget::new(ms, draw::triangles(&self.rigged.scene));
+        let mut left = frames;
+        while !left.is_empty() {
+            let faces = budget.faces();
+            let level = level(faces)?;
+            let animator = Animator::at_level(self.rigged, &level, self.style).ready();
+            while let Some((drawn, rest)) = left.split_first().filter(|_| budget.faces() == faces) {
+                self.step(frames.len() - left.len(), frames.len());
+                let made = make(&animator, *drawn)?;
+                budget.took(made.ms);
+                total.faces.push(faces);
+                take(*drawn, &made, total)?;
+                left = rest;
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes frames, as many at once as there are threads, and takes them in their order.
+    fn at_once(
+        &self,
+        animator: &Animator,
+        frames: &[usize],
+        make: &(impl Fn(&Animator, usize) -> Result<Made, Error> + Sync),
+        take: &mut impl FnMut(usize, &Made, &mut Total) -> Result<(), Error>,
+        total: &mut Total,
+    ) -> Result<(), Error> {
+        let at_once = rayon::current_num_threads().max(1);
+        for (number, window) in frames.chunks(at_once).enumerate() {
+            self.step(number * at_once, frames.len());
+            let make = |drawn: &usize| make(animator, *drawn);
+            let made: Vec<Result<Made, Error>> = window.par_iter().with_max_len(1).map(make).collect();
+            for (drawn, made) in window.iter().zip(made) {
+                take(*drawn, &made?, total)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn step(&self, done: usize, of: usize) {
+        self.progress.step(format!("frame {} of {of} of", done + 1));
+    }
+}
