@@ -81,6 +81,34 @@ fn films_are_written_whole() {
 }
 
 #[test]
+fn levels_that_a_budget_chose_are_repeated() {
+    let folder = Folder::new("levels");
+    let horn = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/horn.obj");
+    let run = animate(&folder, horn, "a/%d.svg", "--turntable 6 --budget 5s --levels levels.json");
+    assert!(run.done().err.contains(" faces, 99 % within "), "{run:?}");
+    let levels: serde_json::Value = serde_json::from_str(&folder.text("levels.json")).unwrap();
+    assert_eq!(levels["faces"].as_array().map(Vec::len), Some(6));
+    animate(&folder, horn, "b/%d.svg", "--turntable 6 --levels levels.json --threads 2").done();
+    // Each drawing has its own.
+    folder.write("mine.json", "{\"faces\": [100000, 100000, 300, 300, 200, 100000]}");
+    animate(&folder, horn, "c/%d.svg", "--turntable 6 --levels mine.json").done();
+    for frame in 0..6 {
+        let of = |run: &str| folder.text(&format!("{run}/{frame}.svg"));
+        assert_eq!(of("a"), of("b"));
+        assert_eq!(of("a") == of("c"), [0, 1, 5].contains(&frame), "{frame}");
+    }
+    animate(&folder, horn, "d/%d.svg", "--turntable 6 --faces 300 --set lines.contours=mesh").done();
+    assert_eq!(folder.text("c/2.svg"), folder.text("d/2.svg"));
+    animate(&folder, horn, "e/%d.svg", "--turntable 7 --levels mine.json").refused("it has 6 levels");
+    folder.write("mine.json", "[3]");
+    animate(&folder, horn, "e/%d.svg", "--turntable 6 --levels mine.json")
+        .refused("no list of numbers of faces");
+    animate(&folder, horn, "e/%d.svg", "--turntable 6 --budget soon").refused("a time, such as 33ms");
+    animate(&folder, horn, "e/%d.svg", "--turntable 6 --budget 9ms --shard 1/2")
+        .refused("cannot be used with");
+}
+
+#[test]
 fn a_path_of_cameras_gives_each_frame_its_own() {
     let folder = Folder::with_cubes("path");
     let record = |x: f64| {
