@@ -166,9 +166,9 @@ fn what_cannot_be_done_is_refused_and_nothing_is_written() {
     crane("--to 1e12", "too many");
     crane("--shard 3/2", "K/N");
     assert_eq!(folder.names(), ["cubes.obj"]);
-    let beyond = animate(&folder, CRANE, "f.svg", "--to 5 --fps 1");
+    let beyond = animate(&folder, CRANE, "f.svg", "--to 6 --fps 1");
     assert!(beyond.done().err.contains("the animation lasts from 0 s to 4 s"), "{beyond:?}");
-    animate(&folder, CRANE, "g.svg", "--to 5 --fps 1 --strict").refused("stands still beyond");
+    animate(&folder, CRANE, "g.svg", "--to 6 --fps 1 --strict").refused("stands still beyond");
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn without_ffmpeg_a_video_is_refused_clearly() {
         return;
     }
     for name in ["a.mp4", "b.mp4"] {
-        animate(&folder, CRANE, name, "--fps 5 --hold 2 --size 161").done();
+        folder.run(&["animate", CRANE, name, "--fps", "5", "--hold", "2", "--size", "161"]).done();
     }
     assert_eq!(folder.read("a.mp4"), folder.read("b.mp4"));
     assert_eq!(folder.read("a.mp4").get(4..8), Some(&b"ftyp"[..]));
@@ -201,13 +201,19 @@ fn a_browser_plays_an_animated_svg() {
     let folder = Folder::new("browser");
     animate(&folder, CRANE, "a.svg", "--fps 2 --quiet").done();
     let script = "<script>const svg = document.querySelector('svg'), used = svg.querySelector(':scope > use'), seen = [];\n\
+        const times = [0, 0.6, 1.1, 3.9, 4.1];\n\
+        const next = () => {\n\
+            const time = times.shift();\n\
+            if (time === undefined) { document.body.append('seen ' + seen.join(' ') + ' end'); return; }\n\
+            svg.setCurrentTime(time);\n\
+            setTimeout(() => { seen.push(used.href.animVal); next(); }, 100);\n\
+        };\n\
         svg.pauseAnimations();\n\
-        for (const time of [0, 0.6, 1.1, 3.9, 4.1]) { svg.setCurrentTime(time); seen.push(used.href.animVal); }\n\
-        document.body.append('seen ' + seen.join(' ') + ' end');</script>";
+        next();</script>";
     let text = folder.text("a.svg").replace("xmlns:inkscape", "data-inkscape").replace("inkscape:", "data-");
     folder.write("page.html", &format!("<!doctype html><body>{text}{script}"));
     let output = std::process::Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=4000", "--dump-dom"])
         .arg(format!("--user-data-dir={}", folder.path("profile").display()))
         .arg(folder.path("page.html"))
         .output()
