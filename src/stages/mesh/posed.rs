@@ -3,6 +3,8 @@
 //! What a mesh is joined of, which faces meet at which edge and what is drawn of it as round or creased does not change
 //! when a figure moves; only places and normals do.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -75,7 +77,7 @@ impl Mesh {
         let together = TOGETHER * extents.diagonal;
         let parted = |(vertex, p): (&u32, &DVec3)| {
             let joined = moved.positions.get(*vertex as usize).copied().unwrap_or(DVec3::NAN);
-            !((local(*p, self.origin) - joined).length() <= together)
+            (local(*p, self.origin) - joined).length().partial_cmp(&together).is_none_or(Ordering::is_gt)
         };
         if vertices.par_iter().zip(&soup.positions).any(parted) {
             return None;
