@@ -1,9 +1,11 @@
 //! Dashes that begin and end well: the pattern is stretched so that every end and every corner of
 //! a path lies on a dash, as ISO 128-2 asks of drawings.
 
+use glam::DVec3;
 use kurbo::{BezPath, ParamCurveArclen, Point};
 
 use super::is_straight;
+use crate::chain::Anchor;
 
 /// A path shorter than this many periods is drawn solid: one gap would look like a fault.
 const SHORTEST_PERIODS: f64 = 0.6;
@@ -38,6 +40,29 @@ pub fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
         return dashes;
     }
     uniform(runs.iter().sum(), closed, &pattern, period)
+}
+
+/// The dash array and its offset for an open path that knows where on the model it begins and ends: the pattern is not
+/// stretched, and lies on the model, wherever what hides the line lets it begin.
+///
+/// The middle of a dash is where the model's middle would be along the line, so that it is the same from both ends.
+#[must_use]
+pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f64) {
+    let (pattern, _) = fit(path, false, lengths);
+    let [from, to] = ends.map(|anchor| DVec3::from_array(anchor.place.map(f64::from)));
+    let chord = (to - from).length();
+    let mut own: Vec<f64> = lengths.to_vec();
+    if own.len() % 2 == 1 {
+        own.extend_from_slice(lengths);
+    }
+    let period: f64 = own.iter().sum();
+    if pattern.is_empty() || chord <= 0.0 {
+        return (pattern, 0.0);
+    }
+    let length: f64 = path.segments().map(|segment| segment.arclen(period * LENGTH_OF_PERIOD)).sum();
+    let before = from.dot(to - from) / (chord * chord) * length;
+    let offset = (before + own.first().copied().unwrap_or_default() / 2.0).rem_euclid(period);
+    (own, offset)
 }
 
 /// Lengths between the corners of a path; a single one if it has curves.
@@ -129,7 +154,7 @@ fn across_corners(runs: &[f64], closed: bool, pattern: &[f64], period: f64) -> O
 
 #[cfg(test)]
 mod tests {
-    use super::fit;
+    use super::{Anchor, fit, fixed};
     use kurbo::{BezPath, Shape};
 
     fn path(text: &str) -> BezPath {
@@ -208,5 +233,39 @@ mod tests {
     fn an_odd_pattern_is_doubled() {
         assert_eq!(fit(&path("M0 0L100 0"), false, &[5.0]).0.len(), 2);
         assert_eq!(fit(&path("M0 0L100 0"), false, &[5.0, 2.0, 1.0]).0.len(), 6);
+    }
+
+    /// Where on a path dashes are whole, in hundredths.
+    fn dashes(from: f64, to: f64, all: f64) -> Vec<[i64; 2]> {
+        let mut path = BezPath::new();
+        path.move_to((from, 0.0));
+        path.line_to((to, 0.0));
+        let anchor = |x: f64| Anchor { place: [(x / all - 0.3) as f32, 0.1, 0.2], scale: 100.0 };
+        let (pattern, offset) = fixed(&path, [anchor(from), anchor(to)], &[6.0, 4.0]);
+        assert_eq!(pattern, [6.0, 4.0]);
+        let way = if to > from { 1.0 } else { -1.0 };
+        let starts = (0..40).map(|k| f64::from(k) * 10.0 - offset);
+        let ends = starts.map(|start| [from + way * start, from + way * (start + 6.0)]);
+        let mut whole: Vec<[i64; 2]> = ends
+            .filter(|own| own.iter().all(|x| *x > from.min(to) && *x < from.max(to)))
+            .map(|[a, b]| [a.min(b), a.max(b)].map(|x| (x * 100.0).round() as i64))
+            .collect();
+        whole.sort_unstable();
+        whole
+    }
+
+    #[test]
+    fn dashes_lie_on_the_model_whatever_is_seen_of_a_line() {
+        let all = dashes(0.0, 200.0, 200.0);
+        assert!(all.len() >= 19);
+        for (from, to) in [(3.0, 200.0), (37.5, 150.0), (200.0, 0.0), (180.0, 11.0)] {
+            let part = dashes(from, to, 200.0);
+            let known = |dash: &[i64; 2]| all.iter().any(|own| own[0].abs_diff(dash[0]) <= 1);
+            assert!(part.len() > 9 && part.iter().all(known), "{from} {to}: {part:?} of {all:?}");
+        }
+        let nowhere = Anchor { place: [0.0; 3], scale: 1.0 };
+        let path = BezPath::from_svg("M0 0H50").unwrap_or_default();
+        assert!(!fixed(&path, [nowhere, nowhere], &[6.0, 4.0]).0.is_empty());
+        assert!(fixed(&path, [nowhere, nowhere], &[]).0.is_empty());
     }
 }

@@ -41,7 +41,7 @@ pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions}
 pub use pen::{Ink, Pen, PenChange};
 pub use swell::{Swell, SwellChange};
 
-use crate::chain::{Chain, Under};
+use crate::chain::{Anchor, Chain, Under};
 use crate::drawing::{
     ImagePaint, Layer, LayerKind, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit,
 };
@@ -228,6 +228,12 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
     Some(stroked(chain.path.clone(), chain.closed, colour(chain, context, pen), chain, context, pen))
 }
 
+/// Where on the model a chain begins and ends, if it knows.
+fn ends(chain: &Chain) -> Option<[Anchor; 2]> {
+    let ends = [chain.samples.first()?.anchor, chain.samples.last()?.anchor];
+    ends.iter().all(Anchor::is_known).then_some(ends)
+}
+
 /// A path stroked with a chain's pen.
 fn stroked(
     path: BezPath,
@@ -241,7 +247,10 @@ fn stroked(
         (Vec::new(), 0.0)
     } else {
         let period: Vec<f64> = pen.dash.iter().map(|length| length.in_unit(context.unit)).collect();
-        dash::fit(&path, closed, &period)
+        match ends(chain).filter(|_| !closed) {
+            Some(ends) => dash::fixed(&path, ends, &period),
+            None => dash::fit(&path, closed, &period),
+        }
     };
     let width = pen.width.in_unit(context.unit);
     let paint = Paint::Stroke(StrokePaint { width, colour, cap: pen.cap, join: pen.join, dash, dash_offset });
