@@ -1,7 +1,7 @@
 //! [`Palette`]: the at most 255 colours that stand for those of a frame, without dithering.
 //!
 //! Where there are no more colours than that, all are exact. Otherwise the most frequent ones are: these are the flat fills,
-//! the ink and the paper. What is left, mixtures along the rims, shares the places that are left.
+//! the ink and the paper. What is left, mixtures along the rims and pictures, shares the places that are left.
 
 use rustc_hash::FxHashMap;
 
@@ -11,21 +11,11 @@ const MOST: usize = 255;
 /// So many of them are exact at least.
 const EXACT: usize = 128;
 
-/// Bits of a channel by which rare colours are gathered.
-const BITS: u32 = 5;
-
 /// Opaque colours and their numbers.
 #[derive(Debug)]
 pub(super) struct Palette {
     colours: Vec<[u8; 3]>,
     numbers: FxHashMap<[u8; 3], u8>,
-}
-
-/// Many pixels of about one colour.
-#[derive(Default, Clone, Copy)]
-struct Bucket {
-    count: u64,
-    sum: [u64; 3],
 }
 
 impl Palette {
@@ -39,16 +29,7 @@ impl Palette {
         counted.sort_unstable_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
         let exact = if counted.len() <= MOST { counted.len() } else { EXACT };
         let mut colours: Vec<[u8; 3]> = counted.iter().take(exact).map(|(colour, _)| *colour).collect();
-        let mut buckets: FxHashMap<[u8; 3], Bucket> = FxHashMap::default();
-        for (colour, count) in counted.iter().skip(exact) {
-            let bucket = buckets.entry(colour.map(|channel| channel >> (8 - BITS))).or_default();
-            bucket.count += count;
-            bucket.sum.iter_mut().zip(colour).for_each(|(sum, channel)| *sum += u64::from(*channel) * count);
-        }
-        let mut gathered: Vec<([u8; 3], Bucket)> = buckets.into_iter().collect();
-        gathered.sort_unstable_by(|a, b| b.1.count.cmp(&a.1.count).then(a.0.cmp(&b.0)));
-        let mean = |Bucket { count, sum }: Bucket| sum.map(|sum| ((sum + count / 2) / count.max(1)) as u8);
-        colours.extend(gathered.into_iter().take(MOST - exact).map(|(_, bucket)| mean(bucket)));
+        colours.extend(means(counted.split_off(exact), MOST - exact));
         let numbers = colours.iter().zip(0..).map(|(colour, number)| (*colour, number)).collect();
         Self { colours, numbers }
     }
@@ -78,6 +59,56 @@ impl Palette {
     pub fn bytes(&self) -> Vec<u8> {
         self.colours.iter().flatten().copied().chain([0, 0, 0]).collect()
     }
+}
+
+/// At most so many means of colours, each with how often it is there: the box round them is cut at its median across its
+/// longest side, again and again. Source: Heckbert, *Color image quantization for frame buffer display*, SIGGRAPH 1982, median cut.
+fn means(colours: Vec<([u8; 3], u64)>, most: usize) -> Vec<[u8; 3]> {
+    let mut boxes = vec![colours];
+    boxes.retain(|own| !own.is_empty());
+    while boxes.len() < most {
+        // Which is cut next: one that is long, and of those rather one of many pixels.
+        let worth = |own: &Vec<([u8; 3], u64)>| {
+            let count = own.iter().map(|(_, count)| count).sum::<u64>() as f64;
+            f64::from(longest(own).0) * count.sqrt().sqrt()
+        };
+        let next =
+            (0..boxes.len()).max_by(|a, b| worth(&boxes[*a]).total_cmp(&worth(&boxes[*b])).then(b.cmp(a)));
+        let Some(next) = next.filter(|next| longest(&boxes[*next]).0 > 0) else { break };
+        let mut own = boxes.swap_remove(next);
+        let (_, channel) = longest(&own);
+        own.sort_unstable_by_key(|(colour, _)| (colour[channel], *colour));
+        let half = own.iter().map(|(_, count)| count).sum::<u64>() / 2;
+        let mut sum = 0;
+        let mut before = |(_, count): &([u8; 3], u64)| {
+            sum += count;
+            sum <= half
+        };
+        let at = own.iter().take_while(|entry| before(entry)).count().clamp(1, own.len() - 1);
+        let rest = own.split_off(at);
+        boxes.extend([own, rest]);
+    }
+    let mean = |own: &Vec<([u8; 3], u64)>| {
+        let count = own.iter().map(|(_, count)| count).sum::<u64>().max(1);
+        let sum = |channel: usize| {
+            own.iter().map(|(colour, count)| u64::from(colour[channel]) * count).sum::<u64>()
+        };
+        [0, 1, 2].map(|channel| ((sum(channel) + count / 2) / count) as u8)
+    };
+    boxes.iter().map(mean).collect()
+}
+
+/// How long the box round some colours is, and along which channel.
+fn longest(colours: &[([u8; 3], u64)]) -> (u8, usize) {
+    let length = |channel: usize| {
+        let own = || colours.iter().map(|(colour, _)| colour[channel]);
+        own().max().unwrap_or(0) - own().min().unwrap_or(0)
+    };
+    [0, 1, 2]
+        .map(|channel| (length(channel), channel))
+        .into_iter()
+        .max_by_key(|(length, _)| *length)
+        .unwrap_or((0, 0))
 }
 
 #[cfg(test)]
