@@ -6,18 +6,17 @@ mod detail;
 mod film;
 mod plan;
 mod stage;
+mod total;
 mod video;
 
-use std::collections::BTreeMap;
 use std::path::Path;
-
-use serde::Serialize;
 
 pub(super) use args::AnimateArgs;
 use destination::Destination;
 use detail::Faces;
 use plan::Plan;
 use stage::Stage;
+use total::{Total, refuse_warnings};
 
 use super::output::{Staging, check_place, is_stdout};
 use super::progress::Progress;
@@ -25,29 +24,10 @@ use super::request::DrawRequest;
 use super::{lod, number, pipeline, print, say};
 use crate::error::Error;
 use crate::pose::Rigged;
-use crate::render::report::{Counts, StagesMs};
-use crate::render::{Report, Stopwatch};
+use crate::render::Stopwatch;
 
 /// How contours are drawn where time counts: along the edges of the faces that are left.
 const HURRIED: &str = "lines.contours=mesh";
-
-/// What all frames took and what they hold.
-#[derive(Debug, Default, Serialize)]
-struct Total {
-    /// Frames, and those of them that were drawn.
-    frames: u64,
-    drawings: u64,
-    fps: f64,
-    stages_ms: StagesMs,
-    counts: Counts,
-    /// The most faces that each drawing might have, where that was asked for, and how long each took.
-    faces: Vec<u64>,
-    drawing_ms: Vec<f64>,
-    warnings: Vec<String>,
-    /// In how many drawings there was each warning.
-    #[serde(skip)]
-    warned: BTreeMap<String, usize>,
-}
 
 /// Draws all frames, and says so in one line.
 pub(super) fn run(args: AnimateArgs) -> Result<(), Error> {
@@ -160,32 +140,6 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
         write_report(path, &total)?;
     }
     Ok(total)
-}
-
-impl Total {
-    /// Adds what a drawing took and holds.
-    fn add(&mut self, report: &Report, ms: f64) {
-        self.drawings += 1;
-        self.drawing_ms.push(ms);
-        self.stages_ms += report.stages_ms;
-        self.counts += report.counts;
-        for warning in &report.warnings {
-            *self.warned.entry(warning.clone()).or_default() += 1;
-        }
-    }
-}
-
-/// Under `--strict` warnings are errors.
-fn refuse_warnings<'a>(
-    request: &DrawRequest,
-    mut warnings: impl Iterator<Item = &'a String>,
-) -> Result<(), Error> {
-    match warnings.next().filter(|_| request.strict) {
-        Some(warning) => Err(Error::new(warning.clone())
-            .in_file(&request.model)
-            .remedy("mend the model, or draw without --strict")),
-        None => Ok(()),
-    }
 }
 
 fn write_report(path: &Path, total: &Total) -> Result<(), Error> {

@@ -9,7 +9,7 @@ use super::destination::{FilmFormat, Numbered};
 use super::detail::Faces;
 use super::film::{Film, Frame};
 use super::plan::Plan;
-use super::{Total, refuse_warnings};
+use super::total::{Total, refuse_warnings};
 use crate::animate::{Animator, Budget, Level};
 use crate::cli::output::{Format, Staging};
 use crate::cli::progress::Progress;

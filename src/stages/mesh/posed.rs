@@ -137,7 +137,7 @@ mod tests {
                 .map(|(face, normal)| {
                     let mut corners = face.map(corner);
                     corners.sort_unstable();
-                    (corners, normal.map(f32::to_bits))
+                    (corners, normal.map(|x| (x + 0.0).to_bits()))
                 })
                 .collect();
             faces.sort_unstable();
