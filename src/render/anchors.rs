@@ -5,13 +5,14 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use crate::chain::{Anchor, Chain, identity};
 use crate::math::function::{cbrt, tan};
 use crate::math::identity::identities;
-use crate::scene::{Camera, Geometry, Projection, Scene};
+use crate::mesh::PartId;
+use crate::scene::{Camera, Geometry, Part, Projection, Scene};
 use crate::trees::nearest::NearestTree;
 
 /// The parts of a posed scene, and how they rest.
@@ -39,21 +40,32 @@ struct Posed {
     tree: NearestTree,
     /// World units in a diagonal of its geometry.
     size: f64,
+    /// Where its geometry rests in the world, and whether every corner is there now.
+    rest: DAffine3,
+    rests: bool,
 }
 
 impl Anchors {
-    /// Of a scene and its geometries at rest, which have the same triangles.
-    pub fn new(posed: &Scene, rest: &[Geometry]) -> Self {
-        let resting: Vec<Resting> = rest.par_iter().map(Resting::new).collect();
-        let part = |part: &crate::scene::Part| {
+    /// Of a scene and the same at rest: geometries of one number have the same triangles.
+    pub fn new(posed: &Scene, rest: &Scene) -> Self {
+        let resting: Vec<Resting> = rest.geometries.par_iter().map(Resting::new).collect();
+        let part = |(number, part): (usize, &Part)| {
+            let is_it = |other: &&Part| other.name == part.name && other.geometry == part.geometry;
+            let own = rest.parts.get(number).filter(is_it).or_else(|| rest.parts.iter().find(is_it));
+            let own = own.map_or(part.world_from_part, |own| own.world_from_part);
             let world = |p: DVec3| part.world_from_part.transform_point3(p);
             let corners = posed.geometry_of(part).map(corners).unwrap_or_default();
             let corners: Vec<[DVec3; 3]> = corners.into_iter().map(|corners| corners.map(world)).collect();
             let diagonal = resting.get(part.geometry).map_or(1.0, |own| own.diagonal);
             let stretch = cbrt(part.world_from_part.matrix3.determinant().abs());
-            Posed { geometry: part.geometry, tree: NearestTree::new(&corners), size: stretch * diagonal }
+            let rests = resting.get(part.geometry).is_some_and(|resting| {
+                let rest = resting.triangles.iter().map(|corners| corners.map(|p| own.transform_point3(p)));
+                rest.eq(corners.iter().copied())
+            });
+            let size = stretch * diagonal;
+            Posed { geometry: part.geometry, tree: NearestTree::new(&corners), size, rest: own, rests }
         };
-        let parts = posed.parts.par_iter().map(part).collect();
+        let parts = posed.parts.par_iter().enumerate().map(part).collect();
         let names = identities(posed.parts.iter().map(|part| part.name.as_str()));
         Self { resting, parts, names }
     }
@@ -84,12 +96,34 @@ impl Anchors {
         identity::name(chains, &self.names);
     }
 
+    /// Whether all stands as it rests.
+    pub fn rests(&self) -> bool {
+        self.parts.iter().all(|part| part.rests)
+    }
+
+    /// Where a point near a part rests, world.
+    pub fn at_rest(&self, part: PartId, world: DVec3) -> Option<DVec3> {
+        let part = self.parts.get(part.index())?;
+        let (place, _) = self.resting_place(part, world)?;
+        Some(part.rest.transform_point3(place))
+    }
+
+    /// Where on a part a point near it is.
+    pub fn place(&self, part: PartId, world: DVec3) -> Option<Anchor> {
+        self.anchor(self.parts.get(part.index())?, world, 1.0)
+    }
+
+    /// Where a point near a part is on its geometry at rest.
+    fn resting_place(&self, part: &Posed, world: DVec3) -> Option<(DVec3, &Resting)> {
+        let resting = self.resting.get(part.geometry)?;
+        let nearest = part.tree.nearest(world)?;
+        let [a, b, c] = resting.triangles.get(nearest.triangle as usize)?;
+        Some((*a * nearest.weights.x + *b * nearest.weights.y + *c * nearest.weights.z, resting))
+    }
+
     /// Where a point near a part is on it; a unit of the page is `unit` long there.
     fn anchor(&self, part: &Posed, world: DVec3, unit: f64) -> Option<Anchor> {
-        let resting = self.resting.get(part.geometry)?;
-        let nearest = part.tree.nearest(world).filter(|_| unit > 0.0)?;
-        let [a, b, c] = resting.triangles.get(nearest.triangle as usize)?;
-        let place = *a * nearest.weights.x + *b * nearest.weights.y + *c * nearest.weights.z;
+        let (place, resting) = self.resting_place(part, world).filter(|_| unit > 0.0)?;
         let place = (place - resting.middle) / resting.diagonal;
         let anchor = Anchor { place: place.as_vec3().to_array(), scale: (part.size / unit) as f32 };
         (place.is_finite() && anchor.scale.is_finite()).then_some(anchor)

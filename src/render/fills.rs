@@ -2,20 +2,23 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use kurbo::{BezPath, Vec2};
 
+use super::anchors::Anchors;
+use super::at_rest::AtRest;
 use crate::drawing::{Layer, Page, Provenance};
 use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
+use crate::hatch::{Direction, HatchLayer, PatternFixed};
 use crate::lines::{
     FeatureLines, LineKind, LineOptions, Lit, Source, Surface, Textures, isophotes, texture_borders,
     tone_edges,
 };
 use crate::math::colour::Colour;
 use crate::mesh::solid::solid_parts;
-use crate::mesh::{EdgeSet, Mesh, PaintId};
+use crate::mesh::{EdgeSet, FaceId, Mesh, PaintId, PartId};
 use crate::region::{
     self, Darkened, Look, Region, RegionOptions, Regions, Seen, StepsAs, paint::PaintContext,
 };
@@ -38,6 +41,13 @@ pub(super) fn asks_surface(style: &Style) -> bool {
 /// Whether a style draws lines between painted colours.
 pub(super) fn asks_artist(style: &Style) -> bool {
     style.lines.enabled && style.lines.kinds.contains(&LineKind::Artist)
+}
+
+/// Whether a style lays strokes along cuts through the model.
+pub(super) fn lays_through(style: &Style) -> bool {
+    let fixed = |layer: &HatchLayer| matches!(layer.direction, Direction::Object | Direction::Uv);
+    let hatches = style.hatch.enabled && style.hatch.layers.iter().any(fixed);
+    hatches || style.patterns.iter().any(|own| own.fixed == PatternFixed::Surface)
 }
 
 /// What shadows that things cast are to darken.
@@ -142,6 +152,8 @@ pub(super) struct Fills<'a> {
     paints: &'a [Paint],
     textures: &'a Textures,
     darkened: Darkened,
+    /// Where the mesh rests, if it does not stand so.
+    rest: Option<AtRest<'a>>,
 }
 
 impl<'a> Fills<'a> {
@@ -181,6 +193,31 @@ impl<'a> Fills<'a> {
             darkened: darkened(style),
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
+            rest: None,
+        }
+    }
+
+    /// With what is laid through the model laid through it as it rests.
+    pub fn laid_at(self, anchors: &'a Anchors) -> Self {
+        Self { rest: AtRest::new(anchors, &self.surface.mesh), ..self }
+    }
+
+    /// Where the corners of a face are at rest, world.
+    pub fn resting_corners(&self, face: u32) -> [DVec3; 3] {
+        let mesh = &self.surface.mesh;
+        let rest = self.rest.as_ref().zip(mesh.triangles.get(face as usize));
+        let rest = rest.and_then(|(rest, triangle)| rest.corners(*triangle));
+        rest.unwrap_or_else(|| mesh.corners(FaceId(face)).map(|p| p + mesh.origin))
+    }
+
+    /// About where in its part a point of the surface (relative to the mesh's origin) is at rest, in shares of the part's size:
+    /// `share` to a unit.
+    pub fn rough_place(&self, part: PartId, at: DVec3, share: f64) -> DVec3 {
+        let mesh = &self.surface.mesh;
+        let world = at + mesh.origin;
+        match self.rest.as_ref().and_then(|rest| rest.anchor(part, world)) {
+            Some(anchor) => Vec3::from_array(anchor.place).as_dvec3() / share,
+            None => world / (mesh.extents.of(part).scale * share),
         }
     }
 

@@ -9,7 +9,6 @@ use super::fills::Fills;
 use crate::drawing::{Layer, Length, Page, Unit};
 use crate::hatch::guide::rank;
 use crate::hatch::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Hatched, Tone, cuts};
-use crate::lines::Lit;
 use crate::math::colour::Colour;
 use crate::math::function::{cos, sin};
 use crate::math::identity::identities;
@@ -91,7 +90,7 @@ impl Hatching<'_> {
             .iter()
             .enumerate()
             .map(|(number, layer)| {
-                fixed(&lit, ground, scene, page, offset, layer, hash(style.seed, &[number as u64]))
+                fixed(fills, ground, scene, page, offset, layer, hash(style.seed, &[number as u64]))
             })
             .collect();
         let context = HatchContext {
@@ -170,7 +169,7 @@ const SAME_COVERAGE: f64 = 0.02;
 
 /// Guides of a layer that is fixed to the model.
 fn fixed(
-    lit: &Lit,
+    fills: &Fills,
     ground: &Ground,
     scene: &Scene,
     page: &Page,
@@ -179,6 +178,7 @@ fn fixed(
     seed: u64,
 ) -> Option<Vec<Guide>> {
     let pitch = layer.pitch().in_unit(page.unit);
+    let lit = &fills.lit();
     let mesh = lit.mesh;
     let frame = &lit.view.frame;
     // A pitch as it is where the camera looks, rounded to a power of two, so that small changes of
@@ -188,7 +188,7 @@ fn fixed(
     let angle = layer.angle.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
     let across = cut_of(scene, angle);
-    let cut = |face: u32| Some(mesh.corners(FaceId(face)).map(|p| (p + mesh.origin).dot(across) / spacing));
+    let cut = |face: u32| Some(fills.resting_corners(face).map(|p| p.dot(across) / spacing));
     let texels = if layer.direction == Direction::Uv { texture_scales(mesh) } else { Vec::new() };
     let woven = |face: u32| {
         let corners = mesh.corner_uvs.get(face as usize)?;
@@ -210,8 +210,8 @@ fn fixed(
     let seen = |points: &[(Point, f64)]| are_seen(lit, offset, points);
     let names = identities(scene.parts.iter().map(|part| part.name.as_str()));
     let name = |part: PartId, at: DVec3| {
-        let rough = (at + mesh.origin) / (mesh.extents.of(part).scale * ROUGHLY);
-        let [x, y, z] = rough.round().to_array().map(|x| (x as i64).cast_unsigned());
+        let [x, y, z] =
+            fills.rough_place(part, at, ROUGHLY).round().to_array().map(|x| (x as i64).cast_unsigned());
         hash(names.get(part.index()).copied().unwrap_or_default(), &[x, y, z])
     };
     Some(cuts::guides(ground, &curves, seen, name, pitch, seed))

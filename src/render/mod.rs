@@ -19,6 +19,7 @@
 //! ```
 
 mod anchors;
+mod at_rest;
 mod beside;
 pub mod defects;
 mod fills;
@@ -249,7 +250,9 @@ impl<'a> Prepared<'a> {
         let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
         let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {
             let colours = Colours { paints, textures };
-            Fills::new(surface, casting, paintable, &view, scene, colours, style, &mut warnings)
+            let fills = Fills::new(surface, casting, paintable, &view, scene, colours, style, &mut warnings);
+            let moved = self.anchors.as_ref().filter(|_| fills::lays_through(style));
+            moved.into_iter().fold(fills, Fills::laid_at)
         });
         warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
         if let Some(fills) = &fills {

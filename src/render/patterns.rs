@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use kurbo::Vec2;
 
 use super::fills::Fills;
@@ -11,7 +10,6 @@ use super::on_surface;
 use crate::drawing::{Mark, Page};
 use crate::hatch::{self, Guide, HatchContext, OnSurface, Pattern, PatternFixed, PatternKind, cuts};
 use crate::math::colour::Colour;
-use crate::mesh::FaceId;
 use crate::region::level_curves::{are_seen, level_curves};
 use crate::region::{Ground, Seen};
 use crate::scene::{Camera, Scene};
@@ -80,10 +78,7 @@ fn guides(
     let turns = if own.kind == PatternKind::Crosses { &[0.0, 90.0][..] } else { &[0.0] };
     let of = |turn: &f64| {
         let across = cut_of(scene, (own.angle + turn).to_radians());
-        let mesh = lit.mesh;
-        let cut = |face: u32| {
-            Some(mesh.corners(FaceId(face)).map(|p: DVec3| (p + mesh.origin).dot(across) / spacing))
-        };
+        let cut = |face: u32| Some(fills.resting_corners(face).map(|p| p.dot(across) / spacing));
         let curves = level_curves(&lit, offset, cut, |_, density| density * width < DENSEST);
         cuts::guides(ground, &curves, |points| are_seen(&lit, offset, points), |_, _| 0, size, 0)
     };

@@ -9,8 +9,8 @@ use super::fills::{self, Paintable};
 use super::late_search::LateSearch;
 use super::{Prepared, glass};
 use crate::mesh::Sources;
+use crate::scene::Scene;
 use crate::scene::cutout::Cut;
-use crate::scene::{Geometry, Scene};
 use crate::shape::Patches;
 use crate::style::Style;
 
@@ -48,7 +48,7 @@ impl<'a> Resting<'a> {
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
         let (still, patches) = Prepared::with_patches(scene, style);
         let sources = Sources::of(&still.surface.mesh, &still.scene.to_soup());
-        let still = still.anchored(scene, &scene.geometries);
+        let still = still.anchored(scene, scene);
         Self { scene, style, still, patches, sources }
     }
 
@@ -67,7 +67,7 @@ impl<'a> Resting<'a> {
         'a: 'b,
     {
         let prepared = self.following(posed).unwrap_or_else(|| Prepared::new(posed, self.style));
-        prepared.anchored(posed, &self.scene.geometries)
+        prepared.anchored(posed, self.scene)
     }
 
     /// A pose in which the mesh is that at rest, moved.
@@ -95,8 +95,8 @@ impl<'a> Resting<'a> {
 
 impl Prepared<'_> {
     /// With strokes that last while the model moves: they are named after where on the model at rest they are, and what of them
-    /// varies by chance varies over its surface. `posed` is the scene that this was made of, and `rest` its geometries as they rest.
-    fn anchored(self, posed: &Scene, rest: &[Geometry]) -> Self {
+    /// varies by chance varies over its surface. `posed` is the scene that this was made of, and `rest` the same at rest.
+    fn anchored(self, posed: &Scene, rest: &Scene) -> Self {
         Self { anchors: Some(Anchors::new(posed, rest)), ..self }
     }
 }
