@@ -2,14 +2,15 @@
 //!
 //! Space round the model at rest is cut into cells. Each cell a chain runs through draws a lot, the better the longer the
 //! chain is in it, and the best lot names the chain: two chains have the same name as often as they have the same cells, so
-//! that one which loses or gains a little keeps its name mostly. Of several chains of one name the longest keeps it, and the
-//! others are named by finer cells. Nothing is asked but the chains themselves: a frame's names depend on no other frame.
+//! that one which loses or gains a little keeps its name mostly. Where several chains run through a cell, the one whose lot is best has
+//! it, and the others have the next best of theirs that is free; what finds none is named by finer cells. Nothing is asked but
+//! the chains themselves: a frame's names depend on no other frame.
 //!
 //! Source: lots are weighted minwise hashing (Ioffe, Improved Consistent Sampling, Weighted Minhash and L1 Sketching, ICDM
 //! 2010), with exponential lots.
 
 use kurbo::Point;
-use rustc_hash::FxHashMap;
+use rustc_hash::FxHashSet;
 
 use super::{Anchor, Chain};
 use crate::lines::LineKind;
@@ -18,7 +19,7 @@ use crate::math::noise::{hash, unit};
 
 /// Cells along the diagonal of a model, from coarse to fine, for contours, which creep over these while
 /// the eye moves, and for all others, which stay.
-const SLIDING: [f64; 5] = [3.0, 8.0, 24.0, 72.0, 500.0];
+const SLIDING: [f64; 5] = [6.0, 18.0, 54.0, 160.0, 500.0];
 const STAYING: [f64; 5] = [24.0, 72.0, 216.0, 650.0, 4000.0];
 
 /// Most of a straight piece that is taken to lie in one cell, user units, and the most pieces of a line between two points.
@@ -30,36 +31,30 @@ const SHIFT: f64 = 0.372_915;
 
 /// Names the chains that know where on the model they are; `parts` tell parts apart.
 pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
-    let lengths: Vec<f64> =
-        chains.iter().map(|chain| pieces(chain).map(|(_, length)| length).sum()).collect();
     let mut open: Vec<usize> =
         (0..chains.len()).filter(|number| chains.get(*number).is_some_and(is_anchored)).collect();
     for level in 0..SLIDING.len() {
-        let mut known: FxHashMap<u64, usize> = FxHashMap::default();
-        let names: Vec<u64> = open
-            .iter()
-            .map(|number| chains.get(*number).map_or(0, |chain| best_lot(chain, parts, level)))
-            .collect();
-        for (number, name) in open.iter().zip(&names) {
-            let longest = known.entry(*name).or_insert(*number);
-            if lengths.get(*number) > lengths.get(*longest) {
-                *longest = *number;
-            }
+        let mut wishes: Vec<(f64, u64, usize)> = Vec::new();
+        for number in &open {
+            let lots = chains.get(*number).map(|chain| lots(chain, parts, level)).unwrap_or_default();
+            wishes.extend(lots.into_iter().map(|(lot, name)| (lot, name, *number)));
         }
-        let mut left = Vec::new();
-        for (number, name) in open.iter().zip(names) {
-            if known.get(&name) != Some(number) {
-                left.push(*number);
-            } else if let Some(chain) = chains.get_mut(*number) {
+        wishes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        let mut given: FxHashSet<u64> = FxHashSet::default();
+        for (_, name, number) in wishes {
+            if let Some(chain) = chains.get_mut(number).filter(|chain| chain.identity == 0)
+                && given.insert(name)
+            {
                 chain.identity = name;
             }
         }
-        open = left;
+        open.retain(|number| chains.get(*number).is_some_and(|chain| chain.identity == 0));
     }
     // What even the finest cells do not tell apart lies one upon the other.
     for (order, number) in open.into_iter().enumerate() {
         if let Some(chain) = chains.get_mut(number) {
-            chain.identity = hash(best_lot(chain, parts, SLIDING.len() - 1), &[order as u64]).max(1);
+            let name = lots(chain, parts, SLIDING.len() - 1).first().map_or(1, |(_, name)| *name);
+            chain.identity = hash(name, &[order as u64]).max(1);
         }
     }
 }
@@ -68,8 +63,8 @@ fn is_anchored(chain: &Chain) -> bool {
     chain.samples.iter().any(|sample| sample.anchor.is_known())
 }
 
-/// The best lot of the cells of a chain.
-fn best_lot(chain: &Chain, parts: &[u64], level: usize) -> u64 {
+/// The lots of the cells of a chain, and what they would name it.
+fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
     let slides = chain.kind == LineKind::Contour;
     let cells = if slides { SLIDING[level] } else { STAYING[level] };
     let part = parts.get(chain.part.index()).copied().unwrap_or_default();
@@ -94,8 +89,7 @@ fn best_lot(chain: &Chain, parts: &[u64], level: usize) -> u64 {
         let own = hash(part, &[u64::from(slides), level as u64, words[0], words[1], words[2]]);
         (-ln(unit(hash(own, &[0])).max(f64::MIN_POSITIVE)) / weight.max(f64::MIN_POSITIVE), own)
     };
-    let best = weights.iter().map(lot).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    best.map_or(1, |(_, own)| own.max(1))
+    weights.iter().map(lot).map(|(lot, own)| (lot, own.max(1))).collect()
 }
 
 /// A chain as short straight pieces: where on the model the middle of each is, and its length.
