@@ -9,7 +9,6 @@
 //! Source: lots are weighted minwise hashing (Ioffe, Improved Consistent Sampling, Weighted Minhash and L1 Sketching, ICDM
 //! 2010), with exponential lots.
 
-use kurbo::Point;
 use rustc_hash::FxHashSet;
 
 use super::{Anchor, Chain};
@@ -22,9 +21,8 @@ use crate::math::noise::{hash, unit};
 const SLIDING: [f64; 5] = [6.0, 18.0, 54.0, 160.0, 500.0];
 const STAYING: [f64; 5] = [24.0, 72.0, 216.0, 650.0, 4000.0];
 
-/// Most of a straight piece that is taken to lie in one cell, user units, and the most pieces of a line between two points.
-const STEP: f64 = 4.0;
-const MOST_STEPS: f64 = 512.0;
+/// The most cells that are told apart between two points of a line.
+const MOST_CELLS: usize = 1024;
 
 /// Shifts the cells, so that no plane of symmetry is between two of them.
 const SHIFT: f64 = 0.372_915;
@@ -69,12 +67,11 @@ fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
     let cells = if slides { SLIDING[level] } else { STAYING[level] };
     let part = parts.get(chain.part.index()).copied().unwrap_or_default();
     let mut weights: Vec<([i64; 3], f64)> = Vec::new();
-    for (anchor, length) in pieces(chain).filter(|(anchor, _)| anchor.is_known()) {
-        let cell = anchor.place.map(|x| ((f64::from(x) + SHIFT) * cells).floor() as i64);
-        match weights.last_mut() {
+    for [from, to] in sides(chain) {
+        in_cells(from, to, cells, |cell, length| match weights.last_mut() {
             Some((last, weight)) if *last == cell => *weight += length,
             _ => weights.push((cell, length)),
-        }
+        });
     }
     weights.sort_by_key(|(cell, _)| *cell);
     weights.dedup_by(|next, kept| {
@@ -92,18 +89,109 @@ fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
     weights.iter().map(lot).map(|(lot, own)| (lot, own.max(1))).collect()
 }
 
-/// A chain as short straight pieces: where on the model the middle of each is, and its length.
-fn pieces(chain: &Chain) -> impl Iterator<Item = (Anchor, f64)> + '_ {
-    let count = chain.points.len();
+/// The straight pieces of a chain, from place to place of the model at rest.
+fn sides(chain: &Chain) -> impl Iterator<Item = [[f64; 3]; 2]> + '_ {
+    let count = chain.samples.len();
     let sides = if chain.closed { count } else { count.saturating_sub(1) };
-    (0..sides).flat_map(move |side| {
-        let next = (side + 1) % count;
-        let point = |at: usize| chain.points.get(at).copied().unwrap_or(Point::ZERO);
-        let length = (point(next) - point(side)).hypot2().sqrt();
-        let steps = (length / STEP).ceil().clamp(1.0, MOST_STEPS);
-        let ends =
-            [side, next].map(|at| chain.samples.get(at).map(|sample| sample.anchor).unwrap_or_default());
-        (0..steps as usize)
-            .map(move |step| (ends[0].lerp(ends[1], (step as f64 + 0.5) / steps), length / steps))
+    (0..sides).filter_map(move |side| {
+        let ends = [side, (side + 1) % count].map(|at| chain.samples.get(at).map(|sample| sample.anchor));
+        let [Some(from), Some(to)] = ends else { return None };
+        let place = |anchor: Anchor| anchor.place.map(f64::from);
+        (from.is_known() && to.is_known()).then(|| [place(from), place(to)])
     })
+}
+
+/// Tells the cells that a straight piece runs through, in its order, and its length in each. The length is that on the model
+/// at rest: what of a line is seen counts, not how it is seen, so that a line that turns keeps its name.
+fn in_cells(from: [f64; 3], to: [f64; 3], cells: f64, mut told: impl FnMut([i64; 3], f64)) {
+    let [from, to] = [from, to].map(|place| place.map(|x| (x + SHIFT) * cells));
+    let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
+    let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
+    let mut walls: Vec<f64> = vec![0.0, 1.0];
+    for axis in 0..3 {
+        let (low, high) = (from[axis].min(to[axis]).floor() as i64, from[axis].max(to[axis]).floor() as i64);
+        let crossed = (low.saturating_add(1)..=high).take(MOST_CELLS);
+        walls.extend(crossed.map(|wall| ((wall as f64 - from[axis]) / way[axis]).clamp(0.0, 1.0)));
+    }
+    walls.sort_by(f64::total_cmp);
+    for pair in walls.windows(2) {
+        let middle = (pair[0] + pair[1]) / 2.0;
+        let cell = [0, 1, 2].map(|axis| (from[axis] + way[axis] * middle).floor() as i64);
+        told(cell, (pair[1] - pair[0]) * length);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::{BezPath, Point};
+
+    use super::*;
+    use crate::chain::Sample;
+    use crate::math::function::{cos, sin};
+    use crate::mesh::{MaterialId, PartId};
+
+    /// A chain along a straight line of the model at rest.
+    fn chain(from: [f64; 3], to: [f64; 3], points: usize) -> Chain {
+        let at = |k: usize| k as f64 / (points - 1) as f64;
+        let place = |t: f64| [0, 1, 2].map(|axis| (from[axis] + (to[axis] - from[axis]) * t) as f32);
+        let sample =
+            |k| Sample { anchor: Anchor { place: place(at(k)), scale: 500.0 }, ..Sample::new(1.0, 1.0) };
+        Chain {
+            points: (0..points).map(|k| Point::new(400.0 * at(k), 0.0)).collect(),
+            samples: (0..points).map(sample).collect(),
+            closed: false,
+            kind: LineKind::Crease,
+            silhouette: false,
+            invisibility: 0,
+            veiled: false,
+            both_seen: true,
+            part: PartId(0),
+            material: MaterialId(0),
+            smooth: false,
+            covered: [false; 2],
+            segment: 0,
+            identity: 0,
+            path: BezPath::new(),
+        }
+    }
+
+    fn names(mut chains: Vec<Chain>) -> Vec<u64> {
+        name(&mut chains, &[7]);
+        chains.iter().map(|chain| chain.identity).collect()
+    }
+
+    /// The ends of lines all over the model.
+    fn lines() -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+        (0..300).map(f64::from).map(|k| {
+            let from = [0.3 * cos(k), 0.3 * sin(1.7 * k), 0.3 * cos(2.3 * k)];
+            (from, [from[0] + 0.2 * sin(0.9 * k), from[1] + 0.2 * cos(0.9 * k), from[2] + 0.1])
+        })
+    }
+
+    #[test]
+    fn a_line_that_loses_a_tenth_keeps_its_name_nine_times_of_ten() {
+        let kept = lines().filter(|(from, to)| {
+            let shorter = [0, 1, 2].map(|axis| from[axis] + 0.9 * (to[axis] - from[axis]));
+            names(vec![chain(*from, *to, 9)]) == names(vec![chain(*from, shorter, 9)])
+        });
+        let kept = kept.count();
+        assert!((255..300).contains(&kept), "{kept} of 300");
+    }
+
+    #[test]
+    fn points_more_or_fewer_do_not_change_a_name() {
+        for (from, to) in lines() {
+            assert_eq!(names(vec![chain(from, to, 2)]), names(vec![chain(from, to, 65)]));
+        }
+    }
+
+    #[test]
+    fn lines_through_the_same_cells_have_names_of_their_own() {
+        let beside = |k: i32| chain([0.0, f64::from(k) * 1e-5, 0.0], [0.3, f64::from(k) * 1e-5, 0.1], 4);
+        let mut given = names((0..40).map(beside).collect());
+        assert!(given.iter().all(|name| *name != 0));
+        given.sort_unstable();
+        given.dedup();
+        assert_eq!(given.len(), 40);
+    }
 }
