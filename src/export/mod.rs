@@ -18,6 +18,7 @@ pub(crate) mod canonical;
 pub mod film;
 pub(crate) mod number;
 pub(crate) mod order;
+mod part_groups;
 mod path_data;
 #[cfg(feature = "pdf")]
 pub mod pdf;
@@ -33,6 +34,7 @@ pub mod png;
 mod png_image;
 pub mod svg;
 mod svg_image;
+mod touching;
 pub(crate) mod xml;
 
 #[cfg(feature = "png")]

@@ -1,13 +1,12 @@
 //! A drawing as SVG: Inkscape layers or groups of parts, small and fast to write.
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::attributes::{Attributes, WIDTH_DECIMALS, hex};
 use super::number::Decimals;
 use super::order::{self, AlikeMarks, CHUNK, Paths};
+use super::part_groups::{PartGroup, part_groups};
 use super::pictures::Named;
 use super::svg_image;
 use super::xml::{Ids, escape};
@@ -107,7 +106,7 @@ impl Drawing {
                 }
             }
             Grouping::Part => {
-                for PartGroup { name, marks, ordered } in self.by_part() {
+                for PartGroup { name, marks, ordered } in part_groups(self) {
                     let fills = gradient_ids(&marks, &mut ids);
                     let group = Group { marks: &marks, ordered, decimals, named, fills };
                     match name {
@@ -187,43 +186,6 @@ impl Drawing {
         let label = layer.pen.clone().unwrap_or_else(|| id.clone());
         (id, label)
     }
-
-    /// The marks of all layers by part, in order of first appearance; those of no part first, and what shows of the paper through all
-    /// others last.
-    fn by_part(&self) -> Vec<PartGroup<'_>> {
-        let mut groups = vec![PartGroup::default()];
-        let mut index: FxHashMap<&str, usize> = FxHashMap::default();
-        let (over, below): (Vec<&Layer>, Vec<&Layer>) =
-            self.layers.iter().partition(|layer| layer.kind == LayerKind::Tooth);
-        for layer in below {
-            for mark in &layer.marks {
-                let at = match &mark.provenance.part {
-                    None => 0,
-                    Some(name) => *index.entry(name).or_insert_with(|| {
-                        groups.push(PartGroup { name: Some(Arc::clone(name)), ..PartGroup::default() });
-                        groups.len() - 1
-                    }),
-                };
-                if let Some(group) = groups.get_mut(at) {
-                    group.marks.push(mark);
-                    group.ordered |= layer.ordered;
-                }
-            }
-        }
-        let marks = over.into_iter().flat_map(|layer| &layer.marks).collect();
-        groups.push(PartGroup { marks, ..PartGroup::default() });
-        groups.retain(|group| !group.marks.is_empty());
-        groups
-    }
-}
-
-/// The marks of a part, of all layers.
-#[derive(Default)]
-struct PartGroup<'a> {
-    name: Option<Arc<str>>,
-    marks: Vec<&'a Mark>,
-    /// Whether some are of an ordered layer.
-    ordered: bool,
 }
 
 /// The start tag of a layer, but for its attributes of painting and its closing bracket.

@@ -37,6 +37,7 @@ mod models;
 mod motion;
 mod painted_surfaces;
 mod paper;
+mod part_groups;
 mod patterns;
 mod picture_fills;
 mod poses;

@@ -1,0 +1,64 @@
+//! Groups of parts paint the picture that layers do, against an SVG program, and a part has no more of them than it needs.
+
+use std::collections::BTreeSet;
+
+use ligne::drawing::Drawing;
+use ligne::export::{Grouping, SvgOptions};
+use ligne::{Camera, Scene, Style, render};
+use resvg::tiny_skia::{Pixmap, Transform};
+
+fn drawn(model: &str, style: &str, sets: &[&str]) -> Drawing {
+    let scene = Scene::open(model).unwrap();
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    let style = Style::load(style, &sets).unwrap();
+    render(&scene, &Camera::three_quarter_of(scene.up).fit(&scene), &style).unwrap()
+}
+
+fn by_part(drawing: &Drawing) -> String {
+    drawing.to_svg(&SvgOptions::default().grouped_by(Grouping::Part))
+}
+
+fn pixels(svg: &str) -> Pixmap {
+    let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).unwrap();
+    let mut pixels = Pixmap::new(1000, 1000).unwrap();
+    resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
+    pixels
+}
+
+/// The ids of the groups of parts.
+fn groups(svg: &str) -> Vec<&str> {
+    svg.split("<g id=\"part-").skip(1).filter_map(|rest| rest.split('"').next()).collect()
+}
+
+#[test]
+fn the_picture_is_that_of_layers() {
+    let sets: [(&str, &str, &[&str]); 6] = [
+        ("pump.glb", "toon", &[]),
+        ("pump.glb", "comic", &[]),
+        ("crane.glb", "pencil", &[]),
+        ("street.glb", "toon", &["lines.hidden=dashed"]),
+        ("jar.obj", "toon", &["glass.draw=glass"]),
+        ("picnic.obj", "toon", &["fills.texture=image"]),
+    ];
+    for (model, style, sets) in sets {
+        let drawing = drawn(&format!("examples/models/{model}"), style, sets);
+        let [layers, parts] =
+            [drawing.to_svg(&SvgOptions::default()), by_part(&drawing)].map(|svg| pixels(&svg));
+        // One colour over itself is the same either way round but for the rounding of a channel, twice.
+        let most = layers.data().iter().zip(parts.data()).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+        assert!(most <= 3, "{model} {style}: {most} of 255");
+    }
+}
+
+#[test]
+fn a_part_is_one_group_where_that_changes_nothing() {
+    let svg = by_part(&drawn("examples/models/pump.glb", "ink", &[]));
+    let names: BTreeSet<&str> =
+        svg.split("data-part=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert_eq!(groups(&svg).len(), names.len());
+    // Lines lie over the fills of neighbours: most parts are two groups, and hardly more.
+    let svg = by_part(&drawn("examples/models/pump.glb", "toon", &[]));
+    assert!(groups(&svg).len() <= 3 * names.len(), "{} of {}", groups(&svg).len(), names.len());
+    let unique: BTreeSet<&str> = groups(&svg).into_iter().collect();
+    assert_eq!(unique.len(), groups(&svg).len());
+}
