@@ -344,7 +344,7 @@ mod tests {
         let track = Track::new(vec![0.5, 1.0, 2.5], vec![0.0; 9], Interpolation::Linear).unwrap();
         Clip {
             name: "Walk".to_owned(),
-            channels: vec![Channel { node: 0, property: Property::Scale, track }],
+            channels: vec![Channel { target: Target::Node(0, Property::Scale), track }],
         }
     }
 

@@ -12,12 +12,15 @@
 
 pub mod body;
 pub mod clip;
+pub mod factors;
 pub mod moment;
 pub mod rig;
 pub mod track;
+mod values;
 
 pub use body::Body;
-pub use clip::{Channel, Clip, Playing, Property};
+pub use clip::{Channel, Clip, Finish, Lens, Playing, Property, Shine, Target};
+pub use factors::Factors;
 pub use moment::Moment;
 pub use rig::Rig;
 pub use track::{Interpolation, Track};
@@ -28,7 +31,8 @@ use glam::{DAffine3, DVec3};
 
 use crate::error::Error;
 use crate::scene::{Camera, LightKind, NamedCamera, Scene};
-use rig::Stance;
+use rig::{Held, Stance};
+use values::Values;
 
 /// A scene as it is stored, and what moves it.
 #[derive(Debug, Clone, Default)]
@@ -72,11 +76,18 @@ impl Rigged {
         }
         let mut left = shown.into_iter();
         scene.parts.retain(|_| left.next().unwrap_or(true));
-        for (named, node) in scene.cameras.iter_mut().zip(&rig.cameras) {
-            named.camera = moved_camera(&named.camera, stance.world[*node]);
+        let values = Values::new(&rig.clips, playing);
+        for (named, held) in scene.cameras.iter_mut().zip(&rig.cameras) {
+            named.camera = now_camera(&named.camera, *held, &stance, &values);
         }
-        for (light, node) in scene.lights.iter_mut().zip(&rig.lights) {
-            light.kind = moved_light(light.kind, stance.world[*node]);
+        for (light, held) in scene.lights.iter_mut().zip(&rig.lights) {
+            values.light(held.number, light);
+            light.kind = moved_light(light.kind, stance.world[held.node]);
+        }
+        for (number, (material, rest)) in scene.materials.iter_mut().zip(&rig.materials).enumerate() {
+            if let Some(now) = values.material(number, rest) {
+                now.give(material);
+            }
         }
         Ok(scene)
     }
@@ -91,8 +102,9 @@ impl Rigged {
             return Ok(self.scene.cameras.clone());
         }
         let stance = self.stance(playing)?;
-        let moved = |(named, node): (&NamedCamera, &usize)| {
-            let camera = moved_camera(&named.camera, stance.world[*node]);
+        let values = Values::new(&self.rig.clips, playing);
+        let moved = |(named, held): (&NamedCamera, &Held)| {
+            let camera = now_camera(&named.camera, *held, &stance, &values);
             NamedCamera { camera, ..named.clone() }
         };
         Ok(self.scene.cameras.iter().zip(&self.rig.cameras).map(moved).collect())
@@ -170,6 +182,11 @@ impl Rigged {
         }
         Ok(())
     }
+}
+
+/// A camera with its lens as it is now, where its node is now.
+fn now_camera(camera: &Camera, held: Held, stance: &Stance, values: &Values) -> Camera {
+    moved_camera(&values.camera(held.number, *camera), stance.world[held.node])
 }
 
 /// A camera where its node is now: at its origin, looking along -z with y up.

@@ -1,13 +1,15 @@
 //! [`Resting`]: a scene made ready at rest, from which its poses are made ready.
 //!
 //! What does not change when a figure moves is found once, at rest: which vertices are one and which faces meet at which edge, where the
-//! surface is creased and where it is round, the paints and the pictures they come from. Places, normals, lines and all that
-//! is seen of them are found for every pose.
+//! surface is creased and where it is round, the paints and the pictures they come from, unless materials change. Places, normals,
+//! lines and all that is seen of them are found for every pose.
+
+use std::sync::Arc;
 
 use super::anchors::Anchors;
 use super::fills::{self, Paintable};
 use super::late_search::LateSearch;
-use super::{Prepared, glass};
+use super::{Prepared, glass, paints_of};
 use crate::mesh::Sources;
 use crate::scene::Scene;
 use crate::scene::cutout::Cut;
@@ -81,10 +83,24 @@ impl<'a> Resting<'a> {
             return None;
         }
         let left = glass::left(posed, style);
-        let Cut { scene, warnings, .. } = glass::cut(posed, &left);
-        let mesh = self.still.surface.mesh.posed(self.sources.as_ref()?, &scene.to_soup())?;
+        let Cut { scene, origins, warnings } = glass::cut(posed, &left);
+        let soup = scene.to_soup();
+        let mut paints = self.still.paints.clone();
+        if posed.materials != self.scene.materials {
+            // Another opacity may leave or cut other triangles, which need not be more or less of them.
+            let rest = self.still.scene.to_soup();
+            if rest.triangles != soup.triangles || rest.triangle_material != soup.triangle_material {
+                return None;
+            }
+            if let Some(still) = &paints {
+                let mut own = paints_of(&left, style)?;
+                own.carry(&origins);
+                paints = Some(Arc::new(own)).filter(|own| own.lie_like(still));
+                paints.as_ref()?;
+            }
+        }
+        let mesh = self.still.surface.mesh.posed(self.sources.as_ref()?, &soup)?;
         let surface = self.still.surface.posed(mesh, self.patches.as_ref());
-        let paints = self.still.paints.clone();
         let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
         let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
         let search = LateSearch::default();

@@ -20,6 +20,7 @@ mod mesh;
 mod meshopt;
 mod nodes;
 mod parts;
+mod pointers;
 mod pose;
 mod primitive;
 mod streams;
@@ -92,6 +93,7 @@ fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> 
         rig = Rig::default();
     } else {
         (rig.nodes, rig.order) = (nodes.rest, nodes.order);
+        rig.materials = root.materials.iter().map(materials::factors).collect();
     }
     Ok(Rigged { scene, rig })
 }
