@@ -31,9 +31,9 @@ impl<'a> Values<'a> {
         let tracks = self.0.get(&target)?;
         let mut now = rest;
         for (number, own) in now.iter_mut().enumerate() {
-            let values = tracks.iter().filter_map(|(track, time, weight)| {
-                Some((*track.at(*time).get(number)?, *weight))
-            });
+            let values = tracks
+                .iter()
+                .filter_map(|(track, time, weight)| Some((*track.at(*time).get(number)?, *weight)));
             *own = mixed(*own, values);
         }
         now.iter().all(|value| value.is_finite()).then_some(now)
@@ -79,10 +79,8 @@ impl<'a> Values<'a> {
             of(Shine::Intensity, light.intensity).filter(at_least_none).unwrap_or(light.intensity);
         light.range = of(Shine::Range, light.range.unwrap_or(f64::INFINITY)).or(light.range);
         if let LightKind::Spot { inner_angle, outer_angle, .. } = &mut light.kind {
-            *inner_angle =
-                of(Shine::InnerAngle, *inner_angle).filter(at_least_none).unwrap_or(*inner_angle);
-            *outer_angle =
-                of(Shine::OuterAngle, *outer_angle).filter(at_least_none).unwrap_or(*outer_angle);
+            *inner_angle = of(Shine::InnerAngle, *inner_angle).filter(at_least_none).unwrap_or(*inner_angle);
+            *outer_angle = of(Shine::OuterAngle, *outer_angle).filter(at_least_none).unwrap_or(*outer_angle);
         }
     }
 
