@@ -39,6 +39,7 @@ mod painted_surfaces;
 mod paper;
 mod patterns;
 mod picture_fills;
+mod pointers;
 mod poses;
 mod properties;
 mod random_widths;

@@ -6,6 +6,7 @@ use crate::field;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
 use crate::shape::file_normals::file_cosines;
+use crate::shape::folding::folded;
 use crate::shape::patches;
 use crate::shape::refine::Refined;
 use crate::shape::{HardEdges, Origin, Patches, SmoothNormals};
@@ -68,14 +69,18 @@ impl Surface {
     }
 
     /// This surface with its mesh moved, but creased and round where it was: both are how it is meant, and not how it bends
-    /// at a moment. `patches` are those that it was made with.
+    /// at a moment. But flat surfaces are creased where they are folded. `patches` are those that it was made with.
     #[must_use]
-    pub fn posed(&self, mesh: Mesh, patches: Option<&Patches>) -> Self {
+    pub fn posed(&self, mesh: Mesh, patches: Option<&Patches>, options: &LineOptions) -> Self {
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches));
+        let is_round = |face: usize| patches.and_then(|own| own.rounded.get(face)).copied().unwrap_or(false);
+        let may_fold = |face: u32| {
+            self.origins.get(face as usize) == Some(&Origin::Constructed) && !is_round(face as usize)
+        };
         Self {
+            hard: folded(&self.hard, &self.mesh, &mesh, options.crease_deg, may_fold),
             mesh,
             smooth,
-            hard: self.hard.clone(),
             origins: self.origins.clone(),
             pieces: self.pieces.clone(),
             refined: false,
