@@ -11,8 +11,8 @@ use super::fills::{self, Paintable};
 use super::late_search::LateSearch;
 use super::{Prepared, glass, paints_of};
 use crate::mesh::Sources;
-use crate::scene::{Part, Scene};
 use crate::scene::cutout::Cut;
+use crate::scene::{Part, Scene};
 use crate::shape::Patches;
 use crate::style::Style;
 

@@ -18,6 +18,7 @@ mod dual_tree;
 mod example_models;
 mod export;
 mod fmt;
+mod folds;
 mod glass;
 mod gltf;
 mod golden;

@@ -2,10 +2,7 @@
 //! as drawings show them.
 
 use std::f64::consts::FRAC_PI_4;
-use std::path::PathBuf;
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 use ligne::animate::{Animator, Moment};
 use ligne::drawing::{Page, Unit};
 use ligne::math::colour::Colour;
@@ -14,80 +11,11 @@ use ligne::scene::{Alpha, LightKind, Projection};
 use ligne::{Camera, Scene, Style, SvgOptions, render};
 use serde_json::{Value, json};
 
+use crate::support::board::Board;
 use crate::support::plain_gltf::Plain;
 
-/// A file of two squares side by side, each of a material of its own, seen by two cameras and lit by two lights.
-struct Board(PathBuf);
-
-/// A pointer, how its keys go over, and these at 0, 1 and 3 s.
-type Moved<'a> = (&'a str, &'a str, &'a [f32]);
-
-impl Board {
-    fn new(name: &str, moved: &[Moved], change: impl FnOnce(&mut Value)) -> Self {
-        let mut bytes: Vec<u8> = Vec::new();
-        let (mut views, mut accessors) = (Vec::new(), Vec::new());
-        let mut add = |width: usize, numbers: &[f32]| {
-            views.push(json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": 4 * numbers.len()}));
-            let shape = ["SCALAR", "VEC2", "VEC3", "VEC4"][width - 1];
-            let (view, count) = (views.len() - 1, numbers.len() / width);
-            accessors.push(json!({"bufferView": view, "componentType": 5126, "count": count, "type": shape}));
-            numbers.iter().for_each(|value| bytes.extend(value.to_le_bytes()));
-            accessors.len() - 1
-        };
-        let square =
-            |x: f32| [x, 0., 0., x + 1., 0., 0., x + 1., 1., 0., x, 0., 0., x + 1., 1., 0., x, 1., 0.];
-        let (left, right) = (add(3, &square(-1.5)), add(3, &square(0.5)));
-        let times = add(1, &[0.0, 1.0, 3.0]);
-        let (mut samplers, mut channels) = (Vec::new(), Vec::new());
-        for (pointer, way, numbers) in moved {
-            let keys = if *way == "CUBICSPLINE" { 9 } else { 3 };
-            let output = add(numbers.len() / keys, numbers);
-            channels.push(json!({"sampler": samplers.len(), "target": {"path": "pointer",
-                "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}}));
-            samplers.push(json!({"input": times, "output": output, "interpolation": way}));
-        }
-        let mesh = |position: usize, material: usize| json!({"primitives": [{"attributes": {"POSITION": position}, "material": material}]});
-        let mut file = json!({
-            "asset": {"version": "2.0"},
-            "scenes": [{"nodes": [0, 1, 2, 3, 4, 5]}],
-            "nodes": [
-                {"name": "left", "mesh": 0}, {"name": "right", "mesh": 1},
-                {"camera": 0, "translation": [0.0, 0.5, 6.0]}, {"camera": 1, "translation": [0.0, 0.5, 6.0]},
-                {"extensions": {"KHR_lights_punctual": {"light": 0}}},
-                {"extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [1.0, 0.5, 2.0]}
-            ],
-            "cameras": [
-                {"type": "perspective", "name": "eye", "perspective": {"yfov": 0.5, "znear": 0.1, "aspectRatio": 1.5}},
-                {"type": "orthographic", "name": "plan", "orthographic": {"xmag": 2.0, "ymag": 1.0, "znear": 0.1, "zfar": 9.0}}
-            ],
-            "extensions": {"KHR_lights_punctual": {"lights": [
-                {"type": "directional", "intensity": 2.0},
-                {"type": "spot", "color": [1.0, 0.5, 0.25], "range": 9.0, "spot": {"innerConeAngle": 0.1}}
-            ]}},
-            "materials": [
-                {"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1.0]}},
-                {"alphaMode": "MASK", "alphaCutoff": 0.25, "pbrMetallicRoughness": {"baseColorFactor": [0.0, 1.0, 0.0, 0.5]}}
-            ],
-            "meshes": [mesh(left, 0), mesh(right, 1)],
-            "animations": [{"name": "change", "samplers": samplers, "channels": channels}],
-            "accessors": accessors, "bufferViews": views,
-            "buffers": [{"byteLength": bytes.len(), "uri": format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes))}]
-        });
-        change(&mut file);
-        let path = std::env::temp_dir().join(format!("ligne-board-{}-{name}.gltf", std::process::id()));
-        std::fs::write(&path, file.to_string()).unwrap();
-        Self(path)
-    }
-
-    fn open(&self) -> (Rigged, Plain) {
-        (Rigged::open(&self.0).unwrap(), Plain::open(&self.0))
-    }
-}
-
-impl Drop for Board {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_file(&self.0);
-    }
+fn opened(board: &Board) -> (Rigged, Plain) {
+    (Rigged::open(&board.0).unwrap(), Plain::open(&board.0))
 }
 
 const TIMES: [f64; 7] = [-1.0, 0.0, 0.4, 1.0, 1.9, 3.0, 4.0];
@@ -112,7 +40,7 @@ fn lenses_are_what_an_independent_evaluation_says() {
         ],
         |_| {},
     );
-    let (rigged, plain) = board.open();
+    let (rigged, plain) = opened(&board);
     assert!(rigged.scene.warnings.is_empty(), "{:?}", rigged.scene.warnings.lines());
     for time in TIMES {
         let own = |pointer: &str| plain.pointed(0, pointer, time)[0];
@@ -149,7 +77,7 @@ fn lights_are_what_an_independent_evaluation_says() {
         ],
         |_| {},
     );
-    let (rigged, plain) = board.open();
+    let (rigged, plain) = opened(&board);
     assert!(rigged.scene.warnings.is_empty(), "{:?}", rigged.scene.warnings.lines());
     for time in TIMES {
         let own = |pointer: &str| plain.pointed(0, pointer, time);
@@ -179,7 +107,7 @@ fn materials_are_what_an_independent_evaluation_says() {
         ],
         |_| {},
     );
-    let (rigged, plain) = board.open();
+    let (rigged, plain) = opened(&board);
     assert!(rigged.scene.warnings.is_empty(), "{:?}", rigged.scene.warnings.lines());
     for time in TIMES {
         let own = |pointer: &str| plain.pointed(0, pointer, time);
@@ -220,20 +148,20 @@ fn drawings_show_colours_lenses_and_lights() {
     let flat = |red: f32, blue: f32| [red, 0.0, blue, 1.0];
     let colours = [flat(1.0, 0.0), flat(0.0, 1.0), flat(0.0, 0.0)].concat();
     let board = Board::new("drawn", &[(base, "STEP", &colours)], |_| {});
-    let (rigged, _) = board.open();
+    let (rigged, _) = opened(&board);
     for (time, colour) in [(0.0, "#ff0000"), (1.0, "#0000ff"), (3.0, "#000000")] {
         for svg in drawn(&rigged, "flat", time) {
             assert!(svg.contains(colour) || svg.contains(&short(colour)), "{time}: no {colour} in {svg}");
         }
     }
     let board = Board::new("zoomed", &[("/cameras/0/perspective/yfov", "LINEAR", &[0.5, 1.0, 0.5])], |_| {});
-    let (rigged, _) = board.open();
+    let (rigged, _) = opened(&board);
     let [near, far] = [0.0, 1.0].map(|time| drawn(&rigged, "ink", time));
     assert_ne!(near[0], far[0]);
     assert_ne!(near[1], far[1]);
     let pointer = "/extensions/KHR_lights_punctual/lights/1/color";
     let board = Board::new("lit", &[(pointer, "STEP", &[1., 0., 0., 0., 0., 1., 0., 1., 0.])], |_| {});
-    let (rigged, _) = board.open();
+    let (rigged, _) = opened(&board);
     let [red, blue] = [0.0, 1.0].map(|time| rigged.posed(&[Playing::all(0, time)]).unwrap().lights[1].colour);
     assert_eq!([red, blue], [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
 }
@@ -262,7 +190,7 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
         ("root", "", one, "not drawn"),
     ] {
         let board = Board::new(name, &[(pointer, "LINEAR", numbers)], |_| {});
-        let (rigged, _) = board.open();
+        let (rigged, _) = opened(&board);
         let lines = rigged.scene.warnings.lines();
         assert!(lines.iter().any(|line| line.contains(expected)), "{name}: {lines:?}");
         let (posed, stored) =
@@ -281,7 +209,7 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
         ],
         |_| {},
     );
-    let (rigged, _) = board.open();
+    let (rigged, _) = opened(&board);
     for time in [0.0, 1.0, 3.0] {
         let scene = rigged.posed(&[Playing::all(0, time)]).unwrap();
         assert_eq!(
@@ -304,7 +232,7 @@ fn what_is_hidden_at_rest_is_there_while_a_clip_shows_it() {
         hidden(file, 1);
         hidden(file, 5);
     });
-    let (rigged, _) = board.open();
+    let (rigged, _) = opened(&board);
     let names = |scene: &Scene| scene.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>();
     let stored = Scene::open(&board.0).unwrap();
     assert_eq!((names(&stored), stored.lights.len()), (vec!["left".to_owned()], 1));
@@ -337,7 +265,7 @@ fn what_hangs_on_hidden_nodes_is_shown_with_them() {
         file["scenes"][0]["nodes"] = json!([0, 2, 3, 4, 5]);
         file["nodes"][0]["children"] = json!([1]);
     });
-    let (rigged, _) = board.open();
+    let (rigged, _) = opened(&board);
     let count = |time: f64| rigged.posed(&[Playing::all(0, time)]).unwrap().parts.len();
     assert_eq!([0.0, 1.0, 3.0].map(count), [0, 2, 0]);
     // Where a child is hidden by itself and nothing shows it, it stays hidden.
@@ -347,6 +275,6 @@ fn what_hangs_on_hidden_nodes_is_shown_with_them() {
         file["scenes"][0]["nodes"] = json!([0, 2, 3, 4, 5]);
         file["nodes"][0]["children"] = json!([1]);
     });
-    let (rigged, _) = board.open();
+    let (rigged, _) = opened(&board);
     assert_eq!(rigged.posed(&[Playing::all(0, 1.0)]).unwrap().parts.len(), 1);
 }

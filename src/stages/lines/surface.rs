@@ -1,5 +1,7 @@
 //! [`Surface`]: a mesh with what its options make of it: which edges are hard, which faces round.
 
+use std::borrow::Cow;
+
 use super::LineOptions;
 use super::options::{Contours, Normals};
 use crate::field;
@@ -73,9 +75,14 @@ impl Surface {
     #[must_use]
     pub fn posed(&self, mesh: Mesh, patches: Option<&Patches>, options: &LineOptions) -> Self {
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches));
-        let is_round = |face: usize| patches.and_then(|own| own.rounded.get(face)).copied().unwrap_or(false);
+        let curved =
+            patches.map_or_else(|| patches::curved(&self.mesh).into(), |own| Cow::Borrowed(&own.curved[..]));
+        let bends = |face: usize| {
+            let is_round = patches.and_then(|own| own.rounded.get(face));
+            [is_round, curved.get(face)].contains(&Some(&true))
+        };
         let may_fold = |face: u32| {
-            self.origins.get(face as usize) == Some(&Origin::Constructed) && !is_round(face as usize)
+            self.origins.get(face as usize) == Some(&Origin::Constructed) && !bends(face as usize)
         };
         Self {
             hard: folded(&self.hard, &self.mesh, &mesh, options.crease_deg, may_fold),
