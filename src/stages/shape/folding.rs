@@ -6,7 +6,7 @@
 use super::HardEdges;
 use crate::math::function::cos;
 use crate::mesh::dihedral::{Dihedral, mark};
-use crate::mesh::{EdgeMark, Mesh};
+use crate::mesh::{EdgeMark, FaceId, Mesh};
 
 /// Flat is what turns by less than this share of what makes a crease: there a crease is gone, and only there one may come.
 const FLAT: f64 = 0.25;
@@ -14,9 +14,12 @@ const FLAT: f64 = 0.25;
 /// A crease comes where what was flat turns by so many times what makes one at rest.
 const FOLDED: f64 = 1.25;
 
+/// A side of a face that is longer or shorter than at rest by more than this part of it is stretched: so skins deform, and no sheet that folds.
+const STRETCHED: f64 = 0.01;
+
 /// The hard edges of a mesh that has moved: those that it has at rest, without those that have become flat, and with those that were
-/// flat and are folded sharply. Only edges between faces of which `may_fold` is true change: skins bend all over, and their creases are
-/// those that they were made with.
+/// flat and are folded sharply. Only edges between faces of which `may_fold` is true, and which are as large as at rest, change: skins bend
+/// all over, and their creases are those that they were made with.
 #[must_use]
 pub fn folded(
     hard: &HardEdges,
@@ -33,16 +36,24 @@ pub fn folded(
             return was;
         };
         let told = || mark(rest, edge, before.faces) != EdgeMark::Unmarked;
-        if !before.faces.iter().all(|face| may_fold(*face)) || told() {
-            return was;
-        }
-        if was {
-            // One that was meant though it hardly turns stays, whatever it does.
+        // One that was meant though it hardly turns stays, whatever it does.
+        let is = if was {
             now.cosine < flat || before.cosine > crease
         } else {
             before.cosine > flat && now.cosine < sharp
-        }
+        };
+        let changes = |face: &u32| may_fold(*face) && is_rigid(rest, moved, FaceId(*face));
+        if is == was || told() || !before.faces.iter().all(changes) { was } else { is }
     })
+}
+
+/// Whether a face is as large as at rest, side by side.
+fn is_rigid(rest: &Mesh, moved: &Mesh, face: FaceId) -> bool {
+    let sides = |mesh: &Mesh| {
+        let [a, b, c] = mesh.corners(face);
+        [a.distance(b), b.distance(c), c.distance(a)]
+    };
+    sides(rest).iter().zip(sides(moved)).all(|(before, now)| (now - before).abs() <= STRETCHED * before)
 }
 
 #[cfg(test)]
