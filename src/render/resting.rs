@@ -108,7 +108,7 @@ impl<'a> Resting<'a> {
         }
         let mesh = self.still.surface.mesh.posed(self.sources.as_ref()?, &soup)?;
         let sought = fills::sought(style);
-        let surface = self.still.surface.posed(mesh, self.patches.as_ref(), &sought);
+        let surface = self.still.surface.posed(mesh, self.patches.as_ref());
         let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
         let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
         let search = LateSearch::default();

@@ -1,14 +1,11 @@
 //! [`Surface`]: a mesh with what its options make of it: which edges are hard, which faces round.
 
-use std::borrow::Cow;
-
 use super::LineOptions;
 use super::options::{Contours, Normals};
 use crate::field;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
 use crate::shape::file_normals::file_cosines;
-use crate::shape::folding::folded;
 use crate::shape::patches;
 use crate::shape::refine::Refined;
 use crate::shape::{HardEdges, Origin, Patches, SmoothNormals};
@@ -71,23 +68,14 @@ impl Surface {
     }
 
     /// This surface with its mesh moved, but creased and round where it was: both are how it is meant, and not how it bends
-    /// at a moment. But flat surfaces are creased where they are folded. `patches` are those that it was made with.
+    /// at a moment. `patches` are those that it was made with.
     #[must_use]
-    pub fn posed(&self, mesh: Mesh, patches: Option<&Patches>, options: &LineOptions) -> Self {
+    pub fn posed(&self, mesh: Mesh, patches: Option<&Patches>) -> Self {
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches));
-        let curved =
-            patches.map_or_else(|| patches::curved(&self.mesh).into(), |own| Cow::Borrowed(&own.curved[..]));
-        let bends = |face: usize| {
-            let is_round = patches.and_then(|own| own.rounded.get(face));
-            [is_round, curved.get(face)].contains(&Some(&true))
-        };
-        let may_fold = |face: u32| {
-            self.origins.get(face as usize) == Some(&Origin::Constructed) && !bends(face as usize)
-        };
         Self {
-            hard: folded(&self.hard, &self.mesh, &mesh, options.crease_deg, may_fold),
             mesh,
             smooth,
+            hard: self.hard.clone(),
             origins: self.origins.clone(),
             pieces: self.pieces.clone(),
             refined: false,

@@ -9,7 +9,6 @@ pub mod edge_arc;
 pub mod fans;
 pub mod feature_size;
 pub mod file_normals;
-pub mod folding;
 pub mod hard_edges;
 mod marking;
 mod normal_sum;

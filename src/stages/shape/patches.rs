@@ -10,7 +10,7 @@
 use super::HardEdges;
 use super::file_normals::file_cosines;
 use super::planes::{Planes, area};
-use super::rounded::{LEAST_EDGES, Make, Origin, Verdict, is_curved, verdicts};
+use super::rounded::{LEAST_EDGES, Make, Origin, Verdict, verdicts};
 use crate::math::function::{acos, cos};
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::groups::Groups;
@@ -60,8 +60,6 @@ pub struct Patches {
     pub pieces: Vec<u32>,
     /// Whether the file's normals tell the shape of each face, if it has any.
     pub believed: Vec<bool>,
-    /// Whether these say of each face that it is curved, believed or not; empty if the file has none.
-    pub curved: Vec<bool>,
 }
 
 impl Patches {
@@ -82,17 +80,8 @@ impl Patches {
         }
         let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
-        Self { hard, rims, rounded, figure, origins, pieces, believed, curved: curved(mesh) }
+        Self { hard, rims, rounded, figure, origins, pieces, believed }
     }
-}
-
-/// Whether the file's normals say of each face of a mesh that it is curved; empty if there are none.
-#[must_use]
-pub fn curved(mesh: &Mesh) -> Vec<bool> {
-    if mesh.corner_normals.is_empty() {
-        return Vec::new();
-    }
-    (0..mesh.triangles.len() as u32).map(|face| is_curved(mesh, face)).collect()
 }
 
 /// How the surface at each face of a mesh came about, and which connected piece it is of: empty if there is but

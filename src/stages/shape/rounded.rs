@@ -213,14 +213,6 @@ fn of_edge(mesh: &Mesh, planes: &Planes, edge: usize) -> Option<(u32, Count)> {
     Some((faces[0], Count { edges: 1, flat, sharp: u32::from(sharp), ..Count::default() }))
 }
 
-/// Whether the file's normals say of a face that it is curved.
-pub(super) fn is_curved(mesh: &Mesh, face: u32) -> bool {
-    let Some(ids) = mesh.corner_normals.get(face as usize) else { return false };
-    let own = Vec3::from_array(mesh.face_normals[face as usize]);
-    let leaves = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < OWN_NORMAL_COSINE;
-    ids.iter().filter_map(|id| mesh.normals.get(*id as usize)).any(leaves)
-}
-
 fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {
     let area = area(mesh, face);
     let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
@@ -228,8 +220,9 @@ fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {
     if let Some(ids) = mesh.corner_normals.get(face as usize) {
         let own = Vec3::from_array(mesh.face_normals[face as usize]);
         let normals = ids.map(|id| mesh.normals.get(id as usize));
+        let leaves = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < OWN_NORMAL_COSINE;
         count.with_normals = u32::from(normals.iter().all(Option::is_some));
-        count.curved = u32::from(is_curved(mesh, face));
+        count.curved = u32::from(normals.iter().flatten().any(|n| leaves(n)));
         let strays = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < ASTRAY_COSINE;
         count.astray = u32::from(normals.iter().flatten().any(|n| strays(n)));
     }
