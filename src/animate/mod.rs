@@ -88,7 +88,7 @@ impl<'a> Animator<'a> {
         self
     }
 
-    /// The scene at rest that is drawn.
+    /// The scene at rest that is drawn, with what is hidden there and shown at some time.
     #[must_use]
     pub fn rest(&self) -> &'a Scene {
         self.level.map_or(&self.rigged.scene, |level| &level.rest)
@@ -115,7 +115,7 @@ impl<'a> Animator<'a> {
         let Moment { playing, camera, page } = moment;
         let mut watch = Stopwatch::start();
         let resting = self.resting();
-        if playing.is_empty() {
+        if playing.is_empty() && !self.rigged.hides() {
             return resting.still().draw(camera, *page, None);
         }
         watch.lap_ms();

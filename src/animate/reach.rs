@@ -25,7 +25,7 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 pub fn reach(rigged: &Rigged, poses: &[(Vec<Playing>, DAffine3)]) -> Result<Vec<DVec3>, Error> {
     let directions = directions();
     let still = poses.iter().any(|(playing, _)| playing.is_empty());
-    let still = if still { outermost(&world_points(&rigged.scene), &directions) } else { Vec::new() };
+    let still = if still { outermost(&world_points(&rigged.posed(&[])?), &directions) } else { Vec::new() };
     let of = |(playing, moved): &(Vec<Playing>, DAffine3)| -> Result<Vec<DVec3>, Error> {
         let moved = |p: &DVec3| moved.transform_point3(*p);
         if playing.is_empty() {

@@ -111,11 +111,11 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
 
 /// The model: at the moment, with the parts, and with as many faces as asked for.
 fn open(request: &DrawRequest, style: &Style) -> Result<Scene, Error> {
-    let stands = request.animation.is_empty() && request.time.is_none();
-    let mut rigged = if stands { Scene::open(&request.model)?.into() } else { Rigged::open(&request.model)? };
+    let mut rigged =
+        if request.stands() { Scene::open(&request.model)?.into() } else { Rigged::open(&request.model)? };
     // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
-    let mut scene = scene_at(rigged, &request.animation, request.time, style)?;
+    let mut scene = scene_at(rigged, request, style)?;
     pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
     match coarse {
         Some((detail, faces)) => lod::reduced(&scene, &detail, faces),

@@ -108,9 +108,14 @@ pub(super) struct HowArgs {
     #[arg(long, value_name = "GLOB", help_heading = "View")]
     pub(super) hide: Vec<String>,
 
-    /// Draw a moment of this animation of the model; given again, several play together with equal shares
-    #[arg(long, value_name = "NAME", help_heading = "View")]
+    /// Draw a moment of this animation of the model; several play together, with equal shares or with weights:
+    /// Walk,Run or Walk:0.7,Run:0.3; weights may change in time: Walk:1..0,Run:0..1 or Walk:1@0.5..0@2,Run
+    #[arg(long, value_name = "NAME[:WEIGHT],...", help_heading = "View")]
     pub(super) animation: Vec<String>,
+
+    /// Let each animation begin again when it is over
+    #[arg(long, help_heading = "View")]
+    pub(super) repeat: bool,
 
     /// The moment in seconds; where the model has one animation, its name may be left out [default: 0]
     #[arg(long, value_name = "SECONDS", help_heading = "View", value_parser = seconds,

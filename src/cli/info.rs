@@ -111,8 +111,8 @@ struct BoundsInfo {
 
 /// Reads the model and says what is in it.
 pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
-    let Rigged { scene, rig } = Rigged::open(&args.model)?;
-    let info = Info::of(&scene, &rig.clips, args.model.display().to_string());
+    let rigged = Rigged::open(&args.model)?;
+    let info = Info::of(&rigged.posed(&[])?, &rigged.rig.clips, args.model.display().to_string());
     if args.json {
         let json = serde_json::to_string_pretty(&info).unwrap_or_default();
         print(format!("{json}\n").as_bytes())
@@ -314,7 +314,7 @@ mod tests {
     use glam::{DAffine3, DVec3};
 
     use super::*;
-    use crate::pose::{Channel, Interpolation, Property, Track};
+    use crate::pose::{Channel, Interpolation, Property, Target, Track};
     use crate::scene::{Geometry, Material, Part};
 
     fn scene(parts: usize) -> Scene {
@@ -344,7 +344,7 @@ mod tests {
         let track = Track::new(vec![0.5, 1.0, 2.5], vec![0.0; 9], Interpolation::Linear).unwrap();
         Clip {
             name: "Walk".to_owned(),
-            channels: vec![Channel { node: 0, property: Property::Scale, track }],
+            channels: vec![Channel { target: Target::Node(0, Property::Scale), track }],
         }
     }
 

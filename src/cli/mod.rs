@@ -1,6 +1,7 @@
 //! The command line: what was typed, what is meant, one file a command.
 
 mod animate;
+mod blend;
 mod completions;
 mod config;
 mod defaults;

@@ -30,6 +30,8 @@ pub(super) struct DrawRequest {
     pub(super) hide: Vec<String>,
     /// The names of the animations that play, and when.
     pub(super) animation: Vec<String>,
+    /// Whether each begins again when it is over.
+    pub(super) repeat: bool,
     pub(super) time: Option<f64>,
     /// How many faces there may be.
     pub(super) faces: Option<u64>,
@@ -52,6 +54,11 @@ pub(super) struct SvgChoices {
 }
 
 impl DrawRequest {
+    /// Whether the model is drawn as its file stores it.
+    pub(super) fn stands(&self) -> bool {
+        self.animation.is_empty() && self.time.is_none()
+    }
+
     /// What is meant by the arguments.
     ///
     /// # Errors
@@ -104,6 +111,7 @@ impl DrawRequest {
             only: args.only,
             hide: args.hide,
             animation: args.animation,
+            repeat: args.repeat,
             time: args.time,
             faces: args.faces,
             sheet: Sheet {

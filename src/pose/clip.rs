@@ -1,4 +1,4 @@
-//! [`Clip`]: an animation of a file: tracks for properties of its nodes.
+//! [`Clip`]: an animation of a file: tracks for what changes in it.
 
 use super::track::Track;
 
@@ -11,15 +11,37 @@ pub struct Clip {
     pub channels: Vec<Channel>,
 }
 
-/// How a property of a node changes.
+/// How a value of a file changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
-    /// The number of the node.
-    pub node: usize,
-    /// Which of its properties.
-    pub property: Property,
-    /// Its values in time.
+    /// Which value.
+    pub target: Target,
+    /// What it is in time.
     pub track: Track,
+}
+
+/// A value of a file that may change; things count as they stand in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Target {
+    /// Of a node.
+    Node(usize, Property),
+    /// Of a camera, whichever nodes hold it.
+    Camera(usize, Lens),
+    /// Of a light, whichever nodes hold it.
+    Light(usize, Shine),
+    /// Of a material.
+    Material(usize, Finish),
+}
+
+impl Target {
+    /// The node whose property it is, and which.
+    #[must_use]
+    pub fn of_node(self) -> Option<(usize, Property)> {
+        match self {
+            Self::Node(node, property) => Some((node, property)),
+            Self::Camera(..) | Self::Light(..) | Self::Material(..) => None,
+        }
+    }
 }
 
 /// What may change of a node.
@@ -35,6 +57,51 @@ pub enum Property {
     Weights,
     /// Whether it is shown: a number that is not 0.
     Visible,
+}
+
+/// What may change of a camera: one number each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Lens {
+    /// The vertical angle of view of a perspective camera, in radians.
+    FieldOfView,
+    /// Its width in heights.
+    Aspect,
+    /// Half the width of what a parallel view shows.
+    HalfWidth,
+    /// Half its height.
+    HalfHeight,
+    /// The nearest depth that is drawn.
+    Near,
+}
+
+/// What may change of a light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Shine {
+    /// Its colour: three numbers, linear.
+    Colour,
+    /// How bright it is.
+    Intensity,
+    /// How far it shines.
+    Range,
+    /// The half angle of its cone inside which it is full, in radians.
+    InnerAngle,
+    /// That outside which it is none.
+    OuterAngle,
+}
+
+/// What may change of a material.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Finish {
+    /// Its base colour and how opaque it is: four numbers, linear.
+    Base,
+    /// The light of its own: three numbers, linear.
+    Emissive,
+    /// The least alpha that is not cut away.
+    Cutoff,
+    /// How rough it is.
+    Roughness,
+    /// How much light goes through it.
+    Transmission,
 }
 
 impl Clip {

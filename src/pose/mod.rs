@@ -12,12 +12,15 @@
 
 pub mod body;
 pub mod clip;
+pub mod factors;
 pub mod moment;
 pub mod rig;
 pub mod track;
+mod values;
 
 pub use body::Body;
-pub use clip::{Channel, Clip, Playing, Property};
+pub use clip::{Channel, Clip, Finish, Lens, Playing, Property, Shine, Target};
+pub use factors::Factors;
 pub use moment::Moment;
 pub use rig::Rig;
 pub use track::{Interpolation, Track};
@@ -28,13 +31,15 @@ use glam::{DAffine3, DVec3};
 
 use crate::error::Error;
 use crate::scene::{Camera, LightKind, NamedCamera, Scene};
-use rig::Stance;
+use rig::{Held, Stance};
+use values::Values;
 
 /// A scene as it is stored, and what moves it.
 #[derive(Debug, Clone, Default)]
 pub struct Rigged {
-    /// The scene in the pose that the file stores. The rig knows parts, geometries, cameras and lights by their places: leave some out
-    /// of what [`Rigged::posed`] gives, not here.
+    /// The scene in the pose that the file stores, with the parts and lights that are hidden in it and that a clip shows at some time:
+    /// [`Rigged::posed`] leaves these out while they are hidden. The rig knows parts, geometries, cameras and lights by their places:
+    /// leave some out of what that gives, not here.
     pub scene: Scene,
     /// What moves it; empty for formats without animation.
     pub rig: Rig,
@@ -54,31 +59,60 @@ impl Rigged {
     /// If a clip is none of the file's, if a time or a weight is not a number, or if a pose leads beyond all numbers.
     pub fn posed(&self, playing: &[Playing]) -> Result<Scene, Error> {
         self.check(playing)?;
+        if playing.is_empty() && !self.hides() {
+            return Ok(self.scene.clone());
+        }
         let mut scene = self.scene.clone();
         if playing.is_empty() {
+            self.keep_shown(&self.rig.stance(playing), &mut scene);
             return Ok(scene);
         }
         let rig = &self.rig;
         let stance = self.stance(playing)?;
         self.move_vertices(&stance, &mut scene)?;
         let skinned: Vec<bool> = rig.forms.iter().map(|form| form.skin.is_some()).collect();
-        let mut shown = Vec::with_capacity(scene.parts.len());
         for (part, (node, place)) in scene.parts.iter_mut().zip(&rig.parts) {
             // The joints have carried a skinned mesh into the world already.
             let is_skinned = skinned.get(part.geometry).copied().unwrap_or(false);
             let world = if is_skinned { DAffine3::IDENTITY } else { stance.world[*node] };
             part.world_from_part = world * *place;
-            shown.push(stance.visible[*node]);
         }
-        let mut left = shown.into_iter();
-        scene.parts.retain(|_| left.next().unwrap_or(true));
-        for (named, node) in scene.cameras.iter_mut().zip(&rig.cameras) {
-            named.camera = moved_camera(&named.camera, stance.world[*node]);
+        let values = Values::new(&rig.clips, playing);
+        for (named, held) in scene.cameras.iter_mut().zip(&rig.cameras) {
+            named.camera = now_camera(&named.camera, *held, &stance, &values);
         }
-        for (light, node) in scene.lights.iter_mut().zip(&rig.lights) {
-            light.kind = moved_light(light.kind, stance.world[*node]);
+        for (light, held) in scene.lights.iter_mut().zip(&rig.lights) {
+            values.light(held.number, light);
+            light.kind = moved_light(light.kind, stance.world[held.node]);
         }
+        for (number, (material, rest)) in scene.materials.iter_mut().zip(&rig.materials).enumerate() {
+            if let Some(now) = values.material(number, rest) {
+                now.give(material);
+            }
+        }
+        self.keep_shown(&stance, &mut scene);
         Ok(scene)
+    }
+
+    /// Whether the scene has parts or lights that are hidden while nothing plays.
+    #[must_use]
+    pub fn hides(&self) -> bool {
+        let rig = &self.rig;
+        let nodes = rig.parts.iter().map(|(node, _)| *node).chain(rig.lights.iter().map(|held| held.node));
+        if rig.nodes.iter().all(|node| node.visible) {
+            return false;
+        }
+        let stance = rig.stance(&[]);
+        nodes.into_iter().any(|node| stance.visible.get(node) == Some(&false))
+    }
+
+    /// Leaves out the parts and lights of a scene whose nodes are hidden.
+    fn keep_shown(&self, stance: &Stance, scene: &mut Scene) {
+        let shown = |node: usize| stance.visible.get(node).copied().unwrap_or(true);
+        let mut nodes = self.rig.parts.iter().map(|(node, _)| *node);
+        scene.parts.retain(|_| nodes.next().is_none_or(shown));
+        let mut nodes = self.rig.lights.iter().map(|held| held.node);
+        scene.lights.retain(|_| nodes.next().is_none_or(shown));
     }
 
     /// The cameras of the scene while clips play; cheaper than all of it.
@@ -91,8 +125,9 @@ impl Rigged {
             return Ok(self.scene.cameras.clone());
         }
         let stance = self.stance(playing)?;
-        let moved = |(named, node): (&NamedCamera, &usize)| {
-            let camera = moved_camera(&named.camera, stance.world[*node]);
+        let values = Values::new(&self.rig.clips, playing);
+        let moved = |(named, held): (&NamedCamera, &Held)| {
+            let camera = now_camera(&named.camera, *held, &stance, &values);
             NamedCamera { camera, ..named.clone() }
         };
         Ok(self.scene.cameras.iter().zip(&self.rig.cameras).map(moved).collect())
@@ -170,6 +205,11 @@ impl Rigged {
         }
         Ok(())
     }
+}
+
+/// A camera with its lens as it is now, where its node is now.
+fn now_camera(camera: &Camera, held: Held, stance: &Stance, values: &Values) -> Camera {
+    moved_camera(&values.camera(held.number, *camera), stance.world[held.node])
 }
 
 /// A camera where its node is now: at its origin, looking along -z with y up.

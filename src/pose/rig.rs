@@ -4,6 +4,7 @@ use glam::{DAffine3, DQuat, DVec3};
 
 use super::body::Body;
 use super::clip::{Clip, Playing, Property};
+use super::factors::Factors;
 
 /// All that moves a scene.
 #[derive(Debug, Clone, Default)]
@@ -18,12 +19,23 @@ pub struct Rig {
     pub forms: Vec<Form>,
     /// For each part of the scene, in order, its node and where it lies in that.
     pub parts: Vec<(usize, DAffine3)>,
-    /// For each camera of the scene its node.
-    pub cameras: Vec<usize>,
-    /// For each light of the scene its node.
-    pub lights: Vec<usize>,
+    /// For each camera of the scene, which of the file it is, and its node.
+    pub cameras: Vec<Held>,
+    /// The same for each light.
+    pub lights: Vec<Held>,
+    /// The values of the materials of the file.
+    pub materials: Vec<Factors>,
     /// The animations of the file.
     pub clips: Vec<Clip>,
+}
+
+/// A camera or a light of a file, in a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Held {
+    /// The number of the camera or light in the file: several nodes may hold the same.
+    pub number: usize,
+    /// The node that holds it.
+    pub node: usize,
 }
 
 /// A place that others hang on.
@@ -178,8 +190,8 @@ impl Rig {
         let mut moved: std::collections::BTreeMap<usize, Vec<Moved<'_>>> = std::collections::BTreeMap::new();
         for Playing { clip, time, weight } in playing.iter().filter(|playing| playing.weight > 0.0) {
             for channel in self.clips.get(*clip).into_iter().flat_map(|clip| &clip.channels) {
-                let all = moved.entry(channel.node).or_default();
-                all.push((channel.property, &channel.track, *time, *weight));
+                let Some((node, property)) = channel.target.of_node() else { continue };
+                moved.entry(node).or_default().push((property, &channel.track, *time, *weight));
             }
         }
         moved
@@ -190,7 +202,7 @@ impl Rig {
 type Moved<'a> = (Property, &'a super::track::Track, f64, f64);
 
 /// The mean of values by their weights; what these lack to 1 has the value at rest.
-fn mixed<T>(rest: T, values: impl Iterator<Item = (T, f64)>) -> T
+pub(super) fn mixed<T>(rest: T, values: impl Iterator<Item = (T, f64)>) -> T
 where
     T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T> + Copy,
 {

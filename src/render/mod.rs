@@ -116,6 +116,17 @@ pub fn render_reported(
     Ok((drawing, report))
 }
 
+/// The paints of what a style leaves of a scene, if it asks for any.
+fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
+    let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
+    let mut paints = needs_paints.then(|| Paints::of(left, &style.textures));
+    if fills::asks_artist(style) {
+        let pictures = &style.lines.artist_texture;
+        paints.iter_mut().for_each(|paints| paints.ink(left, pictures, style.textures.colours));
+    }
+    paints
+}
+
 /// A scene made ready for a style: what all its views share.
 ///
 /// ```no_run
@@ -158,13 +169,8 @@ impl<'a> Prepared<'a> {
 
     /// Does so, and tells the patches of its surface.
     fn with_patches(scene: &'a Scene, style: &'a Style) -> (Self, Option<Patches>) {
-        let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
         let left = glass::left(scene, style);
-        let mut paints = needs_paints.then(|| Paints::of(&left, &style.textures));
-        if fills::asks_artist(style) {
-            let pictures = &style.lines.artist_texture;
-            paints.iter_mut().for_each(|paints| paints.ink(&left, pictures, style.textures.colours));
-        }
+        let mut paints = paints_of(&left, style);
         let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
         paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));

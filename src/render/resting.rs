@@ -1,16 +1,18 @@
 //! [`Resting`]: a scene made ready at rest, from which its poses are made ready.
 //!
 //! What does not change when a figure moves is found once, at rest: which vertices are one and which faces meet at which edge, where the
-//! surface is creased and where it is round, the paints and the pictures they come from. Places, normals, lines and all that
-//! is seen of them are found for every pose.
+//! surface is creased and where it is round, the paints and the pictures they come from, unless materials change. Places, normals,
+//! lines and all that is seen of them are found for every pose.
+
+use std::sync::Arc;
 
 use super::anchors::Anchors;
 use super::fills::{self, Paintable};
 use super::late_search::LateSearch;
-use super::{Prepared, glass};
+use super::{Prepared, glass, paints_of};
 use crate::mesh::Sources;
-use crate::scene::Scene;
 use crate::scene::cutout::Cut;
+use crate::scene::{Part, Scene};
 use crate::shape::Patches;
 use crate::style::Style;
 
@@ -46,9 +48,13 @@ impl<'a> Resting<'a> {
     /// Makes a scene ready that stands as it is stored.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+        let made = Self::without_anchors(scene, style);
+        Self { still: made.still.anchored(scene, scene), ..made }
+    }
+
+    fn without_anchors(scene: &'a Scene, style: &'a Style) -> Self {
         let (still, patches) = Prepared::with_patches(scene, style);
         let sources = Sources::of(&still.surface.mesh, &still.scene.to_soup());
-        let still = still.anchored(scene, scene);
         Self { scene, style, still, patches, sources }
     }
 
@@ -60,37 +66,68 @@ impl<'a> Resting<'a> {
 
     /// The scene in a pose: the same parts and triangles, elsewhere.
     ///
-    /// Where parts have come or gone, or vertices have parted that are one at rest, the pose is made ready from the start.
+    /// Where parts are hidden, what is left is made ready at rest for this pose alone. Where parts have come, or vertices have parted
+    /// that are one at rest, the pose is made ready from the start.
     #[must_use]
     pub fn posed<'b>(&self, posed: &'b Scene) -> Prepared<'b>
     where
         'a: 'b,
     {
-        let prepared = self.following(posed).unwrap_or_else(|| Prepared::new(posed, self.style));
+        let prepared = self
+            .following(posed, self.style)
+            .or_else(|| {
+                let rest = left_of(self.scene, posed)?;
+                Resting::without_anchors(&rest, self.style).following(posed, self.style)
+            })
+            .unwrap_or_else(|| Prepared::new(posed, self.style));
         prepared.anchored(posed, self.scene)
     }
 
     /// A pose in which the mesh is that at rest, moved.
-    fn following<'b>(&self, posed: &'b Scene) -> Option<Prepared<'b>>
-    where
-        'a: 'b,
-    {
-        let style = self.style;
+    fn following<'b>(&self, posed: &'b Scene, style: &'b Style) -> Option<Prepared<'b>> {
         let names = |scene: &Scene| scene.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>();
         if names(self.scene) != names(posed) {
             return None;
         }
         let left = glass::left(posed, style);
-        let Cut { scene, warnings, .. } = glass::cut(posed, &left);
-        let mesh = self.still.surface.mesh.posed(self.sources.as_ref()?, &scene.to_soup())?;
+        let Cut { scene, origins, warnings } = glass::cut(posed, &left);
+        let soup = scene.to_soup();
+        let mut paints = self.still.paints.clone();
+        if posed.materials != self.scene.materials {
+            // Another opacity may leave or cut other triangles, which need not be more or less of them.
+            let rest = self.still.scene.to_soup();
+            if rest.triangles != soup.triangles || rest.triangle_material != soup.triangle_material {
+                return None;
+            }
+            if let Some(still) = &paints {
+                let mut own = paints_of(&left, style)?;
+                own.carry(&origins);
+                paints = Some(Arc::new(own)).filter(|own| own.lie_like(still));
+                paints.as_ref()?;
+            }
+        }
+        let mesh = self.still.surface.mesh.posed(self.sources.as_ref()?, &soup)?;
+        let sought = fills::sought(style);
         let surface = self.still.surface.posed(mesh, self.patches.as_ref());
-        let paints = self.still.paints.clone();
         let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
         let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
         let search = LateSearch::default();
-        let sought = fills::sought(style);
         Some(Prepared { scene, warnings, style, sought, paints, surface, paintable, search, anchors: None })
     }
+}
+
+/// A scene at rest without the parts that a pose of it hides; none if it hides none, or is no pose of it.
+fn left_of(scene: &Scene, posed: &Scene) -> Option<Scene> {
+    let mut wanted = posed.parts.iter().peekable();
+    let mut parts = scene.parts.clone();
+    parts.retain(|part| {
+        // Of parts of one name and shape it does not matter which is left.
+        let is_next = |next: &&Part| next.name == part.name && next.geometry == part.geometry;
+        wanted.next_if(is_next).is_some()
+    });
+    let all_found = wanted.peek().is_none();
+    (all_found && !parts.is_empty() && parts.len() < scene.parts.len())
+        .then(|| Scene { parts, ..scene.clone() })
 }
 
 impl Prepared<'_> {

@@ -147,6 +147,14 @@ impl Paints {
         self.triangles.get(geometry).map_or(&[], Vec::as_slice)
     }
 
+    /// Whether each triangle has the paint of the same number in both, if in another colour.
+    pub(crate) fn lie_like(&self, other: &Self) -> bool {
+        let materials = |paints: &Self| paints.list.iter().map(|paint| paint.material).collect::<Vec<_>>();
+        self.triangles == other.triangles
+            && self.tinted == other.tinted
+            && materials(self) == materials(other)
+    }
+
     /// Adds the paints of a material's triangles, each in its colour.
     fn add(&mut self, scene: &Scene, material: usize, colours: &[Colour], triangles: &[Coloured]) {
         let known = self.of_colours(material, colours);

@@ -59,6 +59,24 @@ fn shards_and_resumed_runs_make_the_frames_of_one_run() {
 }
 
 #[test]
+fn weights_change_from_frame_to_frame() {
+    let folder = Folder::new("weights");
+    animate(&folder, CRANE, "fade/%d.svg", "--fps 1 --to 8 --repeat --animation lift:0..1 --view iso").done();
+    assert_eq!(folder.names_in("fade").len(), 8);
+    // Frames are those of the weight of their moment, over all frames, alone and in any shard.
+    // A frame is that of its moment, alone and in any shard.
+    let all = "--fps 1 --to 8 --repeat --animation lift:0@0..1@8 --view iso";
+    animate(&folder, CRANE, "shard/%d.svg", &format!("{all} --shard 3/4 --threads 1")).done();
+    assert_eq!(folder.names_in("shard"), ["2.svg", "6.svg"]);
+    for name in ["2.svg", "6.svg"] {
+        assert_eq!(folder.text(&format!("fade/{name}")), folder.text(&format!("shard/{name}")));
+    }
+    // The clip is at 2 s in both.
+    assert_ne!(folder.text("fade/2.svg"), folder.text("fade/6.svg"));
+    animate(&folder, CRANE, "no.svg", "--animation lift:1@2..0@1").refused("do not rise");
+}
+
+#[test]
 fn films_are_written_whole() {
     let folder = Folder::new("films");
     for (name, begins) in

@@ -351,6 +351,17 @@ fn a_moment_of_an_animation_is_drawn() {
         .run(&["draw", crane, "no.svg", "--animation", "walk"])
         .refused("it has no animation `walk`; it has lift");
     folder.run(&["draw", crane, "no.svg", "--time", "soon"]).refused("a number of seconds");
+    // All of a clip is itself, none of it is the stored pose, and half of it is neither.
+    let weighed =
+        |weight: &str| drawn("weighed.svg", &["--animation", &format!("lift:{weight}"), "--time", "1.5"]);
+    assert_eq!(weighed("1"), lifted);
+    assert_eq!(weighed("0"), stored);
+    assert_eq!(weighed("0@1..1@2"), weighed("0.5"));
+    assert!(![&stored, &lifted].contains(&&weighed("0.5")));
+    assert_eq!(weighed("0..1"), weighed("0.375"));
+    assert_eq!(lifted, drawn("again.svg", &["--time", "5.5", "--repeat"]));
+    folder.run(&["draw", crane, "no.svg", "--animation", "lift:much"]).refused("`much` is no weight");
+    folder.run(&["draw", crane, "no.svg", "--animation", "lift,walk:2"]).refused("no animation `walk`");
     let pump = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
     folder.run(&["draw", pump, "no.svg", "--time", "1"]).refused("it has no animations");
     assert!(!folder.names().contains(&"no.svg".to_owned()));

@@ -8,7 +8,7 @@ use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
 use ligne::math::function::{cos, sin};
 use ligne::pose::body::Influences;
 use ligne::pose::rig::{Form, Node, Placement, Skin};
-use ligne::pose::{Body, Channel, Clip, Interpolation, Playing, Property, Rig, Rigged, Track};
+use ligne::pose::{Body, Channel, Clip, Interpolation, Playing, Property, Rig, Rigged, Target, Track};
 use ligne::scene::Geometry;
 use ligne::{Camera, Scene, Style, SvgOptions, motion, render};
 
@@ -21,7 +21,8 @@ const LASTS: f64 = 4.0;
 const BACK: f64 = 20.0 / 24.0;
 
 fn channel(node: usize, property: Property, times: &[f64], values: &[f64]) -> Channel {
-    Channel { node, property, track: Track::new(times.into(), values.into(), Interpolation::Linear).unwrap() }
+    let track = Track::new(times.into(), values.into(), Interpolation::Linear).unwrap();
+    Channel { target: Target::Node(node, property), track }
 }
 
 /// A node that goes evenly.

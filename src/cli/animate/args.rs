@@ -10,6 +10,7 @@ const EXAMPLES: &str = "Examples:
   ligne animate crane.glb crane.svg                    one SVG that moves
   ligne animate crane.glb 'frames/%04d.svg' --fps 24 --hold 2
   ligne animate fox.glb fox.gif --animation Run --style toon --size 400
+  ligne animate fox.glb fox.svg --animation Walk:1..0,Run:0..1 --repeat --to 4
   ligne animate drive.glb turn.webp --turntable 36
   ligne animate crane.glb 'frames/%04d.png' --shard 1/4 --resume";
 

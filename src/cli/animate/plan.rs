@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::args::AnimateArgs;
 use crate::animate::{Moment, Timeline, Turntable, reach};
-use crate::cli::moment::playing;
+use crate::cli::blend::Blend;
 use crate::cli::paper::Paper;
 use crate::cli::request::DrawRequest;
 use crate::cli::viewpoint::{View, Viewpoint, on_sheet, viewpoint_on};
@@ -30,8 +30,8 @@ pub(super) struct Plan {
 #[derive(Debug)]
 pub(super) struct Course {
     pub(super) timeline: Timeline,
-    /// The clips that play, each with its share, at no time yet.
-    clips: Vec<Playing>,
+    /// The clips that play, if any do.
+    clips: Option<Blend>,
     turntable: Option<Turntable>,
 }
 
@@ -61,15 +61,12 @@ impl Plan {
             ));
         }
         let own = if moves && request.animation.is_empty() {
-            Vec::new()
+            None
         } else {
-            playing(clips, &request.animation, 0.0)
-                .map_err(|error| without_time(error).in_file(&request.model))?
+            let blend = Blend::new(clips, &request.animation, request.repeat);
+            Some(blend.map_err(|error| without_time(error).in_file(&request.model))?)
         };
-        let spans = own.iter().filter_map(|own| clips.get(own.clip)).map(|clip| clip.span());
-        let none = [f64::INFINITY, f64::NEG_INFINITY];
-        let span = spans.fold(none, |[from, to], own| [from.min(own[0]), to.max(own[1])]);
-        let [begins, ends] = if span[0] <= span[1] { span } else { [0.0, 0.0] };
+        let [begins, ends] = own.as_ref().map_or([0.0, 0.0], Blend::span);
         let cameras = args.path.as_deref().map(open_path).transpose()?;
         let from = args.from.unwrap_or(begins);
         let frames = args.turntable.map(|steps| steps as usize).or(cameras.as_ref().map(Vec::len));
@@ -80,11 +77,14 @@ impl Plan {
         let timeline = timeline?.holding(usize::from(args.hold));
         let mut warnings = Vec::new();
         let last = timeline.time(timeline.frames() - 1);
-        if !own.is_empty() && (from < begins - 1e-9 || last > ends + 1e-9) {
+        let stands_still = own.as_ref().is_some_and(|own| !own.repeats());
+        if stands_still && (from < begins - 1e-9 || last > ends + 1e-9) {
             warnings.push(format!("the animation lasts from {begins} s to {ends} s; it stands still beyond"));
         }
-        let turntable = args.turntable.map(|steps| Turntable::round(&rigged.scene, steps as usize));
-        let course = Course { timeline, clips: own, turntable };
+        let rest = rigged.posed(&[])?;
+        let turntable = args.turntable.map(|steps| Turntable::round(&rest, steps as usize));
+        let over = [from, timeline.time(timeline.frames())];
+        let course = Course { timeline, clips: own.map(|own| own.over(over)), turntable };
         let Viewpoint { camera, paper, warning } = match cameras.as_ref().and_then(|path| path.first()) {
             Some(first) => on_sheet(&request.sheet, *first)?,
             None => viewpoint_on(&request.view, &request.sheet, &rigged.scene, || course.reach(rigged))?,
@@ -132,7 +132,7 @@ impl Plan {
 impl Course {
     fn playing(&self, frame: usize) -> Vec<Playing> {
         let time = self.timeline.time(frame);
-        self.clips.iter().map(|own| Playing { time, ..*own }).collect()
+        self.clips.as_ref().map_or_else(Vec::new, |clips| clips.playing(time))
     }
 
     /// All points that are to be in the frame, as the first camera sees them.

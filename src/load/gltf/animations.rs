@@ -2,9 +2,10 @@
 
 use super::buffers::Buffers;
 use super::json::{Animation, AnimationSampler, Channel as JsonChannel, ChannelTarget};
+use super::pointers::pointed;
 use crate::error::Error;
 use crate::pose::rig::Node;
-use crate::pose::{Channel, Clip, Interpolation, Property, Track};
+use crate::pose::{Channel, Clip, Finish, Interpolation, Property, Shine, Target, Track};
 use crate::scene::Warnings;
 
 /// The clips of a file, by number. What is broken in them, or moves what no drawing shows, is left out with a warning.
@@ -42,31 +43,62 @@ fn read(
     animation: &Animation,
     channel: &JsonChannel,
 ) -> Result<Option<Channel>, Error> {
-    let Some((node, property)) = target(&channel.target)? else { return Ok(None) };
-    let Some(own) = nodes.get(node) else {
-        return Err(Error::new(format!("it moves node {node}, but the file has {}", nodes.len())));
-    };
+    let Some(target) = target(buffers, &channel.target)? else { return Ok(None) };
+    let width = width(nodes, target)?;
     let number = channel.sampler.ok_or_else(|| Error::new("it has no sampler"))?;
     let Some(sampler) = animation.samplers.get(number) else {
         return Err(Error::new(format!("it has sampler {number} of {}", animation.samplers.len())));
     };
-    let track = track(buffers, sampler, property)?;
-    let width = match property {
-        Property::Translation | Property::Scale => 3,
-        Property::Rotation => 4,
-        Property::Weights => own.weights.len(),
-        Property::Visible => 1,
-    };
-    if track.width() != width || width == 0 {
-        return Err(Error::new(format!("{} numbers a key, where {width} are needed", track.width())));
+    let track = track(buffers, sampler, width)?;
+    let numbers = width.numbers();
+    if track.width() != numbers || numbers == 0 {
+        return Err(Error::new(format!("{} numbers a key, where {numbers} are needed", track.width())));
     }
-    Ok(Some(Channel { node, property, track }))
+    Ok(Some(Channel { target, track }))
 }
 
-/// The node and the property that a channel moves; none if it moves nothing that is drawn.
-fn target(target: &ChannelTarget) -> Result<Option<(usize, Property)>, Error> {
+/// How many numbers a key has.
+#[derive(Clone, Copy)]
+enum Width {
+    /// So many, each an element of its accessor: a list of weights.
+    Scalars(usize),
+    Three,
+    Four,
+}
+
+impl Width {
+    fn numbers(self) -> usize {
+        match self {
+            Self::Scalars(count) => count,
+            Self::Three => 3,
+            Self::Four => 4,
+        }
+    }
+}
+
+fn width(nodes: &[Node], target: Target) -> Result<Width, Error> {
+    Ok(match target {
+        Target::Node(node, property) => {
+            let Some(own) = nodes.get(node) else {
+                return Err(Error::new(format!("it moves node {node}, but the file has {}", nodes.len())));
+            };
+            match property {
+                Property::Translation | Property::Scale => Width::Three,
+                Property::Rotation => Width::Four,
+                Property::Weights => Width::Scalars(own.weights.len()),
+                Property::Visible => Width::Scalars(1),
+            }
+        }
+        Target::Light(_, Shine::Colour) | Target::Material(_, Finish::Emissive) => Width::Three,
+        Target::Material(_, Finish::Base) => Width::Four,
+        Target::Camera(..) | Target::Light(..) | Target::Material(..) => Width::Scalars(1),
+    })
+}
+
+/// What a channel moves; none if it moves nothing that is drawn.
+fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<Target>, Error> {
     if let Some(pointer) = &target.extensions.pointer {
-        return Ok(pointed(&pointer.pointer));
+        return pointed(buffers.root, &pointer.pointer);
     }
     let property = match target.path.as_str() {
         "translation" => Property::Translation,
@@ -76,24 +108,10 @@ fn target(target: &ChannelTarget) -> Result<Option<(usize, Property)>, Error> {
         other => return Err(Error::new(format!("its path `{}` is unknown", super::uri::shown(other)))),
     };
     // A channel without a node is for extensions to fill.
-    Ok(target.node.map(|node| (node, property)))
+    Ok(target.node.map(|node| Target::Node(node, property)))
 }
 
-/// What a pointer (KHR_animation_pointer) leads to.
-fn pointed(pointer: &str) -> Option<(usize, Property)> {
-    let (node, rest) = pointer.strip_prefix("/nodes/")?.split_once('/')?;
-    let property = match rest {
-        "translation" => Property::Translation,
-        "rotation" => Property::Rotation,
-        "scale" => Property::Scale,
-        "weights" => Property::Weights,
-        "extensions/KHR_node_visibility/visible" => Property::Visible,
-        _ => return None,
-    };
-    Some((node.parse().ok()?, property))
-}
-
-fn track(buffers: &Buffers, sampler: &AnimationSampler, property: Property) -> Result<Track, Error> {
+fn track(buffers: &Buffers, sampler: &AnimationSampler, width: Width) -> Result<Track, Error> {
     let interpolation = match sampler.interpolation.as_deref() {
         None | Some("LINEAR") => Interpolation::Linear,
         Some("STEP") => Interpolation::Step,
@@ -106,10 +124,10 @@ fn track(buffers: &Buffers, sampler: &AnimationSampler, property: Property) -> R
         return Err(Error::new("its sampler has no input or no output"));
     };
     let times = buffers.read(input, |[time]: [f64; 1]| time)?;
-    let values = match property {
-        Property::Translation | Property::Scale => buffers.read(output, |v: [f64; 3]| v)?.into_flattened(),
-        Property::Rotation => buffers.read(output, |v: [f64; 4]| v)?.into_flattened(),
-        Property::Weights | Property::Visible => buffers.read(output, |[value]: [f64; 1]| value)?,
+    let values = match width {
+        Width::Three => buffers.read(output, |v: [f64; 3]| v)?.into_flattened(),
+        Width::Four => buffers.read(output, |v: [f64; 4]| v)?.into_flattened(),
+        Width::Scalars(_) => buffers.read(output, |[value]: [f64; 1]| value)?,
     };
     Track::new(times, values, interpolation).map_err(Error::new)
 }

@@ -5,9 +5,8 @@ use std::sync::Arc;
 use super::buffers::{Buffers, Fetch};
 use super::json;
 use super::uri;
-use crate::math::colour::Colour;
-use crate::scene::material::{Gloss, Placing};
-use crate::scene::{Alpha, Filter, Material, Warnings, Wrap};
+use crate::pose::factors::{AlphaMode, Factors};
+use crate::scene::{Filter, Material, Warnings, Wrap};
 
 /// The path of a texture beside the model, or its bytes.
 type TextureSource = (Option<String>, Option<Arc<[u8]>>);
@@ -21,31 +20,43 @@ pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> V
         let texture =
             base_texture(material).and_then(|texture| image(texture, material, buffers, fetch, warnings));
         let (texture, picture) = texture.unwrap_or_default();
-        let base = base_colour(material);
-        // What is lit from within by a picture is dark elsewhere, and a picture of lights is not read.
-        let [r, g, b] =
-            material.emissive_factor.map(|c| if material.emissive_texture.is_some() { 0.0 } else { c });
-        Material {
+        let mut made = Material {
             name: material.name.clone().unwrap_or_default(),
-            colour: Colour::from_linear(with_alpha_mode(base, material)),
-            emissive: Colour::from_linear([r, g, b, 1.0]),
             double_sided: material.double_sided,
             texture,
             picture,
-            alpha: alpha(base[3], material),
-            gloss: gloss(material),
-            transmission: material
-                .extensions
-                .transmission
-                .as_ref()
-                .map_or(0.0, |own| own.transmission_factor.clamp(0.0, 1.0)),
-            opacity_map: None,
-            placing: Placing::default(),
             filter: base_texture(material).map_or(Filter::Smooth, |texture| filter(buffers.root, texture)),
             wrap: base_texture(material).map_or([Wrap::Repeat; 2], |texture| wrap(buffers.root, texture)),
-        }
+            ..Material::default()
+        };
+        factors(material).give(&mut made);
+        made
     };
     buffers.root.materials.iter().map(read).collect()
+}
+
+/// The values of a material, as the file stores them.
+pub fn factors(material: &json::Material) -> Factors {
+    let transmission = material.extensions.transmission.as_ref();
+    Factors {
+        base: base_colour(material),
+        emissive: material.emissive_texture.is_none().then_some(material.emissive_factor),
+        mode: match material.alpha_mode.as_deref() {
+            Some("BLEND") => AlphaMode::Blend,
+            Some("MASK") => AlphaMode::Mask,
+            _ => AlphaMode::Opaque,
+        },
+        cutoff: material.alpha_cutoff.unwrap_or(0.5),
+        roughness: material.pbr_metallic_roughness.roughness_factor,
+        transmission: transmission.map_or(0.0, |own| own.transmission_factor),
+    }
+}
+
+/// Whether the base colour is that of another extension than the metallic workflow, which nothing then points to.
+pub fn is_glossy(material: &json::Material) -> bool {
+    let glossy = material.extensions.specular_glossiness.as_ref();
+    material.pbr_metallic_roughness.base_color_factor.is_none()
+        && glossy.is_some_and(|glossy| glossy.diffuse_factor.is_some())
 }
 
 /// The texture that gives a material its colour.
@@ -59,23 +70,6 @@ fn base_colour(material: &json::Material) -> [f32; 4] {
     let glossy = material.extensions.specular_glossiness.as_ref();
     let metallic = material.pbr_metallic_roughness.base_color_factor;
     metallic.or_else(|| glossy.and_then(|glossy| glossy.diffuse_factor)).unwrap_or([1.0; 4])
-}
-
-/// How a material shines: as Blinn-Phong has what is so rough.
-fn gloss(material: &json::Material) -> Option<Gloss> {
-    let roughness = material.pbr_metallic_roughness.roughness_factor?.clamp(0.0, 1.0);
-    let exponent = (2.0 / roughness.max(0.1).powi(4) - 2.0).max(1.0);
-    Some(Gloss { exponent, strength: 1.0 - roughness })
-}
-
-fn alpha(factor: f32, material: &json::Material) -> Alpha {
-    match material.alpha_mode.as_deref() {
-        Some("BLEND") => Alpha::Blend,
-        // The texture is multiplied by the factor before it is compared; nothing is less than nothing.
-        Some("MASK") if material.alpha_cutoff.is_some_and(|cutoff| cutoff <= 0.0) => Alpha::Opaque,
-        Some("MASK") => Alpha::Mask { cutoff: material.alpha_cutoff.unwrap_or(0.5) / factor },
-        _ => Alpha::Opaque,
-    }
 }
 
 /// What is between the texels of a texture.
@@ -97,15 +91,6 @@ fn wrap(root: &json::Root, texture: &json::TextureUse) -> [Wrap; 2] {
             _ => Wrap::Repeat,
         })
     })
-}
-
-fn with_alpha_mode([r, g, b, a]: [f32; 4], material: &json::Material) -> [f32; 4] {
-    let alpha = match material.alpha_mode.as_deref() {
-        Some("BLEND") => a,
-        Some("MASK") if a < material.alpha_cutoff.unwrap_or(0.5) => 0.0,
-        _ => 1.0,
-    };
-    [r, g, b, alpha]
 }
 
 /// The path of a texture that is a file, or its bytes if it is in the model's file; looks whether it is
@@ -174,6 +159,7 @@ fn is_image(bytes: &[u8]) -> bool {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::math::colour::Colour;
 
     fn read(json: &str) -> (Vec<Material>, Warnings) {
         let root: json::Root = serde_json::from_str(json).unwrap();

@@ -20,6 +20,7 @@ mod mesh;
 mod meshopt;
 mod nodes;
 mod parts;
+mod pointers;
 mod pose;
 mod primitive;
 mod streams;
@@ -79,8 +80,9 @@ fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> 
     let root = root(container.json, &mut warnings)?;
     extensions::check(&root.extensions_required)?;
     let buffers = Buffers::gather(&root, container.bin, fetch)?;
-    let nodes = nodes::Hierarchy::new(&root, &mut warnings)?;
+    let mut nodes = nodes::Hierarchy::new(&root, &mut warnings)?;
     let clips = if rigged { animations::clips(&buffers, &nodes.rest, &mut warnings) } else { Vec::new() };
+    nodes.wake(&root, &clips)?;
     let materials = materials::materials(&buffers, fetch, &mut warnings);
     let (cameras, of_cameras) = views::cameras(&root, &nodes, &mut warnings)?;
     let (lights, of_lights) = views::lights(&root, &nodes, &mut warnings)?;
@@ -92,6 +94,7 @@ fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> 
         rig = Rig::default();
     } else {
         (rig.nodes, rig.order) = (nodes.rest, nodes.order);
+        rig.materials = root.materials.iter().map(materials::factors).collect();
     }
     Ok(Rigged { scene, rig })
 }

@@ -7,6 +7,7 @@ use super::json::{Node, Root};
 use crate::error::Error;
 use crate::pose::rig::{self, Placement};
 use crate::pose::track::unit_quaternion;
+use crate::pose::{Clip, Property};
 use crate::scene::Warnings;
 
 /// The nodes of a file, worked out without recursion, so that a chain of any depth is fine.
@@ -14,7 +15,7 @@ use crate::scene::Warnings;
 pub struct Hierarchy {
     /// World transform of every node, shown or not: joints of skins may lie outside the scene.
     pub world: Vec<DAffine3>,
-    /// The nodes of the scene that is drawn, each once, depth first.
+    /// The nodes of the scene that is drawn, each once, depth first; with clips also what these show at some time.
     pub shown: Vec<usize>,
     /// All nodes at rest, and their numbers, parents first.
     pub rest: Vec<rig::Node>,
@@ -33,38 +34,70 @@ impl Hierarchy {
                 parent: *parent,
                 rest: placement(node, index, warnings),
                 weights: weights(root, node),
-                visible: is_visible(node),
+                visible: is_visible(index, node),
             })
             .collect();
         let (world, order) = world_transforms(&root.nodes, &rest)?;
-        let number = root.scene.unwrap_or(0);
-        let tops = match root.scenes.get(number) {
-            Some(scene) => scene.nodes.clone(),
-            None if root.scene.is_some() => {
-                let message = format!("is the default scene, but the file has {}", root.scenes.len());
-                return Err(Error::new(message).at(format!("scene {number}")));
-            }
-            None => (0..root.nodes.len()).filter(|node| matches!(parents.get(*node), Some(None))).collect(),
-        };
+        let shown = shown(root, &rest, is_visible)?;
         if root.scenes.len() > 1 {
+            let number = root.scene.unwrap_or(0);
             warnings.note(format!("scene {number} of {} is drawn", root.scenes.len()));
-        }
-
-        let mut shown = Vec::new();
-        let mut met = vec![false; root.nodes.len()];
-        let mut waiting: Vec<usize> = tops.into_iter().rev().collect();
-        while let Some(index) = waiting.pop() {
-            let Some((node, met)) = root.nodes.get(index).zip(met.get_mut(index)) else {
-                let message = format!("points to node {index}, but the file has {}", root.nodes.len());
-                return Err(Error::new(message).at(format!("scene {number}")));
-            };
-            if !std::mem::replace(met, true) && is_visible(node) {
-                shown.push(index);
-                waiting.extend(node.children.iter().rev());
-            }
         }
         Ok(Self { world, shown, rest, order })
     }
+
+    /// Shows also what is hidden at rest and clips show at some time.
+    pub fn wake(&mut self, root: &Root, clips: &[Clip]) -> Result<(), Error> {
+        let mut wakes = vec![false; root.nodes.len()];
+        for channel in clips.iter().flat_map(|clip| &clip.channels) {
+            let Some((node, Property::Visible)) = channel.target.of_node() else { continue };
+            if let Some(own) = wakes.get_mut(node) {
+                let times = channel.track.times().iter();
+                *own |=
+                    times.into_iter().any(|time| channel.track.at(*time).iter().any(|value| *value != 0.0));
+            }
+        }
+        if self.rest.iter().zip(&wakes).any(|(node, wakes)| *wakes && !node.visible) {
+            self.shown = shown(root, &self.rest, |index, node| {
+                is_visible(index, node) || wakes.get(index).copied().unwrap_or(false)
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// The nodes of the scene that is drawn, each once, depth first, but for those that are not visible and what hangs on them.
+fn shown(
+    root: &Root,
+    rest: &[rig::Node],
+    is_visible: impl Fn(usize, &Node) -> bool,
+) -> Result<Vec<usize>, Error> {
+    let number = root.scene.unwrap_or(0);
+    let tops = match root.scenes.get(number) {
+        Some(scene) => scene.nodes.clone(),
+        None if root.scene.is_some() => {
+            let message = format!("is the default scene, but the file has {}", root.scenes.len());
+            return Err(Error::new(message).at(format!("scene {number}")));
+        }
+        None => (rest.iter().enumerate())
+            .filter(|(_, node)| node.parent.is_none())
+            .map(|(index, _)| index)
+            .collect(),
+    };
+    let mut shown = Vec::new();
+    let mut met = vec![false; root.nodes.len()];
+    let mut waiting: Vec<usize> = tops.into_iter().rev().collect();
+    while let Some(index) = waiting.pop() {
+        let Some((node, met)) = root.nodes.get(index).zip(met.get_mut(index)) else {
+            let message = format!("points to node {index}, but the file has {}", root.nodes.len());
+            return Err(Error::new(message).at(format!("scene {number}")));
+        };
+        if !std::mem::replace(met, true) && is_visible(index, node) {
+            shown.push(index);
+            waiting.extend(node.children.iter().rev());
+        }
+    }
+    Ok(shown)
 }
 
 /// The parent of each node.
@@ -119,7 +152,7 @@ fn world_transforms(nodes: &[Node], rest: &[rig::Node]) -> Result<(Vec<DAffine3>
     Ok((placed, order))
 }
 
-fn is_visible(node: &Node) -> bool {
+fn is_visible(_: usize, node: &Node) -> bool {
     node.extensions.visibility.as_ref().and_then(|v| v.visible).unwrap_or(true)
 }
 

@@ -28,8 +28,9 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
     let rigged = !rig.clips.is_empty();
     let mut morphing = vec![false; nodes.rest.len()];
     for channel in rig.clips.iter().flat_map(|clip| &clip.channels) {
-        if let Some(own) = morphing.get_mut(channel.node) {
-            *own |= channel.property == Property::Weights;
+        let Some((node, Property::Weights)) = channel.target.of_node() else { continue };
+        if let Some(own) = morphing.get_mut(node) {
+            *own = true;
         }
     }
     let mut skins: BTreeMap<usize, Skin> = BTreeMap::new();

@@ -7,17 +7,18 @@ use glam::{DAffine3, DVec3};
 use super::json::{Camera as JsonCamera, Light as JsonLight, Root};
 use super::nodes::Hierarchy;
 use crate::error::Error;
+use crate::pose::rig::Held;
 use crate::scene::{Camera, Light, LightKind, NamedCamera, Projection, Warnings};
 
 /// Height of the frame of a file's camera, px.
 const FRAME_PX: f64 = 1000.0;
 
-/// The cameras of the nodes that are shown, and these nodes.
+/// The cameras of the nodes that are shown, and which of the file they are in which node.
 pub fn cameras(
     root: &Root,
     nodes: &Hierarchy,
     warnings: &mut Warnings,
-) -> Result<(Vec<NamedCamera>, Vec<usize>), Error> {
+) -> Result<(Vec<NamedCamera>, Vec<Held>), Error> {
     let (mut cameras, mut holders) = (Vec::new(), Vec::new());
     for (index, node, world) in shown(root, nodes) {
         let Some(number) = node.camera else { continue };
@@ -30,7 +31,7 @@ pub fn cameras(
         match look(camera, world) {
             Some(camera) => {
                 cameras.push(NamedCamera { name, camera });
-                holders.push(index);
+                holders.push(Held { number, node: index });
             }
             None => warnings.note(format!("camera `{name}` sees nothing and is left out")),
         }
@@ -62,12 +63,12 @@ fn look(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
     })
 }
 
-/// The lights (KHR_lights_punctual) of the nodes that are shown, and these nodes.
+/// The lights (KHR_lights_punctual) of the nodes that are shown, and which of the file they are in which node.
 pub fn lights(
     root: &Root,
     nodes: &Hierarchy,
     warnings: &mut Warnings,
-) -> Result<(Vec<Light>, Vec<usize>), Error> {
+) -> Result<(Vec<Light>, Vec<Held>), Error> {
     let known = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
     let (mut lights, mut holders) = (Vec::new(), Vec::new());
     for (index, node, world) in shown(root, nodes) {
@@ -85,7 +86,7 @@ pub fn lights(
                     intensity: light.intensity.unwrap_or(1.0),
                     range: light.range,
                 });
-                holders.push(index);
+                holders.push(Held { number, node: index });
             }
             None => warnings.note(format!("light {number} of unknown kind or without direction is left out")),
         }

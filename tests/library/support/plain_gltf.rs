@@ -157,6 +157,15 @@ impl Plain {
         found
     }
 
+    /// The value that a pointer leads to at a time of a clip.
+    pub fn pointed(&self, clip: usize, pointer: &str, time: f64) -> Vec<f64> {
+        let animation = &self.json["animations"][clip];
+        let leads =
+            |channel: &&Value| channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"] == pointer;
+        let channel = list(&animation["channels"]).iter().find(leads).unwrap();
+        self.value(animation, channel, time)
+    }
+
     /// A number of a node at a time: what a clip says, else what the node says, else a default.
     fn property(&self, node: usize, path: &str, playing: Option<(usize, f64)>, default: &[f64]) -> Vec<f64> {
         if let Some((clip, time)) = playing {

@@ -1,0 +1,253 @@
+//! [`Blend`]: the clips that `--animation` names, and how much of each is seen when.
+
+use crate::error::Error;
+use crate::pose::{Clip, Playing};
+
+/// The clips that play together, and how much of each is seen when.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Blend {
+    asked: Vec<Asked>,
+    /// When the first of the clips begins and the last one ends, in seconds.
+    span: [f64; 2],
+    /// The time over which weights without times of their own change.
+    over: [f64; 2],
+    repeats: bool,
+}
+
+/// A clip that was asked for.
+#[derive(Debug, Clone, PartialEq)]
+struct Asked {
+    clip: usize,
+    span: [f64; 2],
+    /// How much of it is seen; none for an equal share of what the others leave.
+    weight: Option<Weight>,
+}
+
+/// A weight that may change in time: straight from one to the next, and the same before the first and behind the last.
+#[derive(Debug, Clone, PartialEq)]
+enum Weight {
+    /// At these times, in seconds.
+    Timed(Vec<(f64, f64)>),
+    /// Evenly over the time that is drawn.
+    Spread(Vec<f64>),
+}
+
+impl Blend {
+    /// The clips that these texts name, each `NAME`, `NAME:WEIGHT`, or several of these with commas between; the only clip if
+    /// there is no text. With `repeats` each begins again when it is over.
+    ///
+    /// # Errors
+    /// If there are no clips, if none has such a name, if none is named of several, and if a weight is none.
+    pub(super) fn new(clips: &[Clip], texts: &[String], repeats: bool) -> Result<Self, Error> {
+        let known = || clips.iter().map(|clip| clip.name.as_str()).collect::<Vec<_>>().join(", ");
+        if clips.is_empty() {
+            return Err(Error::new("it has no animations").remedy("leave out --animation and --time"));
+        }
+        if texts.is_empty() && clips.len() > 1 {
+            return Err(Error::new(format!("which of its {} animations is drawn?", clips.len()))
+                .remedy(format!("name one with --animation: {}", known())));
+        }
+        let find = |name: &str| clips.iter().position(|clip| clip.name == name);
+        let mut asked = Vec::new();
+        let mut add = |name: &str, weight: Option<Weight>| {
+            let clip = find(name).ok_or_else(|| {
+                Error::new(format!("it has no animation `{name}`")).remedy(format!("it has {}", known()))
+            })?;
+            let span = clips.get(clip).map_or([0.0; 2], Clip::span);
+            asked.push(Asked { clip, span, weight });
+            Ok(())
+        };
+        for text in texts {
+            // A name may hold commas and colons itself.
+            if find(text).is_some() {
+                add(text, None)?;
+                continue;
+            }
+            for item in text.split(',').map(str::trim) {
+                match item.rsplit_once(':').filter(|_| find(item).is_none()) {
+                    Some((name, weight)) => add(name, Some(Weight::parse(weight)?))?,
+                    None => add(item, None)?,
+                }
+            }
+        }
+        if texts.is_empty() {
+            asked.push(Asked { clip: 0, span: clips.first().map_or([0.0; 2], Clip::span), weight: None });
+        }
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let span = asked.iter().fold(none, |[from, to], own| [from.min(own.span[0]), to.max(own.span[1])]);
+        Ok(Self { asked, span, over: span, repeats })
+    }
+
+    /// The same, where other times are drawn than those of its clips.
+    pub(super) fn over(self, over: [f64; 2]) -> Self {
+        Self { over, ..self }
+    }
+
+    /// When the first of the clips begins and the last one ends, in seconds.
+    pub(super) fn span(&self) -> [f64; 2] {
+        self.span
+    }
+
+    /// Whether clips begin again when they are over.
+    pub(super) fn repeats(&self) -> bool {
+        self.repeats
+    }
+
+    /// What plays at a time.
+    pub(super) fn playing(&self, time: f64) -> Vec<Playing> {
+        let weights: Vec<Option<f64>> = (self.asked.iter())
+            .map(|own| own.weight.as_ref().map(|weight| weight.at(time, self.over)))
+            .collect();
+        let told: f64 = weights.iter().flatten().sum();
+        let equal = weights.iter().filter(|weight| weight.is_none()).count();
+        let left = (1.0 - told).max(0.0) / equal.max(1) as f64;
+        let own = |(own, weight): (&Asked, Option<f64>)| {
+            let [from, to] = own.span;
+            let time =
+                if self.repeats && to > from { from + (time - from).rem_euclid(to - from) } else { time };
+            Playing { clip: own.clip, time, weight: weight.unwrap_or(left) }
+        };
+        self.asked.iter().zip(weights).map(own).collect()
+    }
+}
+
+impl Weight {
+    /// `0.7`; `1..0` over the time that is drawn; `1@0.5..0@2`, each with its time in seconds.
+    fn parse(text: &str) -> Result<Self, Error> {
+        let wrong = |message: String| {
+            Error::new(message).at("--animation").remedy(
+                "write a weight, such as Walk:0.7, or weights in time, such as Walk:1..0 or Walk:1@0.5..0@2",
+            )
+        };
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let mut keys = Vec::new();
+        for key in text.split("..") {
+            let (weight, time) =
+                key.split_once('@').map_or((key, None), |(weight, time)| (weight, Some(time)));
+            let weight = number(weight).filter(|weight| *weight >= 0.0);
+            let weight = weight.ok_or_else(|| wrong(format!("`{text}` is no weight from 0 on")))?;
+            let time = match time {
+                Some(time) => {
+                    Some(number(time).ok_or_else(|| wrong(format!("`{key}` has no time in seconds")))?)
+                }
+                None => None,
+            };
+            keys.push((time, weight));
+        }
+        let timed: Vec<(f64, f64)> =
+            keys.iter().filter_map(|(time, weight)| Some(((*time)?, *weight))).collect();
+        if timed.is_empty() {
+            return Ok(Self::Spread(keys.into_iter().map(|(_, weight)| weight).collect()));
+        }
+        if timed.len() < keys.len() {
+            return Err(wrong(format!("some weights of `{text}` have a time, and some have none")));
+        }
+        if timed.array_windows().any(|[(a, _), (b, _)]| a >= b) {
+            return Err(wrong(format!("the times of `{text}` do not rise")));
+        }
+        Ok(Self::Timed(timed))
+    }
+
+    fn at(&self, time: f64, [from, to]: [f64; 2]) -> f64 {
+        match self {
+            Self::Timed(keys) => between(keys, time),
+            Self::Spread(weights) => {
+                let steps = weights.len().saturating_sub(1).max(1) as f64;
+                let key = |(k, weight): (usize, &f64)| (from + (to - from) * k as f64 / steps, *weight);
+                between(&weights.iter().enumerate().map(key).collect::<Vec<_>>(), time)
+            }
+        }
+    }
+}
+
+/// The value at a time of keys in their order.
+fn between(keys: &[(f64, f64)], time: f64) -> f64 {
+    let after = keys.partition_point(|(key, _)| *key <= time);
+    let before = after.checked_sub(1).and_then(|before| keys.get(before));
+    match (before, keys.get(after)) {
+        (Some((a, from)), Some((b, to))) => from + (to - from) * (time - a) / (b - a),
+        (Some((_, only)), None) | (None, Some((_, only))) => *only,
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::pose::{Channel, Interpolation, Property, Target, Track};
+
+    fn clips() -> Vec<Clip> {
+        let clip = |(name, to): (&str, f64)| {
+            let track = Track::new(vec![0.0, to], vec![0.0; 6], Interpolation::Linear).unwrap();
+            let target = Target::Node(0, Property::Translation);
+            Clip { name: name.to_owned(), channels: vec![Channel { target, track }] }
+        };
+        [("Walk", 1.0), ("Run", 4.0), ("rig:Idle,slow", 2.0)].map(clip).to_vec()
+    }
+
+    fn blend(texts: &[&str]) -> Result<Blend, Error> {
+        Blend::new(&clips(), &texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>(), false)
+    }
+
+    fn weights(texts: &[&str], time: f64) -> Vec<(usize, f64)> {
+        blend(texts).unwrap().playing(time).iter().map(|own| (own.clip, own.weight)).collect()
+    }
+
+    #[test]
+    fn weights_are_told_or_shared() {
+        assert_eq!(weights(&["Walk", "Run"], 0.0), [(0, 0.5), (1, 0.5)]);
+        assert_eq!(weights(&["Walk,Run"], 0.0), [(0, 0.5), (1, 0.5)]);
+        assert_eq!(weights(&["Walk:0.75, Run"], 0.0), [(0, 0.75), (1, 0.25)]);
+        assert_eq!(weights(&["Walk:0.2"], 0.0), [(0, 0.2)]);
+        assert_eq!(weights(&["rig:Idle,slow", "Run:0.5"], 0.0), [(2, 0.5), (1, 0.5)]);
+        assert_eq!(weights(&["rig:Idle,slow"], 0.0), [(2, 1.0)]);
+    }
+
+    #[test]
+    fn weights_change_in_time() {
+        let fade = |time| weights(&["Walk:1@1..0@3,Run:0@1..1@3"], time).map_weights();
+        assert_eq!(
+            [0.0, 1.0, 1.5, 3.0, 9.0].map(fade),
+            [[1.0, 0.0], [1.0, 0.0], [0.75, 0.25], [0.0, 1.0], [0.0, 1.0]]
+        );
+        // Over all of the clips, or of what is drawn.
+        assert_eq!(weights(&["Walk:1..0", "Run"], 1.0).map_weights(), [0.75, 0.25]);
+        let film = blend(&["Walk:0..1..0", "Run"]).unwrap().over([0.0, 8.0]);
+        assert_eq!([0.0, 4.0, 6.0].map(|time| film.playing(time)[0].weight), [0.0, 1.0, 0.5]);
+    }
+
+    #[test]
+    fn clips_begin_again() {
+        let blend = Blend { repeats: true, ..blend(&["Walk", "Run"]).unwrap() };
+        let times: Vec<f64> = blend.playing(5.25).iter().map(|own| own.time).collect();
+        assert_eq!(times, [0.25, 1.25]);
+    }
+
+    #[test]
+    fn what_is_no_weight_is_refused() {
+        for (text, expected) in [
+            ("Jump", "no animation `Jump`"),
+            ("Jump:1", "no animation `Jump`"),
+            ("Walk,", "no animation ``"),
+            ("Walk:much", "`much` is no weight"),
+            ("Walk:-1", "`-1` is no weight"),
+            ("Walk:1@a", "`1@a` has no time"),
+            ("Walk:1@0..1", "some have none"),
+            ("Walk:1@1..0@1", "do not rise"),
+        ] {
+            let error = blend(&[text]).unwrap_err().to_string();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
+
+    trait Weights {
+        fn map_weights(&self) -> [f64; 2];
+    }
+
+    impl Weights for Vec<(usize, f64)> {
+        fn map_weights(&self) -> [f64; 2] {
+            [self[0].1, self[1].1]
+        }
+    }
+}
