@@ -1,16 +1,20 @@
 //! `ligne draw`: one drawing of one model, in one or several formats.
 
+use glam::DVec3;
+
+use super::framing_args::Frame;
 use super::moment::scene_at;
 use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
-use super::{lod, number, pipeline, print, say};
+use super::{lod, number, pipeline, print, say, wonder};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch};
 use crate::scene::Scene;
+use crate::scene::framing::world_points;
 use crate::style::Style;
 
 /// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
@@ -37,6 +41,9 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     if let Some(report) = request.report.as_ref().filter(|path| !is_stdout(path)) {
         check_place(report)?;
     }
+    if let Some(record) = &request.save_camera {
+        check_place(record)?;
+    }
     if let Some(folder) = request.maps.as_ref().filter(|folder| !folder.is_dir()) {
         check_place(folder)?;
         if folder.exists() {
@@ -53,7 +60,8 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     write(request, &mut drawn, &mut watch)?;
     if !request.quiet {
         for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
-            say(&format!("{}: {}", output.name(), summary(&drawn, bytes.len(), watch.seconds())));
+            let pixels = if output.format == Format::Png { pixels(bytes) } else { None };
+            say(&format!("{}: {}", output.name(), summary(&drawn, bytes.len(), pixels, watch.seconds())));
         }
     }
     Ok(())
@@ -64,14 +72,18 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
-    let mut scene = open(request, &style)?;
+    let Opened { mut scene, framed, mut notes } = open(request, &style)?;
     if let Some(up) = request.up {
         scene.up = up;
     }
     let load_ms = watch.lap_ms();
 
     progress.step("drawing");
-    let Viewpoint { camera, paper, warning } = viewpoint(&request.view, &request.sheet, &scene)?;
+    let points = || Ok(framed.unwrap_or_else(|| world_points(&scene)));
+    let Viewpoint { camera, paper, warning } = viewpoint(&request.view, &request.sheet, &scene, points)?;
+    notes.extend(warning);
+    notes.extend(wonder::enclosed(&scene, &camera));
+    notes.extend(wonder::idle(request, std::env::args_os()));
     let page = Page { background: style.background, ..paper.page() };
     watch.lap_ms();
     let prepared = Prepared::new(&scene, &style);
@@ -82,13 +94,13 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
     report.counts.triangles = triangles(&scene);
     report.counts.paths = paths(&drawing);
-    for warning in scene.warnings.lines().into_iter().chain(warning) {
+    for warning in scene.warnings.lines().into_iter().chain(notes) {
         if !report.warnings.contains(&warning) {
             report.warnings.push(warning);
         }
     }
-    if report.counts.paths == 0 && report.warnings.is_empty() {
-        report.warnings.push("the drawing is empty: no line of the model is in sight".to_owned());
+    if report.warnings.is_empty() {
+        report.warnings.extend(wonder::next_to_nothing(&drawing));
     }
 
     progress.step("writing");
@@ -109,18 +121,31 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded, maps })
 }
 
+/// A model that was read.
+struct Opened {
+    scene: Scene,
+    /// The points that the frame is to hold, where they are not those of the scene.
+    framed: Option<Vec<DVec3>>,
+    /// What there is to say of the options.
+    notes: Vec<String>,
+}
+
 /// The model: at the moment, with the parts, and with as many faces as asked for.
-fn open(request: &DrawRequest, style: &Style) -> Result<Scene, Error> {
+fn open(request: &DrawRequest, style: &Style) -> Result<Opened, Error> {
     let mut rigged =
         if request.stands() { Scene::open(&request.model)?.into() } else { Rigged::open(&request.model)? };
     // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
     let mut scene = scene_at(rigged, request, style)?;
+    let notes = wonder::unmatched(&scene, &request.only, &request.hide);
+    let parts_left_out = !(request.only.is_empty() && request.hide.is_empty());
+    let framed = (request.frame == Frame::All && parts_left_out).then(|| world_points(&scene));
     pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
-    match coarse {
-        Some((detail, faces)) => lod::reduced(&scene, &detail, faces),
-        None => Ok(scene),
-    }
+    let scene = match coarse {
+        Some((detail, faces)) => lod::reduced(&scene, &detail, faces)?,
+        None => scene,
+    };
+    Ok(Opened { scene, framed, notes })
 }
 
 pub(super) fn default_dpi(unit: Unit) -> f64 {
@@ -174,6 +199,9 @@ fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Res
         let json = drawn.report.to_json();
         if is_stdout(path) { printed = Some(json) } else { staging.add(path, json.as_bytes())? }
     }
+    if let (Some(path), View::Fixed(camera, _)) = (&request.save_camera, &drawn.seen) {
+        staging.add(path, camera.to_json().as_bytes())?;
+    }
     for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
         if output.format == Format::SvgToStdout {
             print(bytes)?;
@@ -195,12 +223,23 @@ pub(super) fn paths(drawing: &Drawing) -> u64 {
     drawing.layers.iter().map(|layer| layer.marks.len() as u64).sum()
 }
 
-/// `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`
-fn summary(drawn: &Drawn, bytes: usize, seconds: f64) -> String {
+/// Width and height of a PNG file, as its header has them.
+fn pixels(png: &[u8]) -> Option<[u32; 2]> {
+    let side = |from: usize| Some(u32::from_be_bytes(png.get(from..from + 4)?.try_into().ok()?));
+    Some([side(16)?, side(20)?])
+}
+
+/// `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`; a PNG of other pixels than the drawing has px says how many.
+fn summary(drawn: &Drawn, bytes: usize, pixels: Option<[u32; 2]>, seconds: f64) -> String {
     let Page { width, height, unit, .. } = drawn.drawing.page;
     let counts = &drawn.report.counts;
+    let of_page = |side: u32, length: f64| unit == Unit::Px && f64::from(side) == length;
+    let pixels = match pixels {
+        Some([w, h]) if !(of_page(w, width) && of_page(h, height)) => format!(" as {w} x {h} pixels"),
+        _ => String::new(),
+    };
     format!(
-        "{} x {} {}, {}, {}, {seconds:.2} s, {}",
+        "{} x {} {}{pixels}, {}, {}, {seconds:.2} s, {}",
         number::plain(width, 2),
         number::plain(height, 2),
         unit.name(),
@@ -227,8 +266,11 @@ mod tests {
             maps: None,
         };
         assert_eq!(
-            summary(&drawn, 18_249, 0.031),
+            summary(&drawn, 18_249, None, 0.031),
             "210 x 297 mm, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles"
+        );
+        assert!(
+            summary(&drawn, 1, Some([2480, 3508]), 0.0).starts_with("210 x 297 mm as 2480 x 3508 pixels, ")
         );
     }
 }

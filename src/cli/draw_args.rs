@@ -3,12 +3,15 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 
+use super::framing_args::{FramingArgs, SaveArgs};
+use super::offered::Offered;
 use super::paper::{self, Extent, Measure};
 use crate::math::colour::Colour;
 use crate::render::Stage;
 use crate::scene::{NamedView, UpAxis};
+use crate::style::Style;
 
 const EXAMPLES: &str = "Examples:
   ligne draw bunny.obj                                 writes bunny.svg
@@ -21,6 +24,7 @@ const EXAMPLES: &str = "Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct DrawArgs {
     /// The model: .obj, .gltf, .glb, .stl or .ply
+    #[arg(value_hint = ValueHint::FilePath)]
     pub(super) model: PathBuf,
 
     /// The drawing: .svg, .png or .pdf, or - for SVG on standard output [default: the model's name with
@@ -33,6 +37,9 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) how: HowArgs,
+
+    #[command(flatten)]
+    pub(super) save: SaveArgs,
 
     /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
@@ -54,7 +61,8 @@ pub(super) struct DrawArgs {
 #[derive(Debug, Clone, Args)]
 pub(super) struct HowArgs {
     /// Name of a built-in style, or a style sheet [env: LIGNE_STYLE]
-    #[arg(long, value_name = "NAME|FILE.toml", default_value = "ink")]
+    #[arg(long, value_name = "NAME|FILE.toml", default_value = "ink", hide_possible_values = true,
+        value_parser = Offered::new(Style::names(), |name| Ok(name.to_owned())))]
     pub(super) style: String,
 
     /// Change one key of the style, may be given again: --set lines.crease_deg=30
@@ -67,7 +75,7 @@ pub(super) struct HowArgs {
 
     /// A camera record (.json), or the name of a camera of the model
     #[arg(long, value_name = "FILE.json|NAME", help_heading = "View",
-        conflicts_with_all = ["view", "azimuth", "elevation", "fov", "ortho", "scale"])]
+        conflicts_with_all = ["view", "azimuth", "elevation", "fov", "ortho"])]
     pub(super) camera: Option<String>,
 
     /// A named view, orthographic unless --fov is given
@@ -126,13 +134,17 @@ pub(super) struct HowArgs {
     #[arg(long, value_name = "N", help_heading = "View", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) faces: Option<u64>,
 
+    #[command(flatten)]
+    pub(super) framing: FramingArgs,
+
     /// Size of the drawing in px: 1000x800, or 1000 for a square [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",
         value_parser = paper::size_px)]
     pub(super) size: Option<Extent>,
 
     /// Page in mm: A0 to A6, Letter, Legal, Tabloid, or such as 210x297mm
-    #[arg(long, value_name = "NAME|WIDTHxHEIGHT", help_heading = "Page", value_parser = paper::page_mm)]
+    #[arg(long, value_name = "NAME|WIDTHxHEIGHT", help_heading = "Page", hide_possible_values = true,
+        value_parser = Offered::new(paper::sheet_names(), paper::page_mm))]
     pub(super) page: Option<Extent>,
 
     /// Lay the page on its longer side
@@ -143,8 +155,7 @@ pub(super) struct HowArgs {
     #[arg(long, value_name = "LENGTH", help_heading = "Page", value_parser = paper::margin)]
     pub(super) margin: Option<Measure>,
 
-    /// Draw to scale, orthographic: 1:2 is half size. A unit of the model counts as 1 mm, in glTF
-    /// as 1 m, which that format demands
+    /// Draw to scale, orthographic: 1:2 is half size. A unit of the model is a mm, in glTF a m, unless --unit tells
     #[arg(long, value_name = "PAPER:MODEL", help_heading = "Page", requires = "page", conflicts_with = "fov",
         value_parser = paper::scale)]
     pub(super) scale: Option<f64>,

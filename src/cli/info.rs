@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
+use super::model_unit::{self, ModelUnit};
 use super::number::{counted, plain};
 use super::{pipeline, print};
 use crate::error::Error;
@@ -22,10 +23,15 @@ const SHOWN: usize = 20;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   ligne info bunny.obj
+  ligne info bracket.stl --unit in
   ligne info drive.glb --json | jq '.parts[].name'")]
 pub(super) struct InfoArgs {
     /// The model: .obj, .gltf, .glb, .stl or .ply
     model: PathBuf,
+
+    /// What a unit of the model is: mm, cm, m, in, ft [default: m in glTF, which demands it; the other formats do not say]
+    #[arg(long, value_name = "UNIT", value_enum, hide_possible_values = true)]
+    unit: Option<ModelUnit>,
 
     /// Write JSON, for programs
     #[arg(long)]
@@ -47,6 +53,8 @@ struct Info {
     cameras: Vec<CameraInfo>,
     animations: Vec<ClipInfo>,
     bounds: Option<BoundsInfo>,
+    /// What a unit is, where the format or the call says so.
+    unit: Option<&'static str>,
     warnings: Vec<String>,
 }
 
@@ -107,12 +115,15 @@ struct ClipInfo {
 struct BoundsInfo {
     min: [f64; 3],
     max: [f64; 3],
+    /// Along x, y and z, where it is known what a unit is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    size_mm: Option<[f64; 3]>,
 }
 
 /// Reads the model and says what is in it.
 pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
     let rigged = Rigged::open(&args.model)?;
-    let info = Info::of(&rigged.posed(&[])?, &rigged.rig.clips, args.model.display().to_string());
+    let info = Info::of(&rigged.posed(&[])?, &rigged.rig.clips, args);
     if args.json {
         let json = serde_json::to_string_pretty(&info).unwrap_or_default();
         print(format!("{json}\n").as_bytes())
@@ -122,7 +133,7 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
 }
 
 impl Info {
-    fn of(scene: &Scene, clips: &[Clip], file: String) -> Self {
+    fn of(scene: &Scene, clips: &[Clip], args: &InfoArgs) -> Self {
         let points = world_points(scene);
         let parts: Vec<PartInfo> = scene
             .parts
@@ -140,8 +151,15 @@ impl Info {
             .collect();
         let mut warnings = scene.warnings.clone();
         warnings.extend(&pipeline::mesh_warnings(scene));
+        let mut warnings = warnings.lines();
+        let bounds = bounds(&points);
+        let unit =
+            (args.unit.is_some() || model_unit::is_in_metres(scene)).then(|| ModelUnit::of(scene, args.unit));
+        if let Some((min, max)) = bounds.filter(|_| args.unit.is_none()) {
+            warnings.extend(model_unit::doubt(scene, (max - min).max_element()));
+        }
         Self {
-            file,
+            file: args.model.display().to_string(),
             format: scene.format,
             up: match scene.up {
                 UpAxis::Y => "y",
@@ -168,8 +186,13 @@ impl Info {
                 })
                 .collect(),
             animations: clips.iter().map(ClipInfo::of).collect(),
-            bounds: bounds(&points).map(|(min, max)| BoundsInfo { min: min.to_array(), max: max.to_array() }),
-            warnings: warnings.lines(),
+            bounds: bounds.map(|(min, max)| BoundsInfo {
+                min: min.to_array(),
+                max: max.to_array(),
+                size_mm: unit.map(|unit| ((max - min) * unit.mm()).to_array()),
+            }),
+            unit: unit.map(ModelUnit::name),
+            warnings,
         }
     }
 
@@ -179,10 +202,12 @@ impl Info {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);
         let _ = writeln!(text, "  {}, {}", counted(self.triangles, "triangle"), vertices(self.vertices));
-        if let Some(BoundsInfo { min, max }) = &self.bounds {
+        if let Some(BoundsInfo { min, max, .. }) = &self.bounds {
             let size: Vec<String> = min.iter().zip(max).map(|(low, high)| short(high - low)).collect();
             let corner = |corner: &[f64; 3]| corner.map(short).join(", ");
-            let _ = writeln!(text, "  {}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
+            let unit = self.unit.map_or_else(String::new, |unit| format!(" {unit}"));
+            let _ =
+                writeln!(text, "  {}{unit}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
         }
         list(&mut text, "part", self.parts.iter().map(PartInfo::line));
         list(&mut text, "material", self.materials.iter().map(MaterialInfo::line));
@@ -348,9 +373,13 @@ mod tests {
         }
     }
 
+    fn args(model: &str) -> InfoArgs {
+        InfoArgs { model: model.into(), unit: None, json: false }
+    }
+
     #[test]
     fn people_read_lists_of_a_bearable_length() {
-        let text = Info::of(&scene(22), &[walk()], "m.obj".to_owned()).text();
+        let text = Info::of(&scene(22), &[walk()], &args("m.obj")).text();
         let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
                      22 parts:\n    bolt 0: 1 triangle, 1 line\n";
         assert!(text.starts_with(start), "{text}");
@@ -368,18 +397,18 @@ mod tests {
         let mut scene = scene(1);
         scene.geometries[0].corner_uvs = vec![[0; 3]];
         assert!(
-            Info::of(&scene, &[], "m.obj".to_owned())
+            Info::of(&scene, &[], &args("m.obj"))
                 .text()
                 .contains(": 1 triangle, 1 line, texture coordinates\n")
         );
         scene.geometries[0].colours = vec![[1.0; 4]; 3];
-        let text = Info::of(&scene, &[], "m.obj".to_owned()).text();
+        let text = Info::of(&scene, &[], &args("m.obj")).text();
         assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
     }
 
     #[test]
     fn programs_read_everything() -> Result<(), serde_json::Error> {
-        let json = serde_json::to_string(&Info::of(&scene(22), &[walk()], "m.obj".to_owned()))?;
+        let json = serde_json::to_string(&Info::of(&scene(22), &[walk()], &args("m.obj")))?;
         let value: serde_json::Value = serde_json::from_str(&json)?;
         assert_eq!(value["parts"].as_array().map(Vec::len), Some(22));
         assert_eq!(value["parts"][3]["name"], "bolt\u{1b}3");
@@ -391,9 +420,7 @@ mod tests {
     #[test]
     fn an_empty_model_has_no_bounds() {
         assert!(
-            Info::of(&scene(0), &[], "m.obj".to_owned())
-                .text()
-                .starts_with("m.obj: OBJ, y up\n  0 triangles")
+            Info::of(&scene(0), &[], &args("m.obj")).text().starts_with("m.obj: OBJ, y up\n  0 triangles")
         );
     }
 

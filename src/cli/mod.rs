@@ -9,12 +9,15 @@ mod diff;
 mod draw;
 mod draw_args;
 mod fmt;
+mod framing_args;
 mod info;
 mod keys;
 mod lod;
 mod man;
+mod model_unit;
 mod moment;
 mod number;
+mod offered;
 mod output;
 mod paper;
 mod pipeline;
@@ -23,6 +26,7 @@ mod request;
 mod styles;
 mod test;
 mod viewpoint;
+mod wonder;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -37,6 +41,11 @@ const DIFFERENCES: u8 = 1;
 /// Exit status where the call or an input file is wrong.
 const WRONG: u8 = 2;
 
+const EXAMPLES: &str = "Examples:
+  ligne draw model.obj                              writes model.svg, in ink
+  ligne draw model.glb model.png --style toon       in flat colours; `ligne styles` lists all
+  ligne info model.stl                              says what is in a model, and what is wrong with it";
+
 /// What was typed.
 #[derive(Debug, Parser)]
 #[command(
@@ -44,7 +53,7 @@ const WRONG: u8 = 2;
     version,
     about = "Turns a 3D model into a vector line drawing",
     arg_required_else_help = true,
-    after_help = "Example:\n  ligne draw bunny.obj bunny.svg"
+    after_help = EXAMPLES
 )]
 struct Cli {
     #[command(subcommand)]

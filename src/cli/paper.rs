@@ -58,6 +58,11 @@ pub(super) fn size_px(text: &str) -> Result<Extent, String> {
     }
 }
 
+/// The names of sheets.
+pub(super) fn sheet_names() -> impl Iterator<Item = &'static str> {
+    SHEETS.iter().map(|(name, _, _)| *name)
+}
+
 /// Reads `A4`, `Letter` or `210x297mm`, in mm.
 pub(super) fn page_mm(text: &str) -> Result<Extent, String> {
     if let Some((_, width, height)) =

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::draw_args::{DrawArgs, GroupBy, HowArgs};
+use super::framing_args::Frame;
 use super::output::{Format, Output, is_stdout};
 use super::viewpoint::{Lens, Sheet, View};
 use crate::drawing::Unit;
@@ -36,6 +37,10 @@ pub(super) struct DrawRequest {
     /// How many faces there may be.
     pub(super) faces: Option<u64>,
     pub(super) sheet: Sheet,
+    /// What the frame is to hold.
+    pub(super) frame: Frame,
+    /// Where the camera of the drawing is written.
+    pub(super) save_camera: Option<PathBuf>,
     pub(super) svg: SvgChoices,
     pub(super) dpi: Option<f64>,
     pub(super) stage: Option<Stage>,
@@ -70,9 +75,11 @@ impl DrawRequest {
             paths.push(beside_here(&args.model));
         }
         let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
-        check_apart(&args.model, &outputs, args.report.as_deref(), args.maps.as_deref())?;
+        let save_camera = args.save.save_camera;
+        let besides: Vec<&Path> = args.report.iter().chain(&save_camera).map(PathBuf::as_path).collect();
+        check_apart(&args.model, &outputs, &besides, args.maps.as_deref())?;
         let request = Self::of_model(args.model, args.how)?;
-        Ok(Self { outputs, report: args.report, maps: args.maps, stage: args.stage, ..request })
+        Ok(Self { outputs, report: args.report, maps: args.maps, stage: args.stage, save_camera, ..request })
     }
 
     /// What is meant by a model and how it is drawn: SVG on standard output.
@@ -89,7 +96,7 @@ impl DrawRequest {
         }
         let lens = match (args.fov, args.ortho || args.scale.is_some()) {
             (Some(fov_y_deg), _) => Some(Lens::Perspective { fov_y_deg }),
-            (None, true) => Some(Lens::Orthographic { scale: args.scale }),
+            (None, true) => Some(Lens::Parallel),
             (None, false) => None,
         };
         let view = match (args.camera, args.view) {
@@ -117,7 +124,12 @@ impl DrawRequest {
             sheet: Sheet {
                 extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
                 margin: args.margin,
+                scale: args.scale,
+                centre: args.framing.centre,
+                unit: args.framing.unit,
             },
+            frame: args.framing.frame,
+            save_camera: None,
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             dpi: args.dpi,
             stage: None,
@@ -139,15 +151,15 @@ fn beside_here(model: &Path) -> PathBuf {
 fn check_apart(
     model: &Path,
     outputs: &[Output],
-    report: Option<&Path>,
+    besides: &[&Path],
     maps: Option<&Path>,
 ) -> Result<(), Error> {
     let mut taken: Vec<PathBuf> = Vec::new();
     let files = outputs.iter().filter(|output| output.format != Format::SvgToStdout);
-    let report_file = report.filter(|path| !is_stdout(path));
+    let besides_files = besides.iter().copied().filter(|path| !is_stdout(path));
     let in_folder: Vec<PathBuf> =
         maps.into_iter().flat_map(|folder| MapFiles::NAMES.map(|name| folder.join(name))).collect();
-    let paths = files.map(|output| output.path.as_path()).chain(report_file);
+    let paths = files.map(|output| output.path.as_path()).chain(besides_files);
     for path in paths.chain(in_folder.iter().map(PathBuf::as_path)) {
         if same_file(path, model) {
             return Err(Error::new("the drawing would overwrite the model")
@@ -160,7 +172,7 @@ fn check_apart(
         taken.push(path.to_path_buf());
     }
     let printed = outputs.iter().filter(|output| output.format == Format::SvgToStdout).count();
-    if printed + usize::from(report.is_some_and(is_stdout)) > 1 {
+    if printed + besides.iter().filter(|path| is_stdout(path)).count() > 1 {
         return Err(Error::new("standard output is given twice").remedy("leave one `-` out"));
     }
     Ok(())
@@ -211,7 +223,8 @@ mod tests {
         assert_eq!(formats, [Format::Svg, Format::Png, Format::SvgToStdout]);
         assert_eq!(printed.sheet.extent, Some((Extent { width: 297.0, height: 210.0 }, Unit::Mm)));
         assert_eq!(printed.background, Some(None));
-        let lens = Some(Lens::Orthographic { scale: Some(0.5) });
+        assert_eq!(printed.sheet.scale, Some(0.5));
+        let lens = Some(Lens::Parallel);
         assert_eq!(printed.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens });
         let turned = request("m.stl --azimuth -35 --elevation -10.5 --fov 20")?;
         let lens = Some(Lens::Perspective { fov_y_deg: 20.0 });
@@ -253,6 +266,11 @@ mod tests {
             "m.stl --stage cells",
             "m.stl --dpi 0",
             "m.stl --up x",
+            "m.stl --centre 1,2",
+            "m.stl --unit furlong",
+            "m.stl a.svg --save-camera a.svg",
+            "m.stl --save-camera m.stl",
+            "m.stl - --save-camera -",
             "m.stl --faces 0",
             "m.stl --faces many",
         ];

@@ -17,6 +17,7 @@ pub mod camera_record;
 mod coloured;
 pub mod coordinate;
 pub(crate) mod cutout;
+mod enclosing;
 pub mod flatten;
 pub mod framing;
 pub mod geometry;

@@ -13,7 +13,7 @@ fn every_command_has_help_with_an_example() {
         assert!(example.contains(&format!("ligne {command} ")), "{run:?}");
         assert!(run.err.is_empty());
     }
-    assert!(folder.run(&["--help"]).done().out.contains("ligne draw bunny.obj"));
+    assert!(folder.run(&["--help"]).done().out.contains("ligne draw model.obj"));
     assert_eq!(folder.run(&["--version"]).done().out, format!("ligne {}\n", env!("CARGO_PKG_VERSION")));
 }
 

@@ -10,5 +10,6 @@ mod diff;
 mod documentation;
 mod draw;
 mod fmt;
+mod framing;
 mod lod;
 mod pictures;

@@ -18,10 +18,11 @@ use plan::Plan;
 use stage::Stage;
 use total::{Total, refuse_warnings};
 
+use super::framing_args::Frame;
 use super::output::{Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
-use super::{lod, number, pipeline, print, say};
+use super::{lod, number, pipeline, print, say, wonder};
 use crate::error::Error;
 use crate::pose::Rigged;
 use crate::render::Stopwatch;
@@ -93,15 +94,18 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
         let fewest = if args.budget.is_none() { request.faces } else { None };
         lod::detail(&request.model, &mut rigged.scene, fewest.unwrap_or(0))
     });
-    pipeline::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
     if let Some(up) = request.up {
         rigged.scene.up = up;
     }
-    let plan = Plan::new(args, request, &rigged)?;
+    let notes = wonder::unmatched(&rigged.scene, &request.only, &request.hide);
+    let whole = (request.frame == Frame::All).then(|| rigged.clone());
+    pipeline::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
+    let plan = Plan::new(args, request, whole.as_ref().unwrap_or(&rigged))?;
     let timeline = plan.course.timeline;
     let mut total = Total { fps: timeline.fps(), ..Total::default() };
     total.stages_ms.load = watch.lap_ms();
-    for warning in rigged.scene.warnings.lines().into_iter().chain(plan.warnings.iter().cloned()) {
+    for warning in rigged.scene.warnings.lines().into_iter().chain(plan.warnings.iter().cloned()).chain(notes)
+    {
         total.warned.insert(warning, 0);
     }
     refuse_warnings(request, total.warned.keys())?;

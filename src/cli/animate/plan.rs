@@ -10,7 +10,7 @@ use crate::animate::{Moment, Timeline, Turntable, reach};
 use crate::cli::blend::Blend;
 use crate::cli::paper::Paper;
 use crate::cli::request::DrawRequest;
-use crate::cli::viewpoint::{View, Viewpoint, on_sheet, viewpoint_on};
+use crate::cli::viewpoint::{View, Viewpoint, on_sheet, viewpoint};
 use crate::drawing::Page;
 use crate::error::Error;
 use crate::math::colour::Colour;
@@ -87,7 +87,7 @@ impl Plan {
         let course = Course { timeline, clips: own.map(|own| own.over(over)), turntable };
         let Viewpoint { camera, paper, warning } = match cameras.as_ref().and_then(|path| path.first()) {
             Some(first) => on_sheet(&request.sheet, *first)?,
-            None => viewpoint_on(&request.view, &request.sheet, &rigged.scene, || course.reach(rigged))?,
+            None => viewpoint(&request.view, &request.sheet, &rigged.scene, || course.reach(rigged))?,
         };
         warnings.extend(warning);
         let named = |name: &str| rigged.scene.cameras.iter().any(|own| own.name == name);

@@ -1,0 +1,66 @@
+//! What of a model comes into the frame, and how large: options that all that draws has in common.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+
+use super::model_unit::ModelUnit;
+
+/// What of a model comes into the frame, and how large.
+#[derive(Debug, Clone, Args)]
+pub(super) struct FramingArgs {
+    /// What the frame is to hold: the parts that are drawn, or all, also those that --only and --hide leave out, so that the steps of
+    /// an instruction fit over each other
+    #[arg(long, value_name = "WHAT", help_heading = "View", value_enum, default_value_t = Frame::Visible)]
+    pub(super) frame: Frame,
+
+    /// The point of the model that comes to the middle of the frame; with --scale or a parallel camera record
+    #[arg(long, visible_alias = "center", value_name = "X,Y,Z", help_heading = "View", allow_hyphen_values = true,
+        value_parser = point)]
+    pub(super) centre: Option<DVec3>,
+
+    /// What a unit of the model is: mm, cm, m, in, ft [default: m in glTF, which demands it, mm in all other formats]
+    #[arg(long, value_name = "UNIT", help_heading = "Page", value_enum, hide_possible_values = true)]
+    pub(super) unit: Option<ModelUnit>,
+}
+
+/// What the frame is to hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Frame {
+    /// All parts of the model
+    All,
+    /// The parts that are drawn
+    Visible,
+}
+
+/// A record of the view that is drawn.
+#[derive(Debug, Clone, Args)]
+pub(super) struct SaveArgs {
+    /// Write the camera of this drawing as a record, for --camera
+    #[arg(long, value_name = "FILE.json", help_heading = "Output")]
+    pub(super) save_camera: Option<PathBuf>,
+}
+
+fn point(text: &str) -> Result<DVec3, String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_slice() {
+        [x, y, z] if numbers.iter().all(|number| number.is_finite()) && text.split(',').count() == 3 => {
+            Ok(DVec3::new(*x, *y, *z))
+        }
+        _ => Err("write a point as X,Y,Z, such as 0,12.5,-3".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_points() {
+        assert_eq!(point("0, 12.5,-3"), Ok(DVec3::new(0.0, 12.5, -3.0)));
+        for wrong in ["", "1", "1,2", "1,2,3,4", "a,2,3", "1,2,3,a", "nan,0,0", "1,,3"] {
+            assert!(point(wrong).is_err(), "{wrong}");
+        }
+    }
+}
