@@ -99,6 +99,20 @@ pub(super) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
     done
 }
 
+/// For each chain the first one that lies exactly where it does, of the same group: chains in order have their copies behind them.
+pub(super) fn firsts(chains: &[Chain]) -> Vec<usize> {
+    let mut firsts: Vec<usize> = Vec::with_capacity(chains.len());
+    for (index, chain) in chains.iter().enumerate() {
+        let before = firsts.last().copied().filter(|first| {
+            chains.get(*first).is_some_and(|other| {
+                other.group == chain.group && other.closed == chain.closed && other.points == chain.points
+            })
+        });
+        firsts.push(before.unwrap_or(index));
+    }
+    firsts
+}
+
 /// The rings of an outline, in an order that does not depend on how it was written.
 pub(super) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Chain> {
     let flat =

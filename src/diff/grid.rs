@@ -11,6 +11,9 @@ const MOST_CELLS: f64 = 2048.0;
 /// Cells that a segment goes through, on average and about at most.
 const CELLS_OF_SEGMENT: f64 = 16.0;
 
+/// Segments of a cell that are looked at for the nearest: where thousands lie on each other, any of them will do.
+const MOST_IN_CELL: usize = 512;
+
 /// A segment of a chain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {
@@ -34,9 +37,12 @@ pub(super) struct SegmentCells {
 impl SegmentCells {
     /// Sorts the segments of chains.
     pub(super) fn new(chains: &[Chain]) -> Self {
+        Self::of(chains.iter().enumerate())
+    }
+
+    /// Sorts the segments of chains, each with its number.
+    pub(super) fn of<'a>(chains: impl Iterator<Item = (usize, &'a Chain)>) -> Self {
         let segments: Vec<Segment> = chains
-            .iter()
-            .enumerate()
             .flat_map(|(chain, c)| {
                 c.segments().map(move |(from, to)| Segment { chain: chain as u32, from, to })
             })
@@ -101,9 +107,16 @@ impl SegmentCells {
     /// The segments that may lie within `reach` of a segment, each once, in order.
     pub(super) fn near(&self, from: Point, to: Point, reach: f64, found: &mut Vec<u32>) {
         found.clear();
-        self.cells(from, to, reach, |cell| found.extend_from_slice(self.items.of(cell)));
-        found.sort_unstable();
-        found.dedup();
+        let mut cells = 0;
+        self.cells(from, to, reach, |cell| {
+            found.extend_from_slice(self.items.of(cell));
+            cells += 1;
+        });
+        // One cell's are in order.
+        if cells > 1 {
+            found.sort_unstable();
+            found.dedup();
+        }
     }
 
     /// Calls with segments ever farther from a point, until the call says that all within a distance are enough:
@@ -123,7 +136,8 @@ impl SegmentCells {
         while ring <= most {
             let visit = |x: f64, y: f64, see: &mut dyn FnMut(u32)| {
                 if (0.0..columns).contains(&x) && (0.0..rows).contains(&y) {
-                    self.items.of(y as usize * self.columns + x as usize).iter().for_each(|item| see(*item));
+                    let items = self.items.of(y as usize * self.columns + x as usize);
+                    items.iter().take(MOST_IN_CELL).for_each(|item| see(*item));
                 }
             };
             let mut y = (row - ring).max(0.0);

@@ -81,12 +81,18 @@ fn findings(
         chain::of(before, &rest[0], &groups.of_shape[0], groups),
         chain::of(after, &rest[1], &groups.of_shape[1], groups),
     ];
-    let grids = [SegmentCells::new(&chains[0]), SegmentCells::new(&chains[1])];
-    let covers =
-        [cover(&chains[0], &chains[1], &grids[1], groups), cover(&chains[1], &chains[0], &grids[0], groups)];
-    let [a, b] = chains;
-    let [cover_a, cover_b] = covers;
-    let sides = [Side { chains: a, covers: cover_a }, Side { chains: b, covers: cover_b }];
+    let firsts = [chain::firsts(&chains[0]), chain::firsts(&chains[1])];
+    let grid = |side: usize| {
+        let chains = chains[side].iter().enumerate();
+        SegmentCells::of(chains.filter(|(index, _)| firsts[side].get(*index) == Some(index)))
+    };
+    let all = |side: usize| (chains[side].as_slice(), firsts[side].as_slice());
+    let covers = [cover(all(0), all(1), &grid(1), groups), cover(all(1), all(0), &grid(0), groups)];
+    let ([a, b], [cover_a, cover_b], [firsts_a, firsts_b]) = (chains, covers, firsts);
+    let sides = [
+        Side { chains: a, firsts: firsts_a, covers: cover_a },
+        Side { chains: b, firsts: firsts_b, covers: cover_b },
+    ];
     for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
         let partner = cover.partners.first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
         stayed.extend(

@@ -25,6 +25,7 @@
 mod align;
 mod area;
 mod canonical;
+mod cascade;
 mod chain;
 mod cover;
 mod distance;
@@ -51,7 +52,9 @@ mod picture;
 mod pixels;
 mod read;
 mod regions;
+mod sheet;
 mod stacking;
+mod styled;
 mod tags;
 mod teller;
 mod text;

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use kurbo::{Point, Rect};
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::align::{Alignment, align};
 use super::chain::Chain;
@@ -30,6 +31,8 @@ const CLOSELY: usize = 6;
 #[derive(Debug)]
 pub(super) struct Side {
     pub chains: Vec<Chain>,
+    /// For each chain the first that lies exactly on it.
+    pub firsts: Vec<usize>,
     pub covers: Vec<Cover>,
 }
 
@@ -46,7 +49,9 @@ pub(super) struct Pair {
 pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> {
     let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
         let covers = &sides[side].covers;
-        (0..covers.len()).filter(|index| !covers[*index].is_whole()).collect()
+        (0..covers.len())
+            .filter(|index| !covers[*index].is_whole() && sides[side].firsts[*index] == *index)
+            .collect()
     });
     if bare.iter().any(Vec::is_empty) {
         return Vec::new();
@@ -80,6 +85,15 @@ pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
         }
         both
     });
+    let copies = |pair: &Pair| {
+        let is_copy = |side: usize, of: usize, copy: usize| sides[side].firsts.get(copy) == Some(&of);
+        let (old, new, pair) = (pair.old, pair.new, *pair);
+        (1..)
+            .take_while(move |rank| is_copy(0, old, old + rank) && is_copy(1, new, new + rank))
+            .map(move |rank| Pair { old: old + rank, new: new + rank, ..pair })
+    };
+    let more: Vec<Pair> = found.iter().flat_map(copies).collect();
+    found.extend(more);
     found
 }
 
@@ -104,6 +118,7 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
     for place in places(chain, (chain.points.len() + 1).min(PLACES)) {
         // The nearest few: each with its distance.
         let near: std::cell::RefCell<Vec<(f64, u32)>> = std::cell::RefCell::default();
+        let known: std::cell::RefCell<FxHashMap<u32, usize>> = std::cell::RefCell::default();
         let see = |item: u32| {
             let segment = grid.segments[item as usize];
             let distance = place.distance(nearest_on(segment.from, segment.to, place));
@@ -111,7 +126,8 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
                 return;
             }
             let mut near = near.borrow_mut();
-            match near.iter_mut().find(|(_, chain)| *chain == segment.chain) {
+            let at = *known.borrow_mut().entry(segment.chain).or_insert(near.len());
+            match near.get_mut(at) {
                 Some(entry) => entry.0 = entry.0.min(distance),
                 None => near.push((distance, segment.chain)),
             }
