@@ -1,5 +1,7 @@
 //! [`Diff`] and its [`Finding`]s: what differs, one finding a mark.
 
+use std::sync::Arc;
+
 use kurbo::{BezPath, Rect};
 use serde::Serialize;
 
@@ -130,6 +132,10 @@ pub struct Finding {
     pub size: f64,
     /// How much longer or larger it is now.
     pub growth: f64,
+    /// Length of what is gone of a line, and of what is new of it; 0 where it is told as a whole.
+    pub pieces: [f64; 2],
+    /// The material of the old mark, where the file names it.
+    pub material: Option<Arc<str>>,
     /// The largest distance between old and new: the Hausdorff distance. 0 where there is only one.
     pub largest: f64,
     /// 95 % of it is nearer than this to what it was.
@@ -139,6 +145,8 @@ pub struct Finding {
     /// What is gone of the old one, and what is new of the new one.
     pub(super) gone: BezPath,
     pub(super) new: BezPath,
+    /// Whether it follows from a motion of the whole drawing.
+    pub(super) carried: bool,
 }
 
 impl Finding {
@@ -158,13 +166,27 @@ impl Finding {
             place,
             size: 0.0,
             growth: 0.0,
+            pieces: [0.0; 2],
+            material: None,
             largest: 0.0,
             p95: 0.0,
             shift: None,
             gone: BezPath::new(),
             new: BezPath::new(),
+            carried: false,
         }
     }
+}
+
+/// What several findings follow from: a part that moved, a page that grew.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cause {
+    /// What happened: the verdict of most that follows from it.
+    pub verdict: Verdict,
+    /// What happened, in words.
+    pub sentence: String,
+    /// What follows from it: places in the list of findings.
+    pub findings: Vec<usize>,
 }
 
 /// What differs between two drawings.
@@ -172,6 +194,8 @@ impl Finding {
 pub struct Diff {
     /// What differs, the gravest first, then by part, class and place.
     pub findings: Vec<Finding>,
+    /// What many findings follow from, told in their place; each finding follows from one cause at most.
+    pub causes: Vec<Cause>,
     /// The first look at which the drawings are the same; `None` if they are not.
     pub same_at: Option<Stage>,
     /// Lengths and areas.

@@ -11,9 +11,6 @@ const MOST_CELLS: f64 = 2048.0;
 /// Cells that a segment goes through, on average and about at most.
 const CELLS_OF_SEGMENT: f64 = 16.0;
 
-/// Segments of a cell that are looked at for the nearest: where thousands lie on each other, any of them will do.
-const MOST_IN_CELL: usize = 512;
-
 /// A segment of a chain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {
@@ -120,11 +117,11 @@ impl SegmentCells {
     }
 
     /// Calls with segments ever farther from a point, until the call says that all within a distance are enough:
-    /// it is asked after each ring of cells, with the distance within which all have been seen.
+    /// it is asked after each ring of cells, with the distance within which all have been seen. Of a cell so many are seen.
     pub(super) fn rings(
         &self,
         p: Point,
-        reach: f64,
+        (reach, most_in_cell): (f64, usize),
         mut see: impl FnMut(u32),
         mut enough: impl FnMut(f64) -> bool,
     ) {
@@ -137,7 +134,7 @@ impl SegmentCells {
             let visit = |x: f64, y: f64, see: &mut dyn FnMut(u32)| {
                 if (0.0..columns).contains(&x) && (0.0..rows).contains(&y) {
                     let items = self.items.of(y as usize * self.columns + x as usize);
-                    items.iter().take(MOST_IN_CELL).for_each(|item| see(*item));
+                    items.iter().take(most_in_cell).for_each(|item| see(*item));
                 }
             };
             let mut y = (row - ring).max(0.0);
@@ -216,7 +213,7 @@ mod tests {
             let wanted = grid.segments.iter().map(distance).fold(f64::INFINITY, f64::min);
             let best = std::cell::Cell::new(f64::INFINITY);
             let see = |item: u32| best.set(best.get().min(distance(&grid.segments[item as usize])));
-            grid.rings(p, 5000.0, see, |seen| best.get() <= seen);
+            grid.rings(p, (5000.0, usize::MAX), see, |seen| best.get() <= seen);
             assert_eq!(best.get(), wanted);
         }
     }

@@ -78,6 +78,16 @@ impl Ink {
         }
     }
 
+    /// Whether it stands for a text.
+    pub(super) fn is_text(&self) -> bool {
+        matches!(&self.paint, Paint::Other(words) if words.starts_with("the text "))
+    }
+
+    /// Whether it stands for a text or a picture.
+    pub(super) fn is_stand_in(&self) -> bool {
+        matches!(&self.paint, Paint::Other(words) if words.starts_with("the "))
+    }
+
     /// Whether a person would say that both look alike.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.paint.is_like(&other.paint)

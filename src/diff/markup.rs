@@ -61,6 +61,8 @@ pub(super) struct Origin {
     pub axis: Option<(String, f64)>,
     /// Words that stand for a text or a picture.
     pub words: Option<Arc<str>>,
+    /// The material of the model.
+    pub material: Option<Arc<str>>,
 }
 
 /// A file that is ready for the reader.
@@ -70,6 +72,8 @@ pub(super) struct Markup {
     pub origins: FxHashMap<String, Origin>,
     /// Most decimals of a coordinate.
     pub decimals: u8,
+    /// Whether some path has arcs.
+    pub arcs: bool,
     pub unit: Unit,
 }
 
@@ -195,6 +199,7 @@ impl Markup {
             invisibility: node.attribute("data-invisibility").and_then(|text| text.parse().ok()).unwrap_or(0),
             axis: axis.map(|(axis, width)| (axis.to_owned(), width)),
             words: None,
+            material: node.attribute("data-material").map(Arc::from),
         };
         self.remember(node, origin);
     }
@@ -280,6 +285,7 @@ impl Markup {
         }
         if matches!(name, "d" | "points" | "x1" | "y1" | "x2" | "y2" | "cx" | "cy") {
             self.decimals = self.decimals.max(numbers.decimals);
+            self.arcs |= name == "d" && value.contains(['a', 'A']);
         }
         Ok(())
     }

@@ -26,6 +26,7 @@ mod align;
 mod area;
 mod canonical;
 mod cascade;
+mod causes;
 mod chain;
 mod cover;
 mod distance;
@@ -35,6 +36,7 @@ mod finding;
 mod grid;
 mod groups;
 mod guard;
+mod ignore;
 mod inherited;
 mod ink;
 mod json;
@@ -43,7 +45,10 @@ mod label;
 mod lines;
 mod markdown;
 mod markup;
+mod motion;
+mod movers;
 mod numbers;
+mod outlines;
 mod overlay;
 mod paint_words;
 mod pair;
@@ -60,9 +65,13 @@ mod teller;
 mod text;
 mod tolerance;
 mod totals;
+mod unlabelled;
+mod whole;
+mod words;
 
 pub use canonical::canonical_svg;
-pub use finding::{Change, Diff, Finding, Place, Stage, Verdict};
+pub use finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+pub use ignore::Ignore;
 pub use ink::{Ink, Paint};
 pub use label::Label;
 pub use overlay::View;
@@ -79,6 +88,8 @@ pub struct DiffOptions {
     pub tolerances: Tolerances,
     /// Whether the drawings are rasterised and compared pixel by pixel as well. Default: no.
     pub pixels: bool,
+    /// What does not count. Default: everything counts.
+    pub ignore: Ignore,
 }
 
 impl DiffOptions {
@@ -86,6 +97,12 @@ impl DiffOptions {
     #[must_use]
     pub fn within(self, tolerances: Tolerances) -> Self {
         Self { tolerances, ..self }
+    }
+
+    /// Without what does not count.
+    #[must_use]
+    pub fn ignoring(self, ignore: Ignore) -> Self {
+        Self { ignore, ..self }
     }
 
     /// With a comparison of pixels as well.

@@ -26,6 +26,8 @@ const COMMON: f64 = 0.2;
 const PLACES: usize = 5;
 const WANTED: usize = 4;
 const CLOSELY: usize = 6;
+/// Segments of a cell that are looked at: where thousands lie on each other, any of them will do.
+const MOST_IN_CELL: usize = 512;
 
 /// One drawing's chains and what the other drawing covers of them.
 #[derive(Debug)]
@@ -134,7 +136,7 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
         };
         let enough =
             |seen: f64| near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= WANTED;
-        grid.rings(place, reach, see, enough);
+        grid.rings(place, (reach, MOST_IN_CELL), see, enough);
         let mut near = near.into_inner();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found.extend(near.iter().take(2 * WANTED).map(|(_, chain)| bare[*chain as usize]));

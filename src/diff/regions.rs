@@ -5,11 +5,14 @@ use std::collections::BTreeMap;
 use kurbo::{BezPath, Rect, Shape as _};
 use rustc_hash::FxHashMap;
 
-use super::area::area;
+use super::area::{area, ring_area, winds_round};
 use super::events::Event;
 use super::finding::{Finding, Place, Verdict};
 use super::picture::{Picture, ShapeKind};
-use super::teller::{Teller, changes, label};
+use super::teller::{Teller, label};
+
+/// Rings of a shape that may lie round another one of it, at most.
+const MOST_RINGS: usize = 200;
 
 /// One region before and after.
 type Key = (Option<usize>, Option<usize>);
@@ -106,16 +109,19 @@ fn one(teller: &Teller, (old, new): Key, events: Vec<Event>, areas: &mut Areas) 
         verdict,
         kind: shapes.iter().flatten().next().map_or(ShapeKind::Region, |shape| shape.kind),
         label: label(shapes),
-        changes: changes(shapes),
+        changes: teller.changes(shapes),
         place: Place::of(Rect::ZERO),
         size: before.or(after).unwrap_or(0.0),
-        growth: before.zip(after).map_or(0.0, |(before, after)| after - before),
+        growth: if before.is_some() && after.is_some() { growth(teller, &events) } else { 0.0 },
+        pieces: [0.0; 2],
+        material: shapes.iter().flatten().next().and_then(|shape| shape.material.clone()),
         largest: events.iter().map(|event| event.largest).fold(0.0, f64::max),
         p95: events.iter().map(|event| event.p95).fold(0.0, f64::max),
         shift: first
             .filter(|_| verdict == Verdict::Moved && events.iter().all(|event| event.shift.is_some())),
         gone: BezPath::new(),
         new: BezPath::new(),
+        carried: false,
     };
     for event in &events {
         finding.gone.extend(event.gone.iter());
@@ -130,6 +136,23 @@ fn one(teller: &Teller, (old, new): Key, events: Vec<Event>, areas: &mut Areas) 
     };
     finding.place = Place::of(place.unwrap_or_default());
     finding
+}
+
+/// How much larger a region became: by what became of each of its rings, so that it agrees with how far they went.
+fn growth(teller: &Teller, events: &[Event]) -> f64 {
+    let ring = |side: usize, index: Option<usize>| -> f64 {
+        let chains = &teller.sides[side].chains;
+        let Some(chain) = index.and_then(|index| chains.get(index)) else { return 0.0 };
+        let others = chains.iter().filter(|other| other.shapes == chain.shapes && !std::ptr::eq(*other, chain));
+        let start = chain.points.first().copied().unwrap_or_default();
+        let around = others.take(MOST_RINGS).filter(|other| winds_round(&other.points, start)).count();
+        ring_area(&chain.points) * if around % 2 == 0 { 1.0 } else { -1.0 }
+    };
+    events
+        .iter()
+        .filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled))
+        .map(|event| ring(1, event.new) - ring(0, event.old))
+        .sum()
 }
 
 /// The area of each shape that is asked for, measured once.

@@ -155,7 +155,7 @@ fn selectors_that_nest_are_matched_in_one_pass() {
         let sheet = format!("x {}path{{stroke:red}}", "g ".repeat(40)).repeat(rules);
         let svg = inside(&format!("<style>{sheet} g g path{{stroke:#00f}}</style>{}", groups(count, path)));
         let picture = Picture::from_svg(&svg).unwrap();
-        assert_eq!(picture.shapes[0].ink.paint.to_string(), "#0000ff");
+        assert_eq!(picture.shapes.last().unwrap().ink.paint.to_string(), "#0000ff");
         let again = Picture::from_svg(&svg.replace("M0 0", "M0 1")).unwrap();
         let told = diff::compare(&picture, &again, &DiffOptions::default().with_pixels());
         assert!(told.pixels.is_some_and(|pixels| pixels.differing > 0));
