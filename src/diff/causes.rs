@@ -13,6 +13,8 @@ use super::words::Written;
 
 /// What lies behind a part is seen this far (px) round it: lines have widths.
 const ROUND_PART_PX: f64 = 4.0;
+/// And so much of it lies there.
+const SHARE_ROUND_PART: f64 = 0.3;
 /// Colours that are told of a material.
 const COLOURS: usize = 2;
 /// Parts that are named.
@@ -52,9 +54,20 @@ fn rect(finding: &Finding) -> Rect {
     Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
 }
 
+/// Whether something lies round a part: a third of it in the box round that, which has at least a part of its size.
 fn holds(outer: &Rect, inner: Rect) -> bool {
     let outer = outer.inflate(ROUND_PART_PX, ROUND_PART_PX);
-    outer.contains_rect(inner)
+    let inner = inner.inflate(0.5, 0.5);
+    outer.intersect(inner).area() >= SHARE_ROUND_PART * inner.area() && outer.overlaps(inner)
+}
+
+/// Whether a finding may follow from what comes, goes or moves near: another form, or another light.
+fn may_follow(finding: &Finding) -> bool {
+    match finding.verdict {
+        Verdict::Page | Verdict::Relabelled => false,
+        Verdict::Restyled => finding.changes.iter().any(|change| change.what == "tone"),
+        _ => true,
+    }
 }
 
 /// Which parts the findings are of, in words: `3 marks of `base` and 1 of `lid``.
@@ -86,11 +99,7 @@ fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
             else {
                 continue;
             };
-            let is_behind = |f: &Finding| {
-                !matches!(f.verdict, Verdict::Page | Verdict::Restyled | Verdict::Relabelled)
-                    && holds(&place, rect(f))
-            };
-            let behind = take(diff, free, is_behind);
+            let behind = take(diff, free, |f| may_follow(f) && holds(&place, rect(f)));
             let unit = diff.unit();
             let at = unit.place(&Place::of(place));
             let all = if own.len() == 1 { "its only mark".to_owned() } else { format!("all its {} marks", own.len()) };
@@ -125,7 +134,7 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     for mover in movers {
         let own = take(diff, free, |f| {
             f.label.part.as_ref() == Some(&mover.part)
-                && !matches!(f.verdict, Verdict::Page | Verdict::Restyled | Verdict::Relabelled)
+                && may_follow(f)
         });
         if own.is_empty() {
             continue;
@@ -141,10 +150,8 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     }
     let tell = |(movers, mut findings): (Vec<&Mover>, Vec<usize>)| {
         let places: Vec<Rect> = movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
-        let behind = take(diff, free, |f| {
-            !matches!(f.verdict, Verdict::Page | Verdict::Restyled | Verdict::Relabelled)
-                && places.iter().any(|place| holds(place, rect(f)))
-        });
+        let is_round = |f: &Finding| places.iter().any(|place| holds(place, rect(f)));
+        let behind = take(diff, free, |f| may_follow(f) && is_round(f));
         let names: Vec<String> = movers.iter().take(NAMED).map(|mover| format!("`{}`", mover.part)).collect();
         let more = movers.len().saturating_sub(NAMED);
         let names = match (more, names.split_last()) {
@@ -176,7 +183,7 @@ fn same_way(a: &Mover, b: &Mover) -> bool {
 pub(super) fn motion(motion: &Motion, place: Rect, unit: Written) -> String {
     let (scale, turn) = (motion.scale(), motion.turn());
     let reach = place.width().max(place.height()) / 2.0;
-    let grown = (scale - 1.0).abs() * reach > 0.05 && (scale - 1.0).abs() > 5e-4;
+    let grown = (scale - 1.0).abs() * reach > 0.05 && (scale - 1.0).abs() > 4e-3;
     let turned = turn.abs().to_radians() * reach > 0.05 && turn.abs() > 0.05;
     let way = unit.sides(motion.of(place.center()));
     let mut words = Vec::new();

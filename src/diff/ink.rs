@@ -28,6 +28,19 @@ impl Paint {
     }
 }
 
+/// What stands for a picture in a file of its own begins so; its target follows between backticks.
+pub(super) const LINKED: &str = "the picture linked as `";
+
+impl Paint {
+    /// The target, of a picture that is linked.
+    pub(super) fn link(&self) -> Option<&str> {
+        match self {
+            Self::Other(words) => words.strip_prefix(LINKED)?.split('`').next(),
+            Self::Colour(_) => None,
+        }
+    }
+}
+
 impl fmt::Display for Paint {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {

@@ -9,6 +9,7 @@ use std::hash::{Hash, Hasher};
 use usvg::roxmltree::{Document, Node};
 
 use super::cascade::Cascade;
+use super::ink::LINKED;
 use super::label::Label;
 use super::numbers;
 use super::sheet::{self, Declaration};
@@ -226,9 +227,14 @@ impl Markup {
                 node.descendants().filter(Node::is_text).filter_map(|node| node.text()).collect();
             format!("the text `{}`", words.join("").split_whitespace().collect::<Vec<_>>().join(" "))
         } else {
-            let mut hasher = FxHasher::default();
-            node.attributes().filter(|a| a.name() == "href").for_each(|a| a.value().hash(&mut hasher));
-            format!("the picture {:016x}", hasher.finish())
+            let href = node.attributes().find(|a| a.name() == "href").map_or("", |a| a.value().trim());
+            if href.starts_with("data:") || href.contains('`') {
+                let mut hasher = FxHasher::default();
+                href.hash(&mut hasher);
+                format!("the picture {:016x}", hasher.finish())
+            } else {
+                format!("{LINKED}{href}`")
+            }
         };
         let label = Label { layer: around.layer, classes: Vec::new(), part: around.part };
         let origin = Origin { label: Arc::new(label), words: Some(Arc::from(words)), ..Origin::default() };

@@ -10,9 +10,9 @@ use super::picture::{Picture, Shape, ShapeKind};
 use super::whole;
 
 /// The share of a part's marks without an equal that a motion must carry.
-const CARRIED: f64 = 0.6;
+const CARRIED: f64 = 0.5;
 /// What a shift leaves, as a part of its length: parts that come nearer grow a little.
-const OFF_OF_WAY: f64 = 0.04;
+const OFF_OF_WAY: f64 = 0.06;
 /// Least and most of it (px).
 const LEAST_PX: f64 = 0.06;
 const MOST_PX: f64 = 1.0;

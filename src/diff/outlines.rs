@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use rustc_hash::FxHashSet;
+
 use super::chain::{self, Chain};
 use super::cover::{Cover, cover};
 use super::distance::Near;
@@ -60,9 +62,10 @@ pub(super) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
 /// The rings of the outlines of all lines that have no equal, each with its shape; in an order of their own.
 fn rings(teller: &Teller, side: usize, groups: &Groups) -> Vec<Chain> {
     let mut found = Vec::new();
+    let mut seen: FxHashSet<usize> = FxHashSet::default();
     for chain in &teller.sides[side].chains {
         let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-        for index in &chain.shapes {
+        for index in chain.shapes.iter().filter(|index| seen.insert(**index)) {
             let outline = teller.pictures[side].shapes.get(*index).and_then(|shape| shape.outline.as_ref());
             let of_shape = chain::rings(outline, tolerance).into_iter();
             found.extend(of_shape.map(|ring| Chain { group: chain.group, shapes: vec![*index], ..ring }));

@@ -1,6 +1,6 @@
 //! Findings about regions: what became of their borders, put together shape by shape.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use kurbo::{BezPath, Rect, Shape as _};
 use rustc_hash::FxHashMap;
@@ -148,11 +148,12 @@ fn growth(teller: &Teller, events: &[Event]) -> f64 {
         let around = others.take(MOST_RINGS).filter(|other| winds_round(&other.points, start)).count();
         ring_area(&chain.points) * if around % 2 == 0 { 1.0 } else { -1.0 }
     };
-    events
-        .iter()
-        .filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled))
-        .map(|event| ring(1, event.new) - ring(0, event.old))
-        .sum()
+    let changed = events.iter().filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled));
+    // A ring may be told of from both sides.
+    let rings: [BTreeSet<usize>; 2] =
+        [changed.clone().filter_map(|event| event.old).collect(), changed.filter_map(|event| event.new).collect()];
+    let area = |side: usize| rings[side].iter().map(|index| ring(side, Some(*index))).sum::<f64>();
+    area(1) - area(0)
 }
 
 /// The area of each shape that is asked for, measured once.

@@ -1,6 +1,6 @@
 //! A [`Diff`] in words: one line a finding, many findings that say the same in one line.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use kurbo::{Rect, Vec2};
 use rustc_hash::FxHashSet;
@@ -52,7 +52,17 @@ impl Diff {
         let lines = self.told().into_iter().map(|told| told.line);
         let unused =
             self.unused_tolerances.iter().map(|name| format!("note       no mark is called `{name}`"));
-        lines.chain(unused).collect()
+        let linked = self.linked().map(|target| {
+            format!("note       the picture `{target}` is linked: compared by its target and its box, not by what is in it")
+        });
+        lines.chain(unused).chain(linked).collect()
+    }
+
+    /// The targets of pictures that lie in files of their own.
+    fn linked(&self) -> impl Iterator<Item = &str> {
+        let shapes = self.before.shapes.iter().chain(self.after.shapes.iter());
+        let targets: BTreeSet<&str> = shapes.filter_map(|shape| shape.ink.paint.link()).collect();
+        targets.into_iter()
     }
 
     /// A line for each finding.
@@ -183,8 +193,11 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
             }
         },
         Verdict::Reshaped => {
-            let off = format!("up to {} off", unit.length(finding.largest));
-            format!("{}{off}", pieces(finding, lines, unit))
+            // Where a whole border came or went, nothing is off.
+            let off = (unit.number(finding.largest) != "0")
+                .then(|| format!("up to {} off", unit.length(finding.largest)));
+            let told: Vec<String> = pieces(finding, lines, unit).into_iter().chain(off).collect();
+            if told.is_empty() { "a border more or less".to_owned() } else { told.join(", ") }
         }
     };
     let also = match finding.verdict {
@@ -203,13 +216,12 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
 }
 
 /// What is gone and what is new of a mark of another form, before its distance.
-fn pieces(finding: &Finding, lines: bool, unit: Written) -> String {
+fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
     let [gone, new] = finding.pieces;
-    let told = match lines {
+    match lines {
         true if gone > 0.0 && new > 0.0 => Some(format!("{} gone and {} new", unit.length(gone), unit.length(new))),
         _ => grown(finding.growth, lines, unit),
-    };
-    told.map(|told| told + ", ").unwrap_or_default()
+    }
 }
 
 /// How much more or less of it there is; nothing where that is told as nothing.
