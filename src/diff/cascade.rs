@@ -226,7 +226,8 @@ mod tests {
             ("> p", ""),
         ] {
             let svg = format!("<s><style>{}{{v:1}}</style>{body}</s>", selector.replace('>', "&gt;"));
-            let found: Vec<String> = told(&svg).split_whitespace().map(|word| word.replace("=1", "")).collect();
+            let found: Vec<String> =
+                told(&svg).split_whitespace().map(|word| word.replace("=1", "")).collect();
             assert_eq!(found.join(" "), wanted, "{selector}");
         }
     }
@@ -263,6 +264,9 @@ mod tests {
     #[test]
     fn the_weightier_rule_comes_last() {
         let sheet = "#i{v:4} p{v:1} .x{v:2} g .x{v:3}";
-        assert_eq!(told(&format!("<s><style>{sheet}</style><g><p n='a' id='i' class='x'/></g></s>")), "a=1,2,3,4 ");
+        assert_eq!(
+            told(&format!("<s><style>{sheet}</style><g><p n='a' id='i' class='x'/></g></s>")),
+            "a=1,2,3,4 "
+        );
     }
 }

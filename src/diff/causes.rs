@@ -11,8 +11,9 @@ use super::motion::Motion;
 use super::picture::ShapeKind;
 use super::words::Written;
 
-/// What lies behind a part is seen this far (px) round it: lines have widths.
+/// What lies behind a part is seen this far (px), and this part of its size, round it: lines have widths, fills are cut there.
 const ROUND_PART_PX: f64 = 4.0;
+const ROUND_PART: f64 = 0.1;
 /// And so much of it lies there.
 const SHARE_ROUND_PART: f64 = 0.3;
 /// Colours that are told of a material.
@@ -54,9 +55,10 @@ fn rect(finding: &Finding) -> Rect {
     Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
 }
 
-/// Whether something lies round a part: a third of it in the box round that, which has at least a part of its size.
+/// Whether something lies round a part: a third of it in a box a little larger than the part's.
 fn holds(outer: &Rect, inner: Rect) -> bool {
-    let outer = outer.inflate(ROUND_PART_PX, ROUND_PART_PX);
+    let round = ROUND_PART_PX + ROUND_PART * (outer.width() + outer.height());
+    let outer = outer.inflate(round, round);
     let inner = inner.inflate(0.5, 0.5);
     outer.intersect(inner).area() >= SHARE_ROUND_PART * inner.area() && outer.overlaps(inner)
 }
@@ -102,7 +104,11 @@ fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
             let behind = take(diff, free, |f| may_follow(f) && holds(&place, rect(f)));
             let unit = diff.unit();
             let at = unit.place(&Place::of(place));
-            let all = if own.len() == 1 { "its only mark".to_owned() } else { format!("all its {} marks", own.len()) };
+            let all = if own.len() == 1 {
+                "its only mark".to_owned()
+            } else {
+                format!("all its {} marks", own.len())
+            };
             let follows = match (behind.is_empty(), verdict) {
                 (true, _) => String::new(),
                 (_, Verdict::Removed) => format!("; what came to light behind it: {}", whose(diff, &behind)),
@@ -132,10 +138,7 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     let unit = diff.unit();
     let mut causes: Vec<(Vec<&Mover>, Vec<usize>)> = Vec::new();
     for mover in movers {
-        let own = take(diff, free, |f| {
-            f.label.part.as_ref() == Some(&mover.part)
-                && may_follow(f)
-        });
+        let own = take(diff, free, |f| f.label.part.as_ref() == Some(&mover.part) && may_follow(f));
         if own.is_empty() {
             continue;
         }
@@ -192,7 +195,8 @@ pub(super) fn motion(motion: &Motion, place: Rect, unit: Written) -> String {
     }
     if turned {
         let side = if turn > 0.0 { "clockwise" } else { "counter-clockwise" };
-        words.push(format!("turned by {}° {side}", super::ink::trimmed((turn.abs() * 100.0).round() / 100.0)));
+        words
+            .push(format!("turned by {}° {side}", super::ink::trimmed((turn.abs() * 100.0).round() / 100.0)));
     }
     if !way.is_empty() {
         words.push(if words.is_empty() { way } else { format!("its middle {way}") });

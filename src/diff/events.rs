@@ -134,9 +134,8 @@ fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Even
 /// the chain itself to where something covers it. Of a line that was linked to another one, that is all that differs.
 fn off(chain: &Chain, cover: &Cover, other: &Chain, tolerance: f64) -> f64 {
     let near = Near::new(other);
-    let is_covered = |at: Option<usize>| {
-        at.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some())
-    };
+    let is_covered =
+        |at: Option<usize>| at.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some());
     let last = cover.runs.len().saturating_sub(1);
     let mut most = 0.0f64;
     for (index, run) in cover.runs.iter().enumerate().filter(|(_, run)| run.likeness.is_none()) {

@@ -15,6 +15,7 @@ use super::ignore::Ignore;
 use super::ink::trimmed;
 use super::label::Label;
 use super::lines;
+use super::motion::Motion;
 use super::movers;
 use super::outlines;
 use super::pair::Side;
@@ -82,6 +83,12 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     ignore.labels |= lost.is_some();
     let page = page(before, after);
     let mut compared = one(pictures, &options.tolerances, ignore);
+    // Where each mark was found to go the same way, that is what happened.
+    let together = whole::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
+    if let Some(motion) = together {
+        let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
+        return settle(diff, pictures, page, compared, vec![cause], lost);
+    }
     let whole = (compared.findings.len() > 2)
         .then(|| whole::whole(pictures, &compared.rest, default_px(before, after)))
         .flatten();
@@ -93,6 +100,18 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         compared.movers.clear();
         causes.push(cause);
     }
+    settle(diff, pictures, page, compared, causes, lost);
+}
+
+/// Puts together what was found.
+fn settle(
+    diff: &mut Diff,
+    pictures: [&Picture; 2],
+    page: Option<Finding>,
+    mut compared: Compared,
+    mut causes: Vec<Cause>,
+    lost: Option<usize>,
+) {
     let structure = compared.rest.iter().all(Vec::is_empty) && lost.is_none();
     diff.findings.extend(page);
     diff.findings.append(&mut compared.findings);
@@ -147,28 +166,29 @@ fn of_whole(
     }
     let tried = whole.carried.iter().map(|carried| one([carried, pictures[1]], &tolerances, ignore).findings);
     let left = tried.min_by_key(Vec::len)?;
-    if left.len() * 2 > compared.findings.len() {
+    if left.len() * 4 > compared.findings.len() {
         return None;
     }
     let carried = whole::findings(pictures[0], &compared.rest[0], &whole.motion, &left);
     if carried.is_empty() {
         return None;
     }
+    let cause = sentence(diff, &whole.motion, pictures, carried.len(), whole.reach);
+    Some((left.into_iter().chain(carried).collect(), cause))
+}
+
+/// The motion of the whole in words; its findings are found later.
+fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize, reach: f64) -> Cause {
     let unit = diff.unit();
-    let place = kurbo::Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
-    let words = causes::motion(&whole.motion, place, unit);
-    let count = carried.len();
+    let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
+    let words = causes::motion(motion, place, unit);
     let page = match page(pictures[0], pictures[1]) {
         Some(page) => format!(" ({})", text::changed(&page.changes)),
         None => String::new(),
     };
-    let exact = unit.length(whole.reach);
-    let cause = Cause {
-        verdict: Verdict::Moved,
-        sentence: format!("the whole drawing {words}{page}: {count} marks, as they were within {exact}"),
-        findings: Vec::new(),
-    };
-    Some((left.into_iter().chain(carried).collect(), cause))
+    let exact = unit.length(reach);
+    let sentence = format!("the whole drawing {words}{page}: {count} marks, as they were within {exact}");
+    Cause { verdict: Verdict::Moved, sentence, findings: Vec::new() }
 }
 
 /// What differs mark by mark.

@@ -14,11 +14,7 @@ pub(super) fn height(width: f64) -> f64 {
 }
 
 /// The lines of a legend under a picture of this height: a sample and a word for each colour, with widths.
-pub(super) fn marks(
-    rows: &[(&'static str, Colour)],
-    top: f64,
-    width: f64,
-) -> Vec<(BezPath, Colour, f64)> {
+pub(super) fn marks(rows: &[(&'static str, Colour)], top: f64, width: f64) -> Vec<(BezPath, Colour, f64)> {
     let mut found = Vec::new();
     let size = width * LETTER;
     let base = top + height(width) * 0.62;

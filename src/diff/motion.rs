@@ -169,9 +169,9 @@ impl Grid {
     fn has(&self, p: Point, reach: f64) -> bool {
         let mut near = Vec::new();
         self.0.near(p, p, reach, &mut near);
-        near.iter().filter_map(|item| self.0.segments.get(*item as usize)).any(|segment| {
-            p.distance(nearest_on(segment.from, segment.to, p)) <= reach
-        })
+        near.iter()
+            .filter_map(|item| self.0.segments.get(*item as usize))
+            .any(|segment| p.distance(nearest_on(segment.from, segment.to, p)) <= reach)
     }
 }
 

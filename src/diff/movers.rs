@@ -12,7 +12,7 @@ use super::whole;
 /// The share of a part's marks without an equal that a motion must carry.
 const CARRIED: f64 = 0.5;
 /// What a shift leaves, as a part of its length: parts that come nearer grow a little.
-const OFF_OF_WAY: f64 = 0.06;
+const OFF_OF_WAY: f64 = 0.1;
 /// Least and most of it (px).
 const LEAST_PX: f64 = 0.06;
 const MOST_PX: f64 = 1.0;
@@ -23,7 +23,8 @@ const MOST_PARTS: usize = 200;
 pub(super) fn movers(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], findings: &[Finding]) -> Vec<Mover> {
     let mut counts: BTreeMap<&Arc<str>, usize> = BTreeMap::new();
     for finding in findings {
-        let elsewhere = !matches!(finding.verdict, Verdict::Restyled | Verdict::Relabelled | Verdict::Restacked);
+        let elsewhere =
+            !matches!(finding.verdict, Verdict::Restyled | Verdict::Relabelled | Verdict::Restacked);
         if let Some(part) = finding.label.part.as_ref().filter(|_| elsewhere) {
             *counts.entry(part).or_default() += 1;
         }

@@ -82,7 +82,8 @@ fn off(ring: &Chain, cover: &Cover, other: &Chain) -> f64 {
     let mut most = 0.0f64;
     for (p, q) in ring.segments() {
         let length = p.distance(q);
-        let bare = cover.runs.iter().filter(|run| run.likeness.is_none() && run.to > at && run.from < at + length);
+        let bare =
+            cover.runs.iter().filter(|run| run.likeness.is_none() && run.to > at && run.from < at + length);
         for run in bare.filter(|_| length > 0.0) {
             for s in [run.from.max(at), run.to.min(at + length)] {
                 most = most.max(near.nearest(p.lerp(q, (s - at) / length)).1);

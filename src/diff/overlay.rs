@@ -83,9 +83,11 @@ impl Diff {
         }
         let marks = self.legend(view);
         page.height += legend::height(width_of_line);
-        layers.findings.extend(legend::marks(&marks, height, width_of_line).into_iter().map(|(path, colour, width)| {
-            mark(path, stroke(colour, width, Vec::new()), None)
-        }));
+        layers.findings.extend(
+            legend::marks(&marks, height, width_of_line)
+                .into_iter()
+                .map(|(path, colour, width)| mark(path, stroke(colour, width, Vec::new()), None)),
+        );
         Drawing::new("difference", page, layers.into_list())
     }
 }
@@ -96,7 +98,8 @@ impl Diff {
         let has = |is: &dyn Fn(&Finding) -> bool| self.findings.iter().any(is);
         let ink = |path: &BezPath| !path.elements().is_empty();
         let same_place = |f: &Finding| matches!(f.verdict, Verdict::Restyled | Verdict::Restacked);
-        let elsewhere = |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
+        let elsewhere =
+            |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
         let rows: [(&str, Colour, bool); 5] = [
             ("gone", GONE, has(&|f| elsewhere(f) && ink(&f.gone))),
             ("new", NEW, has(&|f| elsewhere(f) && ink(&f.new))),

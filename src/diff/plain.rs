@@ -69,7 +69,10 @@ const PROPERTIES: [&str; 50] = [
 /// media or for states of a pointer, scripts, entities.
 pub(super) fn plain(text: &str) -> Result<Option<String>, Error> {
     let document = guard::parse(text)?;
-    if text.contains("<!ENTITY") || !document.descendants().any(|node| has_style(&node)) || is_moving(&document) {
+    if text.contains("<!ENTITY")
+        || !document.descendants().any(|node| has_style(&node))
+        || is_moving(&document)
+    {
         return Ok(None);
     }
     let mut cascade = Cascade::of(&document);
@@ -151,9 +154,12 @@ impl Edits<'_> {
             PROPERTIES.contains(&declaration.name) && !words.contains(&value) && !computed
         };
         let (plain, rest): (Vec<Declaration>, Vec<Declaration>) = won.into_iter().partition(is_plain);
-        // What one style says for several properties would be said after them all.
-        if rest.iter().any(|other| matches!(other.name, "font" | "marker" | "all" | "mask-image")) {
-            return false;
+        // What one style says for several properties would be said after them all; values that only style sheets know are
+        // for those who wrote them.
+        let several = |other: &Declaration| matches!(other.name, "font" | "marker" | "all" | "mask-image");
+        let unsure = rest.iter().any(|other| several(other) || PROPERTIES.contains(&other.name));
+        if unsure || plain.is_empty() {
+            return declared.is_empty() || !unsure && own_list.is_empty() && rest.is_empty();
         }
         let mut new = String::new();
         for Declaration { name, value, .. } in &plain {

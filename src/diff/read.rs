@@ -206,7 +206,7 @@ impl<'a> Reader<'a> {
                     ..Ink::region(paint, None)
                 },
                 label: Arc::clone(&origin.label),
-                    material: origin.material.clone(),
+                material: origin.material.clone(),
             })
         });
         match path.paint_order() {

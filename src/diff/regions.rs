@@ -143,15 +143,19 @@ fn growth(teller: &Teller, events: &[Event]) -> f64 {
     let ring = |side: usize, index: Option<usize>| -> f64 {
         let chains = &teller.sides[side].chains;
         let Some(chain) = index.and_then(|index| chains.get(index)) else { return 0.0 };
-        let others = chains.iter().filter(|other| other.shapes == chain.shapes && !std::ptr::eq(*other, chain));
+        let others =
+            chains.iter().filter(|other| other.shapes == chain.shapes && !std::ptr::eq(*other, chain));
         let start = chain.points.first().copied().unwrap_or_default();
         let around = others.take(MOST_RINGS).filter(|other| winds_round(&other.points, start)).count();
         ring_area(&chain.points) * if around % 2 == 0 { 1.0 } else { -1.0 }
     };
-    let changed = events.iter().filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled));
+    let changed =
+        events.iter().filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled));
     // A ring may be told of from both sides.
-    let rings: [BTreeSet<usize>; 2] =
-        [changed.clone().filter_map(|event| event.old).collect(), changed.filter_map(|event| event.new).collect()];
+    let rings: [BTreeSet<usize>; 2] = [
+        changed.clone().filter_map(|event| event.old).collect(),
+        changed.filter_map(|event| event.new).collect(),
+    ];
     let area = |side: usize| rings[side].iter().map(|index| ring(side, Some(*index))).sum::<f64>();
     area(1) - area(0)
 }

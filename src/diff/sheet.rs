@@ -415,7 +415,9 @@ mod tests {
 
     #[test]
     fn mistakes_come_to_an_end() {
-        for piece in ["{", "}", "a{", "/*", "\"", "'", "@", "@a{", "a,", "[", "(", ":", "a b>", ".", "\u{e9}", "\\"] {
+        for piece in
+            ["{", "}", "a{", "/*", "\"", "'", "@", "@a{", "a,", "[", "(", ":", "a b>", ".", "\u{e9}", "\\"]
+        {
             for count in [1, 2, 3, 200_000] {
                 let text = piece.repeat(count);
                 Sheet::default().read(&text);

@@ -170,7 +170,8 @@ fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String 
         Some(Verdict::Reshaped) => {
             let growth = findings.iter().map(|f| f.growth).sum::<f64>();
             let lines = findings.iter().all(|f| f.kind == ShapeKind::Line);
-            let in_all = grown(growth, lines, unit).map(|grown| format!(", {grown} in all")).unwrap_or_default();
+            let in_all =
+                grown(growth, lines, unit).map(|grown| format!(", {grown} in all")).unwrap_or_default();
             format!("up to {} off{in_all}", unit.length(largest))
         }
         _ => ink(),
@@ -219,7 +220,9 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
 fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
     let [gone, new] = finding.pieces;
     match lines {
-        true if gone > 0.0 && new > 0.0 => Some(format!("{} gone and {} new", unit.length(gone), unit.length(new))),
+        true if gone > 0.0 && new > 0.0 => {
+            Some(format!("{} gone and {} new", unit.length(gone), unit.length(new)))
+        }
         _ => grown(finding.growth, lines, unit),
     }
 }

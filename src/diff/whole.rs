@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use kurbo::{Affine, BezPath, PathEl, Point};
-use rustc_hash::FxHashMap;
+use kurbo::{Affine, BezPath, PathEl, Point, Vec2};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::chain::flatten;
 use super::finding::{Finding, Place, Verdict};
@@ -68,10 +68,40 @@ pub(super) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: 
     Some(Whole { motion, carried, reach: told * motion.scale().max(1.0) })
 }
 
+/// The shift that each finding tells, if all that moved without exception went the same way, and it is nearly all of the drawing.
+pub(super) fn together(
+    findings: &mut [Finding],
+    before: &Picture,
+    rest: &[usize],
+    tolerance: f64,
+) -> Option<Motion> {
+    if (rest.len() as f64) < MOST_OF * (before.shapes.len() as f64 - 1.0) {
+        return None;
+    }
+    let shifts: Option<Vec<Vec2>> = findings
+        .iter()
+        .map(|f| {
+            f.shift
+                .filter(|_| f.verdict == Verdict::Moved && f.changes.is_empty())
+                .map(|[x, y]| Vec2::new(x, y))
+        })
+        .collect();
+    let shifts = shifts.filter(|shifts| shifts.len() >= FEWEST && shifts.len() * 2 >= rest.len())?;
+    let parts = findings.iter().map(|f| &f.label.part).collect::<FxHashSet<_>>().len();
+    let mean = shifts.iter().fold(Vec2::ZERO, |sum, shift| sum + *shift) / shifts.len() as f64;
+    let near = shifts.iter().all(|shift| (*shift - mean).hypot() <= 2.0 * tolerance + 0.02 * mean.hypot());
+    if !near || parts < 2 {
+        return None;
+    }
+    findings.iter_mut().for_each(|finding| finding.carried = true);
+    Some(Motion { affine: Affine::translate(mean), share: 1.0 })
+}
+
 /// What motions are found from.
 pub(super) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> Marks<'a> {
     let lines = shapes.map(|shapes| {
-        let flat = shapes.iter().flat_map(|shape| flatten(&shape.path, tolerance, shape.kind != ShapeKind::Line));
+        let flat =
+            shapes.iter().flat_map(|shape| flatten(&shape.path, tolerance, shape.kind != ShapeKind::Line));
         flat.map(|(points, _)| points).collect()
     });
     // Likes are written alike: of one label, one paint and as many points, in the order of the file.
@@ -126,7 +156,10 @@ pub(super) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: 
         found.push(Finding {
             size: size(shape),
             largest,
-            p95: ways.get((ways.len() * 95 / 100).min(ways.len().saturating_sub(1))).copied().unwrap_or(largest),
+            p95: ways
+                .get((ways.len() * 95 / 100).min(ways.len().saturating_sub(1)))
+                .copied()
+                .unwrap_or(largest),
             shift: shifts.then_some([way.x, way.y]),
             place: Place::of(new.control_box().union(shape.path.control_box())),
             gone: shape.path.clone(),
