@@ -20,6 +20,8 @@ const SHARE_ROUND_PART: f64 = 0.3;
 const COLOURS: usize = 2;
 /// Parts that are named.
 const NAMED: usize = 3;
+/// Parts go at most so many ways for each to be a cause.
+const MOST_WAYS: usize = 6;
 /// As few findings as this are told each.
 const FEW: usize = 2;
 
@@ -136,24 +138,32 @@ fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
 /// Parts that moved, those that went the same way together, with what changed where they were and are.
 fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     let unit = diff.unit();
-    let mut causes: Vec<(Vec<&Mover>, Vec<usize>)> = Vec::new();
+    let mut own: Vec<(&Mover, Vec<usize>)> = Vec::new();
     for mover in movers {
-        let own = take(diff, free, |f| f.label.part.as_ref() == Some(&mover.part) && may_follow(f));
-        if own.is_empty() {
-            continue;
+        let findings = take(diff, free, |f| f.label.part.as_ref() == Some(&mover.part) && may_follow(f));
+        if !findings.is_empty() {
+            own.push((mover, findings));
         }
+    }
+    let mut causes: Vec<(Vec<&Mover>, Vec<usize>)> = Vec::new();
+    for (mover, findings) in &own {
         let alike = |others: &Vec<&Mover>| others.iter().all(|other| same_way(other, mover));
         match causes.iter_mut().find(|(others, _)| alike(others)) {
-            Some((others, findings)) => {
+            Some((others, all)) => {
                 others.push(mover);
-                findings.extend(own);
+                all.extend(findings);
             }
-            None => causes.push((vec![mover], own)),
+            None => causes.push((vec![mover], findings.clone())),
         }
+    }
+    // Where everything goes its own way, the eye moved: nothing follows from a single part then.
+    let many = causes.len() > MOST_WAYS;
+    if many {
+        causes = own.into_iter().map(|(mover, findings)| (vec![mover], findings)).collect();
     }
     let tell = |(movers, mut findings): (Vec<&Mover>, Vec<usize>)| {
         let places: Vec<Rect> = movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
-        let is_round = |f: &Finding| places.iter().any(|place| holds(place, rect(f)));
+        let is_round = |f: &Finding| !many && places.iter().any(|place| holds(place, rect(f)));
         let behind = take(diff, free, |f| may_follow(f) && is_round(f));
         let names: Vec<String> = movers.iter().take(NAMED).map(|mover| format!("`{}`", mover.part)).collect();
         let more = movers.len().saturating_sub(NAMED);
@@ -214,7 +224,7 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
         }
         let name = match &finding.material {
             Some(material) => format!("material `{material}`"),
-            None => format!("colour {}", change.old),
+            None => "marks of no material".to_owned(),
         };
         groups.entry(name).or_default().push(index);
     }
@@ -239,7 +249,7 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
         };
         findings.iter().for_each(|index| free[*index] = false);
         let whose = whose(diff, &findings);
-        let sentence = format!("{name} in another colour: {}{more} ({whose})", told.join(", "));
+        let sentence = format!("{name}: colour {}{more} ({whose})", told.join(", "));
         causes.push(Cause { verdict: Verdict::Restyled, sentence, findings });
     }
     causes

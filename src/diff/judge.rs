@@ -1,6 +1,6 @@
 //! From two pictures to a [`Diff`].
 
-use kurbo::Rect;
+use kurbo::{Point, Rect};
 
 use super::DiffOptions;
 use super::causes::{self, Mover};
@@ -181,7 +181,13 @@ fn of_whole(
 fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize, reach: f64) -> Cause {
     let unit = diff.unit();
     let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
-    let words = causes::motion(motion, place, unit);
+    let mut words = causes::motion(motion, place, unit);
+    // What grows from the page's corner with the page goes nowhere.
+    if motion.of(Point::ORIGIN).hypot() <= reach
+        && let Some((grown, _)) = words.split_once(", its middle")
+    {
+        words.truncate(grown.len());
+    }
     let page = match page(pictures[0], pictures[1]) {
         Some(page) => format!(" ({})", text::changed(&page.changes)),
         None => String::new(),

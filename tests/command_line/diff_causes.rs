@@ -66,15 +66,11 @@ fn an_edit_of_a_model_is_one_sentence() {
     type Edit = Box<dyn Fn(&mut Value)>;
     let edits: [(&str, Edit, &str); 6] = [
         ("pump", Box::new(gone("filler-plug")), "removed    part `filler-plug`: all its 20 marks"),
-        (
-            "pump",
-            Box::new(recoloured("brass", [0.1, 0.2, 0.8])),
-            "restyled   material `brass` in another colour: ",
-        ),
+        ("pump", Box::new(recoloured("brass", [0.1, 0.2, 0.8])), "restyled   material `brass`: colour #"),
         (
             "pump",
             Box::new(moved("terminal-box", [0.0, 0.0, 6.0])),
-            "moved      `terminal-box` 0.381 px right, 8.85 px up; and so what lies round it: ",
+            "moved      `terminal-box` 0.268 px right, 8.88 px up; and so what lies round it: ",
         ),
         (
             "street",
@@ -82,11 +78,7 @@ fn an_edit_of_a_model_is_one_sentence() {
             "moved      `chimney-15` 5.41 px right, 1.11 px down; and so what lies round it: ",
         ),
         ("street", Box::new(gone("chimney-15")), "removed    part `chimney-15`: all its 8 marks"),
-        (
-            "street",
-            Box::new(recoloured("tile", [0.5, 0.1, 0.1])),
-            "restyled   material `tile` in another colour: ",
-        ),
+        ("street", Box::new(recoloured("tile", [0.5, 0.1, 0.1])), "restyled   material `tile`: colour #"),
     ];
     for (name, edit, wanted) in edits {
         model(&folder, name, edit);
@@ -135,7 +127,7 @@ fn an_edit_of_a_whole_drawing_is_one_sentence() {
         (within("rotate(2 500 400)"), "moved      the whole drawing turned by 2° clockwise, its middle "),
         (
             old.replacen(head, &head.replace("1000", "2000"), 1),
-            "moved      the whole drawing 2 times as large, its middle ",
+            "moved      the whole drawing 2 times as large (size 1000 x 1000 px → 2000 x 2000 px): ",
         ),
         (bare, "relabelled "),
     ];

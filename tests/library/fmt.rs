@@ -285,11 +285,12 @@ fn files_of_others_keep_what_may_make_a_difference() {
         (format!("<g style=\"fill : none; stroke:#123\">{TWO}</g>"), format!("<g fill=\"none\" stroke=\"#123\">{FORM}</g>")),
         (
             format!("<style>path {{ stroke-dasharray: 3 }}</style>{}", lines(TWO)),
-            lines(ROUNDED).replace("<path", "<path stroke-dasharray=\"3\""),
+            // Dashed lines keep their directions, and may change places.
+            lines("<path d=\"M9 10h-8\"/><path d=\"M9 20h-8\"/>").replace("<path", "<path stroke-dasharray=\"3\""),
         ),
         (
             format!("<style>g &gt; .a {{ stroke:red; fill:none !important }} path {{ stroke: blue }}</style><g><path class=\"a\" fill=\"#000\" stroke=\"#000\" style='stroke-width:2;fill:green' d=\"M1 1h2\"/>{TWO}</g>"),
-            format!("<g><path fill=\"none\" stroke=\"red\" stroke-width=\"2\" class=\"a\" d=\"M1 1h2\"/>{}</g>", ROUNDED.replace("<path", "<path stroke=\"blue\"")),
+            format!("<g><path stroke=\"red\" fill=\"none\" stroke-width=\"2\" class=\"a\" d=\"M1 1h2\"/>{}</g>", ROUNDED.replace("<path", "<path stroke=\"blue\"")),
         ),
         (
             format!("<style>@media print {{ path {{ stroke: red }} }}</style><g style=\"fill:none\">{TWO}</g>"),
