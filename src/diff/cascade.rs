@@ -14,8 +14,8 @@ use crate::error::Error;
 
 /// Parts of selectors that are tried on elements, in a file.
 const MOST_TRIALS: usize = 40_000_000;
-/// Declarations that elements get, in a file.
-const MOST_GIVEN: usize = 4_000_000;
+/// Bytes of declarations that elements get, in a file.
+const MOST_GIVEN: usize = 64_000_000;
 
 /// The style sheets of a document at one of its elements.
 pub(super) struct Cascade<'a> {
@@ -93,7 +93,9 @@ impl<'a> Cascade<'a> {
         for number in lists.into_iter().flatten() {
             let Some(part) = self.sheet.parts.get(*number as usize) else { continue };
             // Long attributes take longer.
-            self.trials += 1 + part.compound.tests.len() * (1 + class.len() / 64);
+            let tests = part.compound.tests.iter();
+            let long = tests.map(|(name, _)| 1 + node.attribute(*name).map_or(0, str::len) / 64);
+            self.trials += 1 + long.sum::<usize>();
             if self.trials > MOST_TRIALS {
                 let rules = self.sheet.rules.len();
                 return Err(too_much(&format!("{rules} rules of style on so many elements")));
@@ -114,7 +116,7 @@ impl<'a> Cascade<'a> {
         let blocks = won.iter().filter_map(|rule| self.sheet.blocks.get(self.sheet.rules.get(*rule)?.block));
         let mut found: Vec<Declaration> = Vec::new();
         for block in blocks {
-            self.given += block.len();
+            self.given += block.iter().map(|d| d.name.len() + d.value.len() + 2).sum::<usize>();
             if self.given > MOST_GIVEN {
                 return Err(too_much("declarations of rules of style, on so many elements,"));
             }

@@ -97,6 +97,9 @@ pub struct Place {
     pub height: f64,
 }
 
+/// A place by the bits of its numbers.
+pub(super) type PlaceKey = [u64; 4];
+
 impl Place {
     pub(super) fn of(rect: Rect) -> Self {
         let round = |value: f64| (value * 100.0).round() / 100.0;
@@ -106,6 +109,11 @@ impl Place {
             width: round(rect.width()),
             height: round(rect.height()),
         }
+    }
+
+    /// It as a key.
+    pub(super) fn key(&self) -> PlaceKey {
+        [self.x, self.y, self.width, self.height].map(f64::to_bits)
     }
 
     /// The middle.

@@ -65,6 +65,9 @@ const PROPERTIES: [&str; 50] = [
     "word-spacing",
 ];
 
+/// Declarations for one element: more are no drawing's.
+const MOST_DECLARED: usize = 512;
+
 /// The file with its styles as attributes; `None` where it has none, or where not all that they say can be said so: rules for
 /// media or for states of a pointer, scripts, entities.
 pub(super) fn plain(text: &str) -> Result<Option<String>, Error> {
@@ -138,6 +141,9 @@ impl Edits<'_> {
         let Some(own_list) = sheet::declarations(style) else { return false };
         if declared.is_empty() && own_list.is_empty() {
             return true;
+        }
+        if declared.len() + own_list.len() > MOST_DECLARED {
+            return false;
         }
         let mut won: Vec<Declaration> = Vec::new();
         for declaration in declared.iter().chain(&own_list) {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::finding::{Cause, Change, Finding, Place, Verdict};
+use rustc_hash::FxHashSet;
+
+use super::finding::{Cause, Change, Finding, Place, PlaceKey, Verdict};
 use super::label::Label;
 use super::picture::{Picture, Shape, ShapeKind};
 
@@ -24,15 +26,12 @@ fn is_labelled(shape: &Shape) -> bool {
 /// A finding for each mark whose label is not in the other drawing, but for those that are only in the one.
 pub(super) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> Vec<Finding> {
     let alone = [Verdict::Removed, Verdict::Added][side];
-    let is_alone = |shape: &Shape, place: &Place| {
-        let is = |f: &Finding| f.verdict == alone && f.place == *place && f.label == *shape.label;
-        others.iter().any(is)
-    };
-    let lonely = others.iter().any(|finding| finding.verdict == alone);
+    let lonely: FxHashSet<(PlaceKey, &Label)> =
+        others.iter().filter(|f| f.verdict == alone).map(|f| (f.place.key(), &f.label)).collect();
     let marks = labelled.shapes.iter().filter(|shape| is_labelled(shape) && shape.kind != ShapeKind::Clip);
     let one = |shape: &Shape| {
         let place = Place::of(kurbo::Shape::bounding_box(&shape.path));
-        if lonely && is_alone(shape, &place) {
+        if lonely.contains(&(place.key(), &*shape.label)) {
             return None;
         }
         let mut changes = Vec::new();

@@ -6,7 +6,7 @@ use kurbo::{Affine, BezPath, PathEl, Point, Vec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::chain::flatten;
-use super::finding::{Finding, Place, Verdict};
+use super::finding::{Finding, Place, PlaceKey, Verdict};
 use super::label::Label;
 use super::motion::{self, Marks, Motion};
 use super::picture::{Picture, Shape, ShapeKind};
@@ -139,14 +139,13 @@ fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after
 /// A finding for each shape that was carried, but for those that are gone after all.
 pub(super) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: &[Finding]) -> Vec<Finding> {
     let shifts = (motion.scale() - 1.0).abs() < 1e-6 && motion.turn().abs() < 1e-4;
+    let gone: FxHashSet<(PlaceKey, &Label)> =
+        gone.iter().filter(|f| f.verdict == Verdict::Removed).map(|f| (f.place.key(), &f.label)).collect();
     let mut found = Vec::new();
     for shape in rest.iter().filter_map(|index| before.shapes.get(*index)) {
         let new = motion.affine * &shape.path;
         let place = Place::of(new.control_box());
-        let is_gone = |finding: &Finding| {
-            finding.verdict == Verdict::Removed && finding.label == *shape.label && finding.place == place
-        };
-        if shape.kind == ShapeKind::Clip || gone.iter().any(is_gone) {
+        if shape.kind == ShapeKind::Clip || gone.contains(&(place.key(), &*shape.label)) {
             continue;
         }
         let mut ways: Vec<f64> = ends(&shape.path).into_iter().map(|p| motion.of(p).hypot()).collect();
