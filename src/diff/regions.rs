@@ -159,8 +159,8 @@ fn growth(teller: &Teller, of_shape: &OfShape, events: &[Event]) -> f64 {
     let ring = |side: usize, index: Option<usize>| -> f64 {
         let chains = &teller.sides[side].chains;
         let Some(chain) = index.and_then(|index| chains.get(index)) else { return 0.0 };
-        let others =
-            chains.iter().filter(|other| other.shapes == chain.shapes && !std::ptr::eq(*other, chain));
+        let own = chain.shapes.first().and_then(|shape| of_shape[side].get(shape)).into_iter().flatten();
+        let others = own.filter(|other| Some(**other) != index).filter_map(|other| chains.get(*other));
         let start = chain.points.first().copied().unwrap_or_default();
         let around = others.take(MOST_RINGS).filter(|other| winds_round(&other.points, start)).count();
         ring_area(&chain.points) * if around % 2 == 0 { 1.0 } else { -1.0 }
