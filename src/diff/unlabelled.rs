@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use rustc_hash::FxHashSet;
+use kurbo::Rect;
+use rustc_hash::FxHashMap;
 
-use super::finding::{Cause, Change, Finding, Place, PlaceKey, Verdict};
+use super::finding::{Cause, Change, Finding, Place, Verdict};
 use super::label::Label;
 use super::picture::{Picture, Shape, ShapeKind};
 
@@ -23,15 +24,28 @@ fn is_labelled(shape: &Shape) -> bool {
     shape.label.part.is_some() || !shape.label.classes.is_empty()
 }
 
+/// Places of findings are rounded by less than this.
+const ROUNDED_PX: f64 = 0.02;
+/// Findings of one label that a mark is sought in, at most.
+const MOST_PLACES: usize = 2000;
+
 /// A finding for each mark whose label is not in the other drawing, but for those that are only in the one.
 pub(super) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> Vec<Finding> {
     let alone = [Verdict::Removed, Verdict::Added][side];
-    let lonely: FxHashSet<(PlaceKey, &Label)> =
-        others.iter().filter(|f| f.verdict == alone).map(|f| (f.place.key(), &f.label)).collect();
+    // Lines that are gone are told as joined: each of their pieces lies in the box of one.
+    let mut lonely: FxHashMap<&Label, Vec<Rect>> = FxHashMap::default();
+    for finding in others.iter().filter(|finding| finding.verdict == alone) {
+        let Place { x, y, width, height } = finding.place;
+        let place = Rect::new(x, y, x + width, y + height).inflate(ROUNDED_PX, ROUNDED_PX);
+        lonely.entry(&finding.label).or_default().push(place);
+    }
     let marks = labelled.shapes.iter().filter(|shape| is_labelled(shape) && shape.kind != ShapeKind::Clip);
     let one = |shape: &Shape| {
         let place = Place::of(kurbo::Shape::bounding_box(&shape.path));
-        if lonely.contains(&(place.key(), &*shape.label)) {
+        let bounds = kurbo::Shape::bounding_box(&shape.path);
+        let is_alone =
+            |places: &Vec<Rect>| places.iter().take(MOST_PLACES).any(|place| place.contains_rect(bounds));
+        if lonely.get(&*shape.label).is_some_and(is_alone) {
             return None;
         }
         let mut changes = Vec::new();
