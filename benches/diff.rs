@@ -3,12 +3,55 @@
 //!
 //! `cargo bench --bench diff`
 
+use std::time::Instant;
+
 use divan::Bencher;
 use kurbo::{Point, Vec2};
 use ligne::diff::{DiffOptions, Picture, compare};
 
 fn main() {
+    ratios();
     divan::main();
+}
+
+/// The best of some tries, in ms.
+fn best(mut act: impl FnMut()) -> f64 {
+    let one = |act: &mut dyn FnMut()| {
+        let began = Instant::now();
+        act();
+        began.elapsed().as_secs_f64() * 1e3
+    };
+    (0..TRIES).map(|_| one(&mut act)).fold(f64::INFINITY, f64::min)
+}
+
+const TRIES: usize = 3;
+
+/// Each comparison as a multiple of reading both files.
+fn ratios() {
+    let coincident = |d: &str| {
+        let paths = format!("<path d=\"{d}\"/>").repeat(30_000);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"100\"><g fill=\"none\" stroke=\"#000\">{paths}</g></svg>"
+        )
+    };
+    let mut cases: Vec<(String, String, String)> = Vec::new();
+    for cut in CUTS {
+        let marks = cut.0;
+        for (what, shift) in [("equal", 0.0), ("within tolerance", 0.01), ("all moved", 0.3)] {
+            cases.push((format!("{marks} marks, {what}"), strokes(cut, 0.0), strokes(cut, shift) + "\n"));
+        }
+    }
+    let (here, there) = (coincident("M10 10L60 40 90 20"), coincident("M10 12L60 42 90 22"));
+    cases.push(("30,000 paths in one place, repainted".into(), here.clone(), here.replace("#000", "#c00")));
+    cases.push(("30,000 paths in one place, moved".into(), here, there));
+    println!("{:<40} {:>12} {:>12} {:>8}", "", "reading both", "comparing", "ratio");
+    for (what, before, after) in cases {
+        let read = |svg: &str| Picture::from_svg(svg).expect("a drawing");
+        let reading = best(|| drop((read(&before), read(&after))));
+        let (old, new) = (read(&before), read(&after));
+        let comparing = best(|| drop(compare(&old, &new, &DiffOptions::default())));
+        println!("{what:<40} {reading:>9.0} ms {comparing:>9.0} ms {:>8.2}", comparing / reading);
+    }
 }
 
 /// How the same 50,000 segments are cut into marks.

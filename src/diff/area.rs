@@ -30,12 +30,13 @@ pub(super) fn area(shape: &Shape) -> f64 {
     (0..rings.len()).map(signed).sum()
 }
 
-fn ring_area(ring: &[Point]) -> f64 {
+/// The area that a ring encloses.
+pub(super) fn ring_area(ring: &[Point]) -> f64 {
     ring.windows(2).map(|pair| pair[0].to_vec2().cross(pair[1].to_vec2())).sum::<f64>().abs() / 2.0
 }
 
 /// Whether a ray from the point crosses the ring an odd number of times.
-fn winds_round(ring: &[Point], p: Point) -> bool {
+pub(super) fn winds_round(ring: &[Point], p: Point) -> bool {
     let crosses = |pair: &&[Point]| {
         let (a, b) = (pair[0], pair[1]);
         (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
@@ -67,6 +68,7 @@ mod tests {
                 even_odd,
                 ink: Ink::region(Paint::Colour(Colour::BLACK), None),
                 label: Arc::default(),
+                material: None,
             };
             assert!((area(&shape) - wanted).abs() < 1e-9, "{path}: {}", area(&shape));
         }

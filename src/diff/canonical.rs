@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use usvg::roxmltree::{Attribute, Document, Node};
 
 use super::inherited::{Afar, Leave, Look, painted_alike};
-use super::{guard, numbers, path_data};
+use super::{guard, numbers, path_data, plain};
 use crate::error::Error;
 use crate::export::canonical::{Canonical, Form};
 use crate::export::number::{Decimals, MOST_DECIMALS};
@@ -25,8 +25,8 @@ const MOST_STEPS: f64 = (1u64 << 50) as f64;
 /// An SVG file in the form that drawings are written in, so that a version control shows small differences: ordered
 /// marks, paths that begin at their least point, rounded numbers. The picture stays the same.
 ///
-/// Paths are rounded to `precision` decimals, at most 8; `None`: to as many as the file has. Only path data and the
-/// order of neighbouring paths painted alike are changed. Where style sheets, scripts, references or animations might
+/// Paths are rounded to `precision` decimals, at most 8; `None`: to as many as the file has. Styles become attributes where all that
+/// they say can be said so; beside that only path data and the order of neighbouring paths painted alike are changed. Where scripts, other style sheets, references or animations might
 /// tell the difference, paths are only rounded; those with arcs or with moves that nothing is drawn from, and wrong ones, stay as they are.
 ///
 /// ```
@@ -42,6 +42,8 @@ const MOST_STEPS: f64 = (1u64 << 50) as f64;
 /// Where the text is no SVG, or reading it might take more time or memory than its length accounts for. The error names
 /// no file.
 pub fn canonical_svg(text: &str, precision: Option<u8>) -> Result<String, Error> {
+    let plain = plain::plain(text)?;
+    let text = plain.as_deref().unwrap_or(text);
     let document = guard::parse(text)?;
     let paths = Paths::of(&document);
     let precision = precision.unwrap_or_else(|| paths.decimals()).min(MOST_DECIMALS);

@@ -87,8 +87,14 @@ pub(super) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
         let tolerance = groups.groups.get(group).map_or(0.01, |group| group.tolerance);
         done.extend(join(chains, tolerance * JOIN_OF_TOLERANCE).into_iter().map(Chain::in_order));
     }
+    sort(&mut done);
+    done
+}
+
+/// Sorts chains by where they are: copies of one chain are neighbours then.
+pub(super) fn sort(chains: &mut [Chain]) {
     let key = |chain: &Chain| chain.points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect::<Vec<_>>();
-    done.sort_by(|a, b| {
+    chains.sort_by(|a, b| {
         let start = |chain: &Chain| chain.points.first().copied().unwrap_or_default();
         let end = |chain: &Chain| chain.points.last().copied().unwrap_or_default();
         order(start(a), start(b))
@@ -96,7 +102,20 @@ pub(super) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
             .then_with(|| key(a).cmp(&key(b)))
             .then_with(|| a.group.cmp(&b.group))
     });
-    done
+}
+
+/// For each chain the first one that lies exactly where it does, of the same group: chains in order have their copies behind them.
+pub(super) fn firsts(chains: &[Chain]) -> Vec<usize> {
+    let mut firsts: Vec<usize> = Vec::with_capacity(chains.len());
+    for (index, chain) in chains.iter().enumerate() {
+        let before = firsts.last().copied().filter(|first| {
+            chains.get(*first).is_some_and(|other| {
+                other.group == chain.group && other.closed == chain.closed && other.points == chain.points
+            })
+        });
+        firsts.push(before.unwrap_or(index));
+    }
+    firsts
 }
 
 /// The rings of an outline, in an order that does not depend on how it was written.

@@ -84,12 +84,35 @@ impl Cover {
     }
 }
 
-/// What of `others`, which are sorted into `grid`, covers each of the chains.
-pub(super) fn cover(chains: &[Chain], others: &[Chain], grid: &SegmentCells, groups: &Groups) -> Vec<Cover> {
-    chains
+/// What of the chains of `there`, which are sorted into `grid`, covers each of those of `here`; of chains that lie exactly on
+/// each other only the first ones are in the grid. Each chain comes with the numbers of these: copies are covered by copies.
+pub(super) fn cover(
+    here: (&[Chain], &[usize]),
+    there: (&[Chain], &[usize]),
+    grid: &SegmentCells,
+    groups: &Groups,
+) -> Vec<Cover> {
+    let first = |index: usize| here.1.get(index).copied().unwrap_or(index);
+    let of_firsts: Vec<Option<Cover>> = here
+        .0
         .par_iter()
-        .map_init(Scratch::default, |scratch, chain| one(chain, others, grid, groups, scratch))
-        .collect()
+        .enumerate()
+        .map_init(Scratch::default, |scratch, (index, chain)| {
+            (first(index) == index).then(|| one(chain, there.0, grid, groups, scratch))
+        })
+        .collect();
+    let copy = |index: usize| {
+        let mut cover = of_firsts.get(first(index)).cloned().flatten().unwrap_or_default();
+        let rank = index - first(index);
+        let like = |partner: u32| {
+            let copy = partner as usize + rank;
+            if there.1.get(copy) == Some(&(partner as usize)) { copy as u32 } else { partner }
+        };
+        cover.runs.iter_mut().for_each(|run| run.partner = like(run.partner));
+        cover.partners.iter_mut().for_each(|(partner, ..)| *partner = like(*partner));
+        cover
+    };
+    (0..here.0.len()).map(copy).collect()
 }
 
 #[derive(Default)]
@@ -141,6 +164,10 @@ fn one(
                     likeness,
                     partner: segment.chain,
                 });
+                // Of what is alike the first one counts.
+                if likeness == Likeness::Same && start <= 0.0 && end >= 1.0 {
+                    break;
+                }
             }
         }
         runs(at, at + length, &mut scratch.intervals, &mut cover.runs);

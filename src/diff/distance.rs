@@ -93,7 +93,7 @@ impl<'a> Near<'a> {
             None => (0..self.chain.points.len() - 1).for_each(see),
             Some(grid) => {
                 let enough = |seen: f64| best.get().1 <= seen * seen;
-                grid.rings(p, f64::MAX.sqrt(), |item| see(item as usize), enough);
+                grid.rings(p, (f64::MAX.sqrt(), usize::MAX), |item| see(item as usize), enough);
             }
         }
         let (index, squared) = best.get();
@@ -104,7 +104,7 @@ impl<'a> Near<'a> {
     ///
     /// Between two points the distance to one segment is convex, and that to the whole chain no larger: the larger of
     /// the distances of both points to the segment nearest to either bounds all in between.
-    fn farthest(&self, other: &Chain, known: f64) -> f64 {
+    pub(super) fn farthest(&self, other: &Chain, known: f64) -> f64 {
         let mut most = known;
         let to_segment = |p: Point, index: usize| match self.chain.points.get(index..index + 2) {
             Some(&[from, to]) => p.distance(nearest_on(from, to, p)),

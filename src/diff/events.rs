@@ -4,9 +4,9 @@ use kurbo::BezPath;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
-use super::chain::Chain;
+use super::chain::{Chain, flatten};
 use super::cover::{Cover, Stretch};
-use super::distance::apart;
+use super::distance::{Near, apart};
 use super::finding::Verdict;
 use super::groups::{Groups, Likeness};
 use super::pair::{Pair, Side, pairs};
@@ -61,7 +61,9 @@ fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
     let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
     let apart = apart(a, b);
     let alignment = &pair.alignment;
-    let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID * alignment.largest);
+    // What went nowhere on average was shaken, not moved.
+    let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID * alignment.largest)
+        && alignment.shift.hypot() >= 0.5 * alignment.largest;
     let grown = (cover_a.length - cover_b.length).abs();
     let similar = alignment.after_similarity <= (2.0 * tolerance).max(SIMILAR * alignment.largest)
         && grown <= (4.0 * tolerance).max(alignment.largest)
@@ -77,6 +79,10 @@ fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
         gone: bare(a, cover_a),
         added: bare(b, cover_b),
     };
+    if event.verdict == Verdict::Reshaped {
+        event.largest = off(a, cover_a, b, tolerance).max(off(b, cover_b, a, tolerance));
+        event.p95 = event.p95.min(event.largest);
+    }
     if rigid {
         // Lines slide along themselves unseen: where all went the same way, so did the rest.
         event.shift = Some([alignment.shift.x, alignment.shift.y]);
@@ -107,8 +113,10 @@ fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Even
         added: BezPath::new(),
     };
     if let Some((a, b)) = old.zip(new) {
-        let apart = apart(&sides[0].chains[a], &sides[1].chains[b]);
-        (event.largest, event.p95) = (apart.largest, apart.p95);
+        let other = if side == 0 { &sides[1].chains[b] } else { &sides[0].chains[a] };
+        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+        event.largest = off(chain, cover, other, tolerance);
+        event.p95 = event.largest;
     } else {
         event.verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
         (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
@@ -120,6 +128,30 @@ fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Even
         _ => event.added = path,
     }
     event
+}
+
+/// How far what nothing covers of a chain lies from the other drawing: from the chain that became of it, and no farther than along
+/// the chain itself to where something covers it. Of a line that was linked to another one, that is all that differs.
+fn off(chain: &Chain, cover: &Cover, other: &Chain, tolerance: f64) -> f64 {
+    let near = Near::new(other);
+    let is_covered =
+        |at: Option<usize>| at.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some());
+    let last = cover.runs.len().saturating_sub(1);
+    let mut most = 0.0f64;
+    for (index, run) in cover.runs.iter().enumerate().filter(|(_, run)| run.likeness.is_none()) {
+        let before = if index == 0 { chain.closed.then_some(last) } else { Some(index - 1) };
+        let after = if index == last { chain.closed.then_some(0) } else { Some(index + 1) };
+        let piece = stretch(chain, run.from, run.to);
+        let points = flatten(&piece, 1.0, false).into_iter().flat_map(|(points, _)| points).collect();
+        let piece = Chain { group: chain.group, points, closed: false, shapes: Vec::new() };
+        let limit = match (is_covered(before), is_covered(after)) {
+            (true, true) => run.length() / 2.0 + tolerance,
+            (false, false) => f64::INFINITY,
+            _ => run.length() + tolerance,
+        };
+        most = most.max(near.farthest(&piece, 0.0).min(limit));
+    }
+    most
 }
 
 /// Chains whose place is taken by another ink or another part.

@@ -1,5 +1,7 @@
 //! [`Diff`] and its [`Finding`]s: what differs, one finding a mark.
 
+use std::sync::Arc;
+
 use kurbo::{BezPath, Rect};
 use serde::Serialize;
 
@@ -95,6 +97,9 @@ pub struct Place {
     pub height: f64,
 }
 
+/// A place by the bits of its numbers.
+pub(super) type PlaceKey = [u64; 4];
+
 impl Place {
     pub(super) fn of(rect: Rect) -> Self {
         let round = |value: f64| (value * 100.0).round() / 100.0;
@@ -104,6 +109,11 @@ impl Place {
             width: round(rect.width()),
             height: round(rect.height()),
         }
+    }
+
+    /// It as a key.
+    pub(super) fn key(&self) -> PlaceKey {
+        [self.x, self.y, self.width, self.height].map(f64::to_bits)
     }
 
     /// The middle.
@@ -130,6 +140,10 @@ pub struct Finding {
     pub size: f64,
     /// How much longer or larger it is now.
     pub growth: f64,
+    /// Length of what is gone of a line, and of what is new of it; 0 where it is told as a whole.
+    pub pieces: [f64; 2],
+    /// The material of the old mark, where the file names it.
+    pub material: Option<Arc<str>>,
     /// The largest distance between old and new: the Hausdorff distance. 0 where there is only one.
     pub largest: f64,
     /// 95 % of it is nearer than this to what it was.
@@ -139,6 +153,8 @@ pub struct Finding {
     /// What is gone of the old one, and what is new of the new one.
     pub(super) gone: BezPath,
     pub(super) new: BezPath,
+    /// Whether it follows from a motion of the whole drawing.
+    pub(super) carried: bool,
 }
 
 impl Finding {
@@ -158,13 +174,27 @@ impl Finding {
             place,
             size: 0.0,
             growth: 0.0,
+            pieces: [0.0; 2],
+            material: None,
             largest: 0.0,
             p95: 0.0,
             shift: None,
             gone: BezPath::new(),
             new: BezPath::new(),
+            carried: false,
         }
     }
+}
+
+/// What several findings follow from: a part that moved, a page that grew.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cause {
+    /// What happened: the verdict of most that follows from it.
+    pub verdict: Verdict,
+    /// What happened, in words.
+    pub sentence: String,
+    /// What follows from it: places in the list of findings.
+    pub findings: Vec<usize>,
 }
 
 /// What differs between two drawings.
@@ -172,6 +202,8 @@ impl Finding {
 pub struct Diff {
     /// What differs, the gravest first, then by part, class and place.
     pub findings: Vec<Finding>,
+    /// What many findings follow from, told in their place; each finding follows from one cause at most.
+    pub causes: Vec<Cause>,
     /// The first look at which the drawings are the same; `None` if they are not.
     pub same_at: Option<Stage>,
     /// Lengths and areas.

@@ -34,9 +34,12 @@ pub(super) struct SegmentCells {
 impl SegmentCells {
     /// Sorts the segments of chains.
     pub(super) fn new(chains: &[Chain]) -> Self {
+        Self::of(chains.iter().enumerate())
+    }
+
+    /// Sorts the segments of chains, each with its number.
+    pub(super) fn of<'a>(chains: impl Iterator<Item = (usize, &'a Chain)>) -> Self {
         let segments: Vec<Segment> = chains
-            .iter()
-            .enumerate()
             .flat_map(|(chain, c)| {
                 c.segments().map(move |(from, to)| Segment { chain: chain as u32, from, to })
             })
@@ -101,17 +104,24 @@ impl SegmentCells {
     /// The segments that may lie within `reach` of a segment, each once, in order.
     pub(super) fn near(&self, from: Point, to: Point, reach: f64, found: &mut Vec<u32>) {
         found.clear();
-        self.cells(from, to, reach, |cell| found.extend_from_slice(self.items.of(cell)));
-        found.sort_unstable();
-        found.dedup();
+        let mut cells = 0;
+        self.cells(from, to, reach, |cell| {
+            found.extend_from_slice(self.items.of(cell));
+            cells += 1;
+        });
+        // One cell's are in order.
+        if cells > 1 {
+            found.sort_unstable();
+            found.dedup();
+        }
     }
 
     /// Calls with segments ever farther from a point, until the call says that all within a distance are enough:
-    /// it is asked after each ring of cells, with the distance within which all have been seen.
+    /// it is asked after each ring of cells, with the distance within which all have been seen. Of a cell so many are seen.
     pub(super) fn rings(
         &self,
         p: Point,
-        reach: f64,
+        (reach, most_in_cell): (f64, usize),
         mut see: impl FnMut(u32),
         mut enough: impl FnMut(f64) -> bool,
     ) {
@@ -123,7 +133,8 @@ impl SegmentCells {
         while ring <= most {
             let visit = |x: f64, y: f64, see: &mut dyn FnMut(u32)| {
                 if (0.0..columns).contains(&x) && (0.0..rows).contains(&y) {
-                    self.items.of(y as usize * self.columns + x as usize).iter().for_each(|item| see(*item));
+                    let items = self.items.of(y as usize * self.columns + x as usize);
+                    items.iter().take(most_in_cell).for_each(|item| see(*item));
                 }
             };
             let mut y = (row - ring).max(0.0);
@@ -202,7 +213,7 @@ mod tests {
             let wanted = grid.segments.iter().map(distance).fold(f64::INFINITY, f64::min);
             let best = std::cell::Cell::new(f64::INFINITY);
             let see = |item: u32| best.set(best.get().min(distance(&grid.segments[item as usize])));
-            grid.rings(p, 5000.0, see, |seen| best.get() <= seen);
+            grid.rings(p, (5000.0, usize::MAX), see, |seen| best.get() <= seen);
             assert_eq!(best.get(), wanted);
         }
     }

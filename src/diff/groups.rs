@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
+use super::ignore::Ignore;
 use super::ink::Ink;
 use super::label::Label;
 use super::picture::{Picture, Shape, ShapeKind};
@@ -44,7 +45,7 @@ pub(super) struct Groups {
 
 impl Groups {
     /// Numbers the labels and inks of two pictures.
-    pub(super) fn new(pictures: [&Picture; 2], tolerances: &Tolerances) -> Self {
+    pub(super) fn new(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Self {
         let fallback = default_px(pictures[0], pictures[1]);
         // Drawings grouped by part have no layers: they say nothing then.
         let layered = pictures.map(|p| p.shapes.iter().any(|shape| !shape.label.layer.is_empty()));
@@ -53,15 +54,16 @@ impl Groups {
         let mut known: FxHashMap<(usize, ShapeKind, InkKey), usize> = FxHashMap::default();
         let mut groups = Vec::new();
         let mut group_of = |shape: &Shape| {
-            let mut label = (*shape.label).clone();
+            let mut label = ignore.label(&shape.label);
+            let ink = ignore.ink(&shape.ink);
             if !by_layer {
                 label.layer = "".into();
             }
             let count = labels.len();
             let label = *labels.entry(label).or_insert(count);
-            *known.entry((label, shape.kind, key(&shape.ink))).or_insert_with(|| {
+            *known.entry((label, shape.kind, key(&ink))).or_insert_with(|| {
                 let tolerance = tolerances.px(&shape.label, shape.ink.tone, shape.kind, fallback);
-                let (part, ink) = (shape.label.part.clone(), shape.ink.clone());
+                let part = shape.label.part.clone().filter(|_| !ignore.labels);
                 groups.push(Group { kind: shape.kind, part, label, ink, tolerance });
                 groups.len() - 1
             })

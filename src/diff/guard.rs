@@ -11,10 +11,6 @@ use crate::error::Error;
 const MOST_NODES: u32 = 8_000_000;
 /// Bytes of what is drawn, references followed, beyond the file's own.
 const MOST_REFERRED_BYTES: u64 = 200_000_000;
-/// Rules of style times elements that they are tried on.
-const MOST_RULE_TESTS: usize = 200_000_000;
-/// Declarations of the rules of style.
-const MOST_DECLARATIONS: usize = 20_000_000;
 
 /// Parses a file of XML.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, Error> {
@@ -27,37 +23,8 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, Error> {
             .at("line 1")
             .remedy("give an SVG file"));
     }
-    let elements = document.descendants().filter(Node::is_element).count();
-    let rules: usize = styles(&document).map(selectors).sum();
-    if rules.saturating_mul(elements) > MOST_RULE_TESTS {
-        return Err(too_much(&format!("{rules} rules of style on {elements} elements")));
-    }
-    let declarations: usize = styles(&document).map(declarations).sum();
-    if declarations > MOST_DECLARATIONS {
-        return Err(too_much(&format!("{declarations} declarations in rules of style")));
-    }
     Weights::new(&document).check(text.len())?;
     Ok(document)
-}
-
-/// The style sheets inside a document.
-fn styles<'a>(document: &'a Document) -> impl Iterator<Item = &'a str> {
-    document.descendants().filter(|node| node.has_tag_name("style")).filter_map(|node| node.text())
-}
-
-/// Selectors of a style sheet, at most.
-fn selectors(style: &str) -> usize {
-    style.matches([',', '{']).count()
-}
-
-/// Declarations of a style sheet, at most: each selector of a rule gets all of the rule's.
-fn declarations(style: &str) -> usize {
-    let of = |rules: &str| selectors(rules).saturating_mul(1 + rules.matches(';').count());
-    // A brace in a comment or a string ends no rule.
-    match style.contains("/*") || style.contains(['"', '\'']) {
-        true => of(style),
-        false => style.split('}').map(of).sum(),
-    }
 }
 
 /// The parser's message, with the place where an error has it.
@@ -204,17 +171,6 @@ mod tests {
         assert!(refused(&long).contains("uses of entities"));
         let many: String = (0..600).map(|i| format!(" a{i}=\"\"")).collect();
         assert!(refused(&inside(&format!("<g{many}/>"))).contains("600 attributes"));
-        let style = format!("<style>{}</style>{}", "g{fill:red}".repeat(20_000), "<g/>".repeat(20_000));
-        assert!(refused(&inside(&style)).contains("rules of style"));
-        let style = format!("<style>{}g{{fill:red}}</style>{}", "g,".repeat(20_000), "<g/>".repeat(20_000));
-        assert!(refused(&inside(&style)).contains("rules of style"));
-        for hidden in ["", "/*}*/", "a:\"}\";"] {
-            let style = format!("{}g{{{hidden}{}}}", "g,".repeat(20_000), "a:b;".repeat(20_000));
-            assert!(
-                refused(&inside(&format!("<style>{style}</style>"))).contains("declarations"),
-                "{hidden}"
-            );
-        }
         let marked = format!("<marker id=\"m\">{}</marker>", "<path d=\"M0 0h1\"/>".repeat(900))
             + &format!("<path marker-mid=\"url(#m)\" d=\"M0 0{}\"/>", "h1".repeat(90_000));
         assert!(refused(&inside(&marked)).contains("multiply"));

@@ -28,6 +28,19 @@ impl Paint {
     }
 }
 
+/// What stands for a picture in a file of its own begins so; its target follows between backticks.
+pub(super) const LINKED: &str = "the picture linked as `";
+
+impl Paint {
+    /// The target, of a picture that is linked.
+    pub(super) fn link(&self) -> Option<&str> {
+        match self {
+            Self::Other(words) => words.strip_prefix(LINKED)?.split('`').next(),
+            Self::Colour(_) => None,
+        }
+    }
+}
+
 impl fmt::Display for Paint {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
@@ -76,6 +89,16 @@ impl Ink {
             tone,
             invisibility: 0,
         }
+    }
+
+    /// Whether it stands for a text.
+    pub(super) fn is_text(&self) -> bool {
+        matches!(&self.paint, Paint::Other(words) if words.starts_with("the text "))
+    }
+
+    /// Whether it stands for a text or a picture.
+    pub(super) fn is_stand_in(&self) -> bool {
+        matches!(&self.paint, Paint::Other(words) if words.starts_with("the "))
     }
 
     /// Whether a person would say that both look alike.

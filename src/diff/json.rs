@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::finding::{Change, Diff, Finding, Place, Stage, Verdict};
+use super::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
 use super::picture::ShapeKind;
 use super::pixels::PixelDiff;
 use super::totals::Totals;
@@ -17,6 +17,9 @@ struct Document<'a> {
     tolerance_px: f64,
     /// Distances are at most this part of themselves too small.
     distance_error_share: f64,
+    /// What several findings follow from, each by their places in the list.
+    #[serde(skip_serializing_if = "<[Cause]>::is_empty")]
+    causes: &'a [Cause],
     findings: Vec<Entry<'a>>,
     totals: &'a Totals,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,6 +56,7 @@ impl Diff {
             summary: self.summary(),
             tolerance_px: self.tolerance_px,
             distance_error_share: DISTANCE_SHARE,
+            causes: &self.causes,
             findings: self.findings.iter().map(entry).collect(),
             totals: &self.totals,
             pixels: &self.pixels,

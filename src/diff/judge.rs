@@ -1,31 +1,41 @@
 //! From two pictures to a [`Diff`].
 
-use kurbo::Rect;
+use kurbo::{Point, Rect};
 
 use super::DiffOptions;
+use super::causes::{self, Mover};
 use super::chain;
 use super::cover::cover;
 use super::events::{Event, events};
 use super::exact;
-use super::finding::{Change, Diff, Finding, Place, Stage, Verdict};
+use super::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
 use super::grid::SegmentCells;
 use super::groups::Groups;
+use super::ignore::Ignore;
 use super::ink::trimmed;
 use super::label::Label;
 use super::lines;
+use super::motion::Motion;
+use super::movers;
+use super::outlines;
 use super::pair::Side;
 use super::picture::{Picture, ShapeKind};
 use super::pixels;
 use super::regions;
 use super::stacking;
 use super::teller::Teller;
-use super::tolerance::default_px;
+use super::text;
+use super::tolerance::{Tolerances, default_px};
 use super::totals::Totals;
+use super::unlabelled;
+use super::whole;
+use crate::drawing::{Length, Unit};
 
 /// Compares two pictures, see [`super::compare`].
 pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
     let mut diff = Diff {
         findings: Vec::new(),
+        causes: Vec::new(),
         same_at: None,
         totals: Totals::default(),
         tolerance_px: options
@@ -42,24 +52,8 @@ pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
         diff.same_at = Some(Stage::Bytes);
         return diff;
     }
-    diff.findings.extend(page(before, after));
-    let groups = Groups::new([before, after], &options.tolerances);
-    let exact::Parted { equal: mut stayed, rest } = exact::part(before, after, &groups);
-    let structure = rest.iter().all(Vec::is_empty);
-    if !structure {
-        diff.findings.extend(findings(before, after, &rest, &groups, &mut stayed));
-    }
-    diff.findings.extend(stacking::findings(before, after, stayed));
-    diff.findings.sort_by(|a, b| {
-        (a.verdict, &a.label)
-            .cmp(&(b.verdict, &b.label))
-            .then(a.place.y.total_cmp(&b.place.y))
-            .then(a.place.x.total_cmp(&b.place.x))
-            .then(b.size.total_cmp(&a.size))
-    });
-    if diff.findings.is_empty() {
-        diff.same_at = Some(if structure { Stage::Structure } else { Stage::Geometry });
-    }
+    let (left_before, left_after) = (left(before, options.ignore), left(after, options.ignore));
+    judge(&mut diff, [&left_before, &left_after], options);
     if options.pixels {
         diff.pixels = pixels::compare(before, after);
         if diff.pixels.as_ref().is_some_and(|pixels| !pixels.is_same()) {
@@ -69,24 +63,186 @@ pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
     diff
 }
 
+/// A picture without what does not count.
+fn left(picture: &Picture, ignore: Ignore) -> Picture {
+    match picture.shapes.iter().any(|shape| ignore.leaves_out(shape)) {
+        true => {
+            let shapes = picture.shapes.iter().filter(|shape| !ignore.leaves_out(shape)).cloned();
+            Picture { shapes: shapes.collect(), ..picture.clone() }
+        }
+        false => picture.clone(),
+    }
+}
+
+/// Finds what differs, and what it follows from.
+fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
+    let [before, after] = pictures;
+    // Where the one drawing has lost all its labels, no mark can be told from another by them.
+    let lost = unlabelled::lost(pictures).filter(|_| !options.ignore.labels);
+    let mut ignore = options.ignore;
+    ignore.labels |= lost.is_some();
+    let page = page(before, after);
+    let mut compared = one(pictures, &options.tolerances, ignore);
+    // Where each mark was found to go the same way, that is what happened.
+    let together = whole::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
+    if let Some(motion) = together {
+        let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
+        return settle(diff, pictures, page, compared, vec![cause], lost);
+    }
+    let whole = (compared.findings.len() > 2)
+        .then(|| whole::whole(pictures, &compared.rest, default_px(before, after)))
+        .flatten();
+    let mut causes = Vec::new();
+    if let Some(whole) = whole
+        && let Some((found, cause)) = of_whole(diff, &whole, pictures, &compared, &options.tolerances, ignore)
+    {
+        compared.findings = found;
+        compared.movers.clear();
+        causes.push(cause);
+    }
+    settle(diff, pictures, page, compared, causes, lost);
+}
+
+/// Puts together what was found.
+fn settle(
+    diff: &mut Diff,
+    pictures: [&Picture; 2],
+    page: Option<Finding>,
+    mut compared: Compared,
+    mut causes: Vec<Cause>,
+    lost: Option<usize>,
+) {
+    let structure = compared.rest.iter().all(Vec::is_empty) && lost.is_none();
+    diff.findings.extend(page);
+    diff.findings.append(&mut compared.findings);
+    if let Some(side) = lost {
+        let findings = unlabelled::findings(pictures[side], &diff.findings, side);
+        causes.extend(unlabelled::cause(&findings, side));
+        diff.findings.extend(findings);
+    }
+    sort(&mut diff.findings);
+    // Which findings follow from the whole is known by their verdict, now that they have their places.
+    for cause in &mut causes {
+        let follows = |finding: &Finding| match cause.verdict {
+            Verdict::Relabelled => finding.verdict == Verdict::Relabelled,
+            _ => finding.verdict == Verdict::Page || whole::is_carried(finding),
+        };
+        let places = diff.findings.iter().enumerate().filter(|(_, finding)| follows(finding));
+        cause.findings = places.map(|(index, _)| index).collect();
+    }
+    diff.causes = causes;
+    let more = causes::causes(diff, &compared.movers);
+    diff.causes.extend(more);
+    if diff.findings.is_empty() {
+        diff.same_at = Some(if structure { Stage::Structure } else { Stage::Geometry });
+    }
+}
+
+/// The gravest first, then by part, class and place.
+fn sort(findings: &mut [Finding]) {
+    findings.sort_by(|a, b| {
+        (a.verdict, &a.label)
+            .cmp(&(b.verdict, &b.label))
+            .then(a.place.y.total_cmp(&b.place.y))
+            .then(a.place.x.total_cmp(&b.place.x))
+            .then(b.size.total_cmp(&a.size))
+    });
+}
+
+/// What a motion of the whole leaves, and that motion in words; nothing where it explains little.
+fn of_whole(
+    diff: &Diff,
+    whole: &whole::Whole,
+    pictures: [&Picture; 2],
+    compared: &Compared,
+    tolerances: &Tolerances,
+    ignore: Ignore,
+) -> Option<(Vec<Finding>, Cause)> {
+    let mut tolerances = tolerances.clone();
+    let reach = Length::px(whole.reach);
+    let own = tolerances.all.map_or(0.0, |all| all.in_unit(Unit::Px));
+    if own < whole.reach {
+        tolerances.all = Some(reach);
+    }
+    let tried = whole.carried.iter().map(|carried| one([carried, pictures[1]], &tolerances, ignore).findings);
+    let left = tried.min_by_key(Vec::len)?;
+    if left.len() * 4 > compared.findings.len() {
+        return None;
+    }
+    let carried = whole::findings(pictures[0], &compared.rest[0], &whole.motion, &left);
+    if carried.is_empty() {
+        return None;
+    }
+    let cause = sentence(diff, &whole.motion, pictures, carried.len(), whole.reach);
+    Some((left.into_iter().chain(carried).collect(), cause))
+}
+
+/// The motion of the whole in words; its findings are found later.
+fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize, reach: f64) -> Cause {
+    let unit = diff.unit();
+    let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
+    let mut words = causes::motion(motion, place, unit);
+    // What grows from the page's corner with the page goes nowhere.
+    if motion.of(Point::ORIGIN).hypot() <= reach
+        && let Some((grown, _)) = words.split_once(", its middle")
+    {
+        words.truncate(grown.len());
+    }
+    let page = match page(pictures[0], pictures[1]) {
+        Some(page) => format!(" ({})", text::changed(&page.changes)),
+        None => String::new(),
+    };
+    let exact = unit.length(reach);
+    let sentence = format!("the whole drawing {words}{page}: {count} marks, as they were within {exact}");
+    Cause { verdict: Verdict::Moved, sentence, findings: Vec::new() }
+}
+
+/// What differs mark by mark.
+struct Compared {
+    findings: Vec<Finding>,
+    /// The shapes without an equal.
+    rest: [Vec<usize>; 2],
+    /// Parts that moved as a whole.
+    movers: Vec<Mover>,
+}
+
+fn one(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Compared {
+    let [before, after] = pictures;
+    let groups = Groups::new(pictures, tolerances, ignore);
+    let exact::Parted { equal: mut stayed, rest } = exact::part(before, after, &groups);
+    let mut findings = Vec::new();
+    let mut movers = Vec::new();
+    if !rest.iter().all(Vec::is_empty) {
+        (findings, movers) = unequal(pictures, &rest, &groups, ignore, &mut stayed);
+    }
+    findings.extend(stacking::findings(before, after, stayed));
+    Compared { findings, rest, movers }
+}
+
 /// What became of the shapes that have no equal; those that lie where they lay are added to what stayed.
-fn findings(
-    before: &Picture,
-    after: &Picture,
+fn unequal(
+    [before, after]: [&Picture; 2],
     rest: &[Vec<usize>; 2],
     groups: &Groups,
+    ignore: Ignore,
     stayed: &mut Vec<(usize, usize)>,
-) -> Vec<Finding> {
+) -> (Vec<Finding>, Vec<Mover>) {
     let chains = [
         chain::of(before, &rest[0], &groups.of_shape[0], groups),
         chain::of(after, &rest[1], &groups.of_shape[1], groups),
     ];
-    let grids = [SegmentCells::new(&chains[0]), SegmentCells::new(&chains[1])];
-    let covers =
-        [cover(&chains[0], &chains[1], &grids[1], groups), cover(&chains[1], &chains[0], &grids[0], groups)];
-    let [a, b] = chains;
-    let [cover_a, cover_b] = covers;
-    let sides = [Side { chains: a, covers: cover_a }, Side { chains: b, covers: cover_b }];
+    let firsts = [chain::firsts(&chains[0]), chain::firsts(&chains[1])];
+    let grid = |side: usize| {
+        let chains = chains[side].iter().enumerate();
+        SegmentCells::of(chains.filter(|(index, _)| firsts[side].get(*index) == Some(index)))
+    };
+    let all = |side: usize| (chains[side].as_slice(), firsts[side].as_slice());
+    let covers = [cover(all(0), all(1), &grid(1), groups), cover(all(1), all(0), &grid(0), groups)];
+    let ([a, b], [cover_a, cover_b], [firsts_a, firsts_b]) = (chains, covers, firsts);
+    let sides = [
+        Side { chains: a, firsts: firsts_a, covers: cover_a },
+        Side { chains: b, firsts: firsts_b, covers: cover_b },
+    ];
     for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
         let partner = cover.partners.first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
         stayed.extend(
@@ -95,7 +251,7 @@ fn findings(
     }
     let page = before.width.max(before.height).max(after.width.max(after.height));
     let events = events(&sides, groups, page);
-    let teller = Teller { pictures: [before, after], sides: &sides };
+    let teller = Teller { pictures: [before, after], sides: &sides, ignore };
     let (events_of_lines, borders): (Vec<Event>, Vec<Event>) = events.into_iter().partition(|event| {
         let chain = event.old.map(|old| &sides[0].chains[old]).or(event.new.map(|new| &sides[1].chains[new]));
         chain
@@ -104,8 +260,11 @@ fn findings(
     });
     let mut findings = lines::findings(&teller, events_of_lines);
     findings.extend(regions::findings(&teller, borders));
-    findings.extend(lines::outlines(&teller, groups));
-    findings
+    if !ignore.widths {
+        findings.extend(outlines::findings(&teller, groups));
+    }
+    let movers = movers::movers([before, after], rest, &findings);
+    (findings, movers)
 }
 
 /// The page, if it has another size.

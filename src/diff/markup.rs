@@ -8,8 +8,11 @@ use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 use usvg::roxmltree::{Document, Node};
 
+use super::cascade::Cascade;
+use super::ink::LINKED;
 use super::label::Label;
 use super::numbers;
+use super::sheet::{self, Declaration};
 use crate::drawing::{LayerKind, Unit};
 use crate::error::Error;
 
@@ -59,6 +62,8 @@ pub(super) struct Origin {
     pub axis: Option<(String, f64)>,
     /// Words that stand for a text or a picture.
     pub words: Option<Arc<str>>,
+    /// The material of the model.
+    pub material: Option<Arc<str>>,
 }
 
 /// A file that is ready for the reader.
@@ -68,6 +73,8 @@ pub(super) struct Markup {
     pub origins: FxHashMap<String, Origin>,
     /// Most decimals of a coordinate.
     pub decimals: u8,
+    /// Whether some path has arcs.
+    pub arcs: bool,
     pub unit: Unit,
 }
 
@@ -78,7 +85,7 @@ pub(super) fn rewrite(document: &Document) -> Result<Markup, Error> {
     if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
         markup.unit = Unit::Mm;
     }
-    markup.element(root, &Around::default())?;
+    markup.element(root, &Around::default(), &mut Cascade::of(document))?;
     Ok(markup)
 }
 
@@ -90,14 +97,30 @@ struct Around {
 }
 
 impl Markup {
-    fn element(&mut self, node: Node, around: &Around) -> Result<(), Error> {
+    fn element(&mut self, node: Node, around: &Around, cascade: &mut Cascade) -> Result<(), Error> {
+        let declared = cascade.enter(node)?;
         let name = node.tag_name().name();
-        if !matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg")) {
-            return Ok(());
+        let is_svg = matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"));
+        match name {
+            // What it says is written at the elements that it speaks of.
+            "style" => {}
+            "text" | "image" if is_svg => self.stand_in(node, around, &declared)?,
+            _ if is_svg => self.plain(node, around, &declared, cascade)?,
+            _ => {}
         }
-        if name == "text" || name == "image" {
-            return self.stand_in(node, around);
-        }
+        cascade.leave();
+        Ok(())
+    }
+
+    /// An element that the reader knows, with all that is in it.
+    fn plain(
+        &mut self,
+        node: Node,
+        around: &Around,
+        declared: &[Declaration],
+        cascade: &mut Cascade,
+    ) -> Result<(), Error> {
+        let name = node.tag_name().name();
         let around = inside(node, around);
         self.svg.push('<');
         self.svg.push_str(name);
@@ -113,6 +136,7 @@ impl Markup {
             let (name, value) = (attribute.name(), attribute.value());
             self.check(node, name, value)?;
             match attribute.namespace() {
+                None if name == "style" => continue,
                 None => {
                     let _ = write!(self.svg, " {name}=\"");
                 }
@@ -127,16 +151,33 @@ impl Markup {
             escape(&mut self.svg, value);
             self.svg.push('"');
         }
+        self.style(node, declared);
         self.svg.push('>');
         for child in node.children() {
             if child.is_element() {
-                self.element(child, &around)?;
+                self.element(child, &around, cascade)?;
             } else if let Some(text) = child.text().filter(|_| child.is_text()) {
                 escape(&mut self.svg, text);
             }
         }
         let _ = write!(self.svg, "</{name}>");
         Ok(())
+    }
+
+    /// Writes what style sheets say of an element, and then what it says of itself: what comes later wins.
+    fn style(&mut self, node: Node, declared: &[Declaration]) {
+        let own = node.attribute("style").unwrap_or_default();
+        if declared.is_empty() && own.is_empty() {
+            return;
+        }
+        self.svg.push_str(" style=\"");
+        for Declaration { name, value, important } in declared {
+            let _ = write!(self.svg, "{name}:");
+            escape(&mut self.svg, value);
+            self.svg.push_str(if *important { " !important;" } else { ";" });
+        }
+        escape(&mut self.svg, own);
+        self.svg.push('"');
     }
 
     /// Remembers what a shape is, and writes an id for it unless it has one.
@@ -159,6 +200,7 @@ impl Markup {
             invisibility: node.attribute("data-invisibility").and_then(|text| text.parse().ok()).unwrap_or(0),
             axis: axis.map(|(axis, width)| (axis.to_owned(), width)),
             words: None,
+            material: node.attribute("data-material").map(Arc::from),
         };
         self.remember(node, origin);
     }
@@ -177,7 +219,7 @@ impl Markup {
     }
 
     /// A rectangle in place of a text or a picture: texts are compared by their words, pictures by their bytes.
-    fn stand_in(&mut self, node: Node, around: &Around) -> Result<(), Error> {
+    fn stand_in(&mut self, node: Node, around: &Around, declared: &[Declaration]) -> Result<(), Error> {
         let around = inside(node, around);
         self.svg.push_str("<rect");
         let words = if node.tag_name().name() == "text" {
@@ -185,9 +227,14 @@ impl Markup {
                 node.descendants().filter(Node::is_text).filter_map(|node| node.text()).collect();
             format!("the text `{}`", words.join("").split_whitespace().collect::<Vec<_>>().join(" "))
         } else {
-            let mut hasher = FxHasher::default();
-            node.attributes().filter(|a| a.name() == "href").for_each(|a| a.value().hash(&mut hasher));
-            format!("the picture {:016x}", hasher.finish())
+            let href = node.attributes().find(|a| a.name() == "href").map_or("", |a| a.value().trim());
+            if href.starts_with("data:") || href.contains('`') {
+                let mut hasher = FxHasher::default();
+                href.hash(&mut hasher);
+                format!("the picture {:016x}", hasher.finish())
+            } else {
+                format!("{LINKED}{href}`")
+            }
         };
         let label = Label { layer: around.layer, classes: Vec::new(), part: around.part };
         let origin = Origin { label: Arc::new(label), words: Some(Arc::from(words)), ..Origin::default() };
@@ -209,6 +256,17 @@ impl Markup {
                 sized |= name == "width";
             }
         }
+        // Whether it is seen at all may be said by a style.
+        let seen = |name: &str| matches!(name, "display" | "visibility" | "opacity");
+        let own = sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
+        let style = declared.iter().chain(&own).filter(|declaration| seen(declaration.name));
+        self.svg.push_str(" style=\"");
+        for Declaration { name, value, .. } in style {
+            let _ = write!(self.svg, "{name}:");
+            escape(&mut self.svg, value);
+            self.svg.push(';');
+        }
+        self.svg.push('"');
         self.svg.push_str(if sized {
             " fill=\"#000\"/>"
         } else {
@@ -233,6 +291,7 @@ impl Markup {
         }
         if matches!(name, "d" | "points" | "x1" | "y1" | "x2" | "y2" | "cx" | "cy") {
             self.decimals = self.decimals.max(numbers.decimals);
+            self.arcs |= name == "d" && value.contains(['a', 'A']);
         }
         Ok(())
     }

@@ -25,6 +25,8 @@
 mod align;
 mod area;
 mod canonical;
+mod cascade;
+mod causes;
 mod chain;
 mod cover;
 mod distance;
@@ -34,32 +36,44 @@ mod finding;
 mod grid;
 mod groups;
 mod guard;
+mod ignore;
 mod inherited;
 mod ink;
 mod json;
 mod judge;
 mod label;
+mod legend;
 mod lines;
 mod markdown;
 mod markup;
+mod motion;
+mod movers;
 mod numbers;
+mod outlines;
 mod overlay;
 mod paint_words;
 mod pair;
 mod path_data;
 mod picture;
 mod pixels;
+mod plain;
 mod read;
 mod regions;
+mod sheet;
 mod stacking;
+mod styled;
 mod tags;
 mod teller;
 mod text;
 mod tolerance;
 mod totals;
+mod unlabelled;
+mod whole;
+mod words;
 
 pub use canonical::canonical_svg;
-pub use finding::{Change, Diff, Finding, Place, Stage, Verdict};
+pub use finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+pub use ignore::Ignore;
 pub use ink::{Ink, Paint};
 pub use label::Label;
 pub use overlay::View;
@@ -76,6 +90,8 @@ pub struct DiffOptions {
     pub tolerances: Tolerances,
     /// Whether the drawings are rasterised and compared pixel by pixel as well. Default: no.
     pub pixels: bool,
+    /// What does not count. Default: everything counts.
+    pub ignore: Ignore,
 }
 
 impl DiffOptions {
@@ -83,6 +99,12 @@ impl DiffOptions {
     #[must_use]
     pub fn within(self, tolerances: Tolerances) -> Self {
         Self { tolerances, ..self }
+    }
+
+    /// Without what does not count.
+    #[must_use]
+    pub fn ignoring(self, ignore: Ignore) -> Self {
+        Self { ignore, ..self }
     }
 
     /// With a comparison of pixels as well.

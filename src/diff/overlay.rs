@@ -8,6 +8,7 @@ use super::chain;
 use super::finding::{Diff, Finding, Verdict};
 use super::grid::nearest_on;
 use super::ink::Paint as Ink;
+use super::legend;
 use super::picture::{Picture, Shape, ShapeKind};
 use super::text::line;
 use crate::drawing::{
@@ -26,6 +27,8 @@ const RESTYLED: Colour = Colour::rgb(0xc4, 0x7f, 0x00);
 const RELABELLED: Colour = Colour::rgb(0x82, 0x50, 0xdf);
 /// Opacity of fills that are gone or new.
 const VEIL: u8 = 70;
+/// Lines that are gone are so much wider where others nearly cover them.
+const UNDER: f64 = 2.5;
 /// Between two pages side by side, as a part of their width.
 const GAP: f64 = 0.03;
 /// Places of a mark that a line leads from, old to new.
@@ -58,6 +61,9 @@ impl Diff {
                 for finding in &self.findings {
                     let note: Arc<str> = Arc::from(line(finding, self.unit()));
                     layers.taken(finding, Affine::IDENTITY, width_of_line, &note);
+                }
+                for finding in &self.findings {
+                    let note: Arc<str> = Arc::from(line(finding, self.unit()));
                     layers.brought(finding, Affine::IDENTITY, width_of_line, &note);
                     layers.way(finding, width_of_line * 0.6, &note);
                 }
@@ -75,7 +81,33 @@ impl Diff {
                 }
             }
         }
+        let marks = self.legend(view);
+        page.height += legend::height(width_of_line);
+        layers.findings.extend(
+            legend::marks(&marks, height, width_of_line)
+                .into_iter()
+                .map(|(path, colour, width)| mark(path, stroke(colour, width, Vec::new()), None)),
+        );
         Drawing::new("difference", page, layers.into_list())
+    }
+}
+
+impl Diff {
+    /// What the colours of the picture say, of those that are in it.
+    fn legend(&self, view: View) -> Vec<(&'static str, Colour)> {
+        let has = |is: &dyn Fn(&Finding) -> bool| self.findings.iter().any(is);
+        let ink = |path: &BezPath| !path.elements().is_empty();
+        let same_place = |f: &Finding| matches!(f.verdict, Verdict::Restyled | Verdict::Restacked);
+        let elsewhere =
+            |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
+        let rows: [(&str, Colour, bool); 5] = [
+            ("gone", GONE, has(&|f| elsewhere(f) && ink(&f.gone))),
+            ("new", NEW, has(&|f| elsewhere(f) && ink(&f.new))),
+            ("moved", WAY, view == View::Over && has(&|f| f.verdict == Verdict::Moved)),
+            ("repainted", RESTYLED, has(&same_place)),
+            ("relabelled", RELABELLED, has(&|f| f.verdict == Verdict::Relabelled)),
+        ];
+        rows.into_iter().filter(|(.., there)| *there).map(|(word, colour, _)| (word, colour)).collect()
     }
 }
 
@@ -130,7 +162,12 @@ impl Layers {
     fn taken(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         match finding.verdict {
             Verdict::Page | Verdict::Restyled | Verdict::Restacked | Verdict::Relabelled => {}
-            _ => self.piece(finding, &finding.gone, GONE, to, width, note),
+            // What is new lies over it: where the way is short, red is seen on both sides of green.
+            _ => {
+                let hidden = finding.largest > 0.0 && finding.largest < 2.0 * width;
+                let width = if hidden { width * UNDER } else { width };
+                self.piece(finding, &finding.gone, GONE, to, width, note);
+            }
         }
     }
 

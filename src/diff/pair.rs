@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use kurbo::{Point, Rect};
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::align::{Alignment, align};
 use super::chain::Chain;
@@ -25,11 +26,15 @@ const COMMON: f64 = 0.2;
 const PLACES: usize = 5;
 const WANTED: usize = 4;
 const CLOSELY: usize = 6;
+/// Segments of a cell that are looked at: where thousands lie on each other, any of them will do.
+const MOST_IN_CELL: usize = 512;
 
 /// One drawing's chains and what the other drawing covers of them.
 #[derive(Debug)]
 pub(super) struct Side {
     pub chains: Vec<Chain>,
+    /// For each chain the first that lies exactly on it.
+    pub firsts: Vec<usize>,
     pub covers: Vec<Cover>,
 }
 
@@ -46,7 +51,9 @@ pub(super) struct Pair {
 pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> {
     let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
         let covers = &sides[side].covers;
-        (0..covers.len()).filter(|index| !covers[*index].is_whole()).collect()
+        (0..covers.len())
+            .filter(|index| !covers[*index].is_whole() && sides[side].firsts[*index] == *index)
+            .collect()
     });
     if bare.iter().any(Vec::is_empty) {
         return Vec::new();
@@ -80,6 +87,15 @@ pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
         }
         both
     });
+    let copies = |pair: &Pair| {
+        let is_copy = |side: usize, of: usize, copy: usize| sides[side].firsts.get(copy) == Some(&of);
+        let (old, new, pair) = (pair.old, pair.new, *pair);
+        (1..)
+            .take_while(move |rank| is_copy(0, old, old + rank) && is_copy(1, new, new + rank))
+            .map(move |rank| Pair { old: old + rank, new: new + rank, ..pair })
+    };
+    let more: Vec<Pair> = found.iter().flat_map(copies).collect();
+    found.extend(more);
     found
 }
 
@@ -104,6 +120,7 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
     for place in places(chain, (chain.points.len() + 1).min(PLACES)) {
         // The nearest few: each with its distance.
         let near: std::cell::RefCell<Vec<(f64, u32)>> = std::cell::RefCell::default();
+        let known: std::cell::RefCell<FxHashMap<u32, usize>> = std::cell::RefCell::default();
         let see = |item: u32| {
             let segment = grid.segments[item as usize];
             let distance = place.distance(nearest_on(segment.from, segment.to, place));
@@ -111,14 +128,15 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
                 return;
             }
             let mut near = near.borrow_mut();
-            match near.iter_mut().find(|(_, chain)| *chain == segment.chain) {
+            let at = *known.borrow_mut().entry(segment.chain).or_insert(near.len());
+            match near.get_mut(at) {
                 Some(entry) => entry.0 = entry.0.min(distance),
                 None => near.push((distance, segment.chain)),
             }
         };
         let enough =
             |seen: f64| near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= WANTED;
-        grid.rings(place, reach, see, enough);
+        grid.rings(place, (reach, MOST_IN_CELL), see, enough);
         let mut near = near.into_inner();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found.extend(near.iter().take(2 * WANTED).map(|(_, chain)| bare[*chain as usize]));

@@ -34,6 +34,8 @@ pub struct Shape {
     pub ink: Ink,
     /// What the file says of it.
     pub label: Arc<Label>,
+    /// The material that it is of, where the file names one: it does not count.
+    pub material: Option<Arc<str>>,
 }
 
 /// A drawing that can be compared.
@@ -47,6 +49,8 @@ pub struct Picture {
     pub unit: Unit,
     /// Px in the last decimal that its coordinates are written with.
     pub step_px: f64,
+    /// Whether some of its paths are written with arcs.
+    pub has_arcs: bool,
     /// Shapes, painted first to last.
     pub shapes: Arc<[Shape]>,
     /// The file's text.

@@ -5,6 +5,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use serde::Serialize;
 
 use super::picture::Picture;
+use super::styled;
 
 /// Channels of a pixel that differ by more than this differ to the eye; borders are blended a little differently.
 const VISIBLE: u8 = 24;
@@ -75,7 +76,7 @@ fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<P
         },
         ..usvg::Options::default()
     };
-    let tree = usvg::Tree::from_str(&picture.svg, &options).ok()?;
+    let tree = usvg::Tree::from_str(&styled::without_sheets(&picture.svg).ok()??, &options).ok()?;
     let mut pixmap = Pixmap::new(columns, rows)?;
     pixmap.fill(resvg::tiny_skia::Color::WHITE);
     let scale = scale as f32;

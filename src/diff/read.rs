@@ -78,6 +78,7 @@ fn read(svg: &str) -> Result<Picture, Error> {
         height: f64::from(size.height()),
         unit: markup.unit,
         step_px: scale * 0.1f64.powi(i32::from(markup.decimals)),
+        has_arcs: markup.arcs,
         shapes: Arc::from(reader.shapes),
         svg: Arc::from(svg),
     })
@@ -174,6 +175,7 @@ impl<'a> Reader<'a> {
                         ..Ink::region(paint, None)
                     },
                     label: Arc::clone(&origin.label),
+                    material: origin.material.clone(),
                 },
                 None => Shape {
                     path: geometry.clone(),
@@ -182,6 +184,7 @@ impl<'a> Reader<'a> {
                     even_odd,
                     ink: Ink::region(paint, origin.tone),
                     label: Arc::clone(&origin.label),
+                    material: origin.material.clone(),
                 },
             })
         });
@@ -203,6 +206,7 @@ impl<'a> Reader<'a> {
                     ..Ink::region(paint, None)
                 },
                 label: Arc::clone(&origin.label),
+                material: origin.material.clone(),
             })
         });
         match path.paint_order() {

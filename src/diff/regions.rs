@@ -1,15 +1,21 @@
 //! Findings about regions: what became of their borders, put together shape by shape.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use kurbo::{BezPath, Rect, Shape as _};
 use rustc_hash::FxHashMap;
 
-use super::area::area;
+use super::area::{area, ring_area, winds_round};
 use super::events::Event;
 use super::finding::{Finding, Place, Verdict};
 use super::picture::{Picture, ShapeKind};
-use super::teller::{Teller, changes, label};
+use super::teller::{Teller, label};
+
+/// Rings of a shape that may lie round another one of it, at most.
+const MOST_RINGS: usize = 200;
+
+/// The rings of each shape of either side.
+type OfShape = [FxHashMap<usize, Vec<usize>>; 2];
 
 /// One region before and after.
 type Key = (Option<usize>, Option<usize>);
@@ -29,8 +35,15 @@ pub(super) fn findings(teller: &Teller, borders: Vec<Event>) -> Vec<Finding> {
         );
         by_shape.entry(key).or_default().push(event);
     }
+    let of_shape: OfShape = [0, 1].map(|side: usize| {
+        let mut of_shape: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
+        for (index, chain) in teller.sides[side].chains.iter().enumerate() {
+            of_shape.entry(chain.shapes.first().copied().unwrap_or_default()).or_default().push(index);
+        }
+        of_shape
+    });
     let mut areas = Areas::default();
-    by_shape.into_iter().map(|(key, events)| one(teller, key, events, &mut areas)).collect()
+    by_shape.into_iter().map(|(key, events)| one(teller, &of_shape, key, events, &mut areas)).collect()
 }
 
 /// For each shape of either side, the one of the other that most of its border coincides with or became.
@@ -82,12 +95,18 @@ impl Partners {
 }
 
 /// What became of one region, from what became of its borders.
-fn one(teller: &Teller, (old, new): Key, events: Vec<Event>, areas: &mut Areas) -> Finding {
+fn one(
+    teller: &Teller,
+    of_shape: &OfShape,
+    (old, new): Key,
+    events: Vec<Event>,
+    areas: &mut Areas,
+) -> Finding {
     let shape = |side: usize, index: Option<usize>| teller.pictures[side].shapes.get(index?);
     let shapes = [shape(0, old), shape(1, new)];
     let rings = |side: usize, index: Option<usize>| {
         let index = index?;
-        Some(teller.sides[side].chains.iter().filter(|chain| chain.shapes.first() == Some(&index)).count())
+        Some(of_shape[side].get(&index).map_or(0, Vec::len))
     };
     let all = |verdict: Verdict| events.iter().all(|event| event.verdict == verdict);
     let verdict = match (old, new) {
@@ -106,16 +125,19 @@ fn one(teller: &Teller, (old, new): Key, events: Vec<Event>, areas: &mut Areas) 
         verdict,
         kind: shapes.iter().flatten().next().map_or(ShapeKind::Region, |shape| shape.kind),
         label: label(shapes),
-        changes: changes(shapes),
+        changes: teller.changes(shapes),
         place: Place::of(Rect::ZERO),
         size: before.or(after).unwrap_or(0.0),
-        growth: before.zip(after).map_or(0.0, |(before, after)| after - before),
+        growth: if before.is_some() && after.is_some() { growth(teller, of_shape, &events) } else { 0.0 },
+        pieces: [0.0; 2],
+        material: shapes.iter().flatten().next().and_then(|shape| shape.material.clone()),
         largest: events.iter().map(|event| event.largest).fold(0.0, f64::max),
         p95: events.iter().map(|event| event.p95).fold(0.0, f64::max),
         shift: first
             .filter(|_| verdict == Verdict::Moved && events.iter().all(|event| event.shift.is_some())),
         gone: BezPath::new(),
         new: BezPath::new(),
+        carried: false,
     };
     for event in &events {
         finding.gone.extend(event.gone.iter());
@@ -130,6 +152,28 @@ fn one(teller: &Teller, (old, new): Key, events: Vec<Event>, areas: &mut Areas) 
     };
     finding.place = Place::of(place.unwrap_or_default());
     finding
+}
+
+/// How much larger a region became: by what became of each of its rings, so that it agrees with how far they went.
+fn growth(teller: &Teller, of_shape: &OfShape, events: &[Event]) -> f64 {
+    let ring = |side: usize, index: Option<usize>| -> f64 {
+        let chains = &teller.sides[side].chains;
+        let Some(chain) = index.and_then(|index| chains.get(index)) else { return 0.0 };
+        let own = chain.shapes.first().and_then(|shape| of_shape[side].get(shape)).into_iter().flatten();
+        let others = own.filter(|other| Some(**other) != index).filter_map(|other| chains.get(*other));
+        let start = chain.points.first().copied().unwrap_or_default();
+        let around = others.take(MOST_RINGS).filter(|other| winds_round(&other.points, start)).count();
+        ring_area(&chain.points) * if around % 2 == 0 { 1.0 } else { -1.0 }
+    };
+    let changed =
+        events.iter().filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled));
+    // A ring may be told of from both sides.
+    let rings: [BTreeSet<usize>; 2] = [
+        changed.clone().filter_map(|event| event.old).collect(),
+        changed.filter_map(|event| event.new).collect(),
+    ];
+    let area = |side: usize| rings[side].iter().map(|index| ring(side, Some(*index))).sum::<f64>();
+    area(1) - area(0)
 }
 
 /// The area of each shape that is asked for, measured once.

@@ -2,6 +2,7 @@
 
 use super::chain::Chain;
 use super::finding::Change;
+use super::ignore::Ignore;
 use super::label::Label;
 use super::pair::Side;
 use super::picture::{Picture, Shape};
@@ -10,12 +11,21 @@ use super::picture::{Picture, Shape};
 pub(super) struct Teller<'a> {
     pub pictures: [&'a Picture; 2],
     pub sides: &'a [Side; 2],
+    /// What does not count.
+    pub ignore: Ignore,
 }
 
 impl<'a> Teller<'a> {
     /// A shape that a chain is made of.
     pub(super) fn shape(&self, side: usize, chain: &Chain) -> Option<&'a Shape> {
         self.pictures[side].shapes.get(*chain.shapes.first()?)
+    }
+
+    /// What else differs between two shapes, of what counts.
+    pub(super) fn changes(&self, shapes: [Option<&Shape>; 2]) -> Vec<Change> {
+        let mut changes = changes(shapes);
+        changes.retain(|change| self.ignore.counts(&change.what));
+        changes
     }
 }
 
@@ -25,7 +35,7 @@ pub(super) fn label(shapes: [Option<&Shape>; 2]) -> Label {
 }
 
 /// What else differs between two shapes.
-pub(super) fn changes(shapes: [Option<&Shape>; 2]) -> Vec<Change> {
+fn changes(shapes: [Option<&Shape>; 2]) -> Vec<Change> {
     let [Some(old), Some(new)] = shapes else { return Vec::new() };
     let mut changes: Vec<Change> = Vec::new();
     for (what, was, is) in old.ink.changes(&new.ink) {

@@ -1,13 +1,13 @@
 //! A [`Diff`] in words: one line a finding, many findings that say the same in one line.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use kurbo::{Rect, Vec2};
+use rustc_hash::FxHashSet;
 
-use super::finding::{Change, Diff, Finding, Place, Stage, Verdict};
-use super::ink::trimmed;
+use super::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
 use super::picture::ShapeKind;
-use crate::drawing::Unit;
+use super::words::Written;
 
 /// More findings than this that say the same of one part become one line.
 const FEW: usize = 3;
@@ -52,7 +52,17 @@ impl Diff {
         let lines = self.told().into_iter().map(|told| told.line);
         let unused =
             self.unused_tolerances.iter().map(|name| format!("note       no mark is called `{name}`"));
-        lines.chain(unused).collect()
+        let linked = self.linked().map(|target| {
+            format!("note       the picture `{target}` is linked: compared by its target and its box, not by what is in it")
+        });
+        lines.chain(unused).chain(linked).collect()
+    }
+
+    /// The targets of pictures that lie in files of their own.
+    fn linked(&self) -> impl Iterator<Item = &str> {
+        let shapes = self.before.shapes.iter().chain(self.after.shapes.iter());
+        let targets: BTreeSet<&str> = shapes.filter_map(|shape| shape.ink.paint.link()).collect();
+        targets.into_iter()
     }
 
     /// A line for each finding.
@@ -61,15 +71,19 @@ impl Diff {
         self.findings.iter().map(|finding| line(finding, self.unit())).collect()
     }
 
-    pub(super) fn unit(&self) -> Written {
-        Written { unit: self.before.unit, per_px: 1.0 / self.before.px_per_unit() }
-    }
-
     /// What is told, and how many findings each line stands for.
     pub(super) fn told(&self) -> Vec<Told> {
         let unit = self.unit();
+        let explained: FxHashSet<usize> =
+            self.causes.iter().flat_map(|cause| cause.findings.iter().copied()).collect();
+        let of_cause = |cause: &Cause| Told {
+            verdict: cause.verdict,
+            count: cause.findings.len(),
+            line: format!("{:<10} {}", cause.verdict.name(), cause.sentence),
+        };
+        let mut told: Vec<Told> = self.causes.iter().map(of_cause).collect();
         let mut groups: BTreeMap<Alike, Vec<&Finding>> = BTreeMap::new();
-        for finding in &self.findings {
+        for (_, finding) in self.findings.iter().enumerate().filter(|(index, _)| !explained.contains(index)) {
             // Whole parts come and go with all that they have.
             let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
             let kind = !alone && finding.kind == ShapeKind::Line;
@@ -79,7 +93,6 @@ impl Diff {
                 .or_default()
                 .push(finding);
         }
-        let mut told = Vec::new();
         for ((verdict, part, changes, _), findings) in groups {
             let whole =
                 part.and_then(|part| self.totals.parts.get(part)).is_some_and(|measure| match verdict {
@@ -106,6 +119,8 @@ impl Diff {
             let line = format!("{:<10} {noun} {}: {detail}", verdict.name(), unit.place(&place));
             told.push(Told { verdict, count, line });
         }
+        // Sorting keeps the order of what has one verdict.
+        told.sort_by_key(|told| told.verdict != Verdict::Page);
         told
     }
 }
@@ -150,11 +165,14 @@ fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String 
             }
         }
         Some(Verdict::Restacked) => changed(changes),
+        Some(Verdict::Restyled | Verdict::Relabelled) if changes.is_empty() => ink(),
         Some(Verdict::Restyled | Verdict::Relabelled) => format!("{} ({})", changed(changes), ink()),
         Some(Verdict::Reshaped) => {
             let growth = findings.iter().map(|f| f.growth).sum::<f64>();
             let lines = findings.iter().all(|f| f.kind == ShapeKind::Line);
-            format!("up to {} off, {} in all", unit.length(largest), grown(growth, lines, unit))
+            let in_all =
+                grown(growth, lines, unit).map(|grown| format!(", {grown} in all")).unwrap_or_default();
+            format!("up to {} off{in_all}", unit.length(largest))
         }
         _ => ink(),
     }
@@ -167,6 +185,7 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
     let detail = match finding.verdict {
         Verdict::Page | Verdict::Restacked => changed(&finding.changes),
         Verdict::Removed | Verdict::Added => size(),
+        Verdict::Restyled | Verdict::Relabelled if finding.changes.is_empty() => size(),
         Verdict::Restyled | Verdict::Relabelled => format!("{}, {}", changed(&finding.changes), size()),
         Verdict::Moved => match finding.shift {
             Some(shift) => format!("by {}", way(shift, unit)),
@@ -175,12 +194,11 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
             }
         },
         Verdict::Reshaped => {
-            let off = format!(
-                "up to {} off, 95 % within {}",
-                unit.length(finding.largest),
-                unit.length(finding.p95)
-            );
-            format!("{}, {off}", grown(finding.growth, lines, unit))
+            // Where a whole border came or went, nothing is off.
+            let off = (unit.number(finding.largest) != "0")
+                .then(|| format!("up to {} off", unit.length(finding.largest)));
+            let told: Vec<String> = pieces(finding, lines, unit).into_iter().chain(off).collect();
+            if told.is_empty() { "a border more or less".to_owned() } else { told.join(", ") }
         }
     };
     let also = match finding.verdict {
@@ -198,21 +216,29 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
     format!("{:<10} {noun} {}: {detail}{also}", finding.verdict.name(), unit.place(&finding.place))
 }
 
-fn grown(growth: f64, lines: bool, unit: Written) -> String {
+/// What is gone and what is new of a mark of another form, before its distance.
+fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
+    let [gone, new] = finding.pieces;
+    match lines {
+        true if gone > 0.0 && new > 0.0 => {
+            Some(format!("{} gone and {} new", unit.length(gone), unit.length(new)))
+        }
+        _ => grown(finding.growth, lines, unit),
+    }
+}
+
+/// How much more or less of it there is; nothing where that is told as nothing.
+fn grown(growth: f64, lines: bool, unit: Written) -> Option<String> {
     let (amount, more, less) = match lines {
         true => (unit.length(growth.abs()), "longer", "shorter"),
         false => (unit.area(growth.abs()), "larger", "smaller"),
     };
-    match growth {
-        g if g.abs() < 5e-3 => format!("no {more}"),
-        g if g > 0.0 => format!("{amount} {more}"),
-        _ => format!("{amount} {less}"),
-    }
+    (!amount.starts_with("0 ")).then(|| format!("{amount} {}", if growth > 0.0 { more } else { less }))
 }
 
 fn way([x, y]: [f64; 2], unit: Written) -> String {
     let side = |value: f64, plus: &str, minus: &str| match value {
-        v if v.abs() < 5e-4 => None,
+        v if unit.number(v.abs()) == "0" => None,
         v => Some(format!("{} {}", unit.number(v.abs()), if v > 0.0 { plus } else { minus })),
     };
     let parts: Vec<String> = side(x, "right", "left").into_iter().chain(side(y, "down", "up")).collect();
@@ -222,37 +248,4 @@ fn way([x, y]: [f64; 2], unit: Written) -> String {
 pub(super) fn changed(changes: &[Change]) -> String {
     let of = |change: &Change| format!("{} {} → {}", change.what, change.old, change.new);
     changes.iter().map(of).collect::<Vec<_>>().join(", ")
-}
-
-/// The unit that lengths are told in.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Written {
-    unit: Unit,
-    per_px: f64,
-}
-
-impl Written {
-    fn number(self, px: f64) -> String {
-        let value = px * self.per_px;
-        // Three significant digits are enough to act on.
-        match value.abs() {
-            v if v >= 100.0 => format!("{value:.0}"),
-            v if v >= 10.0 => trimmed((value * 10.0).round() / 10.0),
-            v if v >= 1.0 => trimmed((value * 100.0).round() / 100.0),
-            _ => trimmed(value),
-        }
-    }
-
-    pub(super) fn length(self, px: f64) -> String {
-        format!("{} {}", self.number(px), self.unit.name())
-    }
-
-    pub(super) fn area(self, px2: f64) -> String {
-        format!("{} {}²", self.number(px2 * self.per_px), self.unit.name())
-    }
-
-    fn place(self, place: &Place) -> String {
-        let (x, y) = place.middle();
-        format!("at ({:.0}, {:.0})", x * self.per_px, y * self.per_px)
-    }
 }

@@ -99,11 +99,14 @@ impl Tolerances {
     }
 }
 
-/// Twice the precision that the coarser of two drawings is written with, in px; not finer than what is read.
+/// Twice the precision that the coarser of two drawings is written with, in px; four times where only the one has arcs; not finer
+/// than what is read.
 pub(super) fn default_px(before: &Picture, after: &Picture) -> f64 {
     let step = before.step_px.max(after.step_px).min(COARSEST_STEP_PX);
     let sides = [before.width, before.height, after.width, after.height];
-    (2.0 * step).max(sides.into_iter().fold(0.0, f64::max) * READ_OF_PAGE)
+    // Where only the one has arcs, a program put them in place of curves: two and a half units of the last decimal off.
+    let steps = if before.has_arcs == after.has_arcs { 2.0 } else { 4.0 };
+    (steps * step).max(sides.into_iter().fold(0.0, f64::max) * READ_OF_PAGE)
 }
 
 impl<'de> Deserialize<'de> for Tolerances {

@@ -167,11 +167,11 @@ pub const DOT_CRUMB_PX: f64 = 0.1;
 /// Where a border just touches a dot, the dot is made smaller by this part of itself.
 pub const DOT_NUDGE: f64 = 1e-5;
 
-/// Widths of lines in two drawings that differ by no more than this (px) are one width, written twice.
-pub const WIDTH_PX: f64 = 2e-3;
+/// Widths of lines in two drawings that differ by no more than this (px) are one width, written twice, once with two decimals.
+pub const WIDTH_PX: f64 = 5.1e-3;
 
 /// Lengths of dashes that differ by less than this (px) are alike.
-pub const DASH_PX: f64 = 2e-3;
+pub const DASH_PX: f64 = 5.1e-3;
 
 /// Readers of SVG keep coordinates in single precision: two drawings cannot be compared more finely than this
 /// part of the page's longer side.

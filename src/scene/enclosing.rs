@@ -23,9 +23,8 @@ impl Scene {
     /// How often a part goes round a point; none where the point is not even in the box round it.
     fn winding(&self, part: &Part, point: DVec3) -> Option<f64> {
         let geometry = self.geometry_of(part)?;
-        let mirrored = part.world_from_part.matrix3.determinant();
         let place = part.world_from_part.inverse().transform_point3(point);
-        if mirrored == 0.0 || !place.is_finite() {
+        if !place.is_finite() {
             return None;
         }
         let low = geometry.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -44,8 +43,8 @@ impl Scene {
         let of_chunk = |chunk: &[[u32; 3]]| chunk.iter().map(solid_angle).sum::<f64>();
         // Summed in order: the same on any number of threads.
         let chunks: Vec<f64> = geometry.triangles.par_chunks(CHUNK).map(of_chunk).collect();
-        // Seen from inside a corner turns as it does from outside.
-        Some(chunks.iter().sum::<f64>() * mirrored.signum() / (4.0 * std::f64::consts::PI))
+        // A mirrored part is turned right side out again: what is inside it as it is stored is inside.
+        Some(chunks.iter().sum::<f64>() / (4.0 * std::f64::consts::PI))
     }
 }
 

@@ -7,6 +7,7 @@ mod calls;
 mod cases;
 mod config;
 mod diff;
+mod diff_causes;
 mod documentation;
 mod draw;
 mod fmt;

@@ -145,3 +145,43 @@ fn mutated_drawings_never_panic() {
     }
     assert!(read > 40, "{read} of 400 were read");
 }
+
+/// What took a search upwards from each element, for each of the groups around it, and again from there.
+#[test]
+fn selectors_that_nest_are_matched_in_one_pass() {
+    let groups = |count: usize, inner: &str| "<g>".repeat(count) + inner + &"</g>".repeat(count);
+    let path = "<path stroke=\"#000\" d=\"M0 0L9 9\"/>";
+    for (rules, count) in [(1, 60), (2000, 200)] {
+        let sheet = format!("x {}path{{stroke:red}}", "g ".repeat(40)).repeat(rules);
+        let svg = inside(&format!("<style>{sheet} g g path{{stroke:#00f}}</style>{}", groups(count, path)));
+        let picture = Picture::from_svg(&svg).unwrap();
+        assert_eq!(picture.shapes.last().unwrap().ink.paint.to_string(), "#0000ff");
+        let again = Picture::from_svg(&svg.replace("M0 0", "M0 1")).unwrap();
+        let told = diff::compare(&picture, &again, &DiffOptions::default().with_pixels());
+        assert!(told.pixels.is_some_and(|pixels| pixels.differing > 0));
+        assert!(ligne::diff::canonical_svg(&svg, None).is_ok());
+    }
+    let many = format!("<style>{}</style>{}", "*{fill:red}".repeat(20_000), path.repeat(20_000));
+    let told = refusal(&inside(&many)).unwrap();
+    assert!(told.contains("rules of style"), "{told}");
+}
+
+/// Thousands of paths in one place: each was compared with each.
+#[test]
+fn paths_on_each_other_are_compared_once() {
+    let many = |d: &dyn Fn(usize) -> String, colour: &str| {
+        let paths: String = (0..30_000).map(|i| format!("<path d=\"{}\"/>", d(i))).collect();
+        inside(&format!("<g fill=\"none\" stroke=\"{colour}\">{paths}</g>"))
+    };
+    let read = |svg: &str| Picture::from_svg(svg).unwrap();
+    let same = |_: usize| "M10 10L60 40 90 20".to_owned();
+    let near = |i: usize| format!("M10 10L60 40 90 20.{i:05}");
+    let moved = |_: usize| "M10 12L60 42 90 22".to_owned();
+    let before = read(&many(&same, "#000"));
+    let began = std::time::Instant::now();
+    let told = |after: &str| diff::compare(&before, &read(after), &DiffOptions::default());
+    assert_eq!(told(&many(&same, "#c00")).summary(), "30000 restyled");
+    assert!(told(&many(&moved, "#000")).summary().starts_with("30000 moved"));
+    _ = told(&many(&near, "#000"));
+    assert!(began.elapsed().as_secs() < 60, "{:?}", began.elapsed());
+}

@@ -281,11 +281,28 @@ fn files_of_others_keep_what_may_make_a_difference() {
             lines("<path d=\"M9 20L1 20\"/><rect width=\"2\" height=\"3\"/><path d=\"M9 10L1 10\"/>"),
             lines("<path d=\"M1 20h8\"/><rect width=\"2\" height=\"3\"/><path d=\"M1 10h8\"/>"),
         ),
-        // Styles as attributes are understood, sheets and scripts are not.
-        (format!("<g style=\"fill : none; stroke:#123\">{TWO}</g>"), format!("<g style=\"fill : none; stroke:#123\">{FORM}</g>")),
+        // Styles become attributes; what scripts may do, and sheets for some media, is not known.
+        (format!("<g style=\"fill : none; stroke:#123\">{TWO}</g>"), format!("<g fill=\"none\" stroke=\"#123\">{FORM}</g>")),
         (
             format!("<style>path {{ stroke-dasharray: 3 }}</style>{}", lines(TWO)),
-            format!("<style>path {{ stroke-dasharray: 3 }}</style>{}", lines(ROUNDED)),
+            // Dashed lines keep their directions, and may change places.
+            lines("<path d=\"M9 10h-8\"/><path d=\"M9 20h-8\"/>").replace("<path", "<path stroke-dasharray=\"3\""),
+        ),
+        (
+            format!("<style>g &gt; .a {{ stroke:red; fill:none !important }} path {{ stroke: blue }}</style><g><path class=\"a\" fill=\"#000\" stroke=\"#000\" style='stroke-width:2;fill:green' d=\"M1 1h2\"/>{TWO}</g>"),
+            format!("<g><path stroke=\"red\" fill=\"none\" stroke-width=\"2\" class=\"a\" d=\"M1 1h2\"/>{}</g>", ROUNDED.replace("<path", "<path stroke=\"blue\"")),
+        ),
+        (
+            format!("<style>@media print {{ path {{ stroke: red }} }}</style><g style=\"fill:none\">{TWO}</g>"),
+            format!("<style>@media print {{ path {{ stroke: red }} }}</style><g style=\"fill:none\">{ROUNDED}</g>"),
+        ),
+        (
+            format!("<style>path:hover {{ stroke: red }}</style><g style=\"fill:none\">{TWO}</g>"),
+            format!("<style>path:hover {{ stroke: red }}</style><g style=\"fill:none\">{ROUNDED}</g>"),
+        ),
+        (
+            format!("<g style=\"fill:none;stroke:#000;-inkscape-stroke:none\">{TWO}</g>"),
+            format!("<g fill=\"none\" stroke=\"#000\" style=\"-inkscape-stroke:none\">{FORM}</g>"),
         ),
         (format!("<script>x</script>{}", lines(TWO)), format!("<script>x</script>{}", lines(ROUNDED))),
         (

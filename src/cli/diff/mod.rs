@@ -17,7 +17,7 @@ use self::told::Told;
 use super::draw_args::HowArgs;
 use super::output::Staging;
 use super::{DIFFERENCES, pipeline, print};
-use crate::diff::{self, DiffOptions, Tolerances, View};
+use crate::diff::{self, DiffOptions, Ignore, Tolerances, View};
 use crate::error::Error;
 
 const EXAMPLES: &str = "Examples:
@@ -42,6 +42,11 @@ pub(super) struct DiffArgs {
     /// lines=0.05mm,fills=0.2mm [default: twice the written precision]
     #[arg(long, value_name = "LENGTH", help_heading = "Comparison", value_parser = tolerances)]
     tolerance: Option<Tolerances>,
+
+    /// What does not count: labels, colours, widths (and dashes, ends, corners) or text; a list, or once
+    /// for each
+    #[arg(long, value_name = "WHAT", help_heading = "Comparison", value_parser = ignore)]
+    ignore: Vec<Ignore>,
 
     /// Compare pixel by pixel as well
     #[arg(long, help_heading = "Comparison")]
@@ -75,11 +80,19 @@ fn tolerances(text: &str) -> Result<Tolerances, String> {
     Tolerances::parse(text).map_err(|error| error.to_string())
 }
 
+fn ignore(text: &str) -> Result<Ignore, String> {
+    Ignore::parse(text).map_err(|error| error.to_string())
+}
+
 /// Compares, tells, and draws what differs.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
     let pairing = Pairing::new(&args.before, &args.after)?;
     let images = args.image.as_deref().map(|path| Images::new(path, &pairing)).transpose()?;
-    let options = DiffOptions { tolerances: args.tolerance.clone().unwrap_or_default(), pixels: args.pixels };
+    let options = DiffOptions {
+        tolerances: args.tolerance.clone().unwrap_or_default(),
+        pixels: args.pixels,
+        ignore: args.ignore.iter().fold(Ignore::default(), |all, more| all.and(*more)),
+    };
     let told = pipeline::in_threads(args.how.threads, || told(args, &pairing, &options))??;
     if let Some(images) = images {
         let view = if args.side_by_side { View::SideBySide } else { View::Over };

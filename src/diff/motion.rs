@@ -1,0 +1,183 @@
+//! [`Motion`]: one shift, turn and growth that carries marks of one drawing to their places in the other.
+
+use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
+
+use super::grid::{SegmentCells, nearest_on};
+
+/// Motions that are tried: what carries single marks to their likes.
+const TRIED: usize = 48;
+/// Places that a motion is judged by.
+const JUDGED: usize = 600;
+
+/// A shift, a turn and a growth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Motion {
+    pub affine: Affine,
+    /// The share of the places of both drawings that it carries to something.
+    pub share: f64,
+}
+
+impl Motion {
+    /// How much larger all becomes.
+    pub(super) fn scale(&self) -> f64 {
+        self.affine.determinant().abs().sqrt()
+    }
+
+    /// The turn in degrees, clockwise on the page.
+    pub(super) fn turn(&self) -> f64 {
+        let [a, b, ..] = self.affine.as_coeffs();
+        crate::math::function::atan2(b, a).to_degrees()
+    }
+
+    /// How far a point goes.
+    pub(super) fn of(&self, p: Point) -> Vec2 {
+        self.affine * p - p
+    }
+
+    /// How far what lies in a box goes, at its corners: the least and the most.
+    pub(super) fn ways(&self, place: Rect) -> [Vec2; 4] {
+        let (x, y) = ([place.x0, place.x1], [place.y0, place.y1]);
+        [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j): (usize, usize)| self.of(Point::new(x[i], y[j])))
+    }
+}
+
+/// Marks of both drawings: paths that may be likes, in order, and polylines of all.
+pub(super) struct Marks<'a> {
+    pub likes: Vec<[&'a BezPath; 2]>,
+    pub lines: [Vec<Vec<Point>>; 2],
+}
+
+/// The motion that carries most of the one side to the other, within `reach`; shifts alone, unless `similar`.
+pub(super) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
+    let places = [0, 1].map(|side: usize| spread(&marks.lines[side]));
+    if places.iter().any(Vec::is_empty) {
+        return None;
+    }
+    let grids = [0, 1].map(|side: usize| Grid::new(&marks.lines[side]));
+    let judge = |affine: Affine| {
+        let growth = affine.determinant().abs().sqrt();
+        if !(1e-3..1e3).contains(&growth) {
+            return None;
+        }
+        let hits = |places: &[Point], to: Affine, grid: &Grid, reach: f64| {
+            let near = places.iter().filter(|p| grid.has(to * **p, reach)).count();
+            near as f64 / places.len() as f64
+        };
+        let forth = hits(&places[0], affine, &grids[1], reach * growth.max(1.0));
+        let back = hits(&places[1], affine.inverse(), &grids[0], reach / growth.min(1.0));
+        Some(Motion { affine, share: forth.min(back) })
+    };
+    let step = (marks.likes.len() / TRIED).max(1);
+    let tried = marks.likes.iter().step_by(step).filter_map(|[old, new]| {
+        let (a, b) = (points(old), points(new));
+        (a.len() == b.len()).then(|| fit(&a, &b, similar)).flatten()
+    });
+    let mut best: Option<Motion> = None;
+    for found in tried.chain(more.iter().copied()).filter_map(judge) {
+        if best.is_none_or(|best| found.share > best.share + 1e-9) {
+            best = Some(found);
+        }
+    }
+    let best = best?;
+    // All likes that it carries to each other tell it more exactly.
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    for [old, new] in &marks.likes {
+        let (old, new) = (points(old), points(new));
+        let growth = best.scale().max(1.0);
+        if old.len() == new.len()
+            && old.iter().zip(&new).all(|(p, q)| (best.affine * *p).distance(*q) <= 2.0 * reach * growth)
+        {
+            a.extend(old);
+            b.extend(new);
+        }
+    }
+    let refined = fit(&a, &b, similar).and_then(judge).filter(|refined| refined.share >= best.share - 0.01);
+    Some(refined.unwrap_or(best))
+}
+
+/// The shift, or shift, turn and growth, that carries points to points; the least squares.
+fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
+    if a.is_empty() || a.len() != b.len() {
+        return None;
+    }
+    let count = a.len() as f64;
+    let mean = |points: &[Point]| points.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / count;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    if !similar {
+        return Some(Affine::translate(mean_b - mean_a));
+    }
+    let (mut turn, mut size) = (Vec2::ZERO, 0.0);
+    for (p, q) in a.iter().zip(b) {
+        let (p, q) = (p.to_vec2() - mean_a, q.to_vec2() - mean_b);
+        turn += Vec2::new(p.dot(q), p.cross(q));
+        size += p.hypot2();
+    }
+    if size <= 1e-6 {
+        return None;
+    }
+    let turn = turn / size;
+    let linear = Affine::new([turn.x, turn.y, -turn.y, turn.x, 0.0, 0.0]);
+    Some(Affine::translate(mean_b - (linear * mean_a.to_point()).to_vec2()) * linear)
+}
+
+/// The points that a path is written with.
+fn points(path: &BezPath) -> Vec<Point> {
+    let mut points = Vec::new();
+    for element in path.elements() {
+        match *element {
+            PathEl::MoveTo(p) | PathEl::LineTo(p) => points.push(p),
+            PathEl::QuadTo(c, p) => points.extend([c, p]),
+            PathEl::CurveTo(c, d, p) => points.extend([c, d, p]),
+            PathEl::ClosePath => {}
+        }
+    }
+    points
+}
+
+/// Places all over some lines, in equal distances.
+fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
+    let segments = || lines.iter().flat_map(|points| points.windows(2)).map(|pair| (pair[0], pair[1]));
+    let length: f64 = segments().map(|(p, q)| p.distance(q)).sum();
+    let step = length / JUDGED as f64;
+    let mut found = Vec::new();
+    let mut rest = step / 2.0;
+    for (p, q) in segments() {
+        let own = p.distance(q);
+        while rest < own && found.len() <= JUDGED {
+            found.push(p.lerp(q, rest / own));
+            rest += step;
+        }
+        rest -= own;
+    }
+    found
+}
+
+/// Lines that are asked whether something of them is near.
+struct Grid(SegmentCells);
+
+impl Grid {
+    fn new(lines: &[Vec<Point>]) -> Self {
+        let chain = |points: &Vec<Point>| super::chain::Chain {
+            group: 0,
+            points: points.clone(),
+            closed: false,
+            shapes: Vec::new(),
+        };
+        Self(SegmentCells::new(&lines.iter().map(chain).collect::<Vec<_>>()))
+    }
+
+    fn has(&self, p: Point, reach: f64) -> bool {
+        let mut near = Vec::new();
+        self.0.near(p, p, reach, &mut near);
+        near.iter()
+            .filter_map(|item| self.0.segments.get(*item as usize))
+            .any(|segment| p.distance(nearest_on(segment.from, segment.to, p)) <= reach)
+    }
+}
+
+/// The box round lines.
+pub(super) fn extent(lines: &[Vec<Point>]) -> Rect {
+    let mut points = lines.iter().flatten();
+    let Some(first) = points.next() else { return Rect::ZERO };
+    points.fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p))
+}

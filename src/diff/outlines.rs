@@ -1,0 +1,95 @@
+//! Findings about lines of varying width whose middle is the same: their outlines are covered as lines are, all at once,
+//! because programs put several outlines into one path.
+
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashSet;
+
+use super::chain::{self, Chain};
+use super::cover::{Cover, cover};
+use super::distance::Near;
+use super::finding::{Change, Finding, Place, Verdict};
+use super::grid::SegmentCells;
+use super::groups::Groups;
+use super::ink::trimmed;
+use super::pair::bounds;
+use super::picture::ShapeKind;
+use super::teller::Teller;
+
+/// One finding a line whose width varies differently.
+pub(super) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
+    let rings = [0, 1].map(|side| rings(teller, side, groups));
+    if rings.iter().all(Vec::is_empty) {
+        return Vec::new();
+    }
+    let firsts = [chain::firsts(&rings[0]), chain::firsts(&rings[1])];
+    let grids = [0, 1].map(|side: usize| SegmentCells::new(&rings[side]));
+    let all = |side: usize| (rings[side].as_slice(), firsts[side].as_slice());
+    let covers = [cover(all(0), all(1), &grids[1], groups), cover(all(1), all(0), &grids[0], groups)];
+    // The lines that differ, by the old shape, and by how much.
+    let mut differ: BTreeMap<usize, f64> = BTreeMap::new();
+    for side in 0..2 {
+        for (ring, cover) in rings[side].iter().zip(&covers[side]).filter(|(_, cover)| !cover.is_whole()) {
+            let other = cover.partners.first().and_then(|(other, ..)| rings[1 - side].get(*other as usize));
+            let old = if side == 0 { Some(ring) } else { other };
+            let Some(shape) = old.and_then(|old| old.shapes.first()) else { continue };
+            let wider = differ.entry(*shape).or_default();
+            *wider = wider.max(other.map_or(0.0, |other| off(ring, cover, other)));
+        }
+    }
+    let lines = teller.sides[0].chains.iter().zip(&teller.sides[0].covers);
+    let lines = lines.filter(|(chain, cover)| chain.shapes.len() == 1 && cover.is_same());
+    let told = lines.filter_map(|(chain, cover)| {
+        let wider = differ.get(chain.shapes.first()?)?;
+        let shape = teller.shape(0, chain)?;
+        let change = Change {
+            what: "width along the line".to_owned(),
+            old: format!("{} px on average", trimmed(shape.ink.width)),
+            new: format!("up to {} px wider or thinner on one side", trimmed(*wider)),
+        };
+        let place = Place::of(bounds(&chain.points));
+        let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
+        Some(Finding {
+            size: cover.length,
+            new: shape.path.clone(),
+            material: shape.material.clone(),
+            ..Finding::in_place(Verdict::Restyled, kind, label, vec![change], place)
+        })
+    });
+    told.collect()
+}
+
+/// The rings of the outlines of all lines that have no equal, each with its shape; in an order of their own.
+fn rings(teller: &Teller, side: usize, groups: &Groups) -> Vec<Chain> {
+    let mut found = Vec::new();
+    let mut seen: FxHashSet<usize> = FxHashSet::default();
+    for chain in &teller.sides[side].chains {
+        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+        for index in chain.shapes.iter().filter(|index| seen.insert(**index)) {
+            let outline = teller.pictures[side].shapes.get(*index).and_then(|shape| shape.outline.as_ref());
+            let of_shape = chain::rings(outline, tolerance).into_iter();
+            found.extend(of_shape.map(|ring| Chain { group: chain.group, shapes: vec![*index], ..ring }));
+        }
+    }
+    chain::sort(&mut found);
+    found
+}
+
+/// How far the bare stretches of a ring lie from another one.
+fn off(ring: &Chain, cover: &Cover, other: &Chain) -> f64 {
+    let near = Near::new(other);
+    let mut at = 0.0;
+    let mut most = 0.0f64;
+    for (p, q) in ring.segments() {
+        let length = p.distance(q);
+        let bare =
+            cover.runs.iter().filter(|run| run.likeness.is_none() && run.to > at && run.from < at + length);
+        for run in bare.filter(|_| length > 0.0) {
+            for s in [run.from.max(at), run.to.min(at + length)] {
+                most = most.max(near.nearest(p.lerp(q, (s - at) / length)).1);
+            }
+        }
+        at += length;
+    }
+    most
+}

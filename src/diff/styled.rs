@@ -1,0 +1,88 @@
+//! A file without style sheets: what they say of each element is written at it.
+
+use std::fmt::Write as _;
+
+use usvg::roxmltree::Node;
+
+use super::cascade::Cascade;
+use super::guard;
+use super::sheet::Declaration;
+use crate::error::Error;
+
+/// The file with what its style sheets say in attributes `style`, for readers that would search long for what a selector
+/// means; `None` where entities make it unsure which text is whose.
+pub(super) fn without_sheets(text: &str) -> Result<Option<String>, Error> {
+    let document = guard::parse(text)?;
+    let mut cascade = Cascade::of(&document);
+    if cascade.is_empty() {
+        return Ok(Some(text.to_owned()));
+    }
+    if text.contains("<!ENTITY") {
+        return Ok(None);
+    }
+    let mut edits = Vec::new();
+    collect(text, document.root_element(), &mut cascade, &mut edits)?;
+    Ok(Some(edited(text, edits)))
+}
+
+/// Replaces ranges of a text, none of which overlap.
+pub(super) fn edited(text: &str, mut edits: Vec<(std::ops::Range<usize>, String)>) -> String {
+    edits.sort_by_key(|(range, _)| range.start);
+    let mut out = String::with_capacity(text.len());
+    let mut at = 0;
+    for (range, new) in edits {
+        out.push_str(text.get(at..range.start).unwrap_or_default());
+        out.push_str(&new);
+        at = range.end;
+    }
+    out.push_str(text.get(at..).unwrap_or_default());
+    out
+}
+
+fn collect(
+    text: &str,
+    node: Node,
+    cascade: &mut Cascade,
+    edits: &mut Vec<(std::ops::Range<usize>, String)>,
+) -> Result<(), Error> {
+    let declared = cascade.enter(node)?;
+    if node.has_tag_name("style") {
+        edits.push((node.range(), String::new()));
+    } else {
+        if !declared.is_empty() {
+            let own = node.attributes().find(|a| a.namespace().is_none() && a.name() == "style");
+            let style = style(&declared, own.map(|own| own.value()).unwrap_or_default());
+            match own {
+                Some(own) => edits.push((own.range(), style)),
+                None => {
+                    let at = after_name(text, node);
+                    edits.push((at..at, format!(" {style}")));
+                }
+            }
+        }
+        for child in node.children().filter(Node::is_element) {
+            collect(text, child, cascade, edits)?;
+        }
+    }
+    cascade.leave();
+    Ok(())
+}
+
+/// Where the name of an element ends.
+pub(super) fn after_name(text: &str, node: Node) -> usize {
+    let start = node.range().start;
+    let rest = text.get(start..).unwrap_or_default();
+    start + rest.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>')).unwrap_or(rest.len())
+}
+
+fn style(declared: &[Declaration], own: &str) -> String {
+    let mut out = String::from("style=\"");
+    for Declaration { name, value, important } in declared {
+        let _ = write!(out, "{name}:{}{};", escaped(value), if *important { " !important" } else { "" });
+    }
+    out + &escaped(own) + "\""
+}
+
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
