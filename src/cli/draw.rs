@@ -1,5 +1,7 @@
 //! `ligne draw`: one drawing of one model, in one or several formats.
 
+use std::io::Read;
+
 use super::moment::scene_at;
 use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
@@ -8,6 +10,7 @@ use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{lod, number, pipeline, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
+use crate::load::ModelFormat;
 use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch};
 use crate::scene::Scene;
@@ -18,13 +21,13 @@ const SCREEN_DPI: f64 = 96.0;
 const PRINT_DPI: f64 = 300.0;
 
 /// A drawing in all its formats, not yet written.
-struct Drawn {
+pub(super) struct Drawn {
     drawing: Drawing,
     /// From where it was seen.
     seen: View,
-    report: Report,
+    pub(super) report: Report,
     /// One an output, in their order.
-    encoded: Vec<Vec<u8>>,
+    pub(super) encoded: Vec<Vec<u8>>,
     maps: Option<MapFiles>,
 }
 
@@ -61,26 +64,60 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
 
 /// Everything up to the bytes of each output.
 fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
-    let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     let progress = Progress::start(request.quiet, &request.model);
+    let mut drawn = None;
+    draw_views(&[request], watch, &progress, |_, view| {
+        drawn = Some(view);
+        Ok(())
+    })?;
+    drawn.ok_or_else(|| Error::new("there is no view to draw"))
+}
+
+/// The same for several views of one model, which is read once: those of the first request, which the others share
+/// but for views and outputs. Each is handed over as soon as it is there.
+pub(super) fn draw_views(
+    requests: &[&DrawRequest],
+    watch: &mut Stopwatch,
+    progress: &Progress,
+    mut take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let Some(request) = requests.first() else { return Ok(()) };
+    let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     progress.step("reading");
     let mut scene = open(request, &style)?;
     if let Some(up) = request.up {
         scene.up = up;
     }
     let load_ms = watch.lap_ms();
-
     progress.step("drawing");
-    let Viewpoint { camera, paper, warning } = viewpoint(&request.view, &request.sheet, &scene)?;
-    let page = Page { background: style.background, ..paper.page() };
+    let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene));
+    let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
     watch.lap_ms();
     let prepared = Prepared::new(&scene, &style);
     let preparing_ms = watch.lap_ms();
+    for (request, eye) in requests.iter().zip(eyes) {
+        let page = Page { background: style.background, ..eye.paper.page() };
+        let mut drawn = draw_view(request, eye, page, &scene, &prepared, watch, progress)?;
+        drawn.report.stages_ms.load = load_ms;
+        drawn.report.stages_ms.topology += preparing_ms;
+        take(request, drawn)?;
+    }
+    Ok(())
+}
+
+fn draw_view(
+    request: &DrawRequest,
+    Viewpoint { camera, paper, warning }: Viewpoint,
+    page: Page,
+    scene: &Scene,
+    prepared: &Prepared,
+    watch: &mut Stopwatch,
+    progress: &Progress,
+) -> Result<Drawn, Error> {
+    watch.lap_ms();
     let (drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
-    report.stages_ms.load = load_ms;
-    report.stages_ms.topology += preparing_ms;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
-    report.counts.triangles = triangles(&scene);
+    report.counts.triangles = triangles(scene);
     report.counts.paths = paths(&drawing);
     for warning in scene.warnings.lines().into_iter().chain(warning) {
         if !report.warnings.contains(&warning) {
@@ -111,8 +148,13 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
 
 /// The model: at the moment, with the parts, and with as many faces as asked for.
 fn open(request: &DrawRequest, style: &Style) -> Result<Scene, Error> {
-    let mut rigged =
-        if request.stands() { Scene::open(&request.model)?.into() } else { Rigged::open(&request.model)? };
+    let mut rigged = match (request.piped, request.stands()) {
+        (Some(format), stands) => {
+            read_piped(format, stands).map_err(|error| error.in_file(&request.model))?
+        }
+        (None, true) => Scene::open(&request.model)?.into(),
+        (None, false) => Rigged::open(&request.model)?,
+    };
     // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
     let mut scene = scene_at(rigged, request, style)?;
@@ -120,6 +162,17 @@ fn open(request: &DrawRequest, style: &Style) -> Result<Scene, Error> {
     match coarse {
         Some((detail, faces)) => lod::reduced(&scene, &detail, faces),
         None => Ok(scene),
+    }
+}
+
+/// The model on standard input.
+fn read_piped(format: ModelFormat, stands: bool) -> Result<Rigged, Error> {
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().read_to_end(&mut bytes).map_err(|error| Error::io("cannot be read", error))?;
+    if stands {
+        Scene::from_bytes(&bytes, format).map(Rigged::from)
+    } else {
+        Rigged::from_bytes(&bytes, format)
     }
 }
 
@@ -131,7 +184,7 @@ pub(super) fn default_dpi(unit: Unit) -> f64 {
 }
 
 /// Under `--strict` warnings are errors.
-fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
+pub(super) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
     if !request.strict || report.warnings.is_empty() {
         return Ok(());
     }
@@ -196,7 +249,7 @@ pub(super) fn paths(drawing: &Drawing) -> u64 {
 }
 
 /// `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`
-fn summary(drawn: &Drawn, bytes: usize, seconds: f64) -> String {
+pub(super) fn summary(drawn: &Drawn, bytes: usize, seconds: f64) -> String {
     let Page { width, height, unit, .. } = drawn.drawing.page;
     let counts = &drawn.report.counts;
     format!(
