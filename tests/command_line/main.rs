@@ -11,4 +11,5 @@ mod documentation;
 mod draw;
 mod fmt;
 mod lod;
+mod many;
 mod pictures;
