@@ -1,5 +1,8 @@
 //! `ligne draw`: one drawing of one model, in one or several formats.
 
+use std::borrow::Cow;
+use std::io::Read;
+
 use glam::DVec3;
 
 use super::framing_args::Frame;
@@ -11,6 +14,7 @@ use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{lod, number, pipeline, print, say, wonder};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
+use crate::load::ModelFormat;
 use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch};
 use crate::scene::Scene;
@@ -22,13 +26,13 @@ const SCREEN_DPI: f64 = 96.0;
 const PRINT_DPI: f64 = 300.0;
 
 /// A drawing in all its formats, not yet written.
-struct Drawn {
+pub(super) struct Drawn {
     drawing: Drawing,
     /// From where it was seen.
     seen: View,
-    report: Report,
+    pub(super) report: Report,
     /// One an output, in their order.
-    encoded: Vec<Vec<u8>>,
+    pub(super) encoded: Vec<Vec<u8>>,
     maps: Option<MapFiles>,
 }
 
@@ -60,8 +64,7 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     write(request, &mut drawn, &mut watch)?;
     if !request.quiet {
         for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
-            let pixels = if output.format == Format::Png { pixels(bytes) } else { None };
-            say(&format!("{}: {}", output.name(), summary(&drawn, bytes.len(), pixels, watch.seconds())));
+            say(&format!("{}: {}", output.name(), summary(&drawn, bytes, watch.seconds())));
         }
     }
     Ok(())
@@ -69,32 +72,70 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
 
 /// Everything up to the bytes of each output.
 fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
-    let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     let progress = Progress::start(request.quiet, &request.model);
+    let mut drawn = None;
+    draw_views(&[request], watch, &progress, |_, view| {
+        drawn = Some(view);
+        Ok(())
+    })?;
+    drawn.ok_or_else(|| Error::new("there is no view to draw"))
+}
+
+/// The same for several views of one model, which is read once: those of the first request, which the others share
+/// but for views and outputs. Each is handed over as soon as it is there.
+pub(super) fn draw_views(
+    requests: &[&DrawRequest],
+    watch: &mut Stopwatch,
+    progress: &Progress,
+    mut take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let Some(request) = requests.first() else { return Ok(()) };
+    let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     progress.step("reading");
     let Opened { mut scene, framed, mut notes } = open(request, &style)?;
     if let Some(up) = request.up {
         scene.up = up;
     }
     let load_ms = watch.lap_ms();
-
     progress.step("drawing");
-    let points = || Ok(framed.unwrap_or_else(|| world_points(&scene)));
-    let Viewpoint { camera, paper, warning } = viewpoint(&request.view, &request.sheet, &scene, points)?;
-    notes.extend(warning);
-    notes.extend(wonder::enclosed(&scene, &camera));
     notes.extend(wonder::idle(request, std::env::args_os()));
-    let page = Page { background: style.background, ..paper.page() };
+    let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
+    let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
+    let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
     watch.lap_ms();
     let prepared = Prepared::new(&scene, &style);
     let preparing_ms = watch.lap_ms();
+    for (request, eye) in requests.iter().zip(eyes) {
+        let page = Page { background: style.background, ..eye.paper.page() };
+        let mut drawn = draw_view(request, (eye, page), (&scene, &notes), &prepared, watch, progress)?;
+        drawn.report.stages_ms.load = load_ms;
+        drawn.report.stages_ms.topology += preparing_ms;
+        take(request, drawn)?;
+    }
+    Ok(())
+}
+
+fn draw_view(
+    request: &DrawRequest,
+    (Viewpoint { camera, paper, warning }, page): (Viewpoint, Page),
+    (scene, notes): (&Scene, &[String]),
+    prepared: &Prepared,
+    watch: &mut Stopwatch,
+    progress: &Progress,
+) -> Result<Drawn, Error> {
+    watch.lap_ms();
     let (drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
-    report.stages_ms.load = load_ms;
-    report.stages_ms.topology += preparing_ms;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
-    report.counts.triangles = triangles(&scene);
+    report.counts.triangles = triangles(scene);
     report.counts.paths = paths(&drawing);
-    for warning in scene.warnings.lines().into_iter().chain(notes) {
+    for warning in scene
+        .warnings
+        .lines()
+        .into_iter()
+        .chain(notes.iter().cloned())
+        .chain(warning)
+        .chain(wonder::enclosed(scene, &camera))
+    {
         if !report.warnings.contains(&warning) {
             report.warnings.push(warning);
         }
@@ -132,8 +173,13 @@ struct Opened {
 
 /// The model: at the moment, with the parts, and with as many faces as asked for.
 fn open(request: &DrawRequest, style: &Style) -> Result<Opened, Error> {
-    let mut rigged =
-        if request.stands() { Scene::open(&request.model)?.into() } else { Rigged::open(&request.model)? };
+    let mut rigged = match (request.piped, request.stands()) {
+        (Some(format), stands) => {
+            read_piped(format, stands).map_err(|error| error.in_file(&request.model))?
+        }
+        (None, true) => Scene::open(&request.model)?.into(),
+        (None, false) => Rigged::open(&request.model)?,
+    };
     // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
     let mut scene = scene_at(rigged, request, style)?;
@@ -148,6 +194,17 @@ fn open(request: &DrawRequest, style: &Style) -> Result<Opened, Error> {
     Ok(Opened { scene, framed, notes })
 }
 
+/// The model on standard input.
+fn read_piped(format: ModelFormat, stands: bool) -> Result<Rigged, Error> {
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().read_to_end(&mut bytes).map_err(|error| Error::io("cannot be read", error))?;
+    if stands {
+        Scene::from_bytes(&bytes, format).map(Rigged::from)
+    } else {
+        Rigged::from_bytes(&bytes, format)
+    }
+}
+
 pub(super) fn default_dpi(unit: Unit) -> f64 {
     match unit {
         Unit::Px => SCREEN_DPI,
@@ -156,7 +213,7 @@ pub(super) fn default_dpi(unit: Unit) -> f64 {
 }
 
 /// Under `--strict` warnings are errors.
-fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
+pub(super) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
     if !request.strict || report.warnings.is_empty() {
         return Ok(());
     }
@@ -225,16 +282,17 @@ pub(super) fn paths(drawing: &Drawing) -> u64 {
 
 /// Width and height of a PNG file, as its header has them.
 fn pixels(png: &[u8]) -> Option<[u32; 2]> {
+    let png = png.strip_prefix(b"\x89PNG")?;
     let side = |from: usize| Some(u32::from_be_bytes(png.get(from..from + 4)?.try_into().ok()?));
-    Some([side(16)?, side(20)?])
+    Some([side(12)?, side(16)?])
 }
 
 /// `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`; a PNG of other pixels than the drawing has px says how many.
-fn summary(drawn: &Drawn, bytes: usize, pixels: Option<[u32; 2]>, seconds: f64) -> String {
+pub(super) fn summary(drawn: &Drawn, bytes: &[u8], seconds: f64) -> String {
     let Page { width, height, unit, .. } = drawn.drawing.page;
     let counts = &drawn.report.counts;
     let of_page = |side: u32, length: f64| unit == Unit::Px && f64::from(side) == length;
-    let pixels = match pixels {
+    let pixels = match pixels(bytes) {
         Some([w, h]) if !(of_page(w, width) && of_page(h, height)) => format!(" as {w} x {h} pixels"),
         _ => String::new(),
     };
@@ -244,7 +302,7 @@ fn summary(drawn: &Drawn, bytes: usize, pixels: Option<[u32; 2]>, seconds: f64) 
         number::plain(height, 2),
         unit.name(),
         number::counted(counts.paths, "path"),
-        number::bytes(bytes as u64),
+        number::bytes(bytes.len() as u64),
         number::counted(counts.triangles, "triangle"),
     )
 }
@@ -266,11 +324,10 @@ mod tests {
             maps: None,
         };
         assert_eq!(
-            summary(&drawn, 18_249, None, 0.031),
+            summary(&drawn, &[0; 18_249], 0.031),
             "210 x 297 mm, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles"
         );
-        assert!(
-            summary(&drawn, 1, Some([2480, 3508]), 0.0).starts_with("210 x 297 mm as 2480 x 3508 pixels, ")
-        );
+        let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x09\xb0\0\0\x0d\xb4";
+        assert!(summary(&drawn, png, 0.0).starts_with("210 x 297 mm as 2480 x 3508 pixels, "));
     }
 }

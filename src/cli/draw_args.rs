@@ -6,6 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 
 use super::framing_args::{FramingArgs, SaveArgs};
+use super::many::args::ManyArgs;
 use super::offered::Offered;
 use super::paper::{self, Extent, Measure};
 use crate::math::colour::Colour;
@@ -17,19 +18,28 @@ const EXAMPLES: &str = "Examples:
   ligne draw bunny.obj                                 writes bunny.svg
   ligne draw bunny.obj bunny.png --size 2000x1500 --azimuth -30
   ligne draw part.stl sheet.svg --style technical --view iso --page A4 --scale 1:2
-  ligne draw drive.glb - --hide 'bolt*' --quiet | less";
+  ligne draw drive.glb - --hide 'bolt*' --quiet | less
+  ligne draw *.glb --out-dir drawings --format svg,png --view front,top,iso
+  ligne draw bunny.obj --style mine.toml --watch";
+
+const USAGE: &str = "ligne draw [OPTIONS] <MODEL> [OUT]
+       ligne draw [OPTIONS] --out-dir <DIR> <MODEL>...";
 
 /// What was typed after `ligne draw`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, override_usage = USAGE)]
 pub(super) struct DrawArgs {
-    /// The model: .obj, .gltf, .glb, .stl or .ply
+    /// The model: .obj, .gltf, .glb, .stl or .ply, or - for standard input (say with --format what it is)
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) model: PathBuf,
 
     /// The drawing: .svg, .png or .pdf, or - for SVG on standard output [default: the model's name with
     /// .svg, in the current folder]
     pub(super) out: Option<PathBuf>,
+
+    /// With --out-dir all are models
+    #[arg(hide = true, requires = "out_dir")]
+    pub(super) more: Vec<PathBuf>,
 
     /// A further drawing, may be given again
     #[arg(short = 'o', long = "output", value_name = "OUT")]
@@ -40,6 +50,9 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) save: SaveArgs,
+
+    #[command(flatten)]
+    pub(super) many: ManyArgs,
 
     /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
@@ -78,11 +91,11 @@ pub(super) struct HowArgs {
         conflicts_with_all = ["view", "azimuth", "elevation", "fov", "ortho"])]
     pub(super) camera: Option<String>,
 
-    /// A named view, orthographic unless --fov is given
-    #[arg(long, help_heading = "View", conflicts_with_all = ["azimuth", "elevation"],
+    /// A named view, orthographic unless --fov is given; ligne draw takes several: front,top,iso
+    #[arg(long, help_heading = "View", value_delimiter = ',', conflicts_with_all = ["azimuth", "elevation"],
         value_parser = PossibleValuesParser::new(NamedView::ALL.map(NamedView::name))
             .try_map(|name| NamedView::parse(&name).ok_or("no such view")))]
-    pub(super) view: Option<NamedView>,
+    pub(super) view: Vec<NamedView>,
 
     /// Degrees to the right of the front: 0 = front, 90 = right [default: 35]
     #[arg(long, value_name = "DEGREES", help_heading = "View", allow_negative_numbers = true,

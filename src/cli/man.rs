@@ -24,6 +24,15 @@ const VARIABLES_DO: [&str; 2] = [
     "The number of threads, in place of --threads. The drawing is the same with any.",
 ];
 
+/// Variables of job arrays, and what they do.
+const ARRAYS: [(&str, &str); 2] = [
+    (
+        "SLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT",
+        "Which shard of several models ligne draw --out-dir draws, where --shard does not say it; --shard /N takes the first alone.",
+    ),
+    ("JOB_COMPLETION_INDEX, JOB_COMPLETIONS", "The same in an indexed job of Kubernetes."),
+];
+
 /// Commands that read `ligne.toml`.
 const CONFIGURED: [&str; 4] = ["draw", "animate", "diff", "test"];
 
@@ -124,6 +133,9 @@ fn environment(roff: &mut Roff, command: &Command, is_program: bool) {
     if is_program || has("bless") {
         entries.push(("CI", "Where it is set, ligne test refuses --bless: drawings are approved by people."));
     }
+    if is_program || has("out-dir") {
+        entries.extend(ARRAYS);
+    }
     if entries.is_empty() {
         return;
     }
@@ -159,7 +171,13 @@ fn exit_status(roff: &mut Roff) {
         roff,
         "2",
         "The call or an input file is wrong. The message says which, what is wrong with it and what to do; \
-         existing files stay as they were.",
+         existing files stay as they were. Where ligne draw has many models, the others are drawn.",
+    );
+    entry(
+        roff,
+        "75",
+        "A file could not be read or written for a reason that may pass, such as a full disc: the same call may do later, \
+         ligne draw with --resume.",
     );
 }
 

@@ -14,6 +14,7 @@ mod info;
 mod keys;
 mod lod;
 mod man;
+mod many;
 mod model_unit;
 mod moment;
 mod number;
@@ -23,6 +24,8 @@ mod paper;
 mod pipeline;
 mod progress;
 mod request;
+mod shard;
+mod status;
 mod styles;
 mod test;
 mod viewpoint;
@@ -40,6 +43,9 @@ const DIFFERENCES: u8 = 1;
 
 /// Exit status where the call or an input file is wrong.
 const WRONG: u8 = 2;
+
+/// Exit status where the same call may well do later: a full disc, a network that is away. EX_TEMPFAIL of sysexits.h.
+const LATER: u8 = 75;
 
 const EXAMPLES: &str = "Examples:
   ligne draw model.obj                              writes model.svg, in ink
@@ -110,6 +116,7 @@ pub fn main() -> ExitCode {
     };
     let all_well = |()| ExitCode::SUCCESS;
     let done = match cli.command {
+        Command::Draw(args) if many::is_asked(&args) => many::run(*args),
         Command::Draw(args) => {
             request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
         }
@@ -127,7 +134,7 @@ pub fn main() -> ExitCode {
         Ok(status) => status,
         Err(error) => {
             say(&format!("error: {error}"));
-            ExitCode::from(WRONG)
+            ExitCode::from(status::of_error(&error))
         }
     }
 }

@@ -193,6 +193,14 @@ fn create_beside(place: &Path) -> std::io::Result<(PathBuf, fs::File)> {
     Err(ErrorKind::AlreadyExists.into())
 }
 
+/// The name of the file that one with such a name was written for by [`Staging`], beside it.
+pub(super) fn staged_for(name: &str) -> Option<&str> {
+    let (drawing, by) = name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
+    let (process, attempt) = by.split_once('-')?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (is_number(process) && is_number(attempt)).then_some(drawing)
+}
+
 fn cannot_write(path: &Path, error: std::io::Error) -> Error {
     let remedy = match error.kind() {
         ErrorKind::NotFound => "create the folder first",
@@ -222,6 +230,16 @@ mod tests {
         }
         names.sort();
         Ok(names)
+    }
+
+    #[test]
+    fn files_beside_drawings_tell_which() {
+        assert_eq!(staged_for(".gear.v2.svg.812-0.tmp"), Some("gear.v2.svg"));
+        for other in
+            ["gear.svg", ".gear.svg", ".tmp", ".gear.svg.812.tmp", ".gear.svg.x-0.tmp", "gear.svg.812-0.tmp"]
+        {
+            assert_eq!(staged_for(other), None, "{other}");
+        }
     }
 
     #[test]

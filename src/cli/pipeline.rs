@@ -1,5 +1,7 @@
 //! The calls of the command line into the rest of the crate.
 
+use rayon::ThreadPool;
+
 use super::draw_args::GroupBy;
 use super::request::SvgChoices;
 use crate::drawing::Drawing;
@@ -88,9 +90,14 @@ pub(super) fn png(drawing: &Drawing, dpi: f64) -> Result<Vec<u8>, Error> {
 
 /// Works with so many threads, or with as many as there are cores.
 pub(super) fn in_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
-    let Some(n) = threads else { return Ok(work()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n)).build();
-    let pool =
-        pool.map_err(|error| Error::new(format!("cannot start {n} threads: {error}")).at("--threads"))?;
-    Ok(pool.install(work))
+    if threads.is_none() {
+        return Ok(work());
+    }
+    Ok(pool(threads)?.install(work))
+}
+
+/// So many threads, or as many as there are cores.
+pub(super) fn pool(threads: Option<u16>) -> Result<ThreadPool, Error> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
+    pool.map_err(|error| Error::new(format!("cannot start threads: {error}")).at("--threads"))
 }

@@ -62,6 +62,13 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// A line on standard error that the bar makes way for; one that nobody reads is no error.
+    pub(super) fn tell(&self, line: &str) {
+        show(&if self.shown.is_some() { format!("{CLEAR}{line}\n") } else { format!("{line}\n") });
+    }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((sender, thread)) = self.shown.take() {

@@ -8,6 +8,7 @@ use super::output::{Format, Output, is_stdout};
 use super::viewpoint::{Lens, Sheet, View};
 use crate::drawing::Unit;
 use crate::error::Error;
+use crate::load::ModelFormat;
 use crate::math::colour::Colour;
 use crate::render::{MapFiles, Stage};
 use crate::scene::UpAxis;
@@ -16,6 +17,8 @@ use crate::scene::UpAxis;
 #[derive(Debug)]
 pub(super) struct DrawRequest {
     pub(super) model: PathBuf,
+    /// What standard input holds, where the model is read from there.
+    pub(super) piped: Option<ModelFormat>,
     /// At least one; no two to the same place.
     pub(super) outputs: Vec<Output>,
     pub(super) report: Option<PathBuf>,
@@ -70,16 +73,23 @@ impl DrawRequest {
     /// Where an output has no known format, where two outputs are the same file, and where an
     /// output would overwrite the model.
     pub(super) fn new(args: DrawArgs) -> Result<Self, Error> {
-        let mut paths: Vec<PathBuf> = args.out.into_iter().chain(args.outputs).collect();
-        if paths.is_empty() {
-            paths.push(beside_here(&args.model));
-        }
+        let paths = args.many.paths(&args.model, args.out.into_iter().chain(args.outputs).collect())?;
         let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
         let save_camera = args.save.save_camera;
         let besides: Vec<&Path> = args.report.iter().chain(&save_camera).map(PathBuf::as_path).collect();
         check_apart(&args.model, &outputs, &besides, args.maps.as_deref())?;
-        let request = Self::of_model(args.model, args.how)?;
+        let piped = args.many.piped([&args.model])?;
+        let request = Self::of_model(args.model, args.how)?.reading(piped);
         Ok(Self { outputs, report: args.report, maps: args.maps, stage: args.stage, save_camera, ..request })
+    }
+
+    /// The same with the model from standard input, where that is what its name says.
+    pub(super) fn reading(mut self, piped: Option<ModelFormat>) -> Self {
+        self.piped = piped.filter(|_| is_stdout(&self.model));
+        if self.piped.is_some() {
+            self.model = PathBuf::from("standard input");
+        }
+        self
     }
 
     /// What is meant by a model and how it is drawn: SVG on standard output.
@@ -99,7 +109,12 @@ impl DrawRequest {
             (None, true) => Some(Lens::Parallel),
             (None, false) => None,
         };
-        let view = match (args.camera, args.view) {
+        if args.view.len() > 1 {
+            return Err(Error::new("there is one drawing, and there are several views")
+                .at("--view")
+                .remedy("give one"));
+        }
+        let view = match (args.camera, args.view.first().copied()) {
             (Some(camera), _) => View::Recorded(camera),
             (None, Some(view)) => View::Named(view, lens),
             (None, None) => View::Angles { azimuth_deg: args.azimuth, elevation_deg: args.elevation, lens },
@@ -107,6 +122,7 @@ impl DrawRequest {
         let page = args.page.map(|page| if args.landscape { page.lying() } else { page });
         Ok(Self {
             model,
+            piped: None,
             outputs: vec![Output { path: PathBuf::from("-"), format: Format::SvgToStdout }],
             report: None,
             maps: None,
@@ -140,15 +156,8 @@ impl DrawRequest {
     }
 }
 
-/// The model's name with `.svg`, in the current folder.
-fn beside_here(model: &Path) -> PathBuf {
-    let mut name = model.file_stem().unwrap_or(model.as_os_str()).to_owned();
-    name.push(".svg");
-    PathBuf::from(name)
-}
-
 /// Refuses files that would be written twice, or over the model.
-fn check_apart(
+pub(super) fn check_apart(
     model: &Path,
     outputs: &[Output],
     besides: &[&Path],

@@ -1,5 +1,6 @@
 //! The camera and the sheet that are meant for a scene.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use glam::DVec3;
@@ -69,11 +70,11 @@ pub(super) struct Viewpoint {
 /// # Errors
 /// Where the camera record is wrong, where the model has no such camera, where the margin leaves nothing of the page, and what the points
 /// say.
-pub(super) fn viewpoint(
+pub(super) fn viewpoint<'p>(
     view: &View,
     sheet: &Sheet,
     scene: &Scene,
-    points: impl FnOnce() -> Result<Vec<DVec3>, Error>,
+    points: impl FnOnce() -> Result<Cow<'p, [DVec3]>, Error>,
 ) -> Result<Viewpoint, Error> {
     let square = Extent { width: DEFAULT_FRAME_PX, height: DEFAULT_FRAME_PX };
     let (extent, unit) = sheet.extent.unwrap_or((square, Unit::Px));
@@ -108,11 +109,11 @@ pub(super) fn viewpoint(
 }
 
 /// A camera of a file: it keeps its own frame unless a sheet is asked for.
-fn recorded(
+fn recorded<'p>(
     sheet: &Sheet,
     scene: &Scene,
     name: &str,
-    points: impl FnOnce() -> Result<Vec<DVec3>, Error>,
+    points: impl FnOnce() -> Result<Cow<'p, [DVec3]>, Error>,
 ) -> Result<Viewpoint, Error> {
     let mut found = on_sheet(sheet, open_camera(scene, name)?)?;
     let points = points()?;

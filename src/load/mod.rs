@@ -82,7 +82,7 @@ impl Scene {
     /// # Errors
     /// Names the place in the bytes and the remedy if they are broken, or if nothing can be drawn.
     pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
-        read_bytes(bytes, format)
+        read_bytes(bytes, format, gltf::read_bytes)
     }
 }
 
@@ -93,6 +93,14 @@ impl Rigged {
     /// As [`Scene::open`].
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         open_with(path.as_ref(), gltf::read_rigged)
+    }
+
+    /// Reads a model that is in memory as [`Scene::from_bytes`] does, with its animations and what these move.
+    ///
+    /// # Errors
+    /// As [`Scene::from_bytes`].
+    pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
+        read_bytes(bytes, format, gltf::read_rigged_bytes)
     }
 }
 
@@ -119,14 +127,18 @@ fn open_with<T: From<Scene>>(
 }
 
 /// Reads a model that has no files beside it.
-fn read_bytes(bytes: &[u8], format: ModelFormat) -> Result<Scene, Error> {
+fn read_bytes<T: From<Scene>>(
+    bytes: &[u8],
+    format: ModelFormat,
+    read_gltf: impl FnOnce(&[u8], &dyn Fn(&str, usize) -> Result<Vec<u8>, std::io::Error>) -> Result<T, Error>,
+) -> Result<T, Error> {
     const STEM: &str = "model";
     refuse_strange_bytes(bytes)?;
     match format {
-        ModelFormat::Obj => obj::read_bytes(bytes, STEM, |_| None),
-        ModelFormat::Gltf => gltf::read_bytes(bytes, &|_, _| Err(ErrorKind::NotFound.into())),
-        ModelFormat::Stl => stl::read_bytes(bytes, STEM),
-        ModelFormat::Ply => ply::read_bytes(bytes, STEM),
+        ModelFormat::Obj => obj::read_bytes(bytes, STEM, |_| None).map(T::from),
+        ModelFormat::Gltf => read_gltf(bytes, &|_, _| Err(ErrorKind::NotFound.into())),
+        ModelFormat::Stl => stl::read_bytes(bytes, STEM).map(T::from),
+        ModelFormat::Ply => ply::read_bytes(bytes, STEM).map(T::from),
     }
 }
 

@@ -21,7 +21,8 @@ fn every_command_has_help_with_an_example() {
 fn help_names_every_option_of_drawing() {
     let help = Folder::new("options").ligne("draw --help").out;
     let options = "style set camera view azimuth elevation fov ortho size page margin scale only hide animation repeat time faces up \
-                   background precision report stage threads quiet strict output dpi group id-prefix landscape";
+                   background precision report stage threads quiet strict output dpi group id-prefix landscape out-dir format folders \
+                   shard resume watch";
     for option in options.split_whitespace() {
         assert!(help.contains(&format!("--{option}")), "{option}");
     }

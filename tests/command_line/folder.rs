@@ -91,7 +91,8 @@ impl Folder {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ligne"));
         command.args(args).current_dir(&self.0);
         // What the machine that runs the tests prefers is no matter of theirs.
-        for variable in ["LIGNE_STYLE", "LIGNE_THREADS", "CI"] {
+        for variable in ["LIGNE_STYLE", "LIGNE_THREADS", "CI", "SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]
+        {
             command.env_remove(variable);
         }
         command

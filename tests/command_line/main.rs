@@ -13,4 +13,5 @@ mod draw;
 mod fmt;
 mod framing;
 mod lod;
+mod many;
 mod pictures;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::draw_args::HowArgs;
+use crate::cli::shard::Share;
 
 const EXAMPLES: &str = "Examples:
   ligne animate crane.glb crane.svg                    one SVG that moves
@@ -65,9 +66,9 @@ pub(in crate::cli) struct AnimateArgs {
     #[arg(long, value_name = "FILE", help_heading = "Frames", conflicts_with = "faces")]
     pub(super) levels: Option<PathBuf>,
 
-    /// Draw the Kth of every N frames only, so that N computers share the work
-    #[arg(long, value_name = "K/N", help_heading = "Frames", value_parser = shard)]
-    pub(super) shard: Option<Shard>,
+    /// Draw the Kth of every N frames only, so that N computers share the work; /N: the K of a job array (docs/many.md)
+    #[arg(long, value_name = "K/N", help_heading = "Frames", value_parser = Share::parse)]
+    pub(super) shard: Option<Share>,
 
     /// Leave frames as they are that have been written already
     #[arg(long, help_heading = "Frames")]
@@ -76,33 +77,4 @@ pub(in crate::cli) struct AnimateArgs {
     /// Write what the frames took and what they hold, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) report: Option<PathBuf>,
-}
-
-/// Some of all frames: every `of`th, from the `first` on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Shard {
-    pub(super) first: usize,
-    pub(super) of: usize,
-}
-
-fn shard(text: &str) -> Result<Shard, String> {
-    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
-    match numbers {
-        Some((k, of)) if (1..=of).contains(&k) => Ok(Shard { first: k - 1, of }),
-        _ => Err("write K/N, such as 1/4 for the first of four".to_owned()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shards_count_from_one() {
-        assert_eq!(shard("1/4"), Ok(Shard { first: 0, of: 4 }));
-        assert_eq!(shard("4/4"), Ok(Shard { first: 3, of: 4 }));
-        for wrong in ["0/4", "5/4", "1", "a/b", "1/0", "-1/2"] {
-            assert!(shard(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -1,5 +1,6 @@
 //! [`Plan`]: what each frame shows.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use glam::DAffine3;
@@ -87,7 +88,9 @@ impl Plan {
         let course = Course { timeline, clips: own.map(|own| own.over(over)), turntable };
         let Viewpoint { camera, paper, warning } = match cameras.as_ref().and_then(|path| path.first()) {
             Some(first) => on_sheet(&request.sheet, *first)?,
-            None => viewpoint(&request.view, &request.sheet, &rigged.scene, || course.reach(rigged))?,
+            None => viewpoint(&request.view, &request.sheet, &rigged.scene, || {
+                course.reach(rigged).map(Cow::Owned)
+            })?,
         };
         warnings.extend(warning);
         let named = |name: &str| rigged.scene.cameras.iter().any(|own| own.name == name);

@@ -14,6 +14,7 @@ use crate::animate::{Animator, Budget, Level};
 use crate::cli::output::{Format, Staging};
 use crate::cli::progress::Progress;
 use crate::cli::request::DrawRequest;
+use crate::cli::shard::Share;
 use crate::cli::{draw, pipeline};
 use crate::drawing::Drawing;
 use crate::error::Error;
@@ -54,9 +55,8 @@ impl Stage<'_> {
                 .map_err(|error| Error::io("cannot create the folder", error).in_file(folder))?;
         }
         let timeline = self.plan.course.timeline;
-        let mine = |drawn: &usize| {
-            self.args.shard.is_none_or(|shard| (drawn / timeline.hold()) % shard.of == shard.first)
-        };
+        let shard = self.args.shard.map(Share::shard).transpose()?;
+        let mine = |drawn: &usize| shard.is_none_or(|shard| shard.has(drawn / timeline.hold()));
         let missing = |drawn: &usize| {
             !self.args.resume || (0..timeline.shown(*drawn)).any(|held| !numbered.path(drawn + held).exists())
         };

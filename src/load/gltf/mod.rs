@@ -73,6 +73,14 @@ pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
     Ok(read_all(bytes, fetch, false)?.scene)
 }
 
+/// Reads bytes as [`read_bytes`] does, with the animations and what these move.
+///
+/// # Errors
+/// As [`read_bytes`].
+pub fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
+    read_all(bytes, fetch, true)
+}
+
 /// The scene, and if `rigged`, what moves it.
 fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> {
     let mut warnings = Warnings::default();
