@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::paper::{self, Extent, Measure};
@@ -71,8 +71,8 @@ pub(super) struct HowArgs {
     pub(super) camera: Option<String>,
 
     /// A named view, orthographic unless --fov is given
-    #[arg(long, help_heading = "View", conflicts_with_all = ["azimuth", "elevation"],
-        value_parser = PossibleValuesParser::new(NamedView::ALL.map(NamedView::name))
+    #[arg(long, help_heading = "View", conflicts_with_all = ["azimuth", "elevation"], ignore_case = true,
+        value_parser = PossibleValuesParser::new(NamedView::ALL.map(view_value))
             .try_map(|name| NamedView::parse(&name).ok_or("no such view")))]
     pub(super) view: Option<NamedView>,
 
@@ -149,7 +149,7 @@ pub(super) struct HowArgs {
         value_parser = paper::scale)]
     pub(super) scale: Option<f64>,
 
-    /// Colour of the paper, #rrggbb, or none [default: the style's]
+    /// Colour of the paper, #rrggbb, a name such as ivory, or none [default: the style's]
     #[arg(long, value_name = "COLOUR|none", help_heading = "Page", value_parser = background)]
     pub(super) background: Option<Background>,
 
@@ -201,8 +201,13 @@ fn background(text: &str) -> Result<Background, String> {
     if text.eq_ignore_ascii_case("none") {
         return Ok(Background(None));
     }
-    let colour = Colour::parse(text).ok_or("write a colour as #rrggbb, or none")?;
+    let colour = Colour::parse(text).ok_or("write a colour as #rrggbb or by its name in CSS, or none")?;
     Ok(Background(Some(colour)))
+}
+
+/// The names of a view.
+fn view_value(view: NamedView) -> PossibleValue {
+    PossibleValue::new(view.name()).aliases(view.other_name())
 }
 
 fn setting(text: &str) -> Result<String, String> {

@@ -25,6 +25,7 @@ pub mod defects;
 mod fills;
 mod glass;
 mod hatching;
+mod hidden;
 mod image;
 mod late_search;
 mod maps;
@@ -48,7 +49,6 @@ pub use report::{Report, Stopwatch};
 pub use resting::Resting;
 pub use stage::Stage;
 
-use crate::chain;
 use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
 use crate::error::Error;
 use crate::hatch::{self, Hatched};
@@ -328,7 +328,8 @@ impl<'a> Prepared<'a> {
             seen: &map.seen_contours,
             moved: margin(camera, &page),
         };
-        let mut chains = chain::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
+        let depth = (&surface.mesh.extents, view.frame.perspective);
+        let mut chains = hidden::chains(&ahead, &map, style, page.unit, depth);
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
                 fills::keep_inked(veiled, style);
