@@ -8,6 +8,7 @@ use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{lod, number, pipeline, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
+use crate::export::gzip;
 use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch};
 use crate::scene::Scene;
@@ -76,13 +77,14 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     watch.lap_ms();
     let prepared = Prepared::new(&scene, &style);
     let preparing_ms = watch.lap_ms();
-    let (drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
+    let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
+    let bare = request.web.complete(&mut drawing, &scene, &camera, &style)?;
     report.stages_ms.load = load_ms;
     report.stages_ms.topology += preparing_ms;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
     report.counts.triangles = triangles(&scene);
     report.counts.paths = paths(&drawing);
-    for warning in scene.warnings.lines().into_iter().chain(warning) {
+    for warning in scene.warnings.lines().into_iter().chain(warning).chain(bare.map(str::to_owned)) {
         if !report.warnings.contains(&warning) {
             report.warnings.push(warning);
         }
@@ -93,8 +95,10 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
 
     progress.step("writing");
     watch.lap_ms();
+    let svg = request.web.svg_options(&request.svg, &style)?;
     let encode = |format| match format {
-        Format::Svg | Format::SvgToStdout => Ok(pipeline::svg(&drawing, &request.svg)),
+        Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
+        Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
         Format::Png => pipeline::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
         #[cfg(feature = "pdf")]
         Format::Pdf => Ok(drawing.to_pdf()),

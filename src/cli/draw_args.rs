@@ -6,6 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::paper::{self, Extent, Measure};
+use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;
 use crate::scene::{NamedView, UpAxis};
@@ -23,7 +24,7 @@ pub(super) struct DrawArgs {
     /// The model: .obj, .gltf, .glb, .stl or .ply
     pub(super) model: PathBuf,
 
-    /// The drawing: .svg, .png or .pdf, or - for SVG on standard output [default: the model's name with
+    /// The drawing: .svg, .svgz, .png or .pdf, or - for SVG on standard output [default: the model's name with
     /// .svg, in the current folder]
     pub(super) out: Option<PathBuf>,
 
@@ -33,6 +34,9 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) how: HowArgs,
+
+    #[command(flatten)]
+    pub(super) web: WebArgs,
 
     /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]

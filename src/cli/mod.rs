@@ -23,6 +23,7 @@ mod request;
 mod styles;
 mod test;
 mod viewpoint;
+mod web_args;
 
 use std::io::Write;
 use std::process::ExitCode;

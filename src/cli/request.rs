@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::draw_args::{DrawArgs, GroupBy, HowArgs};
 use super::output::{Format, Output, is_stdout};
 use super::viewpoint::{Lens, Sheet, View};
+use super::web_args::WebArgs;
 use crate::drawing::Unit;
 use crate::error::Error;
 use crate::math::colour::Colour;
@@ -37,6 +38,7 @@ pub(super) struct DrawRequest {
     pub(super) faces: Option<u64>,
     pub(super) sheet: Sheet,
     pub(super) svg: SvgChoices,
+    pub(super) web: WebArgs,
     pub(super) dpi: Option<f64>,
     pub(super) stage: Option<Stage>,
     pub(super) threads: Option<u16>,
@@ -72,7 +74,14 @@ impl DrawRequest {
         let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
         check_apart(&args.model, &outputs, args.report.as_deref(), args.maps.as_deref())?;
         let request = Self::of_model(args.model, args.how)?;
-        Ok(Self { outputs, report: args.report, maps: args.maps, stage: args.stage, ..request })
+        Ok(Self {
+            outputs,
+            report: args.report,
+            maps: args.maps,
+            stage: args.stage,
+            web: args.web,
+            ..request
+        })
     }
 
     /// What is meant by a model and how it is drawn: SVG on standard output.
@@ -119,6 +128,7 @@ impl DrawRequest {
                 margin: args.margin,
             },
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
+            web: WebArgs::default(),
             dpi: args.dpi,
             stage: None,
             threads: args.threads,

@@ -122,7 +122,8 @@ impl TryFrom<String> for Colour {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        Self::parse(&text).ok_or_else(|| format!("`{text}` is not a colour; write it as #rrggbb, or by its name in CSS"))
+        Self::parse(&text)
+            .ok_or_else(|| format!("`{text}` is not a colour; write it as #rrggbb, or by its name in CSS"))
     }
 }
 

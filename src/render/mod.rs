@@ -19,6 +19,7 @@
 //! ```
 
 mod anchors;
+mod areas;
 mod at_rest;
 mod beside;
 pub mod defects;
@@ -44,6 +45,7 @@ use std::sync::Arc;
 
 use kurbo::{PathEl, Vec2};
 
+pub use areas::hotspots;
 pub use maps::MapFiles;
 pub use report::{Report, Stopwatch};
 pub use resting::Resting;
@@ -399,7 +401,7 @@ impl<'a> Prepared<'a> {
             report.warnings.push(motion::NO_MOMENT.to_owned());
         }
         let warnings = report.warnings.clone();
-        (Drawing { title: title(scene), page, layers, warnings }, report)
+        (Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report)
     }
 }
 

@@ -87,7 +87,8 @@ impl Among<'_> {
             other.invisibility == 0 || precedence(map, extents, other, edge).is_lt()
         };
         let near = self.near(line).into_iter().filter(|other| *other as usize != number);
-        let ranges = near.filter(comes_before).filter_map(|other| along(line, &lines[other as usize], *within));
+        let ranges =
+            near.filter(comes_before).filter_map(|other| along(line, &lines[other as usize], *within));
         // Where two lines only meet, one covers nothing of the other but rounding.
         let least = (within / line.length).min(0.5);
         let mut joined = joined(ranges.collect());
