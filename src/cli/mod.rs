@@ -21,6 +21,7 @@ mod pipeline;
 mod progress;
 mod request;
 mod styles;
+mod styles_sheet;
 mod test;
 mod viewpoint;
 mod web_args;

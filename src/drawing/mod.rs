@@ -11,7 +11,10 @@
 
 pub mod hotspot;
 pub mod length;
+#[cfg(feature = "cli")]
+pub(crate) mod lettering;
 pub mod mark;
+mod moved;
 pub mod page;
 
 pub use hotspot::Hotspot;

@@ -12,3 +12,4 @@ mod draw;
 mod fmt;
 mod lod;
 mod pictures;
+mod web;
