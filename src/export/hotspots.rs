@@ -12,6 +12,9 @@ pub(super) const LAYER: &str = "hotspots";
 pub(super) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals) {
     out.extend_from_slice(b" fill=\"none\" pointer-events=\"all\">\n");
     let mut canonical = Canonical::new(decimals);
+    // None covers another one: they stand in the order of the canonical form.
+    let mut spots: Vec<&Hotspot> = spots.iter().collect();
+    spots.sort_by(|a, b| a.part.cmp(&b.part));
     for Hotspot { part, outline } in spots {
         out.extend_from_slice(b"<path data-part=\"");
         escape(out, part);

@@ -21,9 +21,24 @@ pub(super) fn chains(
         return chains;
     }
     // Visible lines are drawn on across gaps by what is hidden there: they are linked with all of it.
-    if let Some(cut) = precedence::apart(map, extents, perspective, Length::px(1.0).in_unit(unit)) {
+    let px = Length::px(1.0).in_unit(unit);
+    if let Some(cut) = precedence::apart(map, extents, perspective, px) {
         chains.retain(|chain| chain.invisibility == 0);
-        chains.extend(link(&cut).into_iter().filter(|chain| chain.invisibility > 0));
+        let stays = |chain: &Chain| chain.invisibility > 0 && length(chain) >= CRUMB_PX * px;
+        chains.extend(link(&cut).into_iter().filter(stays));
     }
     chains
+}
+
+/// What is left of a hidden line is drawn if it is this long, px: curves that coincide but for rounding leave crumbs.
+const CRUMB_PX: f64 = 1.0;
+
+/// The length of a chain on the page.
+fn length(chain: &Chain) -> f64 {
+    let sides = chain.points.windows(2).map(|pair| match pair {
+        [a, b] => (*b - *a).hypot(),
+        _ => 0.0,
+    });
+    let back = chain.points.first().zip(chain.points.last()).filter(|_| chain.closed);
+    sides.sum::<f64>() + back.map_or(0.0, |(first, last)| (*last - *first).hypot())
 }

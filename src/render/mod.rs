@@ -61,7 +61,7 @@ use crate::mesh::Mesh;
 use crate::region::Ground;
 use crate::scene::{Camera, Scene, Warnings, cutout, paint::Paints};
 use crate::shape::Patches;
-use crate::stroke::{self, InkContext, Parting};
+use crate::stroke::{self, InkContext, Order, Parting};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, Ahead, ViewMap};
@@ -307,6 +307,9 @@ impl<'a> Prepared<'a> {
                 patterned.extend(hatched.take().into_iter().flat_map(|layer| layer.marks));
                 hatched =
                     Some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks: patterned });
+            }
+            if style.stroke.layers.order == Order::Travel {
+                hatched = hatched.map(stroke::travel::along);
             }
             layers.extend(hatched);
             if style.hatch.enabled {

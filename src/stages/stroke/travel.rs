@@ -5,7 +5,21 @@
 
 use kurbo::Point;
 
-use crate::drawing::{Mark, Paint};
+use crate::drawing::{Layer, Mark, Paint};
+
+/// A layer in an order of travel, if it is all strokes of one colour, whose order nobody sees; else as it is.
+#[must_use]
+pub fn along(layer: Layer) -> Layer {
+    let colour = |mark: &Mark| match &mark.paint {
+        Paint::Stroke(stroke) => Some(stroke.colour),
+        _ => None,
+    };
+    let first = layer.marks.first().and_then(colour);
+    if first.is_none() || layer.marks.iter().any(|mark| colour(mark) != first) {
+        return layer;
+    }
+    Layer { marks: shorten(layer.marks), ordered: true, ..layer }
+}
 
 /// One end of a mark's path.
 #[derive(Clone, Copy)]
