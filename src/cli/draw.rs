@@ -14,6 +14,7 @@ use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{lod, number, pipeline, print, say, wonder};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
+use crate::export::gzip;
 use crate::load::ModelFormat;
 use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch};
@@ -107,7 +108,8 @@ pub(super) fn draw_views(
     let preparing_ms = watch.lap_ms();
     for (request, eye) in requests.iter().zip(eyes) {
         let page = Page { background: style.background, ..eye.paper.page() };
-        let mut drawn = draw_view(request, (eye, page), (&scene, &notes), &prepared, watch, progress)?;
+        let mut drawn =
+            draw_view(request, (eye, page), (&scene, &notes), (&style, &prepared), watch, progress)?;
         drawn.report.stages_ms.load = load_ms;
         drawn.report.stages_ms.topology += preparing_ms;
         take(request, drawn)?;
@@ -119,12 +121,13 @@ fn draw_view(
     request: &DrawRequest,
     (Viewpoint { camera, paper, warning }, page): (Viewpoint, Page),
     (scene, notes): (&Scene, &[String]),
-    prepared: &Prepared,
+    (style, prepared): (&Style, &Prepared),
     watch: &mut Stopwatch,
     progress: &Progress,
 ) -> Result<Drawn, Error> {
     watch.lap_ms();
-    let (drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
+    let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
+    let bare = request.web.complete(&mut drawing, scene, &camera, style)?;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
     report.counts.triangles = triangles(scene);
     report.counts.paths = paths(&drawing);
@@ -134,6 +137,7 @@ fn draw_view(
         .into_iter()
         .chain(notes.iter().cloned())
         .chain(warning)
+        .chain(bare.map(str::to_owned))
         .chain(wonder::enclosed(scene, &camera))
     {
         if !report.warnings.contains(&warning) {
@@ -146,8 +150,10 @@ fn draw_view(
 
     progress.step("writing");
     watch.lap_ms();
+    let svg = request.web.svg_options(&request.svg, &style)?;
     let encode = |format| match format {
-        Format::Svg | Format::SvgToStdout => Ok(pipeline::svg(&drawing, &request.svg)),
+        Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
+        Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
         Format::Png => pipeline::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
         #[cfg(feature = "pdf")]
         Format::Pdf => Ok(drawing.to_pdf()),

@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 
 use super::framing_args::{FramingArgs, SaveArgs};
 use super::many::args::ManyArgs;
 use super::offered::Offered;
 use super::paper::{self, Extent, Measure};
+use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;
 use crate::scene::{NamedView, UpAxis};
@@ -33,7 +34,7 @@ pub(super) struct DrawArgs {
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) model: PathBuf,
 
-    /// The drawing: .svg, .png or .pdf, or - for SVG on standard output [default: the model's name with
+    /// The drawing: .svg, .svgz, .png or .pdf, or - for SVG on standard output [default: the model's name with
     /// .svg, in the current folder]
     pub(super) out: Option<PathBuf>,
 
@@ -53,6 +54,9 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) many: ManyArgs,
+
+    #[command(flatten)]
+    pub(super) web: WebArgs,
 
     /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
@@ -92,8 +96,8 @@ pub(super) struct HowArgs {
     pub(super) camera: Option<String>,
 
     /// A named view, orthographic unless --fov is given; ligne draw takes several: front,top,iso
-    #[arg(long, help_heading = "View", value_delimiter = ',', conflicts_with_all = ["azimuth", "elevation"],
-        value_parser = PossibleValuesParser::new(NamedView::ALL.map(NamedView::name))
+    #[arg(long, help_heading = "View", value_delimiter = ',', conflicts_with_all = ["azimuth", "elevation"], ignore_case = true,
+        value_parser = PossibleValuesParser::new(NamedView::ALL.map(view_value))
             .try_map(|name| NamedView::parse(&name).ok_or("no such view")))]
     pub(super) view: Vec<NamedView>,
 
@@ -173,7 +177,7 @@ pub(super) struct HowArgs {
         value_parser = paper::scale)]
     pub(super) scale: Option<f64>,
 
-    /// Colour of the paper, #rrggbb, or none [default: the style's]
+    /// Colour of the paper, #rrggbb, a name such as ivory, or none [default: the style's]
     #[arg(long, value_name = "COLOUR|none", help_heading = "Page", value_parser = background)]
     pub(super) background: Option<Background>,
 
@@ -225,8 +229,13 @@ fn background(text: &str) -> Result<Background, String> {
     if text.eq_ignore_ascii_case("none") {
         return Ok(Background(None));
     }
-    let colour = Colour::parse(text).ok_or("write a colour as #rrggbb, or none")?;
+    let colour = Colour::parse(text).ok_or("write a colour as #rrggbb or by its name in CSS, or none")?;
     Ok(Background(Some(colour)))
+}
+
+/// The names of a view.
+fn view_value(view: NamedView) -> PossibleValue {
+    PossibleValue::new(view.name()).aliases(view.other_name())
 }
 
 fn setting(text: &str) -> Result<String, String> {

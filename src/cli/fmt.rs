@@ -1,5 +1,6 @@
 //! `ligne fmt`: drawings rewritten in canonical form.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -9,6 +10,10 @@ use super::output::{Staging, check_place};
 use super::{DIFFERENCES, print};
 use crate::diff::canonical_svg;
 use crate::error::Error;
+use crate::export::gzip;
+
+/// No drawing is larger unpacked.
+const MOST_BYTES: usize = 1 << 30;
 
 /// What was typed.
 #[derive(Debug, Args)]
@@ -52,6 +57,10 @@ pub(super) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
     for file in &args.files {
         let text = read(file)?;
         let form = canonical_svg(&text, args.precision).map_err(|error| error.in_file(file))?;
+        let encoded = |path: &Path| match path.extension() {
+            Some(ending) if ending.eq_ignore_ascii_case("svgz") => Cow::Owned(gzip::packed(form.as_bytes())),
+            _ => Cow::Borrowed(form.as_bytes()),
+        };
         match &args.output {
             _ if args.check && form == text => {}
             _ if args.check => {
@@ -59,8 +68,8 @@ pub(super) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
                 strays.push('\n');
             }
             Some(output) if is_stdout(output) => return print(form.as_bytes()).map(|()| ExitCode::SUCCESS),
-            Some(output) => staging.add(output, form.as_bytes())?,
-            None if form != text => staging.add(file, form.as_bytes())?,
+            Some(output) => staging.add(output, &encoded(output))?,
+            None if form != text => staging.add(file, &encoded(file))?,
             None => {}
         }
     }
@@ -76,6 +85,7 @@ fn is_stdout(path: &Path) -> bool {
 fn read(file: &Path) -> Result<String, Error> {
     let bytes = std::fs::read(file)
         .map_err(|error| Error::io("cannot be read", error).in_file(file).remedy("check the path"))?;
+    let bytes = gzip::plain(bytes, MOST_BYTES).map_err(|error| error.in_file(file))?;
     String::from_utf8(bytes)
         .map_err(|_| Error::new("is not text in UTF-8").in_file(file).remedy("save it as SVG in UTF-8"))
 }

@@ -27,8 +27,10 @@ mod request;
 mod shard;
 mod status;
 mod styles;
+mod styles_sheet;
 mod test;
 mod viewpoint;
+mod web_args;
 mod wonder;
 
 use std::io::Write;

@@ -10,6 +10,7 @@ use crate::error::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
     Svg,
+    Svgz,
     Png,
     #[cfg(feature = "pdf")]
     Pdf,
@@ -33,6 +34,7 @@ impl Output {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         let format = match ending.as_deref() {
             Some("svg") => Format::Svg,
+            Some("svgz") => Format::Svgz,
             Some("png") => Format::Png,
             #[cfg(feature = "pdf")]
             Some("pdf") => Format::Pdf,

@@ -80,7 +80,7 @@ pub(super) fn svg_options(choices: &SvgChoices) -> SvgOptions {
         GroupBy::Part => Grouping::Part,
     };
     let id_prefix = choices.id_prefix.clone().unwrap_or_default();
-    SvgOptions { precision: choices.precision, id_prefix, group }
+    SvgOptions { precision: choices.precision, id_prefix, group, ..SvgOptions::default() }
 }
 
 /// The drawing as PNG, at so many pixels to the inch.

@@ -6,6 +6,7 @@ use super::draw_args::{DrawArgs, GroupBy, HowArgs};
 use super::framing_args::Frame;
 use super::output::{Format, Output, is_stdout};
 use super::viewpoint::{Lens, Sheet, View};
+use super::web_args::WebArgs;
 use crate::drawing::Unit;
 use crate::error::Error;
 use crate::load::ModelFormat;
@@ -45,6 +46,7 @@ pub(super) struct DrawRequest {
     /// Where the camera of the drawing is written.
     pub(super) save_camera: Option<PathBuf>,
     pub(super) svg: SvgChoices,
+    pub(super) web: WebArgs,
     pub(super) dpi: Option<f64>,
     pub(super) stage: Option<Stage>,
     pub(super) threads: Option<u16>,
@@ -80,7 +82,15 @@ impl DrawRequest {
         check_apart(&args.model, &outputs, &besides, args.maps.as_deref())?;
         let piped = args.many.piped([&args.model])?;
         let request = Self::of_model(args.model, args.how)?.reading(piped);
-        Ok(Self { outputs, report: args.report, maps: args.maps, stage: args.stage, save_camera, ..request })
+        Ok(Self {
+            outputs,
+            report: args.report,
+            maps: args.maps,
+            stage: args.stage,
+            save_camera,
+            web: args.web,
+            ..request
+        })
     }
 
     /// The same with the model from standard input, where that is what its name says.
@@ -147,6 +157,7 @@ impl DrawRequest {
             frame: args.framing.frame,
             save_camera: None,
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
+            web: WebArgs::default(),
             dpi: args.dpi,
             stage: None,
             threads: args.threads,

@@ -1,8 +1,10 @@
 //! `ligne styles`: the built-in styles, or the text of one.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 
-use super::print;
+use super::{print, styles_sheet};
 use crate::error::Error;
 use crate::style::Style;
 
@@ -10,14 +12,23 @@ use crate::style::Style;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   ligne styles                        list the styles
-  ligne styles ink > mine.toml        start a style of your own")]
+  ligne styles ink > mine.toml        start a style of your own
+  ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side")]
 pub(super) struct StylesArgs {
-    /// The style whose text is shown
+    /// The style whose text is shown; with --sheet the model that is drawn
+    #[arg(value_name = "NAME|MODEL")]
     name: Option<String>,
+
+    /// Draw a model in all styles on one sheet: .svg, .svgz, .png or .pdf, or - for SVG on standard output
+    #[arg(long, value_name = "OUT", requires = "name")]
+    sheet: Option<PathBuf>,
 }
 
 /// Lists the styles with the idea of each, or shows a sheet.
 pub(super) fn run(args: &StylesArgs) -> Result<(), Error> {
+    if let (Some(out), Some(model)) = (&args.sheet, &args.name) {
+        return styles_sheet::run(out, Path::new(model));
+    }
     let names = Style::names().collect::<Vec<_>>();
     let Some(name) = &args.name else {
         let width = names.iter().map(|name| name.len()).max().unwrap_or(0);

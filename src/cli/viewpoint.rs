@@ -44,7 +44,7 @@ pub(super) enum Lens {
 }
 
 /// The sheet that is asked for.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sheet {
     /// Its size and unit.
     pub(super) extent: Option<(Extent, Unit)>,

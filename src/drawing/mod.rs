@@ -9,10 +9,15 @@
 //! assert!(sheet.to_svg(&SvgOptions::default()).contains(r#"width="210mm""#));
 //! ```
 
+pub mod hotspot;
 pub mod length;
+#[cfg(feature = "cli")]
+pub(crate) mod lettering;
 pub mod mark;
+mod moved;
 pub mod page;
 
+pub use hotspot::Hotspot;
 pub use length::Length;
 pub use mark::{
     Cap, Gradient, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Provenance, Shows, StrokePaint,
@@ -84,6 +89,8 @@ pub struct Drawing {
     pub page: Page,
     /// Layers, back to front.
     pub layers: Vec<Layer>,
+    /// Where parts are seen, for web pages to answer clicks; only SVG has them.
+    pub hotspots: Vec<Hotspot>,
     /// What of the model could not be drawn as it is, in words; no file holds them.
     pub warnings: Vec<String>,
 }
@@ -92,6 +99,6 @@ impl Drawing {
     /// A drawing without warnings.
     #[must_use]
     pub fn new(title: impl Into<String>, page: Page, layers: Vec<Layer>) -> Self {
-        Self { title: title.into(), page, layers, warnings: Vec::new() }
+        Self { title: title.into(), page, layers, hotspots: Vec::new(), warnings: Vec::new() }
     }
 }

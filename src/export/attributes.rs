@@ -106,13 +106,20 @@ impl Attributes {
         common
     }
 
-    /// Writes what a group must say at the top of the document.
-    pub fn write(&self, out: &mut Vec<u8>) {
-        self.write_over(&INITIAL, out);
+    /// Writes what a group must say at the top of the document; `ink` is the colour that is `currentColor`.
+    pub fn write(&self, out: &mut Vec<u8>, ink: Option<Colour>) {
+        let mut outer = INITIAL;
+        if ink == Some(Colour::BLACK)
+            && let Some(fill) = outer.0.first_mut()
+        {
+            // Black, which goes without saying elsewhere, is another colour here.
+            *fill = Value::Any;
+        }
+        self.write_over(&outer, out, ink);
     }
 
     /// Writes what differs inside a group that says `outer`.
-    pub fn write_over(&self, outer: &Self, out: &mut Vec<u8>) {
+    pub fn write_over(&self, outer: &Self, out: &mut Vec<u8>, ink: Option<Colour>) {
         for ((name, value), outer) in NAMES.iter().zip(&self.0).zip(&outer.0) {
             if value == outer || *value == Value::Any {
                 continue;
@@ -123,6 +130,7 @@ impl Attributes {
             match value {
                 Value::Any => {}
                 Value::None => out.extend_from_slice(b"none"),
+                Value::Colour(colour) if ink == Some(*colour) => out.extend_from_slice(b"currentColor"),
                 Value::Colour(colour) => out.extend_from_slice(hex(*colour).as_bytes()),
                 Value::Opacity(a) => {
                     out.extend_from_slice(Decimals::new(3).text(f64::from(*a) / 255.0).as_bytes());

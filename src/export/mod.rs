@@ -16,6 +16,8 @@ mod attributes;
 pub(crate) mod canonical;
 #[cfg(feature = "film")]
 pub mod film;
+pub(crate) mod gzip;
+mod hotspots;
 pub(crate) mod number;
 pub(crate) mod order;
 mod part_groups;

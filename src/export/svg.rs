@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::attributes::{Attributes, WIDTH_DECIMALS, hex};
+use super::hotspots;
 use super::number::Decimals;
 use super::order::{self, AlikeMarks, CHUNK, Paths};
 use super::part_groups::{PartGroup, part_groups};
@@ -11,6 +12,7 @@ use super::pictures::Named;
 use super::svg_image;
 use super::xml::{Ids, escape};
 use crate::drawing::{Drawing, Gradient, Layer, LayerKind, Mark, Paint, Unit};
+use crate::math::colour::Colour;
 
 /// Decimals of dash lengths: finer than coordinates, since they add up along a path.
 const DASH_DECIMALS: u8 = 3;
@@ -46,6 +48,12 @@ pub struct SvgOptions {
     pub id_prefix: String,
     /// What the groups are. Default: layers.
     pub group: Grouping,
+    /// A colour that is written as `currentColor`: the drawing then takes that of the text around it. Default: none.
+    pub ink: Option<Colour>,
+    /// What is seen in the drawing, in a sentence or more. Default: nothing.
+    pub desc: Option<String>,
+    /// Whether readers of screens are told that the drawing is one picture, by its title and description. Default: no.
+    pub read_aloud: bool,
 }
 
 impl SvgOptions {
@@ -65,6 +73,18 @@ impl SvgOptions {
     #[must_use]
     pub fn grouped_by(self, group: Grouping) -> Self {
         Self { group, ..self }
+    }
+
+    /// With what is of this colour in that of the text around the drawing.
+    #[must_use]
+    pub fn with_current_ink(self, ink: Colour) -> Self {
+        Self { ink: Some(ink), ..self }
+    }
+
+    /// As one picture for readers of screens, with what is seen in it, which may be empty.
+    #[must_use]
+    pub fn read_aloud(self, desc: impl Into<String>) -> Self {
+        Self { desc: Some(desc.into()), read_aloud: true, ..self }
     }
 
     /// Decimals of the coordinates of a drawing in this unit.
@@ -89,7 +109,8 @@ impl Drawing {
         let mut ids = Ids::new(&options.id_prefix);
         let named = &Named::of(self, &mut ids);
         let mut out = Vec::new();
-        self.open(&mut out, !named.is_empty());
+        self.open(&mut out, !named.is_empty(), options, &mut ids);
+        let ink = options.ink.map(|ink| Colour { a: 255, ..ink });
         if !named.is_empty() {
             named.write(&mut out);
         }
@@ -101,14 +122,14 @@ impl Drawing {
                     let (id, label) = self.names(layer);
                     open_layer(&mut out, &mut ids, &id, &label);
                     let fills = gradient_ids(&marks, &mut ids);
-                    let group = Group { marks: &marks, ordered: layer.ordered, decimals, named, fills };
+                    let group = Group { marks: &marks, ordered: layer.ordered, decimals, named, fills, ink };
                     group.write(&mut out, b"");
                 }
             }
             Grouping::Part => {
                 for PartGroup { name, marks, ordered } in part_groups(self) {
                     let fills = gradient_ids(&marks, &mut ids);
-                    let group = Group { marks: &marks, ordered, decimals, named, fills };
+                    let group = Group { marks: &marks, ordered, decimals, named, fills, ink };
                     match name {
                         Some(name) => {
                             out.extend_from_slice(b"<g id=\"");
@@ -127,13 +148,17 @@ impl Drawing {
                 }
             }
         }
+        if !self.hotspots.is_empty() {
+            open_layer(&mut out, &mut ids, hotspots::LAYER, hotspots::LAYER);
+            hotspots::write(&mut out, &self.hotspots, decimals);
+        }
         out.extend_from_slice(b"</svg>\n");
         // All that is written is ASCII or copied from text.
         String::from_utf8(out).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
     }
 
     /// The root element and the title; what is used needs a namespace of its own.
-    fn open(&self, out: &mut Vec<u8>, uses: bool) {
+    fn open(&self, out: &mut Vec<u8>, uses: bool, options: &SvgOptions, ids: &mut Ids) {
         let number = |value: f64| Decimals::new(4).text(value);
         let unit = match self.page.unit {
             Unit::Px => "",
@@ -144,13 +169,27 @@ impl Drawing {
         let root = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" {links}\
              xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
-             width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\">\n"
+             width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\""
         );
         out.extend_from_slice(root.as_bytes());
-        if !self.title.is_empty() {
-            out.extend_from_slice(b"<title>");
-            escape(out, &self.title);
-            out.extend_from_slice(b"</title>\n");
+        let texts = [("title", Some(&self.title)), ("desc", options.desc.as_ref())];
+        let texts = texts.map(|(tag, text)| {
+            let text = text.filter(|text| !text.is_empty())?;
+            Some((tag, text, options.read_aloud.then(|| ids.take(tag))))
+        });
+        if options.read_aloud {
+            out.extend_from_slice(b" role=\"img\"");
+            let known: Vec<&str> = texts.iter().flatten().filter_map(|(_, _, id)| id.as_deref()).collect();
+            if !known.is_empty() {
+                out.extend_from_slice(format!(" aria-labelledby=\"{}\"", known.join(" ")).as_bytes());
+            }
+        }
+        out.extend_from_slice(b">\n");
+        for (tag, text, id) in texts.into_iter().flatten() {
+            let id = id.map(|id| format!(" id=\"{id}\"")).unwrap_or_default();
+            out.extend_from_slice(format!("<{tag}{id}>").as_bytes());
+            escape(out, text);
+            out.extend_from_slice(format!("</{tag}>\n").as_bytes());
         }
     }
 
@@ -206,6 +245,8 @@ struct Group<'a> {
     named: &'a Named<'a>,
     /// The ids of the gradients of marks, by the number of the mark.
     fills: FxHashMap<usize, String>,
+    /// The colour that is written as `currentColor`.
+    ink: Option<Colour>,
 }
 
 /// Ids for the gradients of marks.
@@ -221,7 +262,7 @@ impl Group<'_> {
         if self.ordered {
             out.extend_from_slice(b" data-order=\"travel\"");
         }
-        common.write(out);
+        common.write(out, self.ink);
         out.extend_from_slice(b">\n");
         out.extend_from_slice(head);
         self.write_gradients(out);
@@ -269,7 +310,7 @@ impl Group<'_> {
             let grouped = range.len() > 1 && !attributes.fits(common);
             if grouped && range.start >= from {
                 out.extend_from_slice(b"<g");
-                attributes.write_over(common, out);
+                attributes.write_over(common, out, self.ink);
                 out.extend_from_slice(b">\n");
             }
             let outer = if grouped { attributes } else { common };
@@ -286,7 +327,7 @@ impl Group<'_> {
                     continue;
                 }
                 let texts = [paths.axis(index), paths.data(index)];
-                write_mark(out, mark, outer, attributes, self.fills.get(&index), texts);
+                write_mark(out, mark, outer, attributes, (self.fills.get(&index), self.ink), texts);
             }
             if grouped && range.end <= to {
                 out.extend_from_slice(b"</g>\n");
@@ -338,7 +379,7 @@ fn write_mark(
     mark: &Mark,
     outer: &Attributes,
     attributes: &Attributes,
-    gradient: Option<&String>,
+    (gradient, ink): (Option<&String>, Option<Colour>),
     [axis, data]: [&[u8]; 2],
 ) {
     let provenance = &mark.provenance;
@@ -377,7 +418,7 @@ fn write_mark(
         fine.write(out, fine.round(outline.width));
         out.push(b'"');
     }
-    attributes.write_over(outer, out);
+    attributes.write_over(outer, out, ink);
     if let Some(id) = gradient {
         out.extend_from_slice(format!(" fill=\"url(#{id})\"").as_bytes());
     }

@@ -37,7 +37,7 @@ pub(super) fn write(
             out.push(b'"');
         }
     }
-    attributes.write_over(outer, out);
+    attributes.write_over(outer, out, None);
     out.extend_from_slice(format!(" clip-path=\"url(#{id})\">\n").as_bytes());
     clip(out, id, area);
     let mut canonical = Canonical::new(decimals);

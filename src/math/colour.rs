@@ -84,17 +84,11 @@ impl Colour {
         g + 0.2126 * (r - g) + 0.0722 * (b - g)
     }
 
-    /// `#rgb`, `#rgba`, `#rrggbb` or `#rrggbbaa`, or one of the CSS names `black`, `white`, `none`
-    /// is not a colour.
+    /// `#rgb`, `#rgba`, `#rrggbb` or `#rrggbbaa`, or a name of CSS such as `teal`; `transparent`, and `none`, is not a colour.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
-        match text.to_ascii_lowercase().as_str() {
-            "black" => return Some(Self::BLACK),
-            "white" => return Some(Self::WHITE),
-            _ => {}
-        }
-        let hex = text.strip_prefix('#')?;
+        let Some(hex) = text.strip_prefix('#') else { return super::colour_names::named(text) };
         if !hex.is_ascii() {
             return None;
         }
@@ -128,7 +122,8 @@ impl TryFrom<String> for Colour {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        Self::parse(&text).ok_or_else(|| format!("`{text}` is not a colour; write it as #rrggbb"))
+        Self::parse(&text)
+            .ok_or_else(|| format!("`{text}` is not a colour; write it as #rrggbb, or by its name in CSS"))
     }
 }
 

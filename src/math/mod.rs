@@ -1,6 +1,7 @@
 //! Numbers without meaning: tolerances, colours, pictures, patterns of names, chance, deterministic functions.
 
 pub mod colour;
+pub mod colour_names;
 pub mod factor;
 pub mod function;
 pub mod glob;

@@ -69,6 +69,12 @@ pub const IMAGE_HEIGHT_PX: f64 = 1e-8;
 /// Two lines that run within this distance (px) of each other are drawn once.
 pub const DOUBLE_PX: f64 = 5e-3;
 
+/// A hidden line that runs within this distance (px) of a visible one lies in its ink. Curves that only touch would run along each other for long if it were more.
+pub const BEHIND_INK_PX: f64 = 0.02;
+
+/// Lines that cross at an angle of this sine or more do not run along each other, however near they come.
+pub const BEHIND_INK_SINE: f64 = 0.02;
+
 /// Zero sets cross an edge of the mesh at least this fraction of it away from its ends, so that no
 /// piece of theirs is without length.
 pub const ZERO_SET_OF_EDGE: f64 = 1e-6;

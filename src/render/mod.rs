@@ -19,12 +19,14 @@
 //! ```
 
 mod anchors;
+mod areas;
 mod at_rest;
 mod beside;
 pub mod defects;
 mod fills;
 mod glass;
 mod hatching;
+mod hidden;
 mod image;
 mod late_search;
 mod maps;
@@ -43,12 +45,12 @@ use std::sync::Arc;
 
 use kurbo::{PathEl, Vec2};
 
+pub use areas::hotspots;
 pub use maps::MapFiles;
 pub use report::{Report, Stopwatch};
 pub use resting::Resting;
 pub use stage::Stage;
 
-use crate::chain;
 use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
 use crate::error::Error;
 use crate::hatch::{self, Hatched};
@@ -59,7 +61,7 @@ use crate::mesh::Mesh;
 use crate::region::Ground;
 use crate::scene::{Camera, Scene, Warnings, cutout, paint::Paints};
 use crate::shape::Patches;
-use crate::stroke::{self, InkContext, Parting};
+use crate::stroke::{self, InkContext, Order, Parting};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, Ahead, ViewMap};
@@ -306,6 +308,9 @@ impl<'a> Prepared<'a> {
                 hatched =
                     Some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks: patterned });
             }
+            if style.stroke.layers.order == Order::Travel {
+                hatched = hatched.map(stroke::travel::along);
+            }
             layers.extend(hatched);
             if style.hatch.enabled {
                 report.stages_ms.hatching = watch.lap_ms();
@@ -328,7 +333,8 @@ impl<'a> Prepared<'a> {
             seen: &map.seen_contours,
             moved: margin(camera, &page),
         };
-        let mut chains = chain::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
+        let depth = (&surface.mesh.extents, view.frame.perspective);
+        let mut chains = hidden::chains(&ahead, &map, style, page.unit, depth);
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
                 fills::keep_inked(veiled, style);
@@ -398,7 +404,7 @@ impl<'a> Prepared<'a> {
             report.warnings.push(motion::NO_MOMENT.to_owned());
         }
         let warnings = report.warnings.clone();
-        (Drawing { title: title(scene), page, layers, warnings }, report)
+        (Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report)
     }
 }
 

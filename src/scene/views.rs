@@ -73,10 +73,19 @@ impl NamedView {
         }
     }
 
-    /// The view of that name.
+    /// What else it is called.
+    pub(crate) const fn other_name(self) -> Option<&'static str> {
+        match self {
+            Self::Iso => Some("isometric"),
+            _ => None,
+        }
+    }
+
+    /// The view of that name, in capitals or not; `isometric` is `iso`.
     #[must_use]
     pub fn parse(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|view| view.name() == name)
+        let is_its = |own: &str| own.eq_ignore_ascii_case(name);
+        Self::ALL.into_iter().find(|view| is_its(view.name()) || view.other_name().is_some_and(is_its))
     }
 
     /// Direction to the eye and up in a z-up world.
@@ -191,6 +200,8 @@ mod tests {
             }
             assert_eq!(NamedView::parse(view.name()), Some(view));
         }
+        assert_eq!(NamedView::parse("Isometric"), Some(NamedView::Iso));
+        assert_eq!((NamedView::parse("TOP"), NamedView::parse("tops")), (Some(NamedView::Top), None));
         let iso = Camera::named(NamedView::Iso, UpAxis::Y);
         assert!(near(iso.eye, DVec3::ONE / f64::sqrt(3.0)) && iso.up == DVec3::Y);
     }

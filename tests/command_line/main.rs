@@ -15,3 +15,4 @@ mod framing;
 mod lod;
 mod many;
 mod pictures;
+mod web;

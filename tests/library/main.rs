@@ -43,6 +43,7 @@ mod patterns;
 mod picture_fills;
 mod pointers;
 mod poses;
+mod precedence;
 mod properties;
 mod random_widths;
 mod regions;

@@ -9,6 +9,7 @@ use crate::cli::draw_args::HowArgs;
 use crate::cli::request::DrawRequest;
 use crate::diff::Picture;
 use crate::error::Error;
+use crate::export::gzip;
 
 /// Files larger than this are no drawings that a person keeps.
 const MOST_BYTES: u64 = 1 << 30;
@@ -98,10 +99,11 @@ fn text(path: &Path) -> Result<String, Error> {
         return Err(Error::new("is larger than a gigabyte").in_file(path).remedy("give a smaller drawing"));
     }
     let bytes = std::fs::read(path).map_err(unread)?;
+    let bytes = gzip::plain(bytes, MOST_BYTES as usize).map_err(|error| error.in_file(path))?;
     String::from_utf8(bytes).map_err(|error| {
         Error::new("is not SVG: not UTF-8 text")
             .in_file(path)
             .at(format!("byte {}", error.utf8_error().valid_up_to()))
-            .remedy("give an SVG file, not compressed")
+            .remedy("give an SVG file")
     })
 }

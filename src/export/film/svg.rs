@@ -58,7 +58,8 @@ impl SvgFilm {
             Unit::Mm => DECIMALS[1],
         });
         let id_prefix = format!("{}f{}-", self.options.id_prefix, self.frames.len());
-        let options = SvgOptions { precision: Some(precision), id_prefix: id_prefix.clone(), ..self.options };
+        let options =
+            SvgOptions { precision: Some(precision), id_prefix: id_prefix.clone(), ..self.options.clone() };
         let text = drawing.to_svg(&options);
         let body = text.strip_suffix("</svg>\n").unwrap_or(&text);
         let is_head = |line: &&str| line.starts_with("<svg") || line.starts_with("<title>");

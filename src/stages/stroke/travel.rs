@@ -3,9 +3,53 @@
 //! Nearest neighbour over the ends of all paths, found by a grid over the page that is rebuilt
 //! as it empties.
 
-use kurbo::Point;
+use kurbo::{BezPath, PathEl, Point};
 
-use crate::drawing::{Mark, Paint};
+use crate::drawing::{Layer, Mark, Paint};
+
+/// A layer in an order of travel, if it is all strokes of one colour, whose order nobody sees; else as it is.
+#[must_use]
+pub fn along(layer: Layer) -> Layer {
+    let colour = |mark: &Mark| match &mark.paint {
+        Paint::Stroke(stroke) => Some(stroke.colour),
+        _ => None,
+    };
+    let first = layer.marks.first().and_then(colour);
+    // Where strokes are not opaque, those of one path and those of several look different.
+    let is_opaque = first.is_some_and(|colour| colour.a == 255);
+    if !is_opaque || layer.marks.iter().any(|mark| colour(mark) != first) {
+        return layer;
+    }
+    let strokes = layer.marks.iter().flat_map(single).collect();
+    Layer { marks: rejoined(shorten(strokes)), ordered: true, ..layer }
+}
+
+/// The strokes of a mark, a mark each.
+fn single(mark: &Mark) -> Vec<Mark> {
+    let mut paths: Vec<BezPath> = Vec::new();
+    for element in mark.path.elements() {
+        match (element, paths.last_mut()) {
+            (PathEl::MoveTo(_), _) | (_, None) => paths.push(BezPath::from_vec(vec![*element])),
+            (_, Some(path)) => path.push(*element),
+        }
+    }
+    let begun = paths.into_iter().filter(|path| path.elements().len() > 1);
+    begun.map(|path| Mark { path, ..mark.clone() }).collect()
+}
+
+/// Strokes that follow each other, and are from the same place and painted alike, as one mark.
+fn rejoined(strokes: Vec<Mark>) -> Vec<Mark> {
+    let mut marks: Vec<Mark> = Vec::new();
+    for stroke in strokes {
+        match marks.last_mut() {
+            Some(last) if last.provenance == stroke.provenance && last.paint == stroke.paint => {
+                last.path.extend(stroke.path);
+            }
+            _ => marks.push(stroke),
+        }
+    }
+    marks
+}
 
 /// One end of a mark's path.
 #[derive(Clone, Copy)]

@@ -146,7 +146,7 @@ impl Among<'_> {
 }
 
 /// Which of two edges that coincide stays: the lesser. Of parts that touch the smaller one has the line.
-fn precedence(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> Ordering {
+pub(super) fn precedence(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> Ordering {
     let ends = |edge: &ViewEdge| [edge.start, edge.end].map(|v| map.vertices[v.index()]);
     let depth = |edge: &ViewEdge| ends(edge).iter().map(|end| end.depth).sum::<f64>();
     let place = |edge: &ViewEdge| {
@@ -161,29 +161,30 @@ fn precedence(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge
     one.kind.cmp(&other.kind).then_with(by_depth).then_with(by_place).then_with(by_part).then_with(last)
 }
 
-fn vector(p: Point) -> DVec3 {
+pub(super) fn vector(p: Point) -> DVec3 {
     DVec3::new(p.x, p.y, 0.0)
 }
 
-struct Line {
-    start: Point,
-    along: Vec2,
-    length: f64,
+/// An edge in the image.
+pub(super) struct Line {
+    pub start: Point,
+    pub along: Vec2,
+    pub length: f64,
 }
 
 impl Line {
-    fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
+    pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
         let start = map.vertices[edge.start.index()].position;
         let d = map.vertices[edge.end.index()].position - start;
         let length = d.hypot();
         Self { start, along: if length > 0.0 { d / length } else { Vec2::ZERO }, length }
     }
 
-    fn end(&self) -> Point {
+    pub fn end(&self) -> Point {
         self.start + self.along * self.length
     }
 
-    fn ends(&self) -> [DVec3; 2] {
+    pub fn ends(&self) -> [DVec3; 2] {
         [vector(self.start), vector(self.end())]
     }
 
@@ -214,7 +215,7 @@ impl Line {
 }
 
 /// Emits what is left of an edge without the ranges.
-fn cut(
+pub(super) fn cut(
     vertices: &mut Vec<ViewVertex>,
     edges: &mut Vec<ViewEdge>,
     edge: &ViewEdge,

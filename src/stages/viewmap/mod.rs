@@ -12,6 +12,7 @@ pub mod layers;
 pub mod limits;
 pub mod occlude;
 pub mod occluders;
+pub mod precedence;
 pub mod project;
 mod rounded;
 mod runs;

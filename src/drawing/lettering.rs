@@ -1,0 +1,101 @@
+//! Words as lines of one pen, the same in SVG, PDF and PNG and for plotters, whatever fonts there are.
+
+use kurbo::{Affine, BezPath, Point};
+
+/// Space between letters, where small letters are 4 high.
+const GAP: f64 = 1.3;
+
+/// The height of small letters in which [`LETTERS`] are drawn.
+const HEIGHT: f64 = 4.0;
+
+/// The bowl that many letters share.
+const BOWL: &str = "M0-2C0-3.1.67-4 1.5-4S3-3.1 3-2 2.33 0 1.5 0 0-.9 0-2Z";
+
+/// Letters, how wide they are, whether they have a bowl, and their other lines: x right, y down, 0 on the line of writing.
+const LETTERS: [(char, f64, bool, &str); 28] = [
+    (' ', 1.0, false, ""),
+    ('-', 1.8, false, "M0-2H1.8"),
+    ('a', 3.0, true, "M3-4V0"),
+    ('b', 3.0, true, "M0-6V0"),
+    ('c', 2.8, false, "M2.8-3.3C2.5-3.75 2.1-4 1.5-4 .67-4 0-3.1 0-2S.67 0 1.5 0C2.1 0 2.5-.25 2.8-.7"),
+    ('d', 3.0, true, "M3-6V0"),
+    ('e', 3.0, false, "M0-2H3C3-3.1 2.33-4 1.5-4S0-3.1 0-2 .67 0 1.5 0C2.1 0 2.5-.25 2.8-.7"),
+    ('f', 1.9, false, "M1.9-6C1-6.1.7-5.6.7-4.8V0M0-4H1.8"),
+    ('g', 3.0, true, "M3-4V.4C3 1.5 2.4 2 1.5 2 .9 2 .4 1.8.1 1.4"),
+    ('h', 2.8, false, "M0-6V0M0-2.4C0-3.4.6-4 1.5-4S2.8-3.4 2.8-2.4V0"),
+    ('i', 0.0, false, "M0-4V0M0-5.7V-5.3"),
+    ('j', 0.8, false, "M.8-4V1C.8 1.7.5 2 0 2M.8-5.7V-5.3"),
+    ('k', 2.8, false, "M0-6V0M2.6-4L0-1.6M.9-2.4L2.8 0"),
+    ('l', 0.8, false, "M0-6V-.8C0-.2.3 0 .8 0"),
+    (
+        'm',
+        4.2,
+        false,
+        "M0-4V0M0-2.6C0-3.5.4-4 1.1-4S2.1-3.5 2.1-2.6V0M2.1-2.6C2.1-3.5 2.5-4 3.2-4S4.2-3.5 4.2-2.6V0",
+    ),
+    ('n', 2.8, false, "M0-4V0M0-2.4C0-3.4.6-4 1.5-4S2.8-3.4 2.8-2.4V0"),
+    ('o', 3.0, true, ""),
+    ('p', 3.0, true, "M0-4V2"),
+    ('q', 3.0, true, "M3-4V2"),
+    ('r', 1.6, false, "M0-4V0M0-2.4C0-3.4.6-4 1.6-4"),
+    (
+        's',
+        2.7,
+        false,
+        "M2.6-3.4C2.3-3.8 1.9-4 1.4-4 .7-4 .2-3.6.2-3 .2-1.6 2.7-2.4 2.7-1 2.7-.4 2.1 0 1.4 0 .8 0 .3-.2 0-.7",
+    ),
+    ('t', 1.8, false, "M.7-5.4V-1C.7-.3 1.1 0 1.8 0M0-4H1.8"),
+    ('u', 2.8, false, "M0-4V-1.6C0-.6.5 0 1.3 0S2.8-.6 2.8-1.6M2.8-4V0"),
+    ('v', 2.8, false, "M0-4L1.4 0L2.8-4"),
+    ('w', 4.4, false, "M0-4L1.1 0L2.2-3.6L3.3 0L4.4-4"),
+    ('x', 2.6, false, "M0-4L2.6 0M2.6-4L0 0"),
+    ('y', 2.8, false, "M0-4L1.4 0M2.8-4L1.1.9C.8 1.7.5 2 0 2"),
+    ('z', 2.5, false, "M0-4H2.5L0 0H2.5"),
+];
+
+/// A text of small letters, blanks and hyphens, whose letters are so high (without the upper ends of tall ones), with the middle of its
+/// line of writing at `middle`; other characters are left out.
+pub(crate) fn lettered(text: &str, height: f64, middle: Point) -> BezPath {
+    let letters = text.chars().filter_map(|c| LETTERS.iter().find(|(known, ..)| *known == c));
+    let mut line = BezPath::new();
+    let mut at = 0.0;
+    for (_, width, has_bowl, strokes) in letters {
+        for strokes in [if *has_bowl { BOWL } else { "" }, strokes] {
+            // All of them can be read: a test does.
+            let strokes = BezPath::from_svg(strokes).unwrap_or_default();
+            line.extend(Affine::translate((at, 0.0)) * strokes);
+        }
+        at += width + GAP;
+    }
+    let scale = height / HEIGHT;
+    let left = middle.x - (at - GAP).max(0.0) * scale / 2.0;
+    Affine::new([scale, 0.0, 0.0, scale, left, middle.y]) * line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kurbo::Shape;
+
+    #[test]
+    fn every_letter_can_be_read_and_is_as_wide_as_it_says() {
+        for (letter, width, has_bowl, strokes) in LETTERS {
+            let path = BezPath::from_svg(strokes).unwrap();
+            let bounds = path.bounding_box();
+            assert!(
+                strokes.is_empty() || (bounds.x0 >= 0.0 && bounds.x1 <= width + 0.05),
+                "{letter}: {bounds:?}"
+            );
+            assert!(!has_bowl || width == 3.0, "{letter}");
+        }
+    }
+
+    #[test]
+    fn every_style_can_be_written() {
+        for name in crate::Style::names() {
+            assert!(name.chars().all(|c| LETTERS.iter().any(|(known, ..)| *known == c)), "{name}");
+            let bounds = lettered(name, 8.0, Point::new(100.0, 50.0)).bounding_box();
+            assert!((bounds.center().x - 100.0).abs() < 1.0, "{name}: {bounds:?}");
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Bytes packed as gzip, and unpacked: `.svgz` is SVG packed so.
+//!
+//! Source: RFC 1952. No name and no time are written, so that the same bytes give the same file.
+
+use miniz_oxide::deflate::compress_to_vec;
+use miniz_oxide::inflate::decompress_to_vec_with_limit;
+
+use crate::error::Error;
+
+/// How much is tried to pack well, of 10.
+const LEVEL: u8 = 9;
+
+/// Mark, method, flags, time, effort (the most), system (unknown).
+const HEAD: [u8; 10] = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 2, 255];
+
+/// Bytes as gzip.
+#[must_use]
+pub fn packed(bytes: &[u8]) -> Vec<u8> {
+    let mut out = HEAD.to_vec();
+    out.extend_from_slice(&compress_to_vec(bytes, LEVEL));
+    out.extend_from_slice(&crc32(bytes).to_le_bytes());
+    // As the format has it: the length modulo 2^32.
+    out.extend_from_slice(&(bytes.len() as u32).to_le_bytes());
+    out
+}
+
+/// Whether bytes are gzip.
+#[must_use]
+pub fn is_packed(bytes: &[u8]) -> bool {
+    bytes.starts_with(&[0x1f, 0x8b])
+}
+
+/// The bytes of a file that may be packed.
+///
+/// # Errors
+/// Where it is, and broken, or holds more than so many bytes.
+pub fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
+    if !is_packed(&bytes) {
+        return Ok(bytes);
+    }
+    unpacked(&bytes, most).ok_or_else(|| {
+        Error::new("is packed as gzip, but broken or too large").remedy("unpack it with gunzip to see why")
+    })
+}
+
+/// What gzip holds, at most so many bytes; `None` if it is broken or holds more.
+#[must_use]
+pub fn unpacked(bytes: &[u8], most: usize) -> Option<Vec<u8>> {
+    let (head, rest) = bytes.split_at_checked(HEAD.len())?;
+    let [0x1f, 0x8b, 8, flags, ..] = *head else { return None };
+    let (body, tail) = rest.split_at_checked(rest.len().checked_sub(8)?)?;
+    let body = body.get(extras(body, flags)?..)?;
+    let out = decompress_to_vec_with_limit(body, most).ok()?;
+    let (sum, length) = tail.split_at_checked(4)?;
+    let right = sum == crc32(&out).to_le_bytes() && length == (out.len() as u32).to_le_bytes();
+    right.then_some(out)
+}
+
+/// How long the fields are that flags say follow the head.
+fn extras(body: &[u8], flags: u8) -> Option<usize> {
+    const CHECKED: u8 = 2;
+    const EXTRA: u8 = 4;
+    const NAMED: u8 = 8;
+    const COMMENTED: u8 = 16;
+    let mut at = 0;
+    if flags & EXTRA != 0 {
+        let length = body.get(..2)?;
+        at = 2 + usize::from(u16::from_le_bytes([*length.first()?, *length.get(1)?]));
+    }
+    for flag in [NAMED, COMMENTED] {
+        if flags & flag != 0 {
+            at += body.get(at..)?.iter().position(|byte| *byte == 0)? + 1;
+        }
+    }
+    if flags & CHECKED != 0 {
+        at += 2;
+    }
+    Some(at)
+}
+
+/// The check sum of gzip, bit by bit: drawings are packed once, and packing takes longer.
+fn crc32(bytes: &[u8]) -> u32 {
+    const POLYNOMIAL: u32 = 0xedb8_8320;
+    !bytes.iter().fold(u32::MAX, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte), |sum, _| (sum >> 1) ^ (POLYNOMIAL & (sum & 1).wrapping_neg()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sum_is_that_of_the_standard() {
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+    }
+
+    #[test]
+    fn what_is_packed_comes_back_and_what_is_broken_does_not() {
+        let text = b"<svg/> ".repeat(1000);
+        let mut file = packed(&text);
+        assert!(is_packed(&file) && file.len() < 200);
+        assert_eq!(unpacked(&file, 1 << 20).as_deref(), Some(text.as_slice()));
+        assert_eq!(unpacked(&file, 100), None);
+        // A name and an extra field of three bytes.
+        let mut named = file.clone();
+        named[3] = 4 | 8;
+        named.splice(10..10, *b"\x03\0xyza.svg\0");
+        assert_eq!(unpacked(&named, 1 << 20).as_deref(), Some(text.as_slice()));
+        for cut in 0..file.len() {
+            assert_eq!(unpacked(&file[..cut], 1 << 20), None);
+        }
+        let last = file.len() - 5;
+        file[last] ^= 1;
+        assert_eq!(unpacked(&file, 1 << 20), None);
+    }
+}

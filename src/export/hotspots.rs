@@ -1,0 +1,28 @@
+//! The topmost layer of SVG: areas of parts that are not painted, but answer the pointer.
+
+use super::canonical::{Canonical, Form};
+use super::number::Decimals;
+use super::xml::escape;
+use crate::drawing::Hotspot;
+
+/// The id and the label of the layer.
+pub(super) const LAYER: &str = "hotspots";
+
+/// Writes the rest of the layer's start tag, the areas and the end tag.
+pub(super) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals) {
+    out.extend_from_slice(b" fill=\"none\" pointer-events=\"all\">\n");
+    let mut canonical = Canonical::new(decimals);
+    // None covers another one: they stand in the order of the canonical form.
+    let mut spots: Vec<&Hotspot> = spots.iter().collect();
+    spots.sort_by(|a, b| a.part.cmp(&b.part));
+    for Hotspot { part, outline } in spots {
+        out.extend_from_slice(b"<path data-part=\"");
+        escape(out, part);
+        out.extend_from_slice(b"\" d=\"");
+        canonical.write(out, outline, Form::Filled);
+        out.extend_from_slice(b"\"><title>");
+        escape(out, part);
+        out.extend_from_slice(b"</title></path>\n");
+    }
+    out.extend_from_slice(b"</g>\n");
+}
