@@ -105,7 +105,15 @@ fn options_that_the_readme_names_are_there() {
         .concat();
     let known = ["--release", "--path", "--open", "--json", "--example", "--test"];
     // Those of GNU parallel and of Slurm.
-    let others = ["--joblog", "--retry-failed", "--job-name", "--array", "--cpus-per-task", "--requeue", "--open-mode"];
+    let others = [
+        "--joblog",
+        "--retry-failed",
+        "--job-name",
+        "--array",
+        "--cpus-per-task",
+        "--requeue",
+        "--open-mode",
+    ];
     let mut options = 0;
     for document in [
         "README.md",
