@@ -193,10 +193,10 @@ fn course(tally: &Tally, all: usize, elapsed: Duration) -> String {
 
 /// A time as people say it: `45 s`, `12 min`, `3 h 20 min`.
 fn time(seconds: f64) -> String {
-    let minutes = (seconds / 60.0).round() as u64;
-    match minutes {
-        0..2 => format!("{:.0} s", seconds.ceil()),
-        2..120 => format!("{minutes} min"),
+    let (seconds, minutes) = (seconds.ceil() as u64, (seconds / 60.0).ceil() as u64);
+    match seconds {
+        0..120 => format!("{seconds} s"),
+        120..7200 => format!("{minutes} min"),
         _ => format!("{} h {} min", minutes / 60, minutes % 60),
     }
 }
