@@ -85,7 +85,7 @@ impl Crew<'_> {
     fn take(
         &self,
         task: &Task,
-        made: Result<(Made, Vec<String>), Failure>,
+        made: Result<(Made, Vec<String>), Box<Failure>>,
         tally: &mut Tally,
         progress: &Progress,
     ) {
@@ -101,7 +101,8 @@ impl Crew<'_> {
                     made.lines.iter().filter(|_| self.in_detail).for_each(|line| progress.tell(line));
                 }
             }
-            Err(Failure { error, passes }) => {
+            Err(failure) => {
+                let Failure { error, passes } = *failure;
                 *(if passes { &mut tally.failed } else { &mut tally.refused }) += 1;
                 let error = if error.file.is_none() { error.in_file(task.job.model()) } else { error };
                 progress.tell(&format!("error: {error}"));
@@ -128,7 +129,7 @@ struct Failure {
 }
 
 /// Draws a model from all sides and writes that, all or nothing. Gives the warnings as well, each once.
-fn make(task: &Task) -> Result<(Made, Vec<String>), Failure> {
+fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
     let (since, mut watch) = (Stopwatch::start(), Stopwatch::start());
     let mut staging = Staging::default();
     let (mut made, mut warnings) = (Made::default(), Vec::new());
@@ -166,9 +167,9 @@ fn make(task: &Task) -> Result<(Made, Vec<String>), Failure> {
         },
     );
     // The place that drawings are written to is no input: whatever is wrong with it, other models are as good as before.
-    let failure = |error: Error, writes: bool| Failure {
-        passes: status::passes(&error) || (writes && error.kind == ErrorKind::Io),
-        error,
+    let failure = |error: Error, writes: bool| {
+        let passes = status::passes(&error) || (writes && error.kind == ErrorKind::Io);
+        Box::new(Failure { error, passes })
     };
     drawn.map_err(|error| failure(error, writes.get()))?;
     staging.commit().map_err(|error| failure(error, true))?;

@@ -41,8 +41,8 @@ pub(super) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     }
     if args.many.out_dir.is_none() {
         // No folder is made but the one that is asked for.
-        let outputs = jobs.iter().flat_map(|job| &job.requests).flat_map(|request| &request.outputs);
-        outputs.map(|output| check_place(&output.path)).collect::<Result<(), Error>>()?;
+        let mut outputs = jobs.iter().flat_map(|job| &job.requests).flat_map(|request| &request.outputs);
+        outputs.try_for_each(|output| check_place(&output.path))?;
     }
     let pool = pipeline::pool(args.how.threads)?;
     let into = args.many.out_dir.as_deref();
