@@ -242,6 +242,8 @@ fn what_does_not_go_together_is_refused() {
     refused("draw cubes.obj --out-dir d --shard 3/2", "K/N");
     refused("draw cubes.obj --out-dir d --shard /2", "no task of a job array");
     refused("draw cubes.obj --out-dir d --report r.json", "--report: this is written of one drawing");
+    refused("draw cubes.obj --out-dir d --style nosuch", "error: there is no style `nosuch`");
+    refused("draw cubes.obj nowhere/a.svg --view top,iso", "create the folder first");
     refused("animate cubes.obj f.svg --turntable 3 --view top,iso", "there are several views");
     let task = |line: &str| folder.run_with(&[("JOB_COMPLETION_INDEX", "1")], line);
     folder.write("other.obj", CUBES);
@@ -280,7 +282,7 @@ fn watched_files_are_drawn_again_when_they_change() {
     };
     folder.write("cubes.obj", &cubes(2.5));
     changes("a wider model");
-    folder.write("mine.toml", "extends = \"ink\"\nbackground = \"#ff0000\"\n");
+    folder.write("mine.toml", "extends = \"ink\"\npage.background = \"#ff0000\"\n");
     changes("a style");
     // Saved by a file in its place, as editors do.
     folder.write("cubes.obj.new", &cubes(3.5));

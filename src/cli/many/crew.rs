@@ -85,7 +85,7 @@ impl Crew<'_> {
     fn take(
         &self,
         task: &Task,
-        made: Result<(Made, Vec<String>), Failure>,
+        made: Result<(Made, Vec<String>), Box<Failure>>,
         tally: &mut Tally,
         progress: &Progress,
     ) {
@@ -101,7 +101,8 @@ impl Crew<'_> {
                     made.lines.iter().filter(|_| self.in_detail).for_each(|line| progress.tell(line));
                 }
             }
-            Err(Failure { error, passes }) => {
+            Err(failure) => {
+                let Failure { error, passes } = *failure;
                 *(if passes { &mut tally.failed } else { &mut tally.refused }) += 1;
                 let error = if error.file.is_none() { error.in_file(task.job.model()) } else { error };
                 progress.tell(&format!("error: {error}"));
@@ -128,7 +129,7 @@ struct Failure {
 }
 
 /// Draws a model from all sides and writes that, all or nothing. Gives the warnings as well, each once.
-fn make(task: &Task) -> Result<(Made, Vec<String>), Failure> {
+fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
     let (since, mut watch) = (Stopwatch::start(), Stopwatch::start());
     let mut staging = Staging::default();
     let (mut made, mut warnings) = (Made::default(), Vec::new());
@@ -166,9 +167,9 @@ fn make(task: &Task) -> Result<(Made, Vec<String>), Failure> {
         },
     );
     // The place that drawings are written to is no input: whatever is wrong with it, other models are as good as before.
-    let failure = |error: Error, writes: bool| Failure {
-        passes: status::passes(&error) || (writes && error.kind == ErrorKind::Io),
-        error,
+    let failure = |error: Error, writes: bool| {
+        let passes = status::passes(&error) || (writes && error.kind == ErrorKind::Io);
+        Box::new(Failure { error, passes })
     };
     drawn.map_err(|error| failure(error, writes.get()))?;
     staging.commit().map_err(|error| failure(error, true))?;
@@ -193,10 +194,10 @@ fn course(tally: &Tally, all: usize, elapsed: Duration) -> String {
 
 /// A time as people say it: `45 s`, `12 min`, `3 h 20 min`.
 fn time(seconds: f64) -> String {
-    let minutes = (seconds / 60.0).round() as u64;
-    match minutes {
-        0..2 => format!("{:.0} s", seconds.ceil()),
-        2..120 => format!("{minutes} min"),
+    let (seconds, minutes) = (seconds.ceil() as u64, (seconds / 60.0).ceil() as u64);
+    match seconds {
+        0..120 => format!("{seconds} s"),
+        120..7200 => format!("{minutes} min"),
         _ => format!("{} h {} min", minutes / 60, minutes % 60),
     }
 }

@@ -16,6 +16,7 @@ use plan::Job;
 use watch::Watch;
 
 use super::draw_args::DrawArgs;
+use super::output::{check_place, is_stdout};
 use super::shard::{Shard, of_array};
 use super::{number, pipeline, say};
 use crate::error::Error;
@@ -34,6 +35,15 @@ pub(super) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     let shard = shard(&args, jobs.len())?;
     let mine = |(number, job)| shard.is_none_or(|shard| shard.has(number)).then_some(job);
     let jobs: Vec<Job> = jobs.into_iter().enumerate().filter_map(mine).collect();
+    if let Some(request) = jobs.iter().flat_map(|job| &job.requests).next() {
+        // Told once, and not by every model.
+        pipeline::load_style(&request.style, &request.sets, request.background)?;
+    }
+    if args.many.out_dir.is_none() {
+        // No folder is made but the one that is asked for.
+        let mut outputs = jobs.iter().flat_map(|job| &job.requests).flat_map(|request| &request.outputs);
+        outputs.try_for_each(|output| check_place(&output.path))?;
+    }
     let pool = pipeline::pool(args.how.threads)?;
     let into = args.many.out_dir.as_deref();
     let quiet = args.how.quiet;
@@ -55,10 +65,10 @@ pub(super) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     if !quiet && (into.is_some() || current > 0) {
         say(&summary(crew.into, &tally, current, shard, watch.seconds()));
     }
+    if watching.is_some() && !quiet {
+        say(&format!("watching {}; Ctrl-C ends", number::counted(jobs.len() as u64, "model")));
+    }
     while let Some(watching) = &mut watching {
-        if !quiet {
-            say(&format!("watching {}; Ctrl-C ends", number::counted(jobs.len() as u64, "model")));
-        }
         let again: Vec<Task> = watching.changed().into_iter().map(whole).collect();
         crew.draw(&again);
     }
@@ -77,7 +87,7 @@ fn check(args: &DrawArgs) -> Result<(), Error> {
             .at(option)
             .remedy("leave it out, or draw one model from one side"));
     }
-    if args.many.watch && plan::models(args).iter().any(|model| super::output::is_stdout(model)) {
+    if args.many.watch && plan::models(args).iter().any(|model| is_stdout(model)) {
         return Err(Error::new("standard input does not change").at("--watch").remedy("name a file"));
     }
     match &args.many.out_dir {

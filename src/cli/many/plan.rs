@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::args::stem;
 use crate::cli::draw_args::DrawArgs;
-use crate::cli::output::{Format, Output};
+use crate::cli::output::{Output, is_stdout};
 use crate::cli::request::{DrawRequest, check_apart, same_file};
 use crate::error::Error;
 use crate::scene::NamedView;
@@ -48,15 +48,15 @@ pub(super) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
                 args.many.paths(model, typed)?
             }
         };
+        if plain.iter().any(|path| is_stdout(path)) {
+            return Err(Error::new("standard output takes one drawing, made once")
+                .remedy("name the drawing, such as drawing.svg"));
+        }
         let mut job = Job { requests: Vec::new() };
         for view in views(args) {
             let outputs = plain.iter().map(|path| Output::new(seen_from(path, view, args)));
             let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
             for output in &outputs {
-                if output.format == Format::SvgToStdout {
-                    return Err(Error::new("standard output takes one drawing, made once")
-                        .remedy("name the drawing, such as drawing.svg"));
-                }
                 match taken.insert(key(&output.path), model) {
                     Some(other) if other == model || same_file(other, model) => continue 'models,
                     Some(other) => return Err(clash(output, other, model, args)),

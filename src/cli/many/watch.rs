@@ -18,26 +18,30 @@ type Stamps = BTreeMap<PathBuf, Stamp>;
 /// Looks at the files of jobs.
 pub(super) struct Watch<'a> {
     jobs: &'a [Job],
+    /// The files of each job: a sheet may come to extend another one.
+    files: Vec<Vec<PathBuf>>,
     seen: Stamps,
 }
 
 impl<'a> Watch<'a> {
     /// Begins; what changes from now on is noticed.
     pub(super) fn new(jobs: &'a [Job]) -> Self {
-        Self { jobs, seen: stamps(jobs) }
+        let files = files(jobs);
+        let seen = stamps(&files);
+        Self { jobs, files, seen }
     }
 
     /// Waits until something has changed, and gives the jobs that are to be done again.
     pub(super) fn changed(&mut self) -> Vec<&'a Job> {
         loop {
             std::thread::sleep(LOOK);
-            let mut now = stamps(self.jobs);
+            let mut now = stamps(&self.files);
             if now == self.seen {
                 continue;
             }
             loop {
                 std::thread::sleep(REST);
-                let later = stamps(self.jobs);
+                let later = stamps(&self.files);
                 let rests = later == now;
                 now = later;
                 if rests {
@@ -45,25 +49,29 @@ impl<'a> Watch<'a> {
                 }
             }
             // A file that is away may be on its way back: programs that save replace files.
+            now.retain(|_, stamp| stamp.is_some());
             let is_new =
-                |path: &PathBuf| now.get(path).is_some_and(|s| s.is_some() && self.seen.get(path) != Some(s));
-            let jobs = self.jobs.iter().filter(|job| files(job).iter().any(is_new)).collect::<Vec<_>>();
-            for (path, stamp) in now {
-                if stamp.is_some() {
-                    self.seen.insert(path, stamp);
-                }
+                |path: &PathBuf| now.get(path).is_some_and(|stamp| self.seen.get(path) != Some(stamp));
+            let files_of_jobs = self.jobs.iter().zip(&self.files);
+            let jobs: Vec<&Job> =
+                files_of_jobs.filter(|(_, files)| files.iter().any(is_new)).map(|(job, _)| job).collect();
+            self.seen.extend(now);
+            if jobs.is_empty() {
+                continue;
             }
-            if !jobs.is_empty() {
-                return jobs;
+            self.files = files(self.jobs);
+            for (path, stamp) in stamps(&self.files) {
+                self.seen.entry(path).or_insert(stamp);
             }
+            return jobs;
         }
     }
 }
 
-fn files(job: &Job) -> Vec<PathBuf> {
-    job.requests.first().map(inputs).unwrap_or_default()
+fn files(jobs: &[Job]) -> Vec<Vec<PathBuf>> {
+    jobs.iter().map(|job| job.requests.first().map(inputs).unwrap_or_default()).collect()
 }
 
-fn stamps(jobs: &[Job]) -> Stamps {
-    jobs.iter().flat_map(files).map(|path| (path.clone(), stamp(&path))).collect()
+fn stamps(files: &[Vec<PathBuf>]) -> Stamps {
+    files.iter().flatten().map(|path| (path.clone(), stamp(path))).collect()
 }
