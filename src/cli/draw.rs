@@ -5,7 +5,7 @@ use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
-use super::{lod, number, pipeline, print, say};
+use super::{lod, number, pipeline, print, say, web};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::gzip;
@@ -78,7 +78,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let prepared = Prepared::new(&scene, &style);
     let preparing_ms = watch.lap_ms();
     let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
-    let bare = request.web.complete(&mut drawing, &scene, &camera, &style)?;
+    let bare = web::complete(request, &mut drawing, &scene, &camera, &style)?;
     report.stages_ms.load = load_ms;
     report.stages_ms.topology += preparing_ms;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
@@ -95,7 +95,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
 
     progress.step("writing");
     watch.lap_ms();
-    let svg = request.web.svg_options(&request.svg, &style)?;
+    let svg = web::svg_options(request, &style)?;
     let encode = |format| match format {
         Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
         Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),

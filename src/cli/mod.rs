@@ -24,6 +24,7 @@ mod styles;
 mod styles_sheet;
 mod test;
 mod viewpoint;
+mod web;
 mod web_args;
 
 use std::io::Write;

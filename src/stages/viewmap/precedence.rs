@@ -96,19 +96,24 @@ impl Among<'_> {
         joined
     }
 
-    /// The edges that may be within reach of a line, ascending: tiles are convex, and wider than the reach.
+    /// The edges of a line's direction that may be within reach of it, ascending: tiles are convex, and wider than the reach.
     fn near(&self, line: &Line) -> Vec<u32> {
         let across = Vec2::new(-line.along.y, line.along.x) * self.within;
         let mut near: Vec<u32> = Vec::new();
         for shift in [Vec2::ZERO, across, -across] {
             self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
-                near.extend(self.in_tile.of(tile));
+                let beside = |other: &&u32| is_parallel(line, &self.lines[**other as usize]);
+                near.extend(self.in_tile.of(tile).iter().filter(beside));
             });
         }
         near.sort_unstable();
         near.dedup();
         near
     }
+}
+
+fn is_parallel(line: &Line, other: &Line) -> bool {
+    other.length > 0.0 && line.along.cross(other.along).abs() <= BEHIND_INK_SINE
 }
 
 /// Ranges in order, those that overlap as one.
@@ -124,11 +129,8 @@ fn joined(mut ranges: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     joined
 }
 
-/// The range of a line's parameter (0 to 1) along which another runs within `within` beside it.
+/// The range of a line's parameter (0 to 1) along which another, which is parallel to it, runs within `within` beside it.
 fn along(line: &Line, other: &Line, within: f64) -> Option<(f64, f64)> {
-    if other.length == 0.0 || line.along.cross(other.along).abs() > BEHIND_INK_SINE {
-        return None;
-    }
     let place = |p| (line.along.dot(p - line.start), line.along.cross(p - line.start));
     let (mut a, mut b) = (place(other.start), place(other.end()));
     if a.0 > b.0 {
