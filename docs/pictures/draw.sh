@@ -22,7 +22,8 @@ hatched() {
     "$ligne" draw $models/teapot.obj "$pictures/hatch-$1.png" --size 360x270 --azimuth 20 --quiet "${@:2}"
 }
 for style in ink pencil pencil-plain pen engraving stipple woodcut comic sketch patent blueprint toon toon-highlight noir gooch comic-flats rim flat technical suggestive; do
-    hatched $style --style $style
+    # Styles for plotters draw no paper.
+    hatched $style --style $style $([ $style = pencil-plain ] && echo --background white)
 done
 hatched object --style pen --set 'hatching.layer=[{ direction = "object", angle = 30 }, { direction = "object", angle = -50 }]'
 hatched dots --style stipple --set 'hatching.layer=[{ kind = "dots", lpi = 20 }]'

@@ -11,7 +11,7 @@ use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
-use super::{lod, number, pipeline, print, say, wonder};
+use super::{lod, number, pipeline, print, say, web, wonder};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::gzip;
@@ -127,7 +127,7 @@ fn draw_view(
 ) -> Result<Drawn, Error> {
     watch.lap_ms();
     let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
-    let bare = request.web.complete(&mut drawing, scene, &camera, style)?;
+    let bare = web::complete(request, &mut drawing, scene, &camera, style)?;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
     report.counts.triangles = triangles(scene);
     report.counts.paths = paths(&drawing);
@@ -150,7 +150,7 @@ fn draw_view(
 
     progress.step("writing");
     watch.lap_ms();
-    let svg = request.web.svg_options(&request.svg, &style)?;
+    let svg = web::svg_options(request, &style)?;
     let encode = |format| match format {
         Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
         Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),

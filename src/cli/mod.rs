@@ -30,6 +30,7 @@ mod styles;
 mod styles_sheet;
 mod test;
 mod viewpoint;
+mod web;
 mod web_args;
 mod wonder;
 
@@ -88,7 +89,7 @@ enum Command {
     Info(info::InfoArgs),
     /// Write beside a model in which order it loses its faces
     Lod(lod::LodArgs),
-    /// List the built-in styles, or show one
+    /// List the built-in styles, show one, or draw a model in all of them
     Styles(styles::StylesArgs),
     /// Write a completion script for a shell
     Completions(completions::CompletionsArgs),

@@ -16,6 +16,7 @@ mod attributes;
 pub(crate) mod canonical;
 #[cfg(feature = "film")]
 pub mod film;
+#[cfg(feature = "cli")]
 pub(crate) mod gzip;
 mod hotspots;
 pub(crate) mod number;

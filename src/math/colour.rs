@@ -88,7 +88,9 @@ impl Colour {
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
-        let Some(hex) = text.strip_prefix('#') else { return super::colour_names::named(text) };
+        let Some(hex) = text.strip_prefix('#') else {
+            return super::colour_names::named(text).map(|[r, g, b]| Self::rgb(r, g, b));
+        };
         if !hex.is_ascii() {
             return None;
         }

@@ -1,14 +1,12 @@
 //! The names that CSS has for colours.
 
-use super::colour::Colour;
-
-/// The colour of a name in CSS, in capitals or not.
+/// Red, green and blue of a name in CSS, in capitals or not.
 #[must_use]
-pub fn named(name: &str) -> Option<Colour> {
+pub fn named(name: &str) -> Option<[u8; 3]> {
     let name = name.to_ascii_lowercase();
     let at = NAMES.binary_search_by(|(known, _)| (*known).cmp(name.as_str())).ok()?;
     let [_, r, g, b] = NAMES.get(at)?.1.to_be_bytes();
-    Some(Colour::rgb(r, g, b))
+    Some([r, g, b])
 }
 
 /// In alphabetical order: names, and red, green and blue.
@@ -173,9 +171,9 @@ mod tests {
     #[test]
     fn names_are_in_order_and_found() {
         assert!(NAMES.is_sorted_by(|a, b| a.0 < b.0));
-        assert_eq!(named("RebeccaPurple").map(Colour::hex).as_deref(), Some("#663399"));
-        assert_eq!(named("aliceblue").map(Colour::hex).as_deref(), Some("#f0f8ff"));
-        assert_eq!((named("white"), named("black")), (Some(Colour::WHITE), Some(Colour::BLACK)));
+        assert_eq!(named("RebeccaPurple"), Some([0x66, 0x33, 0x99]));
+        assert_eq!(named("aliceblue"), Some([0xf0, 0xf8, 0xff]));
+        assert_eq!((named("white"), named("black")), (Some([255; 3]), Some([0; 3])));
         assert_eq!(named("bluish"), None);
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 14] = [
+const DOCUMENTS: [&str; 15] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -18,6 +18,7 @@ const DOCUMENTS: [&str; 14] = [
     "docs/smooth.md",
     "docs/stages.md",
     "docs/testing.md",
+    "docs/web.md",
     "examples/README.md",
 ];
 
@@ -97,7 +98,7 @@ fn tests_that_documents_name_are_there() {
 
 #[test]
 fn options_that_the_readme_names_are_there() {
-    let help: String = ["draw", "animate", "diff", "fmt", "test", "lod"]
+    let help: String = ["draw", "animate", "diff", "fmt", "test", "lod", "styles"]
         .map(|command| {
             let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
             String::from_utf8(help.stdout).unwrap()
@@ -125,6 +126,7 @@ fn options_that_the_readme_names_are_there() {
         "docs/stages.md",
         "docs/diff.md",
         "docs/testing.md",
+        "docs/web.md",
         "examples/README.md",
     ] {
         let text = read(document);

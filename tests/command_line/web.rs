@@ -169,10 +169,10 @@ fn colours_and_views_are_understood_as_they_are_typed() {
 #[test]
 fn a_sheet_shows_a_model_in_all_styles() {
     let folder = Folder::with_cubes("sheet");
-    let listed = folder.ligne("styles").done().out.clone();
+    let listed = folder.ligne("styles");
     folder.ligne("styles --sheet all.svg cubes.obj").done();
     let svg = folder.text("all.svg");
-    for line in listed.lines() {
+    for line in listed.done().out.lines() {
         let name = line.split(' ').next().unwrap_or_default();
         assert!(svg.contains(&format!("<title>{name}</title>")), "{name}");
         assert!(svg.contains(&format!("inkscape:label=\"{name}\"")), "{name}");

@@ -8,7 +8,7 @@ use kurbo::Vec2;
 use rayon::prelude::*;
 
 use super::doubles::{Line, cut, precedence, vector};
-use super::graph::ViewMap;
+use super::graph::{ViewEdge, ViewMap};
 use super::grid::Grid;
 use crate::math::grouped::{Grouped, grouped};
 use crate::math::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
@@ -82,13 +82,12 @@ impl Among<'_> {
         if edge.invisibility == 0 || line.length == 0.0 {
             return Vec::new();
         }
-        let comes_before = |other: &u32| {
+        let covers = |other: &u32| {
             let other = &map.edges[*other as usize];
-            other.invisibility == 0 || precedence(map, extents, other, edge).is_lt()
+            other.invisibility == 0 || comes_before(map, extents, other, edge)
         };
         let near = self.near(line).into_iter().filter(|other| *other as usize != number);
-        let ranges =
-            near.filter(comes_before).filter_map(|other| along(line, &lines[other as usize], *within));
+        let ranges = near.filter(covers).filter_map(|other| along(line, &lines[other as usize], *within));
         // Where two lines only meet, one covers nothing of the other but rounding.
         let least = (within / line.length).min(0.5);
         let mut joined = joined(ranges.collect());
@@ -96,19 +95,32 @@ impl Among<'_> {
         joined
     }
 
-    /// The edges that may be within reach of a line, ascending: tiles are convex, and wider than the reach.
+    /// The edges of a line's direction that may be within reach of it, ascending: tiles are convex, and wider than the reach.
     fn near(&self, line: &Line) -> Vec<u32> {
         let across = Vec2::new(-line.along.y, line.along.x) * self.within;
         let mut near: Vec<u32> = Vec::new();
         for shift in [Vec2::ZERO, across, -across] {
             self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
-                near.extend(self.in_tile.of(tile));
+                let beside = |other: &&u32| is_parallel(line, &self.lines[**other as usize]);
+                near.extend(self.in_tile.of(tile).iter().filter(beside));
             });
         }
         near.sort_unstable();
         near.dedup();
         near
     }
+}
+
+/// Whether a hidden edge is drawn where another one runs along it. The part decides before the depth: depths of edges that coincide
+/// differ by rounding alone, which another order of parts may change.
+fn comes_before(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> bool {
+    let by_part = || extents.of(one.part).precedence(extents.of(other.part));
+    let order = one.kind.cmp(&other.kind).then_with(by_part);
+    order.then_with(|| precedence(map, extents, one, other)).is_lt()
+}
+
+fn is_parallel(line: &Line, other: &Line) -> bool {
+    other.length > 0.0 && line.along.cross(other.along).abs() <= BEHIND_INK_SINE
 }
 
 /// Ranges in order, those that overlap as one.
@@ -124,11 +136,8 @@ fn joined(mut ranges: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     joined
 }
 
-/// The range of a line's parameter (0 to 1) along which another runs within `within` beside it.
+/// The range of a line's parameter (0 to 1) along which another, which is parallel to it, runs within `within` beside it.
 fn along(line: &Line, other: &Line, within: f64) -> Option<(f64, f64)> {
-    if other.length == 0.0 || line.along.cross(other.along).abs() > BEHIND_INK_SINE {
-        return None;
-    }
     let place = |p| (line.along.dot(p - line.start), line.along.cross(p - line.start));
     let (mut a, mut b) = (place(other.start), place(other.end()));
     if a.0 > b.0 {

@@ -1,0 +1,47 @@
+//! What web pages need of a drawing, as it was asked for.
+
+use super::pipeline;
+use super::request::DrawRequest;
+use crate::drawing::Drawing;
+use crate::error::Error;
+use crate::export::SvgOptions;
+use crate::render;
+use crate::scene::{Camera, Scene};
+use crate::stroke::pen::Ink;
+use crate::style::Style;
+
+/// Adds to a drawing what was asked for; a warning where that is nothing.
+pub(super) fn complete(
+    request: &DrawRequest,
+    drawing: &mut Drawing,
+    scene: &Scene,
+    camera: &Camera,
+    style: &Style,
+) -> Result<Option<&'static str>, Error> {
+    if let Some(title) = &request.web.title {
+        drawing.title.clone_from(title);
+    }
+    if request.web.hotspots {
+        let page = drawing.page;
+        drawing.hotspots = render::hotspots(scene, camera, page, style)?;
+    }
+    let bare = request.web.hotspots && drawing.hotspots.is_empty();
+    Ok(bare.then_some("no part with a name is in sight: there are no hot-spots"))
+}
+
+/// How SVG is written.
+pub(super) fn svg_options(request: &DrawRequest, style: &Style) -> Result<SvgOptions, Error> {
+    let mut options = pipeline::svg_options(&request.svg);
+    if request.web.title.is_some() || request.web.desc.is_some() {
+        options = options.read_aloud(request.web.desc.as_deref().unwrap_or_default());
+    }
+    if request.web.ink.is_some() {
+        let Ink::Fixed(ink) = style.stroke.pen.colour else {
+            return Err(Error::new("the style's pen has no colour of its own")
+                .at("--ink")
+                .remedy("give it one: --set pen.colour=black"));
+        };
+        options = options.with_current_ink(ink);
+    }
+    Ok(options)
+}
