@@ -1,19 +1,18 @@
-//! The chains of a view, hidden ones without what lies in the ink of others.
+//! The chains of a view, hidden ones without what lies in the ink of visible ones.
 
 use crate::chain::{self, Chain};
 use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
-use crate::mesh::Extents;
 use crate::style::Style;
 use crate::viewmap::{Ahead, ViewMap, precedence};
 
-/// Links the lines of a view. `extents` says which of two parts in one place comes first, `perspective` how depth runs along a line.
+/// Links the lines of a view; `perspective` tells how depth runs along a line.
 pub(super) fn chains(
     ahead: &Ahead,
     map: &ViewMap,
     style: &Style,
     unit: Unit,
-    (extents, perspective): (&Extents, bool),
+    perspective: bool,
 ) -> Vec<Chain> {
     let link = |map| chain::link_behind(ahead, map, &style.chain, unit, style.lines.hidden);
     let mut chains = link(map);
@@ -22,7 +21,7 @@ pub(super) fn chains(
     }
     // Visible lines are drawn on across gaps by what is hidden there: they are linked with all of it.
     let px = Length::px(1.0).in_unit(unit);
-    if let Some(cut) = precedence::apart(map, extents, perspective, px) {
+    if let Some(cut) = precedence::apart(map, perspective, px) {
         chains.retain(|chain| chain.invisibility == 0);
         let stays = |chain: &Chain| chain.invisibility > 0 && length(chain) >= CRUMB_PX * px;
         chains.extend(link(&cut).into_iter().filter(stays));

@@ -333,8 +333,7 @@ impl<'a> Prepared<'a> {
             seen: &map.seen_contours,
             moved: margin(camera, &page),
         };
-        let depth = (&surface.mesh.extents, view.frame.perspective);
-        let mut chains = hidden::chains(&ahead, &map, style, page.unit, depth);
+        let mut chains = hidden::chains(&ahead, &map, style, page.unit, view.frame.perspective);
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
                 fills::keep_inked(veiled, style);

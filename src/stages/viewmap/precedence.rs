@@ -1,5 +1,4 @@
-//! No hidden line in the ink of a visible one: what of a hidden line runs behind a visible line, or behind a stronger hidden
-//! one, is left out.
+//! No hidden line in the ink of a visible one: what of a hidden line runs behind a visible line is left out.
 //!
 //! Source: ISO 128-2, where lines coincide: visible outlines and edges come before hidden ones.
 
@@ -7,22 +6,20 @@ use glam::DVec3;
 use kurbo::Vec2;
 use rayon::prelude::*;
 
-use super::doubles::{Line, cut, precedence, vector};
-use super::graph::{ViewEdge, ViewMap};
+use super::doubles::{Line, cut, vector};
+use super::graph::ViewMap;
 use super::grid::Grid;
 use crate::math::grouped::{Grouped, grouped};
 use crate::math::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
-use crate::mesh::Extents;
 
 /// Tiles are at least this many distances wide, so that what is near a line is in the tiles of the line moved by one distance.
 const CELL_OF_DISTANCE: f64 = 4.0;
 
-/// The map without what of hidden edges runs along visible ones, and of hidden ones that coincide with the first alone; `None` if
-/// nothing does. All edges of the map are drawn; `px` is a px in user units, `perspective` tells how depth runs along a line.
+/// The map without what of hidden edges runs along visible ones; `None` if nothing does. All edges of the map are drawn; `px` is a px in user units, `perspective` tells how depth runs along a line.
 #[must_use]
-pub fn apart(map: &ViewMap, extents: &Extents, perspective: bool, px: f64) -> Option<ViewMap> {
+pub fn apart(map: &ViewMap, perspective: bool, px: f64) -> Option<ViewMap> {
     let within = BEHIND_INK_PX * px;
-    let behind = find(map, extents, within);
+    let behind = find(map, within);
     if behind.iter().all(Vec::is_empty) {
         return None;
     }
@@ -38,8 +35,8 @@ pub fn apart(map: &ViewMap, extents: &Extents, perspective: bool, px: f64) -> Op
     Some(ViewMap { vertices, edges, ..map.clone() })
 }
 
-/// For each edge the ranges of its parameter (0 to 1) that run along one that comes before it.
-fn find(map: &ViewMap, extents: &Extents, within: f64) -> Vec<Vec<(f64, f64)>> {
+/// For each edge the ranges of its parameter (0 to 1) that run along a visible one.
+fn find(map: &ViewMap, within: f64) -> Vec<Vec<(f64, f64)>> {
     let lines: Vec<Line> = map.edges.iter().map(|edge| Line::of(map, edge)).collect();
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = lines
@@ -59,14 +56,13 @@ fn find(map: &ViewMap, extents: &Extents, within: f64) -> Vec<Vec<(f64, f64)>> {
             grid.walk(p, q, |tile, _, _| put(tile, number));
         }
     });
-    let among = Among { map, extents, within, lines, grid, in_tile };
+    let among = Among { map, within, lines, grid, in_tile };
     (0..map.edges.len()).into_par_iter().with_min_len(256).map(|edge| among.behind(edge)).collect()
 }
 
 /// All edges of a map, and which of them pass the tiles of a grid.
 struct Among<'a> {
     map: &'a ViewMap,
-    extents: &'a Extents,
     within: f64,
     /// One an edge.
     lines: Vec<Line>,
@@ -77,15 +73,12 @@ struct Among<'a> {
 impl Among<'_> {
     /// What of an edge runs behind others.
     fn behind(&self, number: usize) -> Vec<(f64, f64)> {
-        let Self { map, extents, within, lines, .. } = self;
+        let Self { map, within, lines, .. } = self;
         let (edge, line) = (&map.edges[number], &lines[number]);
         if edge.invisibility == 0 || line.length == 0.0 {
             return Vec::new();
         }
-        let covers = |other: &u32| {
-            let other = &map.edges[*other as usize];
-            other.invisibility == 0 || comes_before(map, extents, other, edge)
-        };
+        let covers = |other: &u32| map.edges[*other as usize].invisibility == 0;
         let near = self.near(line).into_iter().filter(|other| *other as usize != number);
         let ranges = near.filter(covers).filter_map(|other| along(line, &lines[other as usize], *within));
         // Where two lines only meet, one covers nothing of the other but rounding.
@@ -109,14 +102,6 @@ impl Among<'_> {
         near.dedup();
         near
     }
-}
-
-/// Whether a hidden edge is drawn where another one runs along it. The part decides before the depth: depths of edges that coincide
-/// differ by rounding alone, which another order of parts may change.
-fn comes_before(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> bool {
-    let by_part = || extents.of(one.part).precedence(extents.of(other.part));
-    let order = one.kind.cmp(&other.kind).then_with(by_part);
-    order.then_with(|| precedence(map, extents, one, other)).is_lt()
 }
 
 fn is_parallel(line: &Line, other: &Line) -> bool {
