@@ -150,7 +150,7 @@ fn draw_view(
 
     progress.step("writing");
     watch.lap_ms();
-    let svg = web::svg_options(request, &style)?;
+    let svg = web::svg_options(request, style)?;
     let encode = |format| match format {
         Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
         Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
