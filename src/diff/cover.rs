@@ -6,6 +6,7 @@
 use kurbo::Point;
 use rayon::prelude::*;
 
+use super::bundles::Met;
 use super::chain::Chain;
 use super::grid::SegmentCells;
 use super::groups::{Groups, Likeness};
@@ -13,6 +14,10 @@ use super::groups::{Groups, Likeness};
 /// Stretches of a chain shorter than this many tolerances, between two that are alike, are what lines leave that
 /// merely cross it.
 const CROSSING: f64 = 6.0;
+/// Where segments are a crowd, so many are asked for the best likeness.
+const MOST_ASKED: usize = 4096;
+/// Pieces of all copies of a line.
+const MOST_PIECES: usize = 4_000_000;
 /// Gaps between intervals shorter than this (px) are rounding.
 const ROUNDING_PX: f64 = 1e-7;
 
@@ -68,6 +73,20 @@ impl Cover {
         if self.dot { f64::from(u8::from(self.is_whole())) } else { 1.0 - self.bare() / self.length }
     }
 
+    /// Bare where it was, or covered where nothing of it is bare, as one piece from its start to its end.
+    fn without_crossings(self) -> Self {
+        let best = |runs: &[Stretch]| runs.iter().map(|run| run.likeness).max().flatten();
+        let likeness = if self.is_whole() { best(&self.runs) } else { None };
+        let partner = self.runs.first().map_or(0, |run| run.partner);
+        let mut cover = Self {
+            runs: vec![Stretch { from: 0.0, to: self.length, likeness, partner }],
+            partners: Vec::new(),
+            ..self
+        };
+        cover.sum_up();
+        cover
+    }
+
     /// Sums up the runs by partner.
     fn sum_up(&mut self) {
         for run in &self.runs {
@@ -101,6 +120,16 @@ pub(super) fn cover(
             (first(index) == index).then(|| one(chain, there.0, grid, groups, scratch))
         })
         .collect();
+    // Of a line that thousands cross, each of thousands of copies would have all these pieces.
+    let mut copies = vec![0usize; here.0.len()];
+    (0..copies.len()).for_each(|index| copies[first(index)] += 1);
+    let plainer = |(index, cover): (usize, Option<Cover>)| {
+        cover.map(|cover| match cover.runs.len().saturating_mul(copies[index] - 1) > MOST_PIECES {
+            true => cover.without_crossings(),
+            false => cover,
+        })
+    };
+    let of_firsts: Vec<Option<Cover>> = of_firsts.into_iter().enumerate().map(plainer).collect();
     let copy = |index: usize| {
         let mut cover = of_firsts.get(first(index)).cloned().flatten().unwrap_or_default();
         let rank = index - first(index);
@@ -121,6 +150,75 @@ struct Scratch {
     /// Likenesses to groups that are near.
     likeness: Vec<(usize, Option<Likeness>)>,
     intervals: Vec<Interval>,
+}
+
+/// A segment of a chain, which begins `at` px along it.
+struct Here {
+    from: Point,
+    to: Point,
+    at: f64,
+    length: f64,
+    tolerance: f64,
+}
+
+impl Scratch {
+    /// Keeps what another segment covers of this one, and tells which share it is.
+    fn see(
+        &mut self,
+        here: &Here,
+        chain: &Chain,
+        others: &[Chain],
+        grid: &SegmentCells,
+        groups: &Groups,
+        item: u32,
+    ) -> Option<(Likeness, (f64, f64))> {
+        let segment = grid.segments.get(item as usize)?;
+        let other = others.get(segment.chain as usize)?;
+        let known = self.likeness.iter().find(|(group, _)| *group == other.group);
+        let likeness = known.map_or_else(|| groups.likeness(chain.group, other.group), |(_, known)| *known);
+        if known.is_none() {
+            self.likeness.push((other.group, likeness));
+        }
+        let likeness = likeness?;
+        let (start, end) = within(here.from, here.to, segment.from, segment.to, here.tolerance)?;
+        self.intervals.push(Interval {
+            from: here.at + start * here.length,
+            to: here.at + end * here.length,
+            likeness,
+            partner: segment.chain,
+        });
+        Some((likeness, (start, end)))
+    }
+}
+
+/// What of a segment is covered, where there are too many others to ask them all.
+#[derive(Default)]
+struct Crowd {
+    seen: usize,
+    /// Shares that lie apart, in order.
+    shares: Vec<(f64, f64)>,
+}
+
+impl Crowd {
+    /// Adds what a segment covers: what is as it was, and after so many whatever lies there.
+    fn add(&mut self, found: Option<(Likeness, (f64, f64))>) {
+        self.seen += 1;
+        let Some((likeness, (mut from, mut to))) = found else { return };
+        if likeness != Likeness::Same && self.seen < MOST_ASKED {
+            return;
+        }
+        let first = self.shares.partition_point(|share| share.1 < from);
+        let last = self.shares.partition_point(|share| share.0 <= to);
+        for share in self.shares.drain(first..last) {
+            (from, to) = (from.min(share.0), to.max(share.1));
+        }
+        self.shares.insert(first, (from, to));
+    }
+
+    fn covers(&self, (from, to): (f64, f64)) -> bool {
+        let at = self.shares.partition_point(|share| share.1 < to);
+        self.shares.get(at).is_some_and(|share| share.0 <= from)
+    }
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -145,31 +243,32 @@ fn one(
     scratch.likeness.clear();
     for (from, to) in chain.segments() {
         let length = from.distance(to);
-        grid.near(from, to, tolerance, &mut scratch.near);
         scratch.intervals.clear();
-        for item in &scratch.near {
-            let Some(segment) = grid.segments.get(*item as usize) else { continue };
-            let Some(other) = others.get(segment.chain as usize) else { continue };
-            let known = scratch.likeness.iter().find(|(group, _)| *group == other.group);
-            let likeness =
-                known.map_or_else(|| groups.likeness(chain.group, other.group), |(_, known)| *known);
-            if known.is_none() {
-                scratch.likeness.push((other.group, likeness));
-            }
-            let Some(likeness) = likeness else { continue };
-            if let Some((start, end)) = within(from, to, segment.from, segment.to, tolerance) {
-                scratch.intervals.push(Interval {
-                    from: at + start * length,
-                    to: at + end * length,
-                    likeness,
-                    partner: segment.chain,
-                });
-                // Of what is alike the first one counts.
-                if likeness == Likeness::Same && start <= 0.0 && end >= 1.0 {
-                    break;
+        let here = Here { from, to, at, length, tolerance };
+        let crowd = !grid.near(from, to, tolerance, &mut scratch.near);
+        let near = std::mem::take(&mut scratch.near);
+        if crowd {
+            let mut all = Crowd::default();
+            grid.bundles().search(|met| match met {
+                Met::Bundle { from, to, radius } => {
+                    within(here.from, here.to, from, to, (tolerance + radius) * (1.0 + 1e-9))
+                        .is_some_and(|share| !all.covers(share))
                 }
+                Met::One(item) => {
+                    let found = scratch.see(&here, chain, others, grid, groups, item);
+                    all.add(found);
+                    all.covers((0.0, 1.0))
+                }
+            });
+        }
+        for item in near.iter().filter(|_| !crowd) {
+            let found = scratch.see(&here, chain, others, grid, groups, *item);
+            // Of what is alike the first one counts.
+            if found.is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0)) {
+                break;
             }
         }
+        scratch.near = near;
         runs(at, at + length, &mut scratch.intervals, &mut cover.runs);
         at += length;
     }

@@ -1,7 +1,10 @@
 //! [`SegmentCells`]: the segments of chains by place, for asking what is near.
 
+use std::sync::OnceLock;
+
 use kurbo::Point;
 
+use super::bundles::Bundles;
 use super::chain::Chain;
 use crate::math::grouped::{Grouped, grouped};
 
@@ -10,6 +13,9 @@ const MOST_CELLS: f64 = 2048.0;
 
 /// Cells that a segment goes through, on average and about at most.
 const CELLS_OF_SEGMENT: f64 = 16.0;
+
+/// More segments than this in the cells of one are a crowd.
+const CROWD: usize = 4096;
 
 /// A segment of a chain.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +35,7 @@ pub(super) struct SegmentCells {
     rows: usize,
     /// The numbers of the segments that go through each cell.
     items: Grouped<u32>,
+    bundles: OnceLock<Bundles>,
 }
 
 impl SegmentCells {
@@ -60,7 +67,7 @@ impl SegmentCells {
         let cell = (side / count.sqrt().ceil().clamp(1.0, MOST_CELLS)).max(mean / CELLS_OF_SEGMENT);
         let count = |length: f64| (length / cell) as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
-        let mut grid = Self { segments, origin: low, cell, columns, rows, items: Grouped::default() };
+        let mut grid = Self { segments, origin: low, cell, columns, rows, items: Grouped::default(), bundles: OnceLock::new() };
         grid.items = grouped(columns * rows, |put| {
             for (index, segment) in grid.segments.iter().enumerate() {
                 grid.cells(segment.from, segment.to, 0.0, |cell| put(cell, index as u32));
@@ -101,27 +108,39 @@ impl SegmentCells {
         }
     }
 
-    /// The segments that may lie within `reach` of a segment, each once, in order.
-    pub(super) fn near(&self, from: Point, to: Point, reach: f64, found: &mut Vec<u32>) {
+    /// The segments that may lie within `reach` of a segment, each once, in order; `false` where they are a crowd, which
+    /// [`Self::bundles`] are for.
+    pub(super) fn near(&self, from: Point, to: Point, reach: f64, found: &mut Vec<u32>) -> bool {
         found.clear();
         let mut cells = 0;
         self.cells(from, to, reach, |cell| {
-            found.extend_from_slice(self.items.of(cell));
+            if found.len() <= CROWD {
+                found.extend_from_slice(self.items.of(cell));
+            }
             cells += 1;
         });
+        if found.len() > CROWD {
+            return false;
+        }
         // One cell's are in order.
         if cells > 1 {
             found.sort_unstable();
             found.dedup();
         }
+        true
+    }
+
+    /// All segments by where they begin and end.
+    pub(super) fn bundles(&self) -> &Bundles {
+        self.bundles.get_or_init(|| Bundles::new(&self.segments))
     }
 
     /// Calls with segments ever farther from a point, until the call says that all within a distance are enough:
-    /// it is asked after each ring of cells, with the distance within which all have been seen. Of a cell so many are seen.
+    /// it is asked after each ring of cells, with the distance within which all have been seen. So many are seen in all.
     pub(super) fn rings(
         &self,
         p: Point,
-        (reach, most_in_cell): (f64, usize),
+        (reach, most_seen): (f64, usize),
         mut see: impl FnMut(u32),
         mut enough: impl FnMut(f64) -> bool,
     ) {
@@ -130,11 +149,13 @@ impl SegmentCells {
         let (columns, rows) = (self.columns as f64, self.rows as f64);
         let most = (reach / self.cell).ceil() + 1.0;
         let mut ring = 0.0;
-        while ring <= most {
-            let visit = |x: f64, y: f64, see: &mut dyn FnMut(u32)| {
+        let mut left = most_seen;
+        while ring <= most && left > 0 {
+            let mut visit = |x: f64, y: f64, see: &mut dyn FnMut(u32)| {
                 if (0.0..columns).contains(&x) && (0.0..rows).contains(&y) {
                     let items = self.items.of(y as usize * self.columns + x as usize);
-                    items.iter().take(most_in_cell).for_each(|item| see(*item));
+                    items.iter().take(left).for_each(|item| see(*item));
+                    left -= items.len().min(left);
                 }
             };
             let mut y = (row - ring).max(0.0);
@@ -192,7 +213,7 @@ mod tests {
         let mut found = Vec::new();
         for chain in scattered(60, 9) {
             let (from, to) = (chain.points[0], chain.points[1]);
-            grid.near(from, to, 3.0, &mut found);
+            assert!(grid.near(from, to, 3.0, &mut found));
             for (index, segment) in grid.segments.iter().enumerate() {
                 let near = (0..=200).any(|i| {
                     let p = from.lerp(to, f64::from(i) / 200.0);

@@ -24,6 +24,7 @@
 
 mod align;
 mod area;
+mod bundles;
 mod canonical;
 mod cascade;
 mod causes;

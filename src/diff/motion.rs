@@ -2,7 +2,8 @@
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
 
-use super::grid::{SegmentCells, nearest_on};
+use super::bundles::Bundles;
+use super::grid::Segment;
 
 /// Motions that are tried: what carries single marks to their likes.
 const TRIED: usize = 48;
@@ -53,18 +54,18 @@ pub(super) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) ->
     if places.iter().any(Vec::is_empty) {
         return None;
     }
-    let grids = [0, 1].map(|side: usize| Grid::new(&marks.lines[side]));
+    let lines = [0, 1].map(|side: usize| Lines::new(&marks.lines[side]));
     let judge = |affine: Affine| {
         let growth = affine.determinant().abs().sqrt();
         if !(1e-3..1e3).contains(&growth) {
             return None;
         }
-        let hits = |places: &[Point], to: Affine, grid: &Grid, reach: f64| {
-            let near = places.iter().filter(|p| grid.has(to * **p, reach)).count();
+        let hits = |places: &[Point], to: Affine, lines: &Lines, reach: f64| {
+            let near = places.iter().filter(|p| lines.has(to * **p, reach)).count();
             near as f64 / places.len() as f64
         };
-        let forth = hits(&places[0], affine, &grids[1], reach * growth.max(1.0));
-        let back = hits(&places[1], affine.inverse(), &grids[0], reach / growth.min(1.0));
+        let forth = hits(&places[0], affine, &lines[1], reach * growth.max(1.0));
+        let back = hits(&places[1], affine.inverse(), &lines[0], reach / growth.min(1.0));
         Some(Motion { affine, share: forth.min(back) })
     };
     let step = (marks.likes.len() / TRIED).max(1);
@@ -153,25 +154,22 @@ fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
 }
 
 /// Lines that are asked whether something of them is near.
-struct Grid(SegmentCells);
+struct Lines {
+    segments: Vec<Segment>,
+    bundles: Bundles,
+}
 
-impl Grid {
+impl Lines {
     fn new(lines: &[Vec<Point>]) -> Self {
-        let chain = |points: &Vec<Point>| super::chain::Chain {
-            group: 0,
-            points: points.clone(),
-            closed: false,
-            shapes: Vec::new(),
-        };
-        Self(SegmentCells::new(&lines.iter().map(chain).collect::<Vec<_>>()))
+        let segments = lines.iter().flat_map(|points| points.windows(2));
+        let segments: Vec<Segment> =
+            segments.map(|pair| Segment { chain: 0, from: pair[0], to: pair[1] }).collect();
+        let bundles = Bundles::new(&segments);
+        Self { segments, bundles }
     }
 
     fn has(&self, p: Point, reach: f64) -> bool {
-        let mut near = Vec::new();
-        self.0.near(p, p, reach, &mut near);
-        near.iter()
-            .filter_map(|item| self.0.segments.get(*item as usize))
-            .any(|segment| p.distance(nearest_on(segment.from, segment.to, p)) <= reach)
+        self.bundles.any(&self.segments, p, reach)
     }
 }
 

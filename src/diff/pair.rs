@@ -1,5 +1,6 @@
 //! Pairs of chains that may be one mark, before and after.
 
+use std::cell::RefCell;
 use std::cmp::Ordering;
 
 use kurbo::{Point, Rect};
@@ -26,8 +27,8 @@ const COMMON: f64 = 0.2;
 const PLACES: usize = 5;
 const WANTED: usize = 4;
 const CLOSELY: usize = 6;
-/// Segments of a cell that are looked at: where thousands lie on each other, any of them will do.
-const MOST_IN_CELL: usize = 512;
+/// Segments that each place looks at: where thousands lie on each other, any of them will do.
+const MOST_SEEN: usize = 512;
 
 /// One drawing's chains and what the other drawing covers of them.
 #[derive(Debug)]
@@ -117,10 +118,11 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
     let chain = &side.chains[index];
     let partners = side.covers[index].partners.iter().map(|(partner, ..)| *partner as usize);
     let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();
+    let known: RefCell<FxHashMap<u32, usize>> = RefCell::default();
     for place in places(chain, (chain.points.len() + 1).min(PLACES)) {
         // The nearest few: each with its distance.
-        let near: std::cell::RefCell<Vec<(f64, u32)>> = std::cell::RefCell::default();
-        let known: std::cell::RefCell<FxHashMap<u32, usize>> = std::cell::RefCell::default();
+        let near: RefCell<Vec<(f64, u32)>> = RefCell::default();
+        known.borrow_mut().clear();
         let see = |item: u32| {
             let segment = grid.segments[item as usize];
             let distance = place.distance(nearest_on(segment.from, segment.to, place));
@@ -136,10 +138,14 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
         };
         let enough =
             |seen: f64| near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= WANTED;
-        grid.rings(place, (reach, MOST_IN_CELL), see, enough);
+        grid.rings(place, (reach, MOST_SEEN), see, enough);
         let mut near = near.into_inner();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.extend(near.iter().take(2 * WANTED).map(|(_, chain)| bare[*chain as usize]));
+        let nearest = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if near.len() > 2 * WANTED {
+            near.select_nth_unstable_by(2 * WANTED, nearest);
+            near.truncate(2 * WANTED);
+        }
+        found.extend(near.iter().map(|(_, chain)| bare[*chain as usize]));
     }
     found.sort_unstable();
     found.dedup();
