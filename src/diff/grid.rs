@@ -67,7 +67,15 @@ impl SegmentCells {
         let cell = (side / count.sqrt().ceil().clamp(1.0, MOST_CELLS)).max(mean / CELLS_OF_SEGMENT);
         let count = |length: f64| (length / cell) as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
-        let mut grid = Self { segments, origin: low, cell, columns, rows, items: Grouped::default(), bundles: OnceLock::new() };
+        let mut grid = Self {
+            segments,
+            origin: low,
+            cell,
+            columns,
+            rows,
+            items: Grouped::default(),
+            bundles: OnceLock::new(),
+        };
         grid.items = grouped(columns * rows, |put| {
             for (index, segment) in grid.segments.iter().enumerate() {
                 grid.cells(segment.from, segment.to, 0.0, |cell| put(cell, index as u32));

@@ -12,6 +12,7 @@ use super::cascade::Cascade;
 use super::ink::LINKED;
 use super::label::Label;
 use super::numbers;
+use super::said::said;
 use super::sheet::{self, Declaration};
 use crate::drawing::{LayerKind, Unit};
 use crate::error::Error;
@@ -151,7 +152,7 @@ impl Markup {
             escape(&mut self.svg, value);
             self.svg.push('"');
         }
-        self.style(node, declared);
+        self.style(node, declared)?;
         self.svg.push('>');
         for child in node.children() {
             if child.is_element() {
@@ -165,19 +166,13 @@ impl Markup {
     }
 
     /// Writes what style sheets say of an element, and then what it says of itself: what comes later wins.
-    fn style(&mut self, node: Node, declared: &[Declaration]) {
+    fn style(&mut self, node: Node, declared: &[Declaration]) -> Result<(), Error> {
         let own = node.attribute("style").unwrap_or_default();
         if declared.is_empty() && own.is_empty() {
-            return;
+            return Ok(());
         }
-        self.svg.push_str(" style=\"");
-        for Declaration { name, value, important } in declared {
-            let _ = write!(self.svg, "{name}:");
-            escape(&mut self.svg, value);
-            self.svg.push_str(if *important { " !important;" } else { ";" });
-        }
-        escape(&mut self.svg, own);
-        self.svg.push('"');
+        let _ = write!(self.svg, " style=\"{}\"", said(declared, own)?);
+        Ok(())
     }
 
     /// Remembers what a shape is, and writes an id for it unless it has one.

@@ -60,6 +60,7 @@ mod pixels;
 mod plain;
 mod read;
 mod regions;
+mod said;
 mod sheet;
 mod stacking;
 mod styled;

@@ -1,21 +1,11 @@
 //! A file without style sheets: what they say of each element is written at it.
 
-use std::fmt::Write as _;
-
-use rustc_hash::FxHashSet;
 use usvg::roxmltree::Node;
 
 use super::cascade::Cascade;
 use super::guard;
-use super::sheet::{self, Declaration};
-use super::tags::too_much;
+use super::said::{is_long, said};
 use crate::error::Error;
-
-/// Bytes of a style that are looked through before readers get it.
-const LONG: usize = 4096;
-/// Declarations of which only the last of each property is kept, and properties that an element may have.
-const MANY: usize = 64;
-const MOST_PROPERTIES: usize = 1000;
 
 /// The file with what its style sheets say in attributes `style`, for readers that would search long for what a selector
 /// means; `None` where entities make it unsure which text is whose.
@@ -61,7 +51,7 @@ fn collect(
         let own_is_long = node.attribute("style").is_some_and(is_long);
         if !declared.is_empty() || own_is_long {
             let own = node.attributes().find(|a| a.namespace().is_none() && a.name() == "style");
-            let style = style(declared, own.map(|own| own.value()).unwrap_or_default())?;
+            let style = format!("style=\"{}\"", said(&declared, own.map_or("", |own| own.value()))?);
             match own {
                 Some(own) => edits.push((own.range(), style)),
                 None => {
@@ -83,35 +73,6 @@ pub(super) fn after_name(text: &str, node: Node) -> usize {
     let start = node.range().start;
     let rest = text.get(start..).unwrap_or_default();
     start + rest.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>')).unwrap_or(rest.len())
-}
-
-/// Whether a style is longer than any that is written by hand or program.
-fn is_long(style: &str) -> bool {
-    style.len() > LONG
-}
-
-/// The attribute that says what sheets declare and the element's own style does.
-fn style<'a>(mut declared: Vec<Declaration<'a>>, own: &'a str) -> Result<String, Error> {
-    let mut rest = "";
-    match sheet::declarations(own) {
-        Some(list) => declared.extend(list),
-        None => rest = own,
-    }
-    // Readers take time in proportion to the square of this. What is said of one thing several times may be meant for programs
-    // that do not know the last of it; said so often it is not.
-    if declared.len() > MANY {
-        let mut said: FxHashSet<(&str, bool)> = FxHashSet::default();
-        declared = declared.into_iter().rev().filter(|d| said.insert((d.name, d.important))).collect();
-        declared.reverse();
-    }
-    if declared.len() > MOST_PROPERTIES || is_long(rest) {
-        return Err(too_much("declarations in a style"));
-    }
-    let mut out = String::from("style=\"");
-    for Declaration { name, value, important } in declared {
-        let _ = write!(out, "{name}:{}{};", escaped(value), if important { " !important" } else { "" });
-    }
-    Ok(out + &escaped(rest) + "\"")
 }
 
 pub(super) fn escaped(text: &str) -> String {

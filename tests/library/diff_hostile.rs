@@ -166,7 +166,22 @@ fn selectors_that_nest_are_matched_in_one_pass() {
     assert!(told.contains("rules of style"), "{told}");
 }
 
-/// Thousands of paths in one place: each was compared with each.
+/// Styles that say the same over and over, for which readers take the square of their length.
+#[test]
+fn styles_that_repeat_themselves_are_read_once() {
+    let paths = "<path stroke=\"#000\" d=\"M0 0L9 9\"/>".repeat(1000);
+    let own = format!("<g style=\"{}\">{paths}</g>", "stroke:red;stroke:#00f;".repeat(100_000));
+    let sheets = format!("<style>{}</style>{paths}", "path{stroke:#00f}".repeat(1000));
+    for text in [own, sheets] {
+        let picture = Picture::from_svg(&inside(&text)).unwrap();
+        assert!(picture.shapes.len() >= 1000);
+    }
+    let names: String = (0..50_000).map(|i| format!("p{i}:1;")).collect();
+    let told = refusal(&inside(&format!("<g style=\"{names}\">{paths}</g>"))).unwrap();
+    assert!(told.contains("declarations in a style") && told.contains(';'), "{told}");
+}
+
+/// Thousands of paths in one place, or nearly so: each was compared with each.
 #[test]
 fn paths_on_each_other_are_compared_once() {
     let many = |d: &dyn Fn(usize) -> String, colour: &str| {
@@ -182,4 +197,11 @@ fn paths_on_each_other_are_compared_once() {
     assert_eq!(told(&many(&same, "#c00")).summary(), "10000 restyled");
     assert!(told(&many(&moved, "#000")).summary().starts_with("10000 moved"));
     _ = told(&many(&near, "#000"));
+    // Two such bundles, each of lines that all differ, and lines that cross them.
+    let after = |i: usize| format!("M10 12L60 42 90 22.{i:05}");
+    let bent = |_: usize| "M10 10L60 45 90 20".to_owned();
+    let bundle = read(&many(&near, "#000"));
+    let told = |other: &str| diff::compare(&bundle, &read(other), &DiffOptions::default());
+    assert!(told(&many(&after, "#000")).summary().starts_with("10000 moved"));
+    assert_eq!(told(&many(&bent, "#000")).summary(), "10000 removed, 10000 added");
 }
