@@ -48,14 +48,24 @@ pub(super) struct Marks<'a> {
     pub lines: [Vec<Vec<Point>>; 2],
 }
 
-/// The motion that carries most of the one side to the other, within `reach`; shifts alone, unless `similar`.
-pub(super) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
-    let places = [0, 1].map(|side: usize| spread(&marks.lines[side]));
-    if places.iter().any(Vec::is_empty) {
-        return None;
+/// How much of both sides a motion carries to something of the other.
+struct Judge {
+    places: [Vec<Point>; 2],
+    lines: [Lines; 2],
+    reach: f64,
+}
+
+impl Judge {
+    fn new(marks: &Marks, reach: f64) -> Option<Self> {
+        let places = [0, 1].map(|side: usize| spread(&marks.lines[side]));
+        if places.iter().any(Vec::is_empty) {
+            return None;
+        }
+        Some(Self { places, lines: [0, 1].map(|side: usize| Lines::new(&marks.lines[side])), reach })
     }
-    let lines = [0, 1].map(|side: usize| Lines::new(&marks.lines[side]));
-    let judge = |affine: Affine| {
+
+    fn judge(&self, affine: Affine) -> Option<Motion> {
+        let Self { places, lines, reach } = self;
         let growth = affine.determinant().abs().sqrt();
         if !(1e-3..1e3).contains(&growth) {
             return None;
@@ -67,7 +77,20 @@ pub(super) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) ->
         let forth = hits(&places[0], affine, &lines[1], reach * growth.max(1.0));
         let back = hits(&places[1], affine.inverse(), &lines[0], reach / growth.min(1.0));
         Some(Motion { affine, share: forth.min(back) })
-    };
+    }
+}
+
+/// The share of both sides that lies where something of the other does, without any motion.
+pub(super) fn stays(marks: &Marks, reach: f64) -> f64 {
+    Judge::new(marks, reach)
+        .and_then(|judge| judge.judge(Affine::IDENTITY))
+        .map_or(0.0, |motion| motion.share)
+}
+
+/// The motion that carries most of the one side to the other, within `reach`; shifts alone, unless `similar`.
+pub(super) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
+    let judge = Judge::new(marks, reach)?;
+    let judge = |affine: Affine| judge.judge(affine);
     let step = (marks.likes.len() / TRIED).max(1);
     let tried = marks.likes.iter().step_by(step).filter_map(|[old, new]| {
         let (a, b) = (points(old), points(new));
