@@ -35,7 +35,9 @@ fn what_is_left_out_is_told() {
 #[test]
 fn ezdxf_finds_no_error() {
     let folder = Folder::with_cubes("dxf-audit");
-    for (name, more) in [("a", "--style technical"), ("b", "--style toon --dxf 2000"), ("c", "--style pencil --dxf 2000")] {
+    for (name, more) in
+        [("a", "--style technical"), ("b", "--style toon --dxf 2000"), ("c", "--style pencil --dxf 2000")]
+    {
         folder.ligne(&format!("draw cubes.obj {name}.dxf {more}")).done();
     }
     folder.write(

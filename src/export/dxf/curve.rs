@@ -183,7 +183,8 @@ fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Opti
         let (from, to) = (*a - centre, *b - centre);
         let half = (*b - *a).hypot() / 2.0;
         let rise = radius - (radius * radius - half * half).max(0.0).sqrt();
-        if half > radius || rise > tolerance || (to.hypot() - radius).abs() > tolerance {
+        let off = (from.hypot() - radius).abs().max((to.hypot() - radius).abs());
+        if half > radius || off + rise > tolerance {
             return None;
         }
         let step = atan2(from.cross(to), from.dot(to));
@@ -217,6 +218,7 @@ mod tests {
     use kurbo::Shape;
 
     use super::*;
+    use crate::math::function::{cos, sin};
 
     const TOLERANCE: f64 = 0.005;
 
@@ -244,7 +246,7 @@ mod tests {
         let arc = kurbo::Arc::new((0.0, 0.0), (10.0, 10.0), 0.3, 2.0, 0.0);
         let (start, pieces, closed) = only(&arc.to_path(1e-6));
         assert!(!closed && pieces.len() == 1, "{pieces:?}");
-        assert!((pieces[0].bulge - (0.5_f64).tan()).abs() < 1e-3, "{pieces:?}");
+        assert!((pieces[0].bulge - tan(0.5)).abs() < 1e-3, "{pieces:?}");
         let (centre, radius) = circle_of(start, pieces[0]);
         assert!(centre.to_vec2().hypot() < 0.02 && (radius - 10.0).abs() < 0.02);
 
@@ -268,7 +270,7 @@ mod tests {
     fn a_hexagon_has_six_sides() {
         let corner = |k: u32| {
             let angle = f64::from(k) * std::f64::consts::FRAC_PI_3;
-            Point::new(9.0 * angle.cos(), 9.0 * angle.sin())
+            Point::new(9.0 * cos(angle), 9.0 * sin(angle))
         };
         let mut path = BezPath::new();
         path.move_to(corner(0));
@@ -285,12 +287,12 @@ mod tests {
             let a = f64::from(k);
             let path = format!(
                 "M0 0C{} {} {} {} {} {}",
-                60.0 * a.sin(),
-                40.0 * (1.7 * a).cos(),
-                50.0 + 30.0 * (2.1 * a).sin(),
-                80.0 * (0.7 * a).cos(),
+                60.0 * sin(a),
+                40.0 * cos(1.7 * a),
+                50.0 + 30.0 * sin(2.1 * a),
+                80.0 * cos(0.7 * a),
                 70.0,
-                20.0 * a.cos()
+                20.0 * cos(a)
             );
             let path = BezPath::from_svg(&path).unwrap();
             let (start, pieces, _) = only(&path);
@@ -324,7 +326,7 @@ mod tests {
             return start.lerp(piece.end, t);
         }
         let (centre, _) = circle_of(start, piece);
-        let turn = 4.0 * piece.bulge.atan() * t;
+        let turn = 4.0 * atan2(piece.bulge, 1.0) * t;
         centre + (Affine::rotate(turn) * (start - centre).to_point()).to_vec2()
     }
 }

@@ -65,9 +65,10 @@ impl DxfOptions {
     }
 }
 
-/// How far lines and arcs may be from the curves that they stand for, in user units.
-const TOLERANCE_PX: f64 = 0.02;
-const TOLERANCE_MM: f64 = 0.005;
+/// How far lines and arcs may be from the curves that they stand for, in user units: less than chains are from their lines where curves are
+/// fitted to them, so that a hole is a circle.
+const TOLERANCE_PX: f64 = 0.1;
+const TOLERANCE_MM: f64 = 0.02;
 
 const MM_PER_PX: f64 = 25.4 / 96.0;
 
