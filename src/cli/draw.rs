@@ -11,7 +11,7 @@ use super::output::{Format, Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
-use super::{lod, number, pipeline, print, say, web, wonder};
+use super::{dxf_args, lod, number, pipeline, print, say, web, wonder};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::gzip;
@@ -151,12 +151,18 @@ fn draw_view(
     progress.step("writing");
     watch.lap_ms();
     let svg = web::svg_options(request, style)?;
-    let encode = |format| match format {
+    let mut left_out = None;
+    let mut encode = |format| match format {
         Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
         Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
         Format::Png => pipeline::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
         #[cfg(feature = "pdf")]
         Format::Pdf => Ok(drawing.to_pdf()),
+        Format::Dxf => {
+            let (bytes, told) = dxf_args::encode(&drawing, &camera, &request.dxf)?;
+            left_out = told;
+            Ok(bytes)
+        }
     };
     let encoded = request.outputs.iter().map(|output| {
         encode(output.format).map_err(|error| match error.file {
@@ -165,6 +171,7 @@ fn draw_view(
         })
     });
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
+    report.warnings.extend(left_out);
     Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded, maps })
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 
+use super::dxf_args::DxfArgs;
 use super::framing_args::{FramingArgs, SaveArgs};
 use super::many::args::ManyArgs;
 use super::offered::Offered;
@@ -34,7 +35,7 @@ pub(super) struct DrawArgs {
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) model: PathBuf,
 
-    /// The drawing: .svg, .svgz, .png or .pdf, or - for SVG on standard output [default: the model's name with
+    /// The drawing: .svg, .svgz, .png, .pdf or .dxf, or - for SVG on standard output [default: the model's name with
     /// .svg, in the current folder]
     pub(super) out: Option<PathBuf>,
 
@@ -57,6 +58,9 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) web: WebArgs,
+
+    #[command(flatten)]
+    pub(super) dxf: DxfArgs,
 
     /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]

@@ -8,6 +8,7 @@ mod defaults;
 mod diff;
 mod draw;
 mod draw_args;
+mod dxf_args;
 mod fmt;
 mod framing_args;
 mod info;

@@ -14,6 +14,7 @@ pub(super) enum Format {
     Png,
     #[cfg(feature = "pdf")]
     Pdf,
+    Dxf,
     SvgToStdout,
 }
 
@@ -36,6 +37,7 @@ impl Output {
             Some("svg") => Format::Svg,
             Some("svgz") => Format::Svgz,
             Some("png") => Format::Png,
+            Some("dxf") => Format::Dxf,
             #[cfg(feature = "pdf")]
             Some("pdf") => Format::Pdf,
             #[cfg(not(feature = "pdf"))]
@@ -48,12 +50,14 @@ impl Output {
             Some(other) => {
                 return Err(Error::new(format!("drawings are not written as .{other}"))
                     .in_file(path)
-                    .remedy("end the name with .svg, .png or .pdf, or write - for SVG on standard output"));
+                    .remedy(
+                        "end the name with .svg, .png, .pdf or .dxf, or write - for SVG on standard output",
+                    ));
             }
             None => {
                 return Err(Error::new("the name of the drawing does not tell its format")
                     .in_file(path)
-                    .remedy("end it with .svg, .png or .pdf, or write - for SVG on standard output"));
+                    .remedy("end it with .svg, .png, .pdf or .dxf, or write - for SVG on standard output"));
             }
         };
         Ok(Self { path, format })

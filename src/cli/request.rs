@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::draw_args::{DrawArgs, GroupBy, HowArgs};
+use super::dxf_args::DxfArgs;
 use super::framing_args::Frame;
 use super::output::{Format, Output, is_stdout};
 use super::viewpoint::{Lens, Sheet, View};
@@ -47,6 +48,7 @@ pub(super) struct DrawRequest {
     pub(super) save_camera: Option<PathBuf>,
     pub(super) svg: SvgChoices,
     pub(super) web: WebArgs,
+    pub(super) dxf: DxfArgs,
     pub(super) dpi: Option<f64>,
     pub(super) stage: Option<Stage>,
     pub(super) threads: Option<u16>,
@@ -89,6 +91,7 @@ impl DrawRequest {
             stage: args.stage,
             save_camera,
             web: args.web,
+            dxf: args.dxf,
             ..request
         })
     }
@@ -158,6 +161,7 @@ impl DrawRequest {
             save_camera: None,
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             web: WebArgs::default(),
+            dxf: DxfArgs::default(),
             dpi: args.dpi,
             stage: None,
             threads: args.threads,

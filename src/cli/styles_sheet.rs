@@ -13,7 +13,7 @@ use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 use crate::error::Error;
-use crate::export::{SvgOptions, gzip};
+use crate::export::{DxfOptions, SvgOptions, gzip};
 use crate::math::colour::Colour;
 use crate::render::Prepared;
 use crate::scene::Scene;
@@ -45,6 +45,7 @@ pub(super) fn run(out: &Path, model: &Path) -> Result<(), Error> {
         Format::SvgToStdout => return print(sheet.to_svg(&SvgOptions::default()).as_bytes()),
         Format::Svg => sheet.to_svg(&SvgOptions::default()).into_bytes(),
         Format::Svgz => gzip::packed(sheet.to_svg(&SvgOptions::default()).as_bytes()),
+        Format::Dxf => sheet.to_dxf(&DxfOptions::default()),
         Format::Png => pipeline::png(&sheet, draw::default_dpi(Unit::Px))?,
         #[cfg(feature = "pdf")]
         Format::Pdf => sheet.to_pdf(),

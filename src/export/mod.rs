@@ -1,4 +1,4 @@
-//! Bytes: a [`crate::drawing::Drawing`] as SVG, PDF or PNG.
+//! Bytes: a [`crate::drawing::Drawing`] as SVG, PDF, DXF or PNG.
 //!
 //! ```
 //! use ligne::{Camera, Scene, Style, SvgOptions, render};
@@ -14,6 +14,7 @@
 
 mod attributes;
 pub(crate) mod canonical;
+pub mod dxf;
 #[cfg(feature = "film")]
 pub mod film;
 #[cfg(feature = "cli")]
@@ -40,6 +41,7 @@ mod svg_image;
 mod touching;
 pub(crate) mod xml;
 
+pub use dxf::{DxfLength, DxfOptions, DxfVersion};
 #[cfg(feature = "png")]
 pub use png::{Pixels, PngOptions, Resolution};
 pub use svg::{Grouping, SvgOptions};

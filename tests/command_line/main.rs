@@ -10,6 +10,7 @@ mod diff;
 mod diff_causes;
 mod documentation;
 mod draw;
+mod dxf;
 mod fmt;
 mod framing;
 mod lod;

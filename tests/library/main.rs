@@ -15,6 +15,7 @@ mod diff_hostile;
 mod diff_properties;
 mod dry_brush;
 mod dual_tree;
+mod dxf;
 mod example_models;
 mod export;
 mod fmt;

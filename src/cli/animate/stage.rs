@@ -18,7 +18,7 @@ use crate::cli::shard::Share;
 use crate::cli::{draw, pipeline};
 use crate::drawing::Drawing;
 use crate::error::Error;
-use crate::export::{PngOptions, Resolution, gzip};
+use crate::export::{DxfOptions, PngOptions, Resolution, gzip};
 use crate::lod::Detail;
 use crate::pose::Rigged;
 use crate::render::{Report, Stopwatch};
@@ -71,6 +71,7 @@ impl Stage<'_> {
                 #[cfg(feature = "pdf")]
                 Format::Pdf => drawing.to_pdf(),
                 Format::Svg | Format::SvgToStdout => pipeline::svg(&drawing, &self.request.svg),
+                Format::Dxf => drawing.to_dxf(&DxfOptions::default()),
                 Format::Svgz => gzip::packed(&pipeline::svg(&drawing, &self.request.svg)),
             };
             for held in 0..timeline.shown(drawn) {

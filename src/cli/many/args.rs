@@ -50,10 +50,10 @@ enum Named {
 
 impl Named {
     fn parse(text: &str) -> Result<Self, String> {
-        let drawing = ["svg", "png", "pdf"].into_iter().find(|name| text.eq_ignore_ascii_case(name));
+        let drawing = ["svg", "png", "pdf", "dxf"].into_iter().find(|name| text.eq_ignore_ascii_case(name));
         drawing.map(Self::Drawing).or_else(|| ModelFormat::of_ending(text).map(Self::Model)).ok_or_else(
             || {
-                "drawings are svg, png and pdf; models on standard input obj, gltf, glb, stl and ply"
+                "drawings are svg, png, pdf and dxf; models on standard input obj, gltf, glb, stl and ply"
                     .to_owned()
             },
         )

@@ -67,7 +67,13 @@ pub(super) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
             let mut how = args.how.clone();
             how.view = view.into_iter().collect();
             let request = DrawRequest::of_model(model.clone(), how)?.reading(piped);
-            job.requests.push(DrawRequest { outputs, stage: args.stage, web: args.web.clone(), ..request });
+            job.requests.push(DrawRequest {
+                outputs,
+                stage: args.stage,
+                web: args.web.clone(),
+                dxf: args.dxf,
+                ..request
+            });
         }
         jobs.push(job);
     }

@@ -1,0 +1,68 @@
+//! Options of drawings in DXF.
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+use crate::drawing::Drawing;
+use crate::error::Error;
+use crate::export::{DxfLength, DxfOptions, DxfVersion};
+use crate::scene::Camera;
+use crate::scene::camera::Projection;
+
+/// How DXF is written.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct DxfArgs {
+    /// Release of DXF: r12, which every program reads, or 2000, which has fills, widths of lines and units as well
+    #[arg(long, value_name = "RELEASE", help_heading = "Output", default_value = "r12", ignore_case = true,
+        value_parser = PossibleValuesParser::new(["r12", "2000"])
+            .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 }))]
+    dxf: DxfVersion,
+
+    /// Lengths in DXF: millimetres of the page (a px is 1/96 inch), or units of the model, in parallel views
+    #[arg(long, value_name = "WHOSE", help_heading = "Output", default_value = "page",
+        value_parser = PossibleValuesParser::new(["page", "model"])
+            .map(|name| if name == "model" { Lengths::Model } else { Lengths::Page }))]
+    dxf_length: Lengths,
+}
+
+/// Whose lengths a DXF file has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Lengths {
+    Page,
+    Model,
+}
+
+impl Default for DxfArgs {
+    fn default() -> Self {
+        Self { dxf: DxfVersion::default(), dxf_length: Lengths::Page }
+    }
+}
+
+/// The drawing as DXF, and what there is to say of what it leaves out.
+///
+/// # Errors
+/// Where lengths of the model are asked for and the view is in perspective.
+pub(super) fn encode(
+    drawing: &Drawing,
+    camera: &Camera,
+    args: &DxfArgs,
+) -> Result<(Vec<u8>, Option<String>), Error> {
+    let length = match (args.dxf_length, camera.projection) {
+        (Lengths::Page, _) => DxfLength::Page,
+        (Lengths::Model, Projection::Orthographic { height }) => DxfLength::Model(camera.height / height),
+        (Lengths::Model, Projection::Perspective { .. }) => {
+            return Err(Error::new("in perspective nothing has the lengths of the model")
+                .at("--dxf-length")
+                .remedy("give --ortho or a named view, or leave --dxf-length out"));
+        }
+    };
+    let options = DxfOptions::default().with_version(args.dxf).with_length(length);
+    let told = match (drawing.left_out_of_dxf(&options), args.dxf) {
+        (0, _) => None,
+        (left, DxfVersion::R12) => {
+            Some(format!("DXF R12 has no fills and no pictures: {left} are left out (--dxf 2000 has fills)"))
+        }
+        (left, DxfVersion::R2000) => Some(format!("DXF has no pictures: {left} are left out")),
+    };
+    Ok((drawing.to_dxf(&options), told))
+}

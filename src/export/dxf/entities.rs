@@ -1,0 +1,248 @@
+//! [`Entities`]: what is drawn, a stroke an entity.
+
+use std::f64::consts::TAU;
+
+use kurbo::Point;
+
+use super::curve::{Curve, Piece, circle_of, curves};
+use super::layers::{Entry, Layers, Pen, pen_of};
+use super::objects::MODEL_SPACE;
+use super::tables::APPLICATION;
+use super::tags::Tags;
+use super::{DxfVersion, Sheet};
+use crate::drawing::{Mark, Paint};
+use crate::math::function::atan2;
+
+/// The longest text of one pair in release 12.
+const LONGEST_TEXT: usize = 250;
+
+/// All entities of a drawing, as pairs.
+pub(super) struct Entities {
+    pub(super) tags: Tags,
+    /// The first handle that nothing has.
+    pub(super) next_handle: u32,
+}
+
+impl Entities {
+    pub(super) fn of(sheet: &Sheet, layers: &Layers) -> Self {
+        let next_handle = super::objects::FIRST_FREE;
+        let mut writer = Writer { sheet, own: Self { tags: Tags::default(), next_handle } };
+        for (kind, mark) in &sheet.marks {
+            if let Some(layer) = layers.layer(*kind, mark) {
+                writer.mark(mark, layer);
+            }
+        }
+        writer.own
+    }
+}
+
+struct Writer<'a> {
+    sheet: &'a Sheet<'a>,
+    own: Entities,
+}
+
+/// What all entities of one mark say.
+struct Common<'a> {
+    layer: &'a Entry,
+    pen: Pen,
+    part: Option<&'a str>,
+}
+
+impl Writer<'_> {
+    fn mark(&mut self, mark: &Mark, layer: &Entry) {
+        let Sheet { place, tolerance, .. } = *self.sheet;
+        let common = Common { layer, pen: pen_of(self.sheet, mark), part: mark.provenance.part.as_deref() };
+        match &mark.paint {
+            Paint::Stroke(_) => self.lines(&curves(&mark.path, place, tolerance), &common),
+            Paint::Outline(outline) => self.lines(&curves(&outline.axis, place, tolerance), &common),
+            Paint::Fill(_) | Paint::Gradient(_) => self.hatch(&curves(&mark.path, place, tolerance), &common),
+            Paint::Image(_) => {}
+        }
+    }
+
+    fn lines(&mut self, curves: &[Curve], common: &Common) {
+        for curve in curves {
+            match curve {
+                Curve::Circle { centre, radius } => {
+                    self.begin("CIRCLE", "AcDbCircle", common);
+                    self.own.tags.point_in_space(10, [centre.x, centre.y]);
+                    self.own.tags.number(40, *radius);
+                    self.end(common);
+                }
+                Curve::Run { start, pieces, closed: false } if pieces.len() == 1 => {
+                    self.single(*start, pieces[0], common);
+                }
+                Curve::Run { start, pieces, closed } => self.polyline(*start, pieces, *closed, common),
+            }
+        }
+    }
+
+    /// One straight line or arc.
+    fn single(&mut self, start: Point, piece: Piece, common: &Common) {
+        if piece.bulge == 0.0 {
+            self.begin("LINE", "AcDbLine", common);
+            self.own.tags.point_in_space(10, [start.x, start.y]);
+            self.own.tags.point_in_space(11, [piece.end.x, piece.end.y]);
+        } else {
+            let (centre, radius) = circle_of(start, piece);
+            // Arcs run anticlockwise.
+            let (from, to) = if piece.bulge > 0.0 { (start, piece.end) } else { (piece.end, start) };
+            let degrees = |point: Point| {
+                let angle = atan2(point.y - centre.y, point.x - centre.x);
+                (if angle < 0.0 { angle + TAU } else { angle }).to_degrees()
+            };
+            self.begin("ARC", "AcDbCircle", common);
+            self.own.tags.point_in_space(10, [centre.x, centre.y]);
+            self.own.tags.number(40, radius);
+            if self.sheet.version == DxfVersion::R2000 {
+                self.own.tags.text(100, "AcDbArc");
+            }
+            self.own.tags.number(50, degrees(from));
+            self.own.tags.number(51, degrees(to));
+        }
+        self.end(common);
+    }
+
+    fn polyline(&mut self, start: Point, pieces: &[Piece], closed: bool, common: &Common) {
+        let vertices = vertices(start, pieces, closed);
+        if self.sheet.version == DxfVersion::R2000 {
+            self.begin("LWPOLYLINE", "AcDbPolyline", common);
+            self.own.tags.whole(90, vertices.len());
+            self.own.tags.whole(70, usize::from(closed));
+            for (point, bulge) in vertices {
+                self.own.tags.point(10, [point.x, point.y]);
+                if bulge != 0.0 {
+                    self.own.tags.number(42, bulge);
+                }
+            }
+            self.end(common);
+            return;
+        }
+        self.begin("POLYLINE", "", common);
+        self.own.tags.whole(66, 1);
+        self.own.tags.point_in_space(10, [0.0, 0.0]);
+        self.own.tags.whole(70, usize::from(closed));
+        self.end(common);
+        for (point, bulge) in vertices {
+            self.own.tags.text(0, "VERTEX");
+            self.own.tags.text(8, &common.layer.name);
+            self.own.tags.point_in_space(10, [point.x, point.y]);
+            if bulge != 0.0 {
+                self.own.tags.number(42, bulge);
+            }
+        }
+        self.own.tags.text(0, "SEQEND");
+        self.own.tags.text(8, &common.layer.name);
+    }
+
+    /// A fill: all its rings, of which those inside others are holes.
+    fn hatch(&mut self, curves: &[Curve], common: &Common) {
+        let rings: Vec<Vec<(Point, f64)>> = curves.iter().filter_map(ring).collect();
+        if rings.is_empty() {
+            return;
+        }
+        self.begin("HATCH", "AcDbHatch", common);
+        let tags = &mut self.own.tags;
+        tags.point_in_space(10, [0.0, 0.0]);
+        tags.number(210, 0.0);
+        tags.number(220, 0.0);
+        tags.number(230, 1.0);
+        tags.text(2, "SOLID");
+        tags.whole(70, 1);
+        tags.whole(71, 0);
+        tags.whole(91, rings.len());
+        for ring in &rings {
+            // A polyline, of the outside.
+            tags.whole(92, 3);
+            tags.whole(72, 1);
+            tags.whole(73, 1);
+            tags.whole(93, ring.len());
+            for (point, bulge) in ring {
+                tags.point(10, [point.x, point.y]);
+                tags.number(42, *bulge);
+            }
+            tags.whole(97, 0);
+        }
+        tags.whole(75, 0);
+        tags.whole(76, 1);
+        tags.whole(98, 0);
+        self.end(common);
+    }
+
+    fn begin(&mut self, name: &str, class: &str, common: &Common) {
+        let handle = self.own.next_handle;
+        let tags = &mut self.own.tags;
+        tags.text(0, name);
+        let modern = self.sheet.version == DxfVersion::R2000;
+        if modern {
+            tags.handle(5, handle);
+            self.own.next_handle += 1;
+            tags.handle(330, MODEL_SPACE);
+            tags.text(100, "AcDbEntity");
+        }
+        tags.text(8, &common.layer.name);
+        let (pen, usual) = (&common.pen, &common.layer.pen);
+        if pen.dash.is_empty() && !usual.dash.is_empty() {
+            tags.text(6, super::layers::CONTINUOUS);
+        }
+        if pen.colour != usual.colour {
+            tags.whole(62, usize::from(pen.colour));
+        }
+        if let Some(weight) = pen.weight.filter(|weight| modern && Some(*weight) != usual.weight) {
+            tags.whole(370, usize::from(weight));
+        }
+        if modern && !class.is_empty() {
+            tags.text(100, class);
+        }
+    }
+
+    /// What programs keep for others: the name of the part.
+    fn end(&mut self, common: &Common) {
+        if let Some(part) = common.part {
+            self.own.tags.text(1001, APPLICATION);
+            self.own.tags.text(1000, &plain(part));
+        }
+    }
+}
+
+/// The corners of a run, each with the bulge of what follows it.
+fn vertices(start: Point, pieces: &[Piece], closed: bool) -> Vec<(Point, f64)> {
+    let starts = std::iter::once(start).chain(pieces.iter().map(|piece| piece.end));
+    let bulges = pieces.iter().map(|piece| piece.bulge).chain(std::iter::once(0.0));
+    let mut vertices: Vec<(Point, f64)> = starts.zip(bulges).collect();
+    if closed {
+        vertices.pop();
+    }
+    vertices
+}
+
+/// A closed curve by its corners: a circle is two arcs.
+fn ring(curve: &Curve) -> Option<Vec<(Point, f64)>> {
+    match curve {
+        Curve::Circle { centre, radius } => {
+            Some([1.0, -1.0].map(|side| (Point::new(centre.x + side * radius, centre.y), 1.0)).to_vec())
+        }
+        Curve::Run { start, pieces, .. } => {
+            let comes_back = pieces.last().is_some_and(|piece| piece.end == *start);
+            let ring = vertices(*start, pieces, comes_back);
+            (ring.len() > 1).then_some(ring)
+        }
+    }
+}
+
+/// A text of ASCII in one line: other letters are written by their numbers, as DXF has it.
+fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    for letter in text.chars() {
+        let mut units = [0; 2];
+        let told = match letter {
+            ' '..='~' => letter.to_string(),
+            _ => letter.encode_utf16(&mut units).iter().map(|unit| format!("\\U+{unit:04X}")).collect(),
+        };
+        if plain.len() + told.len() > LONGEST_TEXT {
+            break;
+        }
+        plain += &told;
+    }
+    plain
+}

@@ -1,0 +1,234 @@
+//! What stands before the entities: the header, types of lines, layers and blocks.
+
+use super::layers::{CONTINUOUS, Layers, ZERO};
+use super::objects::{self, MODEL_SPACE, PAPER_SPACE};
+use super::tags::Tags;
+use super::{DxfVersion, Sheet, aci};
+
+/// Under which name entities say of which part they are.
+pub(super) const APPLICATION: &str = "LIGNE";
+
+/// `$INSUNITS`: millimetres, and lengths without a unit.
+const MILLIMETRES: usize = 4;
+const UNITLESS: usize = 0;
+
+pub(super) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
+    let modern = sheet.version == DxfVersion::R2000;
+    let variable = |tags: &mut Tags, name: &str, code: u16, value: usize| {
+        tags.text(9, name);
+        tags.whole(code, value);
+    };
+    tags.section("HEADER");
+    tags.text(9, "$ACADVER");
+    tags.text(1, if modern { "AC1015" } else { "AC1009" });
+    if modern {
+        tags.text(9, "$HANDSEED");
+        tags.handle(5, next_handle);
+        variable(tags, "$INSUNITS", 70, if sheet.in_mm { MILLIMETRES } else { UNITLESS });
+    }
+    variable(tags, "$MEASUREMENT", 70, 1);
+    tags.text(9, "$LTSCALE");
+    tags.number(40, 1.0);
+    for (name, at) in [("$EXTMIN", [0.0; 2]), ("$EXTMAX", sheet.size)] {
+        tags.text(9, name);
+        tags.point_in_space(10, at);
+    }
+    for (name, at) in [("$LIMMIN", [0.0; 2]), ("$LIMMAX", sheet.size)] {
+        tags.text(9, name);
+        tags.point(10, at);
+    }
+    tags.end_section();
+    if modern {
+        tags.section("CLASSES");
+        tags.end_section();
+    }
+}
+
+/// Writes tables, whose entries have handles and classes in release 2000.
+struct Tables<'a> {
+    tags: &'a mut Tags,
+    modern: bool,
+    handle: u32,
+}
+
+impl Tables<'_> {
+    fn take(&mut self) -> u32 {
+        self.handle += 1;
+        self.handle - 1
+    }
+
+    fn table(&mut self, name: &str, count: usize, entries: impl FnOnce(&mut Self, u32)) {
+        self.tags.text(0, "TABLE");
+        self.tags.text(2, name);
+        let owner = self.take();
+        if self.modern {
+            self.tags.handle(5, owner);
+            self.tags.handle(330, 0);
+            self.tags.text(100, "AcDbSymbolTable");
+        }
+        self.tags.whole(70, count);
+        if self.modern && name == "DIMSTYLE" {
+            self.tags.text(100, "AcDbDimStyleTable");
+        }
+        entries(self, owner);
+        self.tags.text(0, "ENDTAB");
+    }
+
+    fn entry(&mut self, kind: &str, class: &str, owner: u32, name: &str) {
+        let handle = self.take();
+        self.entry_of(handle, kind, class, owner, name);
+    }
+
+    fn entry_of(&mut self, handle: u32, kind: &str, class: &str, owner: u32, name: &str) {
+        self.tags.text(0, kind);
+        if self.modern {
+            self.tags.handle(if kind == "DIMSTYLE" { 105 } else { 5 }, handle);
+            self.tags.handle(330, owner);
+            self.tags.text(100, "AcDbSymbolTableRecord");
+            self.tags.text(100, class);
+        }
+        self.tags.text(2, name);
+    }
+}
+
+/// The tables of a drawing.
+pub(super) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
+    let modern = sheet.version == DxfVersion::R2000;
+    tags.section("TABLES");
+    let mut tables = Tables { tags, modern, handle: objects::FIRST_OF_TABLES };
+    tables.table("VPORT", 1, |tables, owner| active_view(tables, owner, sheet.size));
+    let patterns = patterns(layers);
+    let extra = if modern { 3 } else { 1 };
+    tables.table("LTYPE", patterns.len() + extra, |tables, owner| {
+        let names = if modern { &["ByBlock", "ByLayer", CONTINUOUS][..] } else { &[CONTINUOUS][..] };
+        for name in names {
+            line_type(tables, owner, name, "", &[]);
+        }
+        for (name, pattern) in &patterns {
+            line_type(tables, owner, name, "dashes as drawn", pattern);
+        }
+    });
+    tables.table("LAYER", layers.list.len() + 1, |tables, owner| {
+        layer(tables, owner, ZERO, CONTINUOUS, aci::BLACK, None);
+        for entry in &layers.list {
+            layer(tables, owner, &entry.name, &entry.line_type(), entry.pen.colour, entry.pen.weight);
+        }
+    });
+    tables.table("STYLE", 1, |tables, owner| {
+        tables.entry("STYLE", "AcDbTextStyleTableRecord", owner, "STANDARD");
+        tables.tags.whole(70, 0);
+        for (code, value) in [(40, 0.0), (41, 1.0), (50, 0.0)] {
+            tables.tags.number(code, value);
+        }
+        tables.tags.whole(71, 0);
+        tables.tags.number(42, 2.5);
+        tables.tags.text(3, "txt");
+        tables.tags.text(4, "");
+    });
+    tables.table("VIEW", 0, |_, _| {});
+    tables.table("UCS", 0, |_, _| {});
+    tables.table("APPID", 2, |tables, owner| {
+        for name in ["ACAD", APPLICATION] {
+            tables.entry("APPID", "AcDbRegAppTableRecord", owner, name);
+            tables.tags.whole(70, 0);
+        }
+    });
+    tables.table("DIMSTYLE", 1, |tables, owner| {
+        tables.entry("DIMSTYLE", "AcDbDimStyleTableRecord", owner, "STANDARD");
+        tables.tags.whole(70, 0);
+    });
+    if modern {
+        tables.table("BLOCK_RECORD", 2, |tables, owner| {
+            for (handle, name) in [(MODEL_SPACE, "*Model_Space"), (PAPER_SPACE, "*Paper_Space")] {
+                tables.entry_of(handle, "BLOCK_RECORD", "AcDbBlockTableRecord", owner, name);
+            }
+        });
+    }
+    tags.end_section();
+}
+
+/// Dashes and gaps of the types of lines that layers have.
+fn patterns(layers: &Layers) -> Vec<(String, Vec<f64>)> {
+    let dashed = layers.list.iter().filter(|entry| !entry.pen.dash.is_empty());
+    dashed.map(|entry| (entry.line_type(), entry.pen.dash.clone())).collect()
+}
+
+fn active_view(tables: &mut Tables, owner: u32, [width, height]: [f64; 2]) {
+    tables.entry("VPORT", "AcDbViewportTableRecord", owner, "*ACTIVE");
+    let tags = &mut *tables.tags;
+    tags.whole(70, 0);
+    for (code, point) in [
+        (10, [0.0, 0.0]),
+        (11, [1.0, 1.0]),
+        (12, [width / 2.0, height / 2.0]),
+        (13, [0.0, 0.0]),
+        (14, [1.0, 1.0]),
+        (15, [1.0, 1.0]),
+    ] {
+        tags.point(code, point);
+    }
+    for (code, towards) in [(16, 1.0), (17, 0.0)] {
+        tags.point(code, [0.0, 0.0]);
+        tags.number(code + 20, towards);
+    }
+    for (code, value) in
+        [(40, height), (41, width / height), (42, 50.0), (43, 0.0), (44, 0.0), (50, 0.0), (51, 0.0)]
+    {
+        tags.number(code, value);
+    }
+    for (code, value) in [(71, 0), (72, 100), (73, 1), (74, 1), (75, 0), (76, 0), (77, 0), (78, 0)] {
+        tags.whole(code, value);
+    }
+}
+
+/// A type of line; lengths are those of dashes and gaps in turn.
+fn line_type(tables: &mut Tables, owner: u32, name: &str, told: &str, pattern: &[f64]) {
+    tables.entry("LTYPE", "AcDbLinetypeTableRecord", owner, name);
+    let tags = &mut *tables.tags;
+    tags.whole(70, 0);
+    tags.text(3, told);
+    tags.whole(72, 65);
+    tags.whole(73, pattern.len());
+    tags.number(40, pattern.iter().sum());
+    for (number, length) in pattern.iter().enumerate() {
+        tags.number(49, if number % 2 == 0 { *length } else { -length });
+        if tables.modern {
+            tags.whole(74, 0);
+        }
+    }
+}
+
+fn layer(tables: &mut Tables, owner: u32, name: &str, line_type: &str, colour: u8, weight: Option<u16>) {
+    tables.entry("LAYER", "AcDbLayerTableRecord", owner, name);
+    tables.tags.whole(70, 0);
+    tables.tags.whole(62, usize::from(colour));
+    tables.tags.text(6, line_type);
+    if let Some(weight) = weight.filter(|_| tables.modern) {
+        tables.tags.whole(370, usize::from(weight));
+    }
+}
+
+/// The blocks that every file has: the model's space, where all is, and an empty sheet.
+pub(super) fn blocks(tags: &mut Tags, version: DxfVersion) {
+    tags.section("BLOCKS");
+    if version == DxfVersion::R2000 {
+        for (space, record, name) in [(0, MODEL_SPACE, "*Model_Space"), (2, PAPER_SPACE, "*Paper_Space")] {
+            for (step, kind, class) in [(0, "BLOCK", "AcDbBlockBegin"), (1, "ENDBLK", "AcDbBlockEnd")] {
+                tags.text(0, kind);
+                tags.handle(5, objects::FIRST_OF_BLOCKS + space + step);
+                tags.handle(330, record);
+                tags.text(100, "AcDbEntity");
+                tags.text(8, ZERO);
+                tags.text(100, class);
+                if step == 0 {
+                    tags.text(2, name);
+                    tags.whole(70, 0);
+                    tags.point_in_space(10, [0.0, 0.0]);
+                    tags.text(3, name);
+                    tags.text(1, "");
+                }
+            }
+        }
+    }
+    tags.end_section();
+}

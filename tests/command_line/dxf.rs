@@ -1,0 +1,55 @@
+//! `ligne draw MODEL OUT.dxf`: releases, lengths, what is left out, and what other programs say of the files.
+
+use std::process::Command;
+
+use crate::folder::Folder;
+
+#[test]
+fn releases_and_lengths_are_as_asked() {
+    let folder = Folder::with_cubes("dxf");
+    folder.ligne("draw cubes.obj a.dxf --view iso").done();
+    assert!(folder.text("a.dxf").contains("AC1009"));
+    folder.ligne("draw cubes.obj b.dxf --view iso --dxf 2000 --dxf-length model").done();
+    let modern = folder.text("b.dxf");
+    assert!(modern.contains("AC1015") && modern.contains("$INSUNITS\r\n70\r\n0\r\n"));
+    assert_ne!(folder.text("a.dxf"), modern);
+    folder.ligne("draw cubes.obj c.dxf --view iso --threads 1").done();
+    assert_eq!(folder.read("a.dxf"), folder.read("c.dxf"));
+    // In perspective nothing has the lengths of the model.
+    let run = folder.ligne("draw cubes.obj d.dxf --dxf-length model");
+    assert_eq!(run.status, Some(2));
+    assert!(run.err.contains("--ortho"), "{}", run.err);
+    assert!(!folder.path("d.dxf").exists());
+}
+
+#[test]
+fn what_is_left_out_is_told() {
+    let folder = Folder::with_cubes("dxf-fills");
+    let run = folder.ligne("draw cubes.obj a.dxf --style toon");
+    assert!(run.err.contains("--dxf 2000 has fills"), "{}", run.err);
+    let run = folder.ligne("draw cubes.obj b.dxf --style toon --dxf 2000");
+    assert!(!run.err.contains("warning"), "{}", run.err);
+}
+
+/// A reader that many programs use finds nothing to mend.
+#[test]
+fn ezdxf_finds_no_error() {
+    let folder = Folder::with_cubes("dxf-audit");
+    for (name, more) in
+        [("a", "--style technical"), ("b", "--style toon --dxf 2000"), ("c", "--style pencil --dxf 2000")]
+    {
+        folder.ligne(&format!("draw cubes.obj {name}.dxf {more}")).done();
+    }
+    folder.write(
+        "audit.py",
+        "import sys, ezdxf\nfor name in 'abc':\n    found = ezdxf.readfile(sys.argv[1] + '/' + name + '.dxf').audit()\n    \
+         print(name, len(found.errors), len(found.fixes))\n",
+    );
+    let run = Command::new("python3").arg(folder.path("audit.py")).arg(folder.path("")).output();
+    match run {
+        Ok(run) if run.status.success() => {
+            assert_eq!(String::from_utf8_lossy(&run.stdout), "a 0 0\nb 0 0\nc 0 0\n");
+        }
+        _ => println!("skipped: python3 with ezdxf is not there"),
+    }
+}
