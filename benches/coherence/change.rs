@@ -1,5 +1,7 @@
 //! [`Change`]: what becomes of the ink from one frame to the next.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::inked::{Bit, Bits, Inked};
 use super::seen::Spot;
 
@@ -8,6 +10,8 @@ use super::seen::Spot;
 pub struct Change {
     /// Of all ink: in strokes that both frames have by the same name, by length.
     pub kept: f64,
+    /// The most that any naming could keep: strokes of both frames paired one to one.
+    pub ceiling: f64,
     /// Of the ink that both frames show, point by point: that has another name in the later frame.
     pub renamed: f64,
     /// Of all ink: on places that both frames show, and which only one of them inks.
@@ -35,6 +39,7 @@ impl Change {
             _ => 0.0,
         };
         let kept = after.lengths.iter().map(common).sum::<f64>() / before.length.min(after.length).max(1e-9);
+        let ceiling = paired(before, after) / before.length.min(after.length).max(1e-9);
         let fates: Vec<Fate> = fates(before, after, |inked| &inked.lines)
             .into_iter()
             .chain(fates(after, before, |inked| &inked.lines))
@@ -45,8 +50,43 @@ impl Change {
         let popped = count(|fate| matches!(fate, Fate::Gone)) / fates.len().max(1) as f64;
         let (slips_px, gone) = slips(before, after);
         let hatching_popped = gone as f64 / before.hatching.all.len().max(1) as f64;
-        Self { kept, renamed: renamed / (same + renamed).max(1.0), popped, hatching_popped, slips_px }
+        let renamed = renamed / (same + renamed).max(1.0);
+        Self { kept, ceiling: ceiling.max(kept), renamed, popped, hatching_popped, slips_px }
     }
+}
+
+/// The ink of strokes of two frames that are paired one to one, whatever their names: those that share at least a third of
+/// the shorter one's ink, the longest first. Greedy, so that the best pairs of all may hold somewhat more.
+fn paired(before: &Inked, after: &Inked) -> f64 {
+    const SHARED: f64 = 1.0 / 3.0;
+    let mut shared: BTreeMap<(u64, u64), f64> = BTreeMap::new();
+    for bit in &before.lines.all {
+        let mut there = BTreeSet::new();
+        for place in before.seen.places(bit.at) {
+            there.extend(after.lines.near(after.seen.spot(place).at).map(|other| other.identity));
+        }
+        for other in there {
+            *shared.entry((bit.identity, other)).or_default() += Bits::STEP_PX;
+        }
+    }
+    let length = |inked: &Inked, name: u64| inked.lengths.get(&name).copied().unwrap_or_default();
+    let mut pairs: Vec<(f64, u64, u64)> = shared
+        .into_iter()
+        .map(|((a, b), shared)| (length(before, a).min(length(after, b)), shared, a, b))
+        .filter(|(shorter, shared, ..)| *shared >= SHARED * shorter)
+        .map(|(shorter, _, a, b)| (shorter, a, b))
+        .collect();
+    pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let (mut left, mut right) = (BTreeSet::new(), BTreeSet::new());
+    let mut sum = 0.0;
+    for (shorter, a, b) in pairs {
+        if !left.contains(&a) && !right.contains(&b) {
+            left.insert(a);
+            right.insert(b);
+            sum += shorter;
+        }
+    }
+    sum
 }
 
 fn fates(from: &Inked, to: &Inked, bits: fn(&Inked) -> &Bits) -> Vec<Fate> {

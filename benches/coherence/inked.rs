@@ -7,9 +7,6 @@ use ligne::kurbo::{self, ParamCurveArclen, PathEl, Point, Vec2};
 
 use super::seen::Seen;
 
-/// From point to point along a line, px.
-const STEP_PX: f64 = 2.0;
-
 /// A point of a line: where it is, where the line goes there, and what the line is known by.
 #[derive(Clone, Copy)]
 pub struct Bit {
@@ -68,11 +65,14 @@ impl Bits {
     /// How near two bits must be to be asked for, px.
     pub const REACH_PX: f64 = 3.0;
 
+    /// From bit to bit along a line, px.
+    pub const STEP_PX: f64 = 2.0;
+
     fn add(&mut self, mark: &Mark) {
         let mut last = Point::ZERO;
         kurbo::flatten(axis(mark).iter(), 0.1, |element| {
             if let PathEl::LineTo(to) = element {
-                let count = (last.distance(to) / STEP_PX).ceil().max(1.0) as usize;
+                let count = (last.distance(to) / Self::STEP_PX).ceil().max(1.0) as usize;
                 let along = (to - last).normalize();
                 for step in 0..count {
                     let at = last.lerp(to, (step as f64 + 0.5) / count as f64);

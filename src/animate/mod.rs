@@ -22,6 +22,7 @@
 //! ```
 
 mod budget;
+mod fade;
 mod level;
 mod reach;
 mod timeline;
@@ -30,6 +31,7 @@ mod turntable;
 use std::sync::OnceLock;
 
 pub use budget::Budget;
+pub use fade::{Trace, fade};
 pub use level::Level;
 pub use reach::reach;
 pub use timeline::Timeline;

@@ -147,15 +147,17 @@ pub struct Provenance {
     /// The tone of a region, 0 the darkest.
     pub tone: Option<u16>,
     /// Name of the part of the model.
-    pub part: Option<std::sync::Arc<str>>,
+    pub part: Option<Arc<str>>,
     /// Name of the material.
-    pub material: Option<std::sync::Arc<str>>,
+    pub material: Option<Arc<str>>,
     /// How many surfaces hide the line; 0 for visible ones.
     pub invisibility: u16,
     /// What the line is known by in all frames of an animation; 0 for none.
     pub identity: u64,
+    /// Where on the model at rest the line runs, as numbers of cells, in rising order; empty where nobody knows.
+    pub places: Arc<[u64]>,
     /// What there is to say of the mark: its title in SVG, which viewers show beside it.
-    pub note: Option<std::sync::Arc<str>>,
+    pub note: Option<Arc<str>>,
 }
 
 /// One painted path.

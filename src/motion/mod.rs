@@ -31,7 +31,7 @@ use crate::scene::{Mover, Scene, Trail};
 use choose::{Body, Choice, bodies};
 use starts::Starts;
 
-pub use options::{LineChange, MotionOptions, Path, Speed};
+pub use options::{FadeBy, LineChange, MotionOptions, Path, Speed};
 
 /// Points of a trail for each of its segments: what bends is drawn as a curve, however long a segment is.
 pub const POINTS_A_SEGMENT: usize = 4;

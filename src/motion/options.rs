@@ -13,6 +13,9 @@ use crate::stroke::Ink;
 /// More lines a body, or more segments a line, than this are a mistake.
 const MOST: u32 = 1000;
 
+/// Strokes that come over more frames than this never are there.
+const MOST_FRAMES: u32 = 24;
+
 /// Which bodies leave motion lines, and how these are drawn.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -49,6 +52,22 @@ pub struct MotionOptions {
     pub taper: f64,
     /// The lines of a body that differ, in their order. Default: none.
     pub line: Vec<LineChange>,
+    /// Over how many frames strokes of an animation grow or fade that come or go. Default: 0.
+    #[serde(deserialize_with = "frames")]
+    pub fade: u32,
+    /// What such strokes lack. Default: width.
+    pub fade_by: FadeBy,
+}
+
+/// What strokes lack that come or go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FadeBy {
+    /// They are thinner.
+    #[default]
+    Width,
+    /// They are paler.
+    Opacity,
 }
 
 impl Default for MotionOptions {
@@ -67,6 +86,8 @@ impl Default for MotionOptions {
             colour: Ink::Fixed(Colour::BLACK),
             taper: 0.0,
             line: Vec::new(),
+            fade: 0,
+            fade_by: FadeBy::default(),
         }
     }
 }
@@ -122,6 +143,18 @@ fn count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
 
 fn some_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>, D::Error> {
     count(deserializer).map(Some)
+}
+
+/// A number of frames.
+fn frames<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+    let frames = f64::deserialize(deserializer)?;
+    if (0.0..=f64::from(MOST_FRAMES)).contains(&frames) && frames.fract() == 0.0 {
+        Ok(frames as u32)
+    } else {
+        Err(D::Error::custom(format!(
+            "{frames} frames are not a time to fade in; write a whole number from 0 to {MOST_FRAMES}"
+        )))
+    }
 }
 
 /// So many a second.

@@ -59,6 +59,59 @@ fn shards_and_resumed_runs_make_the_frames_of_one_run() {
 }
 
 #[test]
+fn strokes_fade_by_the_frames_around_in_any_shard() {
+    let folder = Folder::new("fade");
+    let fade = "--fps 6 --style sketch --set motion.fade=2";
+    animate(&folder, CRANE, "plain/%d.svg", "--fps 6 --style sketch").done();
+    let run = animate(&folder, CRANE, "all/%d.svg", &format!("{fade} --threads 2"));
+    assert!(run.done().err.contains("24 frames, "), "{run:?}");
+    animate(&folder, CRANE, "parts/%d.svg", &format!("{fade} --threads 1 --shard 2/5")).done();
+    assert_eq!(folder.names_in("parts").len(), 5);
+    for name in folder.names_in("parts") {
+        assert_eq!(folder.text(&format!("all/{name}")), folder.text(&format!("parts/{name}")), "{name}");
+    }
+    std::fs::remove_file(folder.path("all/7.svg")).unwrap();
+    let seventh = animate(&folder, CRANE, "all/%d.svg", &format!("{fade} --resume"));
+    assert!(seventh.done().err.contains("24 frames, 1 drawing, "), "{seventh:?}");
+    let other =
+        |frame: usize| folder.text(&format!("all/{frame}.svg")) != folder.text(&format!("plain/{frame}.svg"));
+    assert!((0..24).filter(|frame| other(*frame)).count() > 4);
+    animate(&folder, CRANE, "again/%d.svg", fade).done();
+    assert_eq!(folder.text("again/7.svg"), folder.text("all/7.svg"));
+    // Held drawings look at drawings, not at frames.
+    animate(&folder, CRANE, "held/%d.svg", &format!("--fps 12 --hold 2 {}", &fade[8..])).done();
+    assert_eq!(folder.text("held/15.svg"), folder.text("all/7.svg"));
+    // One moment has no neighbours.
+    for (name, more) in [("a.svg", ""), ("b.svg", "--set motion.fade=2")] {
+        folder.ligne(&format!("draw {CRANE} {name} --time 1 --size 160 {more}")).done();
+    }
+    assert_eq!(folder.text("a.svg"), folder.text("b.svg"));
+    let refused = |more: &str, why: &str| {
+        animate(&folder, CRANE, "no/%d.svg", more).refused(why);
+    };
+    refused("--set motion.fade=2 --budget 1s", "motion.fade");
+    refused("--set motion.fade=-1", "a whole number from 0 to 24");
+    refused("--set motion.fade=1.5", "a whole number from 0 to 24");
+    refused("--set motion.fade_by=ink", "fade_by");
+}
+
+#[test]
+fn a_turn_fades_from_its_last_frame_to_its_first() {
+    let folder = Folder::with_cubes("fade-turn");
+    let turn = |out: &str, more: &str| {
+        folder.ligne(&format!("animate cubes.obj {out}/%d.svg --turntable 12 --size 160 {more}")).done();
+    };
+    turn("once", "--set motion.fade=1");
+    turn("shard", "--set motion.fade=1 --shard 1/12");
+    assert_eq!(folder.text("once/0.svg"), folder.text("shard/0.svg"));
+    turn("plain", "");
+    // A half turn of what looks alike from both sides fades alike, at the begin too.
+    let thin = |frame: usize| folder.text(&format!("once/{frame}.svg")).matches("stroke-width").count();
+    let plain = |frame: usize| folder.text(&format!("plain/{frame}.svg")).matches("stroke-width").count();
+    assert!((0..12).any(|frame| thin(frame) > plain(frame)));
+}
+
+#[test]
 fn weights_change_from_frame_to_frame() {
     let folder = Folder::new("weights");
     animate(&folder, CRANE, "fade/%d.svg", "--fps 1 --to 8 --repeat --animation lift:0..1 --view iso").done();

@@ -5,10 +5,11 @@ use std::io::Cursor;
 
 use glam::DAffine3;
 use kurbo::Shape;
-use ligne::animate::{Animator, Moment, Timeline, Turntable, reach};
-use ligne::drawing::{Drawing, LayerKind, Page, Unit};
+use ligne::animate::{Animator, Moment, Timeline, Trace, Turntable, fade, reach};
+use ligne::drawing::{Drawing, LayerKind, Page, Paint, Unit};
 use ligne::export::film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
 use ligne::export::{Pixels, PngOptions};
+use ligne::motion::FadeBy;
 use ligne::pose::{Playing, Rigged};
 use ligne::render::Prepared;
 use ligne::{Camera, Style, SvgOptions};
@@ -124,6 +125,64 @@ fn tremor_stays_on_the_model() {
     for pair in frames.windows(2) {
         let same = pair[0].iter().filter(|(id, path)| pair[1].get(id) == Some(path)).count();
         assert!(same * 4 >= pair[0].len() * 3, "{same} of {}", pair[0].len());
+    }
+}
+
+#[test]
+fn strokes_that_come_and_go_fade() {
+    let crane = crane();
+    // Outlines of lines by a hand, and plain strokes.
+    for (sheet, by) in [("ink", FadeBy::Width), ("sketch", FadeBy::Width), ("sketch", FadeBy::Opacity)] {
+        let style = Style::load(sheet, &[]).unwrap();
+        let drawings = drawings(&moments(&crane, 12.0), &crane, &style);
+        let traces: Vec<Trace> = drawings.iter().map(Trace::of).collect();
+        let names: Vec<BTreeMap<u64, f64>> = drawings.iter().map(strokes).collect();
+        const FAR: usize = 3;
+        let (mut faded, mut others, mut joined) = (0, 0, 0);
+        for frame in 0..drawings.len() {
+            let at = |by: isize| frame.checked_add_signed(by).filter(|frame| *frame < drawings.len());
+            let pairs = || (1..=FAR as isize).map(|far| [at(-far), at(far)]);
+            let around: Vec<_> = pairs().map(|pair| pair.map(|frame| frame.map(|k| &traces[k]))).collect();
+            let mut drawing = drawings[frame].clone();
+            fade(&mut drawing, &around, by);
+            let marks = |drawing: &Drawing| {
+                drawing.layers.iter().flat_map(|layer| layer.marks.clone()).collect::<Vec<_>>()
+            };
+            for (before, after) in marks(&drawings[frame]).into_iter().zip(marks(&drawing)) {
+                let name = before.provenance.identity;
+                let lacking = pairs()
+                    .position(|pair| pair.into_iter().flatten().any(|k| !names[k].contains_key(&name)));
+                let share = match (&before.paint, &after.paint, by) {
+                    (Paint::Stroke(a), Paint::Stroke(b), FadeBy::Width) => b.width / a.width,
+                    (Paint::Outline(a), Paint::Outline(b), FadeBy::Width) => {
+                        // The area goes with the width.
+                        let area = after.path.area().abs() / before.path.area().abs();
+                        assert!(a == b || (area - b.width / a.width).abs() < 0.15, "{area}");
+                        b.width / a.width
+                    }
+                    (Paint::Stroke(a), Paint::Stroke(b), _) => f64::from(b.colour.a) / f64::from(a.colour.a),
+                    (Paint::Outline(a), Paint::Outline(b), _) => {
+                        f64::from(b.colour.a) / f64::from(a.colour.a)
+                    }
+                    _ => 1.0,
+                };
+                let of_four = (share * 4.0).round() as usize;
+                assert!((share * 4.0 - of_four as f64).abs() < 0.02 && of_four > 0, "{share}");
+                match lacking {
+                    // What is there under another name is not gone.
+                    Some(far) if of_four == far + 1 => faded += 1,
+                    Some(far) => {
+                        assert!(of_four > far + 1, "{of_four} {far}");
+                        joined += 1;
+                    }
+                    None => {
+                        assert_eq!(before, after);
+                        others += 1;
+                    }
+                }
+            }
+        }
+        assert!(faded > 20 && others > 2 * faded, "{sheet}: {faded} {joined} {others}");
     }
 }
 

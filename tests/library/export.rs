@@ -26,6 +26,7 @@ fn mark(data: &str, paint: Paint, classes: &[&'static str], part: Option<&str>) 
         paint,
         provenance: Provenance {
             identity: 0,
+            places: Arc::default(),
             classes: classes.to_vec(),
             tone: None,
             part: part.map(Arc::from),

@@ -1,6 +1,8 @@
 //! Lines with a hand: widths that swell and taper, tremor, overshoot, breaks, passes, halos and brushes, against
 //! what geometry says.
 
+use std::sync::Arc;
+
 use std::f64::consts::{PI, TAU};
 
 use crate::support::pipeline::{orthographic, scene};
@@ -39,6 +41,7 @@ fn chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
     let samples: Vec<Sample> = (0..=last).map(|i| Sample::new(depth(i), 1.0)).collect();
     let mut chain = Chain {
         identity: 0,
+        places: Arc::default(),
         points,
         samples,
         closed,

@@ -253,6 +253,94 @@ fn broken_animations_leave_the_stored_pose_and_a_warning() {
     }
 }
 
+/// Adds numbers to a file, in a buffer of their own: the accessor they get.
+fn append(file: &mut Value, shape: &str, width: usize, numbers: &[f32]) -> usize {
+    let bytes: Vec<u8> = numbers.iter().flat_map(|value| value.to_le_bytes()).collect();
+    let mut add = |list: &str, value: Value| {
+        let list = file[list].as_array_mut().unwrap();
+        list.push(value);
+        list.len() - 1
+    };
+    let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes));
+    let buffer = add("buffers", json!({"byteLength": bytes.len(), "uri": uri}));
+    let view = add("bufferViews", json!({"buffer": buffer, "byteLength": bytes.len()}));
+    let count = numbers.len() / width;
+    add("accessors", json!({"bufferView": view, "componentType": 5126, "count": count, "type": shape}))
+}
+
+#[test]
+fn keys_that_are_no_numbers_or_fall_back_are_left_out() {
+    let arm = |name: &str, key: &str, shape: &str, width: usize, numbers: &[f32]| {
+        Arm::new(name, |file| {
+            let accessor = append(file, shape, width, numbers);
+            file["animations"][1]["samplers"][0][key] = json!(accessor);
+        })
+    };
+    for (name, key, numbers, expected) in [
+        ("nan-times", "input", [0.5, f32::NAN, 2.0], "the time of key 1 is not a number"),
+        ("falling-times", "input", [0.5, 2.0, 1.0], "key 2 is earlier than the one before it"),
+        ("nan-values", "output", [0.0, 1.0, f32::INFINITY], "key 2 has a value that is not a number"),
+    ] {
+        let arm = arm(name, key, "SCALAR", 1, &numbers);
+        let rigged = Rigged::open(&arm.0).unwrap();
+        let lines = rigged.scene.warnings.lines();
+        assert!(lines.iter().any(|line| line.contains(expected)), "{name}: {lines:?}");
+        // The weights stay as stored, and all else moves.
+        let all = Arm::new(&format!("{name}-whole"), |file| {
+            file["animations"][1]["channels"].as_array_mut().unwrap().remove(0);
+        });
+        let other = Rigged::open(&all.0).unwrap();
+        let at = |rigged: &Rigged| points(&rigged.posed(&[Playing::all(1, 1.5)]).unwrap());
+        assert_eq!(at(&rigged), at(&other), "{name}");
+    }
+}
+
+#[test]
+fn a_clip_of_no_length_and_one_of_a_million_keys_play() {
+    let still = Arm::new("no-length", |file| {
+        let (time, value) = (append(file, "SCALAR", 1, &[1.0]), append(file, "SCALAR", 1, &[0.75]));
+        let clip = &mut file["animations"][1];
+        clip["samplers"] = json!([{"input": time, "output": value}]);
+        clip["channels"] = json!([{"sampler": 0, "target": {"node": 3, "path": "weights"}}]);
+    });
+    let rigged = Rigged::open(&still.0).unwrap();
+    assert_eq!(rigged.rig.clips[1].span(), [1.0, 1.0]);
+    let at = |rigged: &Rigged, time: f64| points(&rigged.posed(&[Playing::all(1, time)]).unwrap());
+    assert_eq!(at(&rigged, 1.0), at(&rigged, -7.0));
+    assert_eq!(at(&rigged, 1.0), at(&rigged, 1e9));
+    assert_ne!(at(&rigged, 1.0), points(&rigged.scene));
+    let many = Arm::new("many-keys", |file| {
+        // A weight that grows evenly from 0 at 0 s to 1 at 10 s.
+        let times: Vec<f32> = (0..1_000_000).map(|k| k as f32 * 1e-5).collect();
+        let values: Vec<f32> = (0..1_000_000).map(|k| k as f32 * 1e-6).collect();
+        let (time, value) = (append(file, "SCALAR", 1, &times), append(file, "SCALAR", 1, &values));
+        let clip = &mut file["animations"][1];
+        clip["samplers"] = json!([{"input": time, "output": value}]);
+        clip["channels"] = json!([{"sampler": 0, "target": {"node": 3, "path": "weights"}}]);
+    });
+    let keys = Rigged::open(&many.0).unwrap();
+    let far = at(&keys, 7.5)
+        .concat()
+        .iter()
+        .zip(at(&rigged, 1.0).concat())
+        .map(|(a, b)| a.distance(b))
+        .fold(0.0, f64::max);
+    assert!(far < 1e-5, "{far:e}");
+}
+
+#[test]
+fn skins_without_joints_are_refused_by_name() {
+    for (name, skin, expected) in [
+        ("no-joints", json!({"joints": []}), "the skin has 0"),
+        ("joints-nowhere", json!({"joints": [0, 77]}), "joint 77 is no node of the file"),
+        ("joints-missing", json!({}), "missing field `joints`"),
+    ] {
+        let arm = Arm::new(name, |file| file["skins"][0] = skin);
+        let error = Rigged::open(&arm.0).unwrap_err().to_string();
+        assert!(error.contains(expected), "{name}: {error}");
+    }
+}
+
 #[test]
 fn pointers_move_nodes_and_hide_them() {
     let arm = Arm::new("pointers", |file| {

@@ -1,6 +1,7 @@
 //! `ligne animate`: a model's animation, or a turn round a model, frame by frame.
 
 mod args;
+mod around;
 mod destination;
 mod detail;
 mod film;
@@ -84,6 +85,11 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let sets: Vec<String> =
         hurried.then(|| HURRIED.to_owned()).into_iter().chain(request.sets.iter().cloned()).collect();
     let style = pipeline::load_style(&request.style, &sets, request.background)?;
+    if hurried && style.motion.fade > 0 {
+        return Err(Error::new("strokes fade by what the frames around have, and these have other faces")
+            .at("motion.fade")
+            .remedy("leave out --budget and --levels, or --set motion.fade=0"));
+    }
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
     let mut watch = Stopwatch::start();

@@ -133,6 +133,19 @@ impl Plan {
 }
 
 impl Course {
+    /// The drawing so many drawings behind one, or before it; none beyond the begin and the end, unless the last is followed
+    /// by the first: where the model is turned and does nothing else.
+    pub(super) fn beside(&self, drawn: usize, by: isize) -> Option<usize> {
+        let (hold, drawings) = (self.timeline.hold(), self.timeline.drawn().count());
+        let number = (drawn / hold).checked_add_signed(by).filter(|number| *number < drawings);
+        let round = || {
+            let number = (drawn / hold) as isize + by;
+            usize::try_from(number.rem_euclid(drawings as isize)).ok()
+        };
+        let runs_round = self.turntable.is_some() && self.clips.is_none();
+        number.or_else(|| round().filter(|_| runs_round)).map(|number| number * hold)
+    }
+
     fn playing(&self, frame: usize) -> Vec<Playing> {
         let time = self.timeline.time(frame);
         self.clips.as_ref().map_or_else(Vec::new, |clips| clips.playing(time))

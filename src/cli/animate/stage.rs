@@ -5,6 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::args::AnimateArgs;
+use super::around::{Around, Drawn};
 use super::destination::{FilmFormat, Numbered};
 use super::detail::Faces;
 use super::film::{Film, Frame};
@@ -63,8 +64,7 @@ impl Stage<'_> {
         let frames: Vec<usize> = timeline.drawn().filter(mine).collect();
         total.frames = frames.iter().map(|drawn| timeline.shown(*drawn) as u64).sum();
         let frames: Vec<usize> = frames.into_iter().filter(missing).collect();
-        let one = |animator: &Animator, drawn: usize| -> Result<Made, Error> {
-            let (drawing, mut report, ms) = self.draw(animator, drawn)?;
+        let one = |drawn: usize, (drawing, mut report, ms): Drawn| -> Result<Made, Error> {
             let mut watch = Stopwatch::start();
             let bytes = match numbered.format {
                 Format::Png => pipeline::png(&drawing, self.dpi(&drawing))?,
@@ -97,8 +97,7 @@ impl Stage<'_> {
         };
         let mut film =
             Film::new(path, format, timeline.fps(), frames.len(), &self.request.svg).map_err(in_file)?;
-        let one = |animator: &Animator, drawn: usize| -> Result<Made, Error> {
-            let (drawing, mut report, ms) = self.draw(animator, drawn)?;
+        let one = |_: usize, (drawing, mut report, ms): Drawn| -> Result<Made, Error> {
             let mut watch = Stopwatch::start();
             let frame = if format.is_vector() {
                 Frame::Vector(Box::new(drawing))
@@ -122,7 +121,7 @@ impl Stage<'_> {
     }
 
     /// Draws the frame of a number.
-    fn draw(&self, animator: &Animator, frame: usize) -> Result<(Drawing, Report, f64), Error> {
+    fn draw(&self, animator: &Animator, frame: usize) -> Result<Drawn, Error> {
         let mut watch = Stopwatch::start();
         let moment = self.plan.moment(self.rigged, frame, self.style.background)?;
         let (drawing, mut report) = animator.draw(&moment).map_err(|error| match error.file {
@@ -144,7 +143,7 @@ impl Stage<'_> {
     fn in_order(
         &self,
         frames: &[usize],
-        make: impl Fn(&Animator, usize) -> Result<Made, Error> + Sync,
+        make: impl Fn(usize, Drawn) -> Result<Made, Error> + Sync,
         mut put: impl FnMut(usize, &Frame) -> Result<f64, Error>,
         total: &mut Total,
     ) -> Result<(), Error> {
@@ -184,7 +183,7 @@ impl Stage<'_> {
             let animator = Animator::at_level(self.rigged, &level, self.style).ready();
             while let Some((drawn, rest)) = left.split_first().filter(|_| budget.faces() == faces) {
                 self.step(frames.len() - left.len(), frames.len());
-                let made = make(&animator, *drawn)?;
+                let made = make(*drawn, self.draw(&animator, *drawn)?)?;
                 budget.took(made.ms);
                 total.faces.push(faces);
                 take(*drawn, &made, total)?;
@@ -199,14 +198,20 @@ impl Stage<'_> {
         &self,
         animator: &Animator,
         frames: &[usize],
-        make: &(impl Fn(&Animator, usize) -> Result<Made, Error> + Sync),
+        make: &(impl Fn(usize, Drawn) -> Result<Made, Error> + Sync),
         take: &mut impl FnMut(usize, &Made, &mut Total) -> Result<(), Error>,
         total: &mut Total,
     ) -> Result<(), Error> {
         let at_once = rayon::current_num_threads().max(1);
+        let motion = &self.style.motion;
+        let mut around = Around::new(&self.plan.course, motion.fade, motion.fade_by);
+        let draw = |drawn: usize| self.draw(animator, drawn);
         for (number, window) in frames.chunks(at_once).enumerate() {
             self.step(number * at_once, frames.len());
-            let make = |drawn: &usize| make(animator, *drawn);
+            if motion.fade > 0 {
+                around.look_at(window, draw)?;
+            }
+            let make = |drawn: &usize| make(*drawn, around.faded(*drawn).map_or_else(|| draw(*drawn), Ok)?);
             let made: Vec<Result<Made, Error>> = window.par_iter().with_max_len(1).map(make).collect();
             for (drawn, made) in window.iter().zip(made) {
                 take(*drawn, &made?, total)?;

@@ -9,6 +9,8 @@
 //! Source: lots are weighted minwise hashing (Ioffe, Improved Consistent Sampling, Weighted Minhash and L1 Sketching, ICDM
 //! 2010), with exponential lots.
 
+use std::sync::Arc;
+
 use rustc_hash::FxHashSet;
 
 use super::{Anchor, Chain};
@@ -27,8 +29,14 @@ const MOST_CELLS: usize = 1024;
 /// Shifts the cells, so that no plane of symmetry is between two of them.
 const SHIFT: f64 = 0.372_915;
 
-/// Names the chains that know where on the model they are; `parts` tell parts apart.
+/// Cells along the diagonal of a model that tell where contours, and where all others run.
+const PLACES: [f64; 2] = [32.0, 96.0];
+
+/// Names the chains that know where on the model they are, and tells them their cells; `parts` tell parts apart.
 pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
+    for chain in chains.iter_mut().filter(|chain| is_anchored(chain)) {
+        chain.places = places(chain, parts);
+    }
     let mut open: Vec<usize> =
         (0..chains.len()).filter(|number| chains.get(*number).is_some_and(is_anchored)).collect();
     for level in 0..SLIDING.len() {
@@ -59,6 +67,25 @@ pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
 
 fn is_anchored(chain: &Chain) -> bool {
     chain.samples.iter().any(|sample| sample.anchor.is_known())
+}
+
+/// The numbers of the cells that a chain runs through.
+fn places(chain: &Chain, parts: &[u64]) -> Arc<[u64]> {
+    let slides = chain.kind == LineKind::Contour;
+    let part = parts.get(chain.part.index()).copied().unwrap_or_default();
+    let mut cells = Vec::new();
+    for [from, to] in sides(chain) {
+        in_cells(from, to, PLACES[usize::from(!slides)], |cell, _| {
+            if cells.last() != Some(&cell) {
+                cells.push(cell);
+            }
+        });
+    }
+    let mut numbers: Vec<u64> =
+        cells.into_iter().map(|cell| hash(part, &cell.map(i64::cast_unsigned)) ^ u64::from(slides)).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers.into()
 }
 
 /// The lots of the cells of a chain, and what they would name it.
@@ -151,6 +178,7 @@ mod tests {
             covered: [false; 2],
             segment: 0,
             identity: 0,
+            places: Arc::default(),
             path: BezPath::new(),
         }
     }

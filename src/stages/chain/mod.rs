@@ -28,6 +28,8 @@ pub use options::ChainOptions;
 pub use removed::{Reason, Removed};
 pub use sample::{Anchor, Sample, Under};
 
+use std::sync::Arc;
+
 use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
@@ -75,6 +77,8 @@ pub struct Chain {
     pub segment: u32,
     /// What it is known by from frame to frame; 0 where nobody asked.
     pub identity: u64,
+    /// Where on the model at rest it runs, as numbers of cells, in rising order; empty where nobody asked.
+    pub places: Arc<[u64]>,
     /// The curve that is drawn: fitted Béziers, or the polyline of `points`.
     pub path: BezPath,
 }
@@ -210,6 +214,7 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
         covered: raw.covered,
         segment: raw.segment,
         identity: 0,
+        places: Arc::default(),
         path,
     }
 }

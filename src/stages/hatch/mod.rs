@@ -255,6 +255,7 @@ fn provenance(look: Look, context: &HatchContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         identity: 0,
+        places: Arc::default(),
         classes: vec!["hatch"],
         tone: None,
         part: context.parts.get(look.part.index()).and_then(name),

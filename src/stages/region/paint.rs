@@ -117,6 +117,7 @@ pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         identity: 0,
+        places: Arc::default(),
         classes: Vec::new(),
         tone: Some(look.tone),
         part: context.parts.get(look.part.index()).and_then(name),

@@ -24,6 +24,16 @@ const LENGTH_OF_PERIOD: f64 = 1e-3;
 /// of a dash as well, as far as the number of dashes stays small.
 #[must_use]
 pub fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
+    fit_from(path, closed, lengths, 0.0)
+}
+
+/// The same of a closed path, with the middle of a dash at this share of its length, where no corner says where dashes lie.
+#[must_use]
+pub fn fit_round(path: &BezPath, share: f64, lengths: &[f64]) -> (Vec<f64>, f64) {
+    fit_from(path, true, lengths, share)
+}
+
+fn fit_from(path: &BezPath, closed: bool, lengths: &[f64], share: f64) -> (Vec<f64>, f64) {
     let mut pattern: Vec<f64> = lengths.to_vec();
     if pattern.len() % 2 == 1 {
         pattern.extend_from_slice(lengths);
@@ -39,7 +49,13 @@ pub fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
     {
         return dashes;
     }
-    uniform(runs.iter().sum(), closed, &pattern, period)
+    let length = runs.iter().sum();
+    let (dashes, offset) = uniform(length, closed, &pattern, period);
+    let stretched: f64 = dashes.iter().sum();
+    if share == 0.0 || stretched <= 0.0 {
+        return (dashes, offset);
+    }
+    (dashes, (offset - share * length).rem_euclid(stretched))
 }
 
 /// The dash array and its offset for an open path that knows where on the model it begins and ends: the pattern is not
@@ -174,6 +190,18 @@ mod tests {
             rest -= dash;
         }
         true
+    }
+
+    #[test]
+    fn a_dash_of_a_round_path_lies_where_it_is_told_to() {
+        let circle = kurbo::Circle::new((0.0, 0.0), 50.0).to_path(1e-6);
+        let length = std::f64::consts::TAU * 50.0;
+        for share in [0.0, 0.13, 0.5, 0.99] {
+            let (dashes, offset) = super::fit_round(&circle, share, &[8.0, 4.0]);
+            let at = |by: f64| inked(&dashes, offset, (share * length + by).rem_euclid(length));
+            // Ink for half a dash to both sides, and no further.
+            assert!(at(0.0) && at(3.7) && at(-3.7) && !at(4.9) && !at(-4.9), "{share}: {dashes:?} {offset}");
+        }
     }
 
     #[test]

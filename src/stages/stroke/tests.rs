@@ -1,4 +1,6 @@
 use super::*;
+use std::sync::Arc;
+
 use crate::chain::Sample;
 use crate::lines::LineKind;
 use crate::mesh::{MaterialId, PartId};
@@ -25,6 +27,7 @@ fn chain(kind: LineKind, x: f64) -> Chain {
         covered: [false; 2],
         segment: 0,
         identity: 0,
+        places: Arc::default(),
         path,
     }
 }
