@@ -94,11 +94,12 @@ impl Surface {
     #[must_use]
     pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
         let frame = Frame::new(camera, self.mesh.origin);
-        let Refined { mesh, smooth, hosts } = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
+        let finer = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
+        let Refined { mesh, smooth, hosts, edges } = finer;
         let origins = hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect();
         let pieces = hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect();
         Some(Self {
-            hard: self.hard.carried(&self.mesh, &mesh),
+            hard: self.hard.carried(&edges, mesh.edges.len()),
             mesh,
             smooth,
             origins,

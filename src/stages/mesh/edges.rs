@@ -5,9 +5,9 @@
 
 use rayon::prelude::*;
 
-const NONE: u32 = u32::MAX;
-const MANY: u32 = u32::MAX - 1;
-const SAME_WAY: u32 = 1 << 31;
+pub(super) const NONE: u32 = u32::MAX;
+pub(super) const MANY: u32 = u32::MAX - 1;
+pub(super) const SAME_WAY: u32 = 1 << 31;
 
 /// The faces that meet at an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,9 +42,9 @@ impl EdgeFaces<'_> {
 pub struct Edges {
     /// The two vertices of each edge, the smaller id first.
     pub vertices: Vec<[u32; 2]>,
-    faces: Vec<[u32; 2]>,
-    fans: Vec<u32>,
-    fan_starts: Vec<u32>,
+    pub(super) faces: Vec<[u32; 2]>,
+    pub(super) fans: Vec<u32>,
+    pub(super) fan_starts: Vec<u32>,
     /// Edges (ids) near which faces with the same three vertices may be found.
     pub(super) suspects: Vec<u32>,
 }

@@ -4,6 +4,7 @@ pub mod build;
 pub mod clean;
 pub mod dihedral;
 pub mod edge_set;
+mod edge_splice;
 pub mod edges;
 pub mod extents;
 pub(crate) mod groups;

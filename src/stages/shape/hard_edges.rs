@@ -73,14 +73,21 @@ impl HardEdges {
         Self::default()
     }
 
-    /// These hard edges in a mesh made of this one, whose hard edges they are as well.
+    /// These hard edges in a mesh with `count` edges made of this one: `ids` tells which of them each edge of this one
+    /// is, `u32::MAX` for none.
     #[must_use]
-    pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {
+    pub fn carried(&self, ids: &[u32], count: usize) -> Self {
         if self.is_empty() {
             return Self::none();
         }
-        let hard = (0..from.edges.len()).filter(|e| self.is_hard(*e)).map(|e| from.edges.vertices[e]);
-        Self::of_edges(to, hard.filter_map(|ends| to.edges.vertices.binary_search(&ends).ok()))
+        let mut bits = vec![0u64; count.div_ceil(64)];
+        let hard = self.bits.iter().enumerate().filter(|(_, word)| **word != 0);
+        for edge in hard.flat_map(|(k, word)| (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)) {
+            if let Some(edge) = ids.get(edge).filter(|edge| **edge != u32::MAX) {
+                bits[*edge as usize / 64] |= 1 << (edge % 64);
+            }
+        }
+        Self { count: self::count(&bits), bits }
     }
 
     /// Those edges of a mesh of which it is said that they are hard.

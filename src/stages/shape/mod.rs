@@ -11,6 +11,7 @@ pub mod feature_size;
 pub mod file_normals;
 pub mod hard_edges;
 mod marking;
+mod near_rays;
 mod normal_sum;
 mod parting;
 pub mod patches;
@@ -21,6 +22,7 @@ mod roughness;
 mod rounded;
 pub mod smooth_normals;
 mod smooth_vertices;
+mod splice;
 mod thickness;
 
 pub use curvature::Curvature;

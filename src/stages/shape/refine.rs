@@ -9,22 +9,23 @@ use rustc_hash::FxHashMap;
 
 use super::marking::{Marks, marks};
 use super::smooth_normals::NO_NORMAL;
+use super::splice::{Cut, Kept, splice};
 use super::{EdgeArc, SmoothNormals};
-use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::{EdgeMark, Edges, Mesh};
+use crate::mesh::{EdgeMark, Mesh};
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
 
-/// A face that may be cut further.
+/// A piece of a face, which may be cut further.
 #[derive(Clone, Copy)]
-struct Facet {
-    corners: [u32; 3],
+pub(super) struct Facet {
+    /// Smooth vertices.
+    pub corners: [u32; 3],
     /// Whether the sides 0-1, 1-2, 2-0 may be cut.
     open: [bool; 3],
-    marks: [EdgeMark; 3],
+    pub marks: [EdgeMark; 3],
     /// The face of the given mesh it is part of.
-    face: u32,
+    pub face: u32,
 }
 
 /// A mesh of which faces were cut.
@@ -36,6 +37,8 @@ pub struct Refined {
     pub smooth: SmoothNormals,
     /// The face of the given mesh that each of its faces is part of.
     pub hosts: Vec<u32>,
+    /// The edge of the finer mesh that each edge of the given one is, `u32::MAX` for those that were cut.
+    pub edges: Vec<u32>,
 }
 
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
@@ -53,15 +56,15 @@ pub fn refined(
     if smooth.is_empty() {
         return None;
     }
-    let Marks { cut, thin } = marks(mesh, smooth, &is_long, &want);
+    let Marks { cut, edges, thin } = marks(mesh, smooth, &is_long, &want);
     if cut.is_empty() && thin.is_empty() {
         return None;
     }
     let mut work = Work::new(mesh, smooth);
-    for ends in cut {
-        work.cut(ends);
+    for ends in &cut {
+        work.cut(*ends);
     }
-    let (kept, mut open) = work.affected(mesh, smooth);
+    let (kept, mut open) = work.affected(mesh, smooth, &edges);
     let mut done: Vec<Facet> = Vec::new();
     for cuts in 0..MOST_CUTS {
         let mut next = Vec::with_capacity(open.len() * 2);
@@ -80,8 +83,9 @@ pub fn refined(
         }
     }
     done.append(&mut open);
-    let straight = smooth.straight.with(&thin, mesh.edges.len());
-    Some(work.finish(mesh, smooth, &straight, &kept, &done))
+    let Work { positions, normals, vertices, .. } = work;
+    let cut = Cut { positions, normals, vertices, pieces: done };
+    Some(splice(mesh, smooth, &thin, &kept, cut))
 }
 
 struct Work {
@@ -134,24 +138,23 @@ impl Work {
         }
     }
 
-    /// Which faces of the mesh stay as they are, and the pieces to begin with.
-    fn affected(&self, mesh: &Mesh, smooth: &SmoothNormals) -> (Vec<u32>, Vec<Facet>) {
-        let mut touched = vec![false; smooth.vertices.len()];
-        for [a, b] in self.middles.keys() {
-            (touched[*a as usize], touched[*b as usize]) = (true, true);
-        }
-        let (mut kept, mut open) = (Vec::new(), Vec::new());
-        for face in 0..mesh.triangles.len() as u32 {
-            let corners = smooth.corners_of(face).filter(|c| c.iter().any(|v| touched[*v as usize]));
-            let Some(corners) = corners else {
-                kept.push(face);
-                continue;
-            };
+    /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut.
+    fn affected(&self, mesh: &Mesh, smooth: &SmoothNormals, cut: &[u32]) -> (Kept, Vec<Facet>) {
+        let mut faces: Vec<u32> =
+            cut.iter().flat_map(|edge| mesh.edges.faces(*edge as usize).list().to_vec()).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        let mut open = Vec::with_capacity(faces.len());
+        for face in faces {
+            let Some(corners) = smooth.corners_of(face) else { continue };
             let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
             let mut piece = Facet { corners, open: [false; 3], marks, face };
             piece.open = [0, 1, 2].map(|side| self.middles.contains_key(&piece.side(side)));
-            if piece.open.contains(&true) { open.push(piece) } else { kept.push(face) }
+            if piece.open.contains(&true) {
+                open.push(piece);
+            }
         }
+        let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.face));
         (kept, open)
     }
 
@@ -215,126 +218,7 @@ impl Work {
             }
         }
     }
-
-    /// Texture coordinates of the finer mesh, and those of its corners: on a piece of a face what the face
-    /// has there.
-    fn texture(&self, mesh: &Mesh, kept: &[u32], done: &[Facet]) -> (Vec<[f32; 2]>, Vec<[u32; 3]>) {
-        if mesh.corner_uvs.is_empty() {
-            return (Vec::new(), Vec::new());
-        }
-        let mut uvs = mesh.uvs.clone();
-        let mut corner_uvs: Vec<[u32; 3]> = kept.iter().map(|face| mesh.corner_uvs[*face as usize]).collect();
-        for piece in done {
-            let own = mesh.corner_uvs[piece.face as usize].map(|uv| mesh.uvs.get(uv as usize).copied());
-            let [Some(a), Some(b), Some(c)] = own else {
-                corner_uvs.push([u32::MAX; 3]);
-                continue;
-            };
-            corner_uvs.push(piece.corners.map(|v| {
-                let at = self.positions[self.vertices[v as usize] as usize];
-                let weights = mesh.weights(crate::mesh::FaceId(piece.face), at);
-                let sum = |k: usize| {
-                    let exact: f64 = [a, b, c].iter().zip(weights).map(|(uv, w)| f64::from(uv[k]) * w).sum();
-                    // Neighbours that see the same point from their own planes are to agree.
-                    ((exact * UV_STEPS).round() / UV_STEPS) as f32
-                };
-                uvs.push([sum(0), sum(1)]);
-                uvs.len() as u32 - 1
-            }));
-        }
-        (uvs, corner_uvs)
-    }
-
-    /// The colours of the corners of the finer mesh: on a piece of a face what the face has there.
-    fn colours(&self, mesh: &Mesh, kept: &[u32], done: &[Facet]) -> Vec<[[f32; 3]; 3]> {
-        if mesh.corner_colours.is_empty() {
-            return Vec::new();
-        }
-        let of_kept = kept.iter().map(|face| mesh.corner_colours[*face as usize]);
-        let of_piece = |piece: &Facet| {
-            let own = mesh.corner_colours[piece.face as usize];
-            piece.corners.map(|v| {
-                let at = self.positions[self.vertices[v as usize] as usize];
-                let weights = mesh.weights(crate::mesh::FaceId(piece.face), at);
-                [0, 1, 2].map(|k| {
-                    let exact: f64 = own.iter().zip(weights).map(|(c, w)| f64::from(c[k]) * w).sum();
-                    ((exact * UV_STEPS).round() / UV_STEPS) as f32
-                })
-            })
-        };
-        of_kept.chain(done.iter().map(of_piece)).collect()
-    }
-
-    fn finish(
-        self,
-        mesh: &Mesh,
-        smooth: &SmoothNormals,
-        straight: &EdgeSet,
-        kept: &[u32],
-        done: &[Facet],
-    ) -> Refined {
-        let faces = || kept.iter().copied().chain(done.iter().map(|piece| piece.face));
-        let hosts: Vec<u32> = faces().collect();
-        let triangles: Vec<[u32; 3]> = kept
-            .iter()
-            .map(|face| mesh.triangles[*face as usize])
-            .chain(done.iter().map(|piece| piece.corners.map(|v| self.vertices[v as usize])))
-            .collect();
-        let corners = kept
-            .iter()
-            .map(|face| smooth.corners[*face as usize])
-            .chain(done.iter().map(|piece| piece.corners))
-            .collect();
-        let edge_marks = if mesh.edge_marks.is_empty() {
-            Vec::new()
-        } else {
-            let of_kept = kept.iter().map(|face| mesh.edge_marks[*face as usize]);
-            of_kept.chain(done.iter().map(|piece| piece.marks)).collect()
-        };
-        // What was cut is rounded, and has the smooth normals.
-        let none = |_: &Facet| [u32::MAX; 3];
-        let corner_normals = if mesh.corner_normals.is_empty() {
-            Vec::new()
-        } else {
-            let of_kept = kept.iter().map(|face| mesh.corner_normals[*face as usize]);
-            of_kept.chain(done.iter().map(none)).collect()
-        };
-        let (uvs, corner_uvs) = self.texture(mesh, kept, done);
-        let finer = Mesh {
-            uvs,
-            corner_uvs,
-            corner_colours: self.colours(mesh, kept, done),
-            normals: mesh.normals.clone(),
-            corner_normals,
-            origin: mesh.origin,
-            extents: mesh.extents.clone(),
-            face_normals: crate::mesh::build::face_normals(&self.positions, &triangles, |f| {
-                mesh.extent(crate::mesh::FaceId(hosts[f])).scale
-            }),
-            face_part: faces().map(|f| mesh.face_part[f as usize]).collect(),
-            face_material: faces().map(|f| mesh.face_material[f as usize]).collect(),
-            face_paint: faces().filter_map(|f| mesh.face_paint.get(f as usize).copied()).collect(),
-            edges: Edges::build(self.positions.len(), &triangles),
-            positions: self.positions,
-            triangles,
-            edge_marks,
-            wires: mesh.wires.clone(),
-            cleaning: mesh.cleaning,
-        };
-        let finer_smooth = SmoothNormals {
-            normals: self.normals,
-            vertices: self.vertices,
-            corners,
-            parting: smooth.parting.carried(mesh, &finer),
-            straight: straight.carried(mesh, &finer),
-            seamless: smooth.seamless,
-        };
-        Refined { mesh: finer, smooth: finer_smooth, hosts }
-    }
 }
-
-/// Texture coordinates and colours of new corners are rounded to this part.
-const UV_STEPS: f64 = 65536.0;
 
 impl Facet {
     /// The smooth vertices at the ends of a side, smaller first.
@@ -391,9 +275,9 @@ mod tests {
             let half = ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4;
             if half { ends[0].distance(ends[1]) * 10.0 } else { 0.0 }
         };
-        let Refined { mesh: finer, smooth: normals, hosts } =
+        let Refined { mesh: finer, smooth: normals, hosts, edges } =
             refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
-        assert_eq!(mesh.triangles.len(), 20);
+        assert_eq!((mesh.triangles.len(), edges.len()), (20, 30));
         assert!(finer.triangles.len() > 500 && hosts.len() == finer.triangles.len());
         assert_eq!((finer.edges.border_count(), finer.edges.non_manifold_count()), (0, 0));
         let euler = finer.positions.len() as i64 - finer.edges.len() as i64 + finer.triangles.len() as i64;
