@@ -47,8 +47,7 @@ impl Surface {
             return (Self { mesh, ..Self::default() }, None);
         }
         if options.contours == Contours::Mesh {
-            let hard = HardEdges::above(&mesh, options.crease_deg);
-            let (origins, pieces) = patches::origins_and_pieces(&mesh);
+            let (hard, origins, pieces) = patches::of_faces(&mesh, options.crease_deg);
             return (Self { mesh, hard, origins, pieces, ..Self::default() }, None);
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);

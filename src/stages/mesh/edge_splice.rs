@@ -55,8 +55,12 @@ impl Edges {
                 EdgeFaces::Two { same_way, .. } => (self.faces(edge), same_way),
                 faces => (faces, false),
             };
-            let mut faces: Vec<u32> =
-                before.list().iter().map(|face| renamed[*face as usize]).filter(|face| *face != GONE).collect();
+            let mut faces: Vec<u32> = before
+                .list()
+                .iter()
+                .map(|face| renamed[*face as usize])
+                .filter(|face| *face != GONE)
+                .collect();
             if beside {
                 faces.extend(own.faces(next).list().iter().map(|piece| piece + kept));
                 next += 1;

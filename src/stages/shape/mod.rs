@@ -9,6 +9,7 @@ pub mod edge_arc;
 pub mod fans;
 pub mod feature_size;
 pub mod file_normals;
+mod free_forms;
 pub mod hard_edges;
 mod marking;
 mod near_rays;

@@ -96,7 +96,8 @@ mod tests {
         for k in 0..n * n {
             let (x, y) = (f64::from(k % n), f64::from(k / n));
             let first = soup.positions.len() as u32;
-            soup.positions.extend([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(u, v)| DVec3::new(x + u, y + v, 0.0)));
+            soup.positions
+                .extend([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(u, v)| DVec3::new(x + u, y + v, 0.0)));
             soup.triangles.push([first, first + 1, first + 2]);
         }
         let mesh = Mesh::build(soup);
@@ -107,8 +108,10 @@ mod tests {
             [at(90.1, 10.1, 0.5), at(90.1, 10.1, 3.0)],
         ];
         let near = near_faces(&mesh, &segments);
-        let middles: Vec<DVec3> =
-            near.iter().map(|face| mesh.corners(FaceId(*face)).iter().sum::<DVec3>() / 3.0 + mesh.origin).collect();
+        let middles: Vec<DVec3> = near
+            .iter()
+            .map(|face| mesh.corners(FaceId(*face)).iter().sum::<DVec3>() / 3.0 + mesh.origin)
+            .collect();
         let is_near = |x: f64, y: f64| middles.iter().any(|p| (p.x - x).abs() < 0.5 && (p.y - y).abs() < 0.5);
         assert!(is_near(3.3, 3.3) && (0..5).all(|k| is_near(50.3 + f64::from(k), 70.3)));
         assert!(near.windows(2).all(|pair| pair[0] < pair[1]) && near.len() < 100, "{}", near.len());

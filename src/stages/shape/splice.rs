@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::refine::{Facet, Refined};
 use super::SmoothNormals;
+use super::refine::{Facet, Refined};
 use crate::mesh::build::face_normals;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{FaceId, Mesh};
@@ -83,13 +83,7 @@ impl Kept {
 }
 
 /// The finer mesh; `thin` are the edges of the given one that stay straight.
-pub(super) fn splice(
-    mesh: &Mesh,
-    smooth: &SmoothNormals,
-    thin: &[usize],
-    kept: &Kept,
-    cut: Cut,
-) -> Refined {
+pub(super) fn splice(mesh: &Mesh, smooth: &SmoothNormals, thin: &[usize], kept: &Kept, cut: Cut) -> Refined {
     let pieces = &cut.pieces;
     let own = || pieces.iter().map(|piece| piece.face as usize);
     let triangles: Vec<[u32; 3]> =
@@ -100,7 +94,8 @@ pub(super) fn splice(
         mesh.edges.spliced(&kept.renamed(), kept.count as u32, cut.positions.len(), &triangles);
     let carried = |set: &EdgeSet| set.carried(&ids, edges.len());
     let corners = kept.carry(&smooth.corners, pieces.iter().map(|piece| piece.corners));
-    let (parting, straight) = (carried(&smooth.parting), carried(&smooth.straight.with(thin, mesh.edges.len())));
+    let (parting, straight) =
+        (carried(&smooth.parting), carried(&smooth.straight.with(thin, mesh.edges.len())));
     let (uvs, corner_uvs) = texture(mesh, kept, &cut);
     let finer = Mesh {
         uvs,
