@@ -7,7 +7,8 @@ use glam::DVec3;
 
 use crate::math::tolerance;
 use crate::mesh::Mesh;
-use crate::shape::refine::{self, Refined};
+use crate::shape::refine;
+use crate::shape::splice::Cuts;
 use crate::shape::{EdgeArc, SmoothNormals};
 use crate::view::Frame;
 
@@ -16,10 +17,10 @@ use crate::view::Frame;
 const REACH: f64 = 0.55;
 const REACH_AND_ROUNDING: f64 = REACH * (1.0 + 1e-9);
 
-/// The mesh with its edges cut near the contour of a view until none is farther from its arc than
-/// [`tolerance::ARC_PX`]; `None` where they are short enough already.
+/// What is cut of a mesh near the contour of a view until no edge is farther from its arc than
+/// [`tolerance::ARC_PX`]; `None` where edges are short enough already.
 #[must_use]
-pub fn finer_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Option<Refined> {
+pub fn cuts_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Option<Cuts> {
     let px = frame.width.max(frame.height) / 1000.0;
     // How long a world length is on the page where it is nearest to the eye, seen square on.
     let page = |[a, b]: [DVec3; 2]| {
@@ -46,7 +47,7 @@ pub fn finer_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -
         }
         EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::ARC_PX
     };
-    refine::refined(mesh, smooth, is_long, want)
+    refine::cuts(mesh, smooth, is_long, want)
 }
 
 /// Whether the field is surely too far from zero at both ends of an edge to vanish in between: told with no more than four

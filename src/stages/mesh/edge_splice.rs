@@ -1,5 +1,5 @@
-//! The edges of a mesh of which some faces were cut into pieces: those of the whole, without what was cut, and those of
-//! the pieces, in the order that building them anew would give.
+//! The edges of a mesh of which some faces were left out or cut into pieces: those of the whole, without what went, and
+//! those of the pieces, in the order that building them anew would give.
 
 use super::edges::{MANY, NONE, SAME_WAY};
 use super::{EdgeFaces, Edges};
@@ -76,6 +76,35 @@ impl Edges {
         (all, ids)
     }
 
+    /// The edges after faces were left out: `renamed` are the new numbers of the faces, which keep their order, `u32::MAX` for
+    /// those that went; `triangles` are those that are left.
+    pub(super) fn without(&self, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
+        let mut all = Self::default();
+        all.vertices.reserve_exact(self.len());
+        all.faces.reserve_exact(self.len());
+        let mut left = Vec::new();
+        for (edge, ends) in self.vertices.iter().enumerate() {
+            let faces = self.faces(edge);
+            left.clear();
+            let still = faces.list().iter().map(|face| renamed[*face as usize]);
+            left.extend(still.filter(|face| *face != GONE));
+            let same_way = match (faces, left.as_slice()) {
+                (_, []) => continue,
+                (EdgeFaces::Two { same_way, .. }, _) => same_way,
+                (_, [a, b]) => {
+                    let up = |face: u32| {
+                        let [a, b, c] = triangles[face as usize];
+                        [[a, b], [b, c], [c, a]].contains(ends)
+                    };
+                    up(*a) == up(*b)
+                }
+                _ => false,
+            };
+            all.push(*ends, &left, same_way);
+        }
+        all
+    }
+
     /// Adds an edge of others, whose faces are numbered behind so many.
     fn add(&mut self, others: &Self, edge: usize, behind: u32) {
         let faces = others.faces(edge);
@@ -119,6 +148,24 @@ mod tests {
         faces.push([at(1, 1), at(2, 1), (n + 1) * (n + 1)]);
         faces[7].swap(0, 1);
         faces
+    }
+
+    #[test]
+    fn edges_without_some_faces_are_those_built_anew() {
+        let faces = sheet(6);
+        let edges = Edges::build(50, &faces);
+        for every in [1, 2, 3, 7, 100] {
+            let mut left: Vec<[u32; 3]> = Vec::new();
+            let mut renamed = Vec::new();
+            for (number, face) in faces.iter().enumerate() {
+                let goes = number % every == every - 1;
+                renamed.push(if goes { GONE } else { left.len() as u32 });
+                left.extend(Some(*face).filter(|_| !goes));
+            }
+            let (fewer, anew) = (edges.without(&renamed, &left), Edges::build(50, &left));
+            assert_eq!(fewer.vertices, anew.vertices);
+            assert!((0..anew.len()).all(|edge| fewer.faces(edge) == anew.faces(edge)), "{every}");
+        }
     }
 
     #[test]

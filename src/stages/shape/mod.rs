@@ -23,7 +23,7 @@ mod roughness;
 mod rounded;
 pub mod smooth_normals;
 mod smooth_vertices;
-mod splice;
+pub mod splice;
 mod thickness;
 
 pub use curvature::Curvature;

@@ -4,12 +4,16 @@
 //! Whether and where an edge is cut depends on the edge alone, so that the faces on both its sides
 //! agree and no crack opens. Faces are cut by the patterns of their cut sides.
 
+use std::borrow::Cow;
+use std::collections::hash_map::Entry;
+
 use glam::DVec3;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::marking::{Marks, marks};
 use super::smooth_normals::NO_NORMAL;
-use super::splice::{Cut, Kept, splice};
+use super::splice::{Cuts, Kept, splice};
 use super::{EdgeArc, SmoothNormals};
 use crate::mesh::{EdgeMark, Mesh};
 
@@ -17,7 +21,7 @@ use crate::mesh::{EdgeMark, Mesh};
 const MOST_CUTS: usize = 8;
 
 /// A piece of a face, which may be cut further.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Facet {
     /// Smooth vertices.
     pub corners: [u32; 3],
@@ -42,10 +46,7 @@ pub struct Refined {
 }
 
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
-/// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
-/// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
-/// than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
-/// cut loses the file's normals.
+/// hardly any is: see [`cuts`].
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
@@ -53,6 +54,22 @@ pub fn refined(
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<Refined> {
+    let cuts = cuts(mesh, smooth, is_long, want)?;
+    Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
+}
+
+/// What is cut of a mesh where all edges of rounded surfaces are cut that are wanted, or `None` where
+/// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
+/// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
+/// than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
+/// cut loses the file's normals.
+#[must_use]
+pub fn cuts(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
+    want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
+) -> Option<Cuts> {
     if smooth.is_empty() {
         return None;
     }
@@ -61,19 +78,15 @@ pub fn refined(
         return None;
     }
     let mut work = Work::new(mesh, smooth);
-    for ends in &cut {
-        work.cut(*ends);
-    }
-    let (kept, mut open) = work.affected(mesh, smooth, &edges);
+    work.cut(&cut, |_, _| true);
+    let (kept, mut open) = work.affected(&edges);
     let mut done: Vec<Facet> = Vec::new();
     for cuts in 0..MOST_CUTS {
         let mut next = Vec::with_capacity(open.len() * 2);
-        for piece in &open {
-            if cuts > 0 {
-                work.decide(piece, &|ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
-            }
-            work.split(piece, &mut next);
+        if cuts > 0 {
+            work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
         }
+        open.iter().for_each(|piece| work.split(piece, &mut next));
         open.clear();
         for piece in next {
             if piece.open.contains(&true) { open.push(piece) } else { done.push(piece) }
@@ -83,63 +96,81 @@ pub fn refined(
         }
     }
     done.append(&mut open);
-    let Work { positions, normals, vertices, .. } = work;
-    let cut = Cut { positions, normals, vertices, pieces: done };
-    Some(splice(mesh, smooth, &thin, &kept, cut))
+    let Work { positions, normals, .. } = work;
+    Some(Cuts { positions, normals, pieces: done, kept, thin })
 }
 
-struct Work {
-    /// All vertices, the new ones behind those of the mesh.
+struct Work<'a> {
+    mesh: &'a Mesh,
+    smooth: &'a SmoothNormals,
+    /// The new vertices: positions and normals.
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// The mesh vertex of each smooth vertex.
-    vertices: Vec<u32>,
-    /// The smooth vertex in the middle of an edge between two, [`NO_NORMAL`] where it is not cut.
+    /// The smooth vertex in the middle of an edge between two, [`NO_NORMAL`] where it is not cut. New ones are numbered behind
+    /// those of the mesh.
     middles: FxHashMap<[u32; 2], u32>,
 }
 
-impl Work {
-    fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
-        Self {
-            positions: mesh.positions.clone(),
-            normals: smooth.normals.clone(),
-            vertices: smooth.vertices.clone(),
-            middles: FxHashMap::default(),
+impl<'a> Work<'a> {
+    fn new(mesh: &'a Mesh, smooth: &'a SmoothNormals) -> Self {
+        Self { mesh, smooth, positions: Vec::new(), normals: Vec::new(), middles: FxHashMap::default() }
+    }
+
+    fn position(&self, v: u32) -> DVec3 {
+        match self.smooth.vertices.get(v as usize) {
+            Some(vertex) => self.mesh.positions[*vertex as usize],
+            None => self.positions[v as usize - self.smooth.vertices.len()],
+        }
+    }
+
+    fn normal(&self, v: u32) -> DVec3 {
+        match self.smooth.normals.get(v as usize) {
+            Some(normal) => *normal,
+            None => self.normals[v as usize - self.smooth.normals.len()],
         }
     }
 
     fn ends(&self, ends: [u32; 2]) -> ([DVec3; 2], [DVec3; 2]) {
-        let position = |v: u32| self.positions[self.vertices[v as usize] as usize];
-        (ends.map(position), ends.map(|v| self.normals[v as usize]))
+        (ends.map(|v| self.position(v)), ends.map(|v| self.normal(v)))
     }
 
-    fn cut(&mut self, ends: [u32; 2]) {
-        let (positions, normals) = self.ends(ends);
-        let arc = EdgeArc::new(positions, normals);
-        self.middles.insert(ends, self.normals.len() as u32);
-        self.vertices.push(self.positions.len() as u32);
-        self.positions.push(arc.at(0.5));
-        self.normals.push(arc.middle_normal());
-    }
-
-    /// Decides about the open sides of a piece that are not decided yet.
-    fn decide(&mut self, piece: &Facet, wanted: &impl Fn([DVec3; 2], [DVec3; 2]) -> bool) {
-        for side in (0..3).filter(|side| piece.open[*side]) {
-            let ends = piece.side(side);
-            if self.middles.contains_key(&ends) {
-                continue;
-            }
-            let (positions, normals) = self.ends(ends);
-            if wanted(positions, normals) {
-                self.cut(ends);
-            } else {
-                self.middles.insert(ends, NO_NORMAL);
-            }
+    /// Cuts those of some edges for which `wanted` holds; the others stay whole.
+    fn cut(&mut self, edges: &[[u32; 2]], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+        let middle = |ends: &[u32; 2]| {
+            let (positions, normals) = self.ends(*ends);
+            wanted(positions, normals).then(|| {
+                let arc = EdgeArc::new(positions, normals);
+                (arc.at(0.5), arc.middle_normal())
+            })
+        };
+        let middles: Vec<Option<(DVec3, DVec3)>> =
+            edges.par_iter().with_min_len(1 << 8).map(middle).collect();
+        for (ends, (position, normal)) in
+            edges.iter().zip(middles).filter_map(|(ends, middle)| Some((*ends, middle?)))
+        {
+            self.middles.insert(ends, (self.smooth.vertices.len() + self.normals.len()) as u32);
+            self.positions.push(position);
+            self.normals.push(normal);
         }
     }
 
+    /// Decides about the open sides of pieces that are not decided yet.
+    fn decide(&mut self, pieces: &[Facet], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+        let mut asked = Vec::new();
+        for piece in pieces {
+            for side in (0..3).filter(|side| piece.open[*side]) {
+                if let Entry::Vacant(vacant) = self.middles.entry(piece.side(side)) {
+                    asked.push(*vacant.key());
+                    vacant.insert(NO_NORMAL);
+                }
+            }
+        }
+        self.cut(&asked, wanted);
+    }
+
     /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut.
-    fn affected(&self, mesh: &Mesh, smooth: &SmoothNormals, cut: &[u32]) -> (Kept, Vec<Facet>) {
+    fn affected(&self, cut: &[u32]) -> (Kept, Vec<Facet>) {
+        let Self { mesh, smooth, .. } = self;
         let mut faces: Vec<u32> =
             cut.iter().flat_map(|edge| mesh.edges.faces(*edge as usize).list().to_vec()).collect();
         faces.sort_unstable();
@@ -198,10 +229,7 @@ impl Work {
             }
             2 => {
                 push([m(0), b, m(1)], [half(0), half(1), new]);
-                let length = |p: u32, q: u32| {
-                    let (ends, _) = self.ends([p, q]);
-                    ends[0].distance_squared(ends[1])
-                };
+                let length = |p: u32, q: u32| self.position(p).distance_squared(self.position(q));
                 if length(a, m(1)) <= length(m(0), c) {
                     push([a, m(0), m(1)], [half(0), new, new]);
                     push([a, m(1), c], [new, half(1), own(2)]);
