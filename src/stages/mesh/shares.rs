@@ -53,7 +53,7 @@ fn runs(
 ) -> Vec<Vec<Range<usize>>> {
     let mut runs = vec![Vec::new(); workers];
     // A run of faces that lie within the share of one worker.
-    let (mut own, mut worker, mut start) = (0..0, 0, 0);
+    let (mut own, mut worker, mut start) = (0..0, 0, first);
     let mut add = |worker: usize, run: Range<usize>| {
         if run.is_empty() {
             return;
