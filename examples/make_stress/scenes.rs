@@ -1,4 +1,5 @@
-//! Large scenes for timing: a city of boxes, a Menger sponge, spheres and terrain of any size.
+//! Large scenes for timing: a city of boxes, a Menger sponge, spheres and terrain of any size; a knot, a folded scan, a plate of printed
+//! parts, an assembly whose faces stand twice.
 //!
 //! Benches include this file by its path, so it uses nothing of the program around it.
 
@@ -9,6 +10,8 @@ use std::collections::BTreeMap;
 pub struct Triangles {
     pub points: Vec<[f64; 3]>,
     pub faces: Vec<[u32; 3]>,
+    /// The first face of each object; empty where all is one.
+    pub objects: Vec<usize>,
 }
 
 impl Triangles {
@@ -19,6 +22,27 @@ impl Triangles {
 
     fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
         self.faces.extend([[a, b, c], [a, c, d]]);
+    }
+
+    /// Adds another one, larger and elsewhere, as an object of its own.
+    fn place(&mut self, other: &Self, size: f64, at: [f64; 3]) {
+        self.objects.push(self.faces.len());
+        let first = self.points.len() as u32;
+        self.points.extend(other.points.iter().map(|p| [0, 1, 2].map(|k| p[k] * size + at[k])));
+        self.faces.extend(other.faces.iter().map(|face| face.map(|corner| corner + first)));
+    }
+
+    /// A grid of points bent to a surface that closes both ways.
+    fn torus(around: u32, along: u32, at: impl Fn(f64, f64) -> [f64; 3]) -> Self {
+        let mut out = Self::default();
+        for (i, j) in (0..along).flat_map(|i| (0..around).map(move |j| (i, j))) {
+            out.point(at(f64::from(i) / f64::from(along), f64::from(j) / f64::from(around)));
+        }
+        for (i, j) in (0..along).flat_map(|i| (0..around).map(move |j| (i, j))) {
+            let at = |i: u32, j: u32| i % along * around + j % around;
+            out.quad([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+        out
     }
 }
 
@@ -163,6 +187,110 @@ pub fn terrain(n: u32) -> Triangles {
     for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
         let at = |i: u32, j: u32| i * (n + 1) + j;
         out.quad([at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)]);
+    }
+    out
+}
+
+/// Sine and cosine of so many turns.
+fn turned(turns: f64) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(turns * std::f64::consts::TAU);
+    [cos, sin]
+}
+
+/// A trefoil of a round tube: 8 `n`² triangles, `n` squares around it. 100 around make 80 thousand, 1,118 ten million.
+pub fn knot(n: u32) -> Triangles {
+    let middle = |s: f64| {
+        let ([c2, s2], [c3, s3]) = (turned(2.0 * s), turned(3.0 * s));
+        let away = 2.0 + c3;
+        [away * c2, s3, away * s2]
+    };
+    Triangles::torus(n, 4 * n, |along, around| {
+        let (here, ahead) = (middle(along), middle(along + 1e-4));
+        let way: [f64; 3] = std::array::from_fn(|k| ahead[k] - here[k]);
+        let side = normalized(cross(way, [0.0, 1.0, 0.0]));
+        let up = normalized(cross(side, way));
+        let [c, s] = turned(around);
+        std::array::from_fn(|k| here[k] + 0.45 * (c * side[k] + s * up[k]))
+    })
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn normalized(a: [f64; 3]) -> [f64; 3] {
+    let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
+    a.map(|x| x / length)
+}
+
+/// Two shells one in the other, folded and rough as a scan is: 24 `n`² triangles, 1.2 million for 224.
+pub fn nested(n: u32) -> Triangles {
+    let mut out = Triangles::default();
+    for (salt, radius) in [(40_u64, 1.0), (50, 0.86)] {
+        let mut shell = sphere(n);
+        for (k, p) in shell.points.iter_mut().enumerate() {
+            let fold = |scale: f64, salt: u64| {
+                let [x, y, z] = p.map(|x| (x + 2.0) * scale);
+                noise(x, y, salt) + noise(y, z, salt + 1) + noise(z, x, salt + 2) - 1.5
+            };
+            let folds = 0.05 * fold(3.0, salt) + 0.02 * fold(9.0, salt + 3);
+            let rough = 0.25 / f64::from(n) * (chance(k as i64, 0, salt + 6) - 0.5);
+            *p = p.map(|x| x * radius * (1.0 + folds + rough));
+        }
+        out.points.extend(&shell.points);
+        let first = (out.points.len() - shell.points.len()) as u32;
+        out.faces.extend(shell.faces.iter().map(|face| face.map(|corner| corner + first)));
+    }
+    out
+}
+
+/// 83 parts side by side on a plate, of five kinds: 83 times 8 `n`² triangles, one million for 39.
+pub fn printed(n: u32) -> Triangles {
+    let kinds: Vec<Triangles> = (0..5).map(|kind| printed_part(kind, n)).collect();
+    let mut out = Triangles::default();
+    for k in 0..83_u32 {
+        let at = [3.0 * f64::from(k % 10), 0.0, 3.0 * f64::from(k / 10)];
+        let size = 0.7 + 0.3 * chance(i64::from(k), 0, 60);
+        out.place(&kinds[(k % 5) as usize], size, at);
+    }
+    out
+}
+
+/// A ring, a vase with ripples, a cog, a spring washer, a ball of layers.
+fn printed_part(kind: u32, n: u32) -> Triangles {
+    Triangles::torus(2 * n, 2 * n, |along, around| {
+        let ([c, s], [height, width]) = (turned(along), {
+            let [c, s] = turned(around);
+            [s, c]
+        });
+        let square = |x: f64| (3.0 * x).clamp(-1.0, 1.0);
+        let (away, up) = match kind {
+            0 => (0.9 + 0.35 * width, 0.35 * height),
+            1 => (0.8 + 0.06 * turned(12.0 * along)[0] + 0.3 * height * height + 0.06 * width, 1.2 * height),
+            2 => (0.8 + (0.3 + 0.1 * square(turned(9.0 * along)[0])) * square(width), 0.3 * square(height)),
+            3 => (0.9 + 0.3 * width, 0.06 * height + 0.2 * turned(3.0 * along)[0]),
+            _ => (0.62 + 0.6 * width, (8.0 * 0.9 * height).round() / 8.0 + 0.02 * height),
+        };
+        [away * c, up, away * s]
+    })
+}
+
+/// 67 objects side by side and in each other, every face of which stands there twice, once each way: 67 times 16 `n`² triangles,
+/// 347 thousand for 18.
+pub fn doubled(n: u32) -> Triangles {
+    let mut single = Triangles::default();
+    let kinds: Vec<Triangles> = (0..5).map(|kind| printed_part(kind, n)).collect();
+    for k in 0..67_u32 {
+        let at = [1.6 * f64::from(k % 9), 0.4 * f64::from(k % 4), 1.6 * f64::from(k / 9)];
+        single.place(&kinds[(k % 5) as usize], 0.9, at);
+    }
+    let mut out = Triangles { points: single.points, ..Triangles::default() };
+    for (k, first) in single.objects.iter().enumerate() {
+        let end = single.objects.get(k + 1).copied().unwrap_or(single.faces.len());
+        out.objects.push(out.faces.len());
+        for [a, b, c] in single.faces[*first..end].iter().copied() {
+            out.faces.extend([[a, b, c], [c, b, a]]);
+        }
     }
     out
 }

@@ -104,7 +104,10 @@ pub(super) fn draw_views(
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
     watch.lap_ms();
-    let prepared = Prepared::new(&scene, &style);
+    let prepared = match eyes.as_slice() {
+        [eye] => Prepared::for_camera(&scene, &style, &eye.camera),
+        _ => Prepared::new(&scene, &style),
+    };
     let preparing_ms = watch.lap_ms();
     for (request, eye) in requests.iter().zip(eyes) {
         let page = Page { background: style.background, ..eye.paper.page() };

@@ -100,7 +100,7 @@ fn picture(scene: &Scene, style: &Style) -> Result<Drawing, Error> {
     let view = View::Angles { azimuth_deg: None, elevation_deg: None, lens: None };
     let Viewpoint { camera, paper, .. } = viewpoint(&view, &sheet, scene, || Ok(world_points(scene).into()))?;
     let page = Page { background: style.background, ..paper.page() };
-    Ok(Prepared::new(scene, style).draw(&camera, page, None)?.0)
+    Ok(Prepared::for_camera(scene, style, &camera).draw(&camera, page, None)?.0)
 }
 
 /// A layer that is known by the style it is of.

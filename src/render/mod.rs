@@ -111,7 +111,7 @@ pub fn render_reported(
     stage: Option<Stage>,
 ) -> Result<(Drawing, Report), Error> {
     let mut watch = Stopwatch::start();
-    let prepared = Prepared::new(scene, style);
+    let prepared = Prepared::for_camera(scene, style, camera);
     let preparing = watch.lap_ms();
     let (drawing, mut report) = prepared.draw(camera, page, stage)?;
     report.stages_ms.topology += preparing;
@@ -155,6 +155,8 @@ pub struct Prepared<'a> {
     /// Where surfaces are painted or hatched, or lines take their colour: the paints of the scene.
     paints: Option<Arc<Paints>>,
     surface: Surface,
+    /// How many vertices and edges the model has.
+    counts: [u64; 2],
     /// For views that need finer triangles it is made anew.
     paintable: Option<Paintable>,
     search: LateSearch,
@@ -169,21 +171,41 @@ impl<'a> Prepared<'a> {
         Self::with_patches(scene, style).0
     }
 
+    /// Does so for one camera: the surface gets the finer triangles that it needs there at once and for good, which takes less
+    /// memory than to have them beside those of the model.
+    #[must_use]
+    pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
+        Self::made(scene, style, Some(camera)).0
+    }
+
     /// Does so, and tells the patches of its surface.
     fn with_patches(scene: &'a Scene, style: &'a Style) -> (Self, Option<Patches>) {
+        Self::made(scene, style, None)
+    }
+
+    fn made(scene: &'a Scene, style: &'a Style, only: Option<&Camera>) -> (Self, Option<Patches>) {
         let left = glass::left(scene, style);
         let mut paints = paints_of(&left, style);
         let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
         paints.iter_mut().for_each(|paints| paints.carry(&origins));
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         let sought = fills::sought(style);
-        let (surface, patches) = Surface::with_patches(mesh, &sought);
+        let (mut surface, mut patches) = Surface::with_patches(mesh, &sought);
+        let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
+        if let Some(camera) = only.filter(|camera| camera.validate().is_ok()) {
+            patches = None;
+            surface = surface.finer_for(camera);
+        }
         let paintable = paints
             .as_ref()
             .filter(|_| fills::asks_surface(style))
             .map(|paints| Paintable::new(&surface, paints));
         let (paints, search) = (paints.map(Arc::new), LateSearch::default());
-        (Self { scene, warnings, style, sought, paints, surface, paintable, search, anchors: None }, patches)
+        let anchors = None;
+        (
+            Self { scene, warnings, style, sought, paints, surface, counts, paintable, search, anchors },
+            patches,
+        )
     }
 
     /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
@@ -234,8 +256,7 @@ impl<'a> Prepared<'a> {
         let Self { scene, style, sought, paints, .. } = self;
         let mut report = Report::default();
         let mut watch = Stopwatch::start();
-        report.counts.vertices = self.surface.mesh.positions.len() as u64;
-        report.counts.edges = self.surface.mesh.edges.len() as u64;
+        [report.counts.vertices, report.counts.edges] = self.counts;
 
         let refined = self.surface.refined_for(camera);
         let surface = refined.as_ref().unwrap_or(&self.surface);
@@ -246,7 +267,7 @@ impl<'a> Prepared<'a> {
         report.stages_ms.topology = watch.lap_ms();
 
         // Finer triangles are those of this view alone.
-        let search = if refined.is_none() { self.search.of_next_view(surface) } else { None };
+        let search = if !surface.refined { self.search.of_next_view(surface) } else { None };
         let mut lines = lines::extract_with(surface, search, &view, sought);
         let mut warnings = Vec::new();
         let px = Length::px(1.0).in_unit(unit);

@@ -112,7 +112,9 @@ impl<'a> Resting<'a> {
         let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
         let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
         let search = LateSearch::default();
-        Some(Prepared { scene, warnings, style, sought, paints, surface, paintable, search, anchors: None })
+        let counts = self.still.counts;
+        let anchors = None;
+        Some(Prepared { scene, warnings, style, sought, paints, surface, counts, paintable, search, anchors })
     }
 }
 

@@ -21,7 +21,7 @@ mod tests;
 
 pub use cut::{SurfaceCut, cut};
 pub use facing::facing;
-pub use finer::finer_near_contours;
+pub use finer::cuts_near_contours;
 pub use light_options::{LightOptions, LightSource, SourceKind, Space};
 pub use lighting::{Caster, SurfacePoint};
 pub use occlusion::openness;

@@ -40,6 +40,8 @@ struct Finder<'a> {
     smooth: &'a SmoothNormals,
     wanted: u32,
     crease_deg: f32,
+    /// Whether every face has an area.
+    all_real: bool,
 }
 
 impl<'a> Finder<'a> {
@@ -52,6 +54,7 @@ impl<'a> Finder<'a> {
             smooth,
             wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
             crease_deg: options.crease_deg as f32,
+            all_real: mesh.face_normals.par_iter().with_min_len(1 << 14).all(|normal| *normal != [0.0; 3]),
         }
     }
 
@@ -108,6 +111,9 @@ impl<'a> Finder<'a> {
     fn classify(&self, edge: usize) -> Option<FeatureSegment> {
         match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces: [first, second], same_way } => {
+                if self.all_real && !same_way && self.is_nothing(edge, first, second) {
+                    return None;
+                }
                 if self.degenerate(first) || self.degenerate(second) {
                     return self.classify_beside_needle(edge, &[first, second]);
                 }
@@ -116,6 +122,15 @@ impl<'a> Finder<'a> {
             EdgeFaces::One(face) => self.classify_single(edge, face),
             EdgeFaces::Many(faces) => self.classify_fan(edge, faces),
         }
+    }
+
+    /// Whether the surface runs on over an edge between faces with area, as it does over most.
+    #[inline]
+    fn is_nothing(&self, edge: usize, first: u32, second: u32) -> bool {
+        let (first, second) = (first as usize, second as usize);
+        self.view.facing[first] == self.view.facing[second]
+            && self.mesh.face_material[first] == self.mesh.face_material[second]
+            && !self.hard.is_hard(edge)
     }
 
     fn degenerate(&self, face: u32) -> bool {

@@ -1,5 +1,7 @@
 //! [`Surface`]: a mesh with what its options make of it: which edges are hard, which faces round.
 
+use std::borrow::Cow;
+
 use super::LineOptions;
 use super::options::{Contours, Normals};
 use crate::field;
@@ -8,6 +10,7 @@ use crate::scene::Camera;
 use crate::shape::file_normals::file_cosines;
 use crate::shape::patches;
 use crate::shape::refine::Refined;
+use crate::shape::splice::{Cuts, splice};
 use crate::shape::{HardEdges, Origin, Patches, SmoothNormals};
 use crate::view::Frame;
 
@@ -47,8 +50,7 @@ impl Surface {
             return (Self { mesh, ..Self::default() }, None);
         }
         if options.contours == Contours::Mesh {
-            let hard = HardEdges::above(&mesh, options.crease_deg);
-            let (origins, pieces) = patches::origins_and_pieces(&mesh);
+            let (hard, origins, pieces) = patches::of_faces(&mesh, options.crease_deg);
             return (Self { mesh, hard, origins, pieces, ..Self::default() }, None);
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
@@ -85,26 +87,38 @@ impl Surface {
     /// The surface with more triangles where a coarse rounded part would show its corners to the
     /// camera.
     #[must_use]
-    pub fn finer_for(self, camera: &Camera) -> Self {
-        self.refined_for(camera).unwrap_or(self)
+    pub fn finer_for(mut self, camera: &Camera) -> Self {
+        let Some(cuts) = self.cuts_for(camera) else { return self };
+        let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
+        self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts))
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the camera; none
-    /// if no part would.
+    /// if no part would, or if it has them.
     #[must_use]
     pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
-        let frame = Frame::new(camera, self.mesh.origin);
-        let Refined { mesh, smooth, hosts } = field::finer_near_contours(&self.mesh, &self.smooth, &frame)?;
-        let origins = hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect();
-        let pieces = hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect();
-        Some(Self {
-            hard: self.hard.carried(&self.mesh, &mesh),
+        let cuts = self.cuts_for(camera)?;
+        Some(self.of_finer(splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts)))
+    }
+
+    fn cuts_for(&self, camera: &Camera) -> Option<Cuts> {
+        if self.refined {
+            return None;
+        }
+        field::cuts_near_contours(&self.mesh, &self.smooth, &Frame::new(camera, self.mesh.origin))
+    }
+
+    /// The surface of a mesh that is finer than this one's.
+    fn of_finer(&self, finer: Refined) -> Self {
+        let Refined { mesh, smooth, hosts, edges } = finer;
+        Self {
+            hard: self.hard.carried(&edges, mesh.edges.len()),
             mesh,
             smooth,
-            origins,
-            pieces,
+            origins: hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect(),
+            pieces: hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect(),
             refined: true,
-        })
+        }
     }
 }
 

@@ -76,10 +76,19 @@ pub fn trace(
     field: &[f64],
     wanted: impl Fn(u32) -> bool + Sync,
 ) -> ZeroSet {
-    trace_crossings(mesh, smooth, wanted, |a, b| {
-        let (at_a, at_b) = (field[a as usize], field[b as usize]);
-        ((at_a >= 0.0) != (at_b >= 0.0)).then(|| Crossing { t: at_a / (at_a - at_b), rising: at_a < 0.0 })
-    })
+    let crossed = |face: u32| {
+        let [a, b, c] = smooth.corners[face as usize].map(|v| field[v as usize] >= 0.0);
+        a != b || b != c
+    };
+    trace_crossings(
+        mesh,
+        smooth,
+        |face| crossed(face) && wanted(face),
+        |a, b| {
+            let (at_a, at_b) = (field[a as usize], field[b as usize]);
+            ((at_a >= 0.0) != (at_b >= 0.0)).then(|| Crossing { t: at_a / (at_a - at_b), rising: at_a < 0.0 })
+        },
+    )
 }
 
 /// Where a curve crosses an edge.

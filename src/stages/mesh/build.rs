@@ -41,7 +41,10 @@ impl Mesh {
         if let Some(keep) = one_of_doubles(&soup, &edges) {
             cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
             retain_faces(&mut soup, &keep);
-            edges = Edges::build(soup.positions.len(), &soup.triangles);
+            let mut left = 0..;
+            let of = |keep: &bool| if *keep { left.next() } else { None }.unwrap_or(u32::MAX);
+            let renamed: Vec<u32> = keep.iter().map(of).collect();
+            edges = edges.without(&renamed, &soup.triangles);
         }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());

@@ -61,16 +61,17 @@ pub(super) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
         let [a, b, c] = soup.triangles[face as usize];
         [a < b, b < c, c < a].into_iter().filter(|up| *up).count() == 2
     };
-    suspects.sort_by_key(|&face| (key(face), face));
+    let mut keyed: Vec<_> = suspects.into_iter().map(|face| (key(face), face)).collect();
+    keyed.sort_unstable();
     let mut keep = vec![true; soup.triangles.len()];
     let mut pairs: Vec<[u32; 2]> = Vec::new();
     let mut dropped = false;
-    for doubles in suspects.chunk_by(|a, b| key(*a) == key(*b)).filter(|doubles| doubles.len() > 1) {
+    for doubles in keyed.chunk_by(|a, b| a.0 == b.0).filter(|doubles| doubles.len() > 1) {
         dropped = true;
-        doubles.iter().for_each(|face| keep[*face as usize] = false);
-        let first = doubles[0];
-        match doubles.iter().find(|face| is_upward(**face) != is_upward(first)) {
-            Some(other) => pairs.push([first, *other]),
+        doubles.iter().for_each(|(_, face)| keep[*face as usize] = false);
+        let first = doubles[0].1;
+        match doubles.iter().find(|(_, face)| is_upward(*face) != is_upward(first)) {
+            Some((_, other)) => pairs.push([first, *other]),
             None => keep[first as usize] = true,
         }
     }

@@ -57,7 +57,7 @@ impl Dihedral {
     /// Degrees by which the surface turns: 0 where it is flat, 180 where it folds back on itself.
     #[must_use]
     pub fn turn(&self) -> f32 {
-        acos(f64::from(self.cosine)).to_degrees() as f32
+        turn_of(self.cosine)
     }
 
     /// The normals of the two faces, both on the side that the first one calls outside.
@@ -66,6 +66,12 @@ impl Dihedral {
         let [a, b] = self.faces.map(|f| DVec3::from(mesh.face_normals[f as usize].map(f64::from)));
         [a, if self.same_way { -b } else { b }]
     }
+}
+
+/// Degrees of the angle with a cosine.
+#[must_use]
+pub fn turn_of(cosine: f32) -> f32 {
+    acos(f64::from(cosine)).to_degrees() as f32
 }
 
 /// Out of line: needles are rare.

@@ -2,8 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::Mesh;
-
 /// A set of edges of one mesh.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct EdgeSet {
@@ -38,7 +36,7 @@ impl EdgeSet {
 
     /// Its edges, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
-        self.words.iter().enumerate().flat_map(|(k, word)| {
+        self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {
             (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)
         })
     }
@@ -55,16 +53,16 @@ impl EdgeSet {
         Self { words }
     }
 
-    /// The edges with the same vertices in another mesh.
+    /// The edges of a mesh with `count` edges that these became, each the one that `ids` tells; `u32::MAX` is none.
     #[must_use]
-    pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {
-        let ends = self.iter().map(|edge| from.edges.vertices[edge]);
-        let mut words = vec![0u64; to.edges.len().div_ceil(64)];
-        let mut any = false;
-        for edge in ends.filter_map(|ends| to.edges.vertices.binary_search(&ends).ok()) {
-            words[edge / 64] |= 1 << (edge % 64);
-            any = true;
+    pub fn carried(&self, ids: &[u32], count: usize) -> Self {
+        let mut words = Vec::new();
+        for edge in self.iter().map(|edge| ids[edge]).filter(|edge| *edge != u32::MAX) {
+            if words.is_empty() {
+                words = vec![0u64; count.div_ceil(64)];
+            }
+            words[edge as usize / 64] |= 1 << (edge % 64);
         }
-        if any { Self { words } } else { Self::default() }
+        Self { words }
     }
 }

@@ -1,13 +1,15 @@
 //! [`Edges`]: which faces meet at which edge, found by counting sort on the smaller vertex.
 //!
-//! Each worker owns a range of vertices and takes the edges whose smaller vertex lies in it, so
+//! Each worker owns a share of the vertices and takes the edges whose smaller vertex lies in it, so
 //! the result does not depend on how many workers there are.
 
 use rayon::prelude::*;
 
-const NONE: u32 = u32::MAX;
-const MANY: u32 = u32::MAX - 1;
-const SAME_WAY: u32 = 1 << 31;
+use super::shares::{Share, shares};
+
+pub(super) const NONE: u32 = u32::MAX;
+pub(super) const MANY: u32 = u32::MAX - 1;
+pub(super) const SAME_WAY: u32 = 1 << 31;
 
 /// The faces that meet at an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,9 +44,9 @@ impl EdgeFaces<'_> {
 pub struct Edges {
     /// The two vertices of each edge, the smaller id first.
     pub vertices: Vec<[u32; 2]>,
-    faces: Vec<[u32; 2]>,
-    fans: Vec<u32>,
-    fan_starts: Vec<u32>,
+    pub(super) faces: Vec<[u32; 2]>,
+    pub(super) fans: Vec<u32>,
+    pub(super) fan_starts: Vec<u32>,
     /// Edges (ids) near which faces with the same three vertices may be found.
     pub(super) suspects: Vec<u32>,
 }
@@ -72,11 +74,9 @@ impl Edges {
     #[must_use]
     pub fn build(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
         let workers = if triangles.len() < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
-        let bounds: Vec<usize> = (0..=workers).map(|k| vertex_count * k / workers).collect();
-        let mut ranges: Vec<Range> = bounds
-            .par_windows(2)
-            .map(|pair| edges_of_range(triangles, pair[0] as u32, pair[1] as u32))
-            .collect();
+        let shares = shares(vertex_count, triangles, workers);
+        let mut ranges: Vec<Range> =
+            shares.par_iter().with_max_len(1).map(|share| edges_of_share(triangles, share)).collect();
         if let [only] = ranges.as_mut_slice() {
             let r = std::mem::take(only);
             return Self {
@@ -151,10 +151,10 @@ impl Edges {
     }
 }
 
-fn edges_of_range(triangles: &[[u32; 3]], first: u32, end: u32) -> Range {
-    let span = (end - first) as usize;
+fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Range {
+    let (first, span) = (share.vertices.start as u32, share.vertices.len());
     let mut starts = vec![0u32; span + 1];
-    for &[a, b, c] in triangles {
+    for &[a, b, c] in share.faces.iter().flat_map(|run| &triangles[run.clone()]) {
         for smaller in [a.min(b), b.min(c), c.min(a)] {
             let bucket = smaller.wrapping_sub(first) as usize;
             if bucket < span {
@@ -169,13 +169,15 @@ fn edges_of_range(triangles: &[[u32; 3]], first: u32, end: u32) -> Range {
     }
     // Filled from behind, `starts` moves from the ends of the buckets to their beginnings.
     let mut sides = vec![Side { other: 0, face_way: 0 }; total as usize];
-    for (face, &[a, b, c]) in triangles.iter().enumerate().rev() {
-        for (a, b) in [(c, a), (b, c), (a, b)] {
-            let bucket = a.min(b).wrapping_sub(first) as usize;
-            if bucket < span {
-                starts[bucket] -= 1;
-                sides[starts[bucket] as usize] =
-                    Side { other: a.max(b), face_way: (face as u32) << 1 | u32::from(a < b) };
+    for run in share.faces.iter().rev() {
+        for (face, &[a, b, c]) in run.clone().zip(&triangles[run.clone()]).rev() {
+            for (a, b) in [(c, a), (b, c), (a, b)] {
+                let bucket = a.min(b).wrapping_sub(first) as usize;
+                if bucket < span {
+                    starts[bucket] -= 1;
+                    sides[starts[bucket] as usize] =
+                        Side { other: a.max(b), face_way: (face as u32) << 1 | u32::from(a < b) };
+                }
             }
         }
     }

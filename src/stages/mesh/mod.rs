@@ -4,6 +4,7 @@ pub mod build;
 pub mod clean;
 pub mod dihedral;
 pub mod edge_set;
+mod edge_splice;
 pub mod edges;
 pub mod extents;
 pub(crate) mod groups;
@@ -11,10 +12,12 @@ pub mod ids;
 pub mod needle;
 mod order;
 pub mod posed;
+mod shares;
 mod sheets;
 pub mod solid;
 pub mod soup;
 pub(crate) mod space_curve;
+pub mod turns;
 pub mod weld;
 
 use glam::DVec3;
@@ -27,7 +30,9 @@ pub use extents::{Extent, Extents};
 pub use groups::Groups;
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use posed::Sources;
+pub(crate) use shares::shares;
 pub use soup::{EdgeMark, Soup, Wire};
+pub use turns::Turns;
 
 /// A welded triangle mesh.
 ///

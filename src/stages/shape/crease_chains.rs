@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use crate::math::function::cos;
 use crate::math::grouped::{Grouped, grouped};
-use crate::mesh::dihedral::Dihedral;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::dihedral::{Dihedral, turn_of};
+use crate::mesh::{FaceId, Mesh, Turns};
 
 /// Two folds whose directions make less than this cosine do not continue each other, even where no
 /// other fold ends there: 80 degrees, so that the zigzag of a regular triangulation is one chain.
@@ -56,12 +56,15 @@ pub(super) struct Chain {
 }
 
 /// All edges at which the surface turns by more than `low_deg` degrees, in edge order.
-pub(super) fn folds(mesh: &Mesh, low_deg: f64) -> Vec<Fold> {
+pub(super) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
     const CHUNK: usize = 1 << 14;
     let low_cosine = cos(low_deg.to_radians()) as f32;
     let fold = |edge: usize| {
-        let dihedral = Dihedral::at(mesh, edge).filter(|d| d.cosine < low_cosine)?;
-        let turn = dihedral.turn();
+        let cosine = turns.at(mesh, edge);
+        if cosine.is_nan() || cosine >= low_cosine {
+            return None;
+        }
+        let turn = turn_of(cosine);
         (turn > low_deg as f32).then_some(Fold { edge: edge as u32, turn })
     };
     let chunks = mesh.edges.len().div_ceil(CHUNK);

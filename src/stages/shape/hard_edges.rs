@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::crease_chains::{Chain, Folds, folds};
 use super::roughness::Roughness;
 use crate::mesh::dihedral::{Dihedral, mark};
-use crate::mesh::{EdgeMark, Mesh};
+use crate::mesh::{EdgeMark, Mesh, Turns};
 
 /// The low threshold as a share of the high one: a crease goes on where it turns by more.
 pub const LOW_OF_HIGH: f64 = 0.5;
@@ -51,7 +51,11 @@ impl HardEdges {
     /// What the file says of an edge goes before all this.
     #[must_use]
     pub fn find(mesh: &Mesh, crease_deg: f64) -> Self {
-        let folds = Folds::new(mesh, folds(mesh, LOW_OF_HIGH * crease_deg));
+        Self::find_with(mesh, &Turns::of(mesh), crease_deg)
+    }
+
+    pub(super) fn find_with(mesh: &Mesh, turns: &Turns, crease_deg: f64) -> Self {
+        let folds = Folds::new(mesh, folds(mesh, turns, LOW_OF_HIGH * crease_deg));
         let chains = folds.chains(crease_deg);
         let roughness = Roughness::new(mesh, crease_deg);
         let kept: Vec<&Chain> =
@@ -64,7 +68,11 @@ impl HardEdges {
     /// marks.
     #[must_use]
     pub fn above(mesh: &Mesh, crease_deg: f64) -> Self {
-        Self::of_edges(mesh, folds(mesh, crease_deg).iter().map(|f| f.edge as usize)).with_marks(mesh)
+        Self::above_with(mesh, &Turns::of(mesh), crease_deg)
+    }
+
+    pub(super) fn above_with(mesh: &Mesh, turns: &Turns, crease_deg: f64) -> Self {
+        Self::of_edges(mesh, folds(mesh, turns, crease_deg).iter().map(|f| f.edge as usize)).with_marks(mesh)
     }
 
     /// No edge.
@@ -73,14 +81,23 @@ impl HardEdges {
         Self::default()
     }
 
-    /// These hard edges in a mesh made of this one, whose hard edges they are as well.
+    /// These hard edges in a mesh with `count` edges made of this one: `ids` tells which of them each edge of this one
+    /// is, `u32::MAX` for none.
     #[must_use]
-    pub fn carried(&self, from: &Mesh, to: &Mesh) -> Self {
+    pub fn carried(&self, ids: &[u32], count: usize) -> Self {
         if self.is_empty() {
             return Self::none();
         }
-        let hard = (0..from.edges.len()).filter(|e| self.is_hard(*e)).map(|e| from.edges.vertices[e]);
-        Self::of_edges(to, hard.filter_map(|ends| to.edges.vertices.binary_search(&ends).ok()))
+        let mut bits = vec![0u64; count.div_ceil(64)];
+        let hard = self.bits.iter().enumerate().filter(|(_, word)| **word != 0);
+        for edge in hard.flat_map(|(k, word)| {
+            (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)
+        }) {
+            if let Some(edge) = ids.get(edge).filter(|edge| **edge != u32::MAX) {
+                bits[*edge as usize / 64] |= 1 << (edge % 64);
+            }
+        }
+        Self { count: self::count(&bits), bits }
     }
 
     /// Those edges of a mesh of which it is said that they are hard.

@@ -24,6 +24,8 @@ const CHUNK: usize = 1 << 14;
 pub(super) struct Marks {
     /// The smooth vertices at the ends of the edges to cut.
     pub cut: Vec<[u32; 2]>,
+    /// These edges themselves.
+    pub edges: Vec<u32>,
     /// Edges that stay straight, ascending.
     pub thin: Vec<usize>,
 }
@@ -64,7 +66,8 @@ pub(super) fn marks(
         marked.iter().filter(|m| m.wanted > SWOLLEN).map(|m| (m.edge, m.ends)).collect();
     let thin = thickness::thin(mesh, smooth, &swollen);
     let is_cut = |marked: &&Marked| thin.binary_search(&marked.edge).is_err();
-    Marks { cut: marked.iter().filter(is_cut).map(|marked| marked.ends).collect(), thin }
+    let (cut, edges) = marked.iter().filter(is_cut).map(|marked| (marked.ends, marked.edge as u32)).unzip();
+    Marks { cut, edges, thin }
 }
 
 /// The marked edges, but for those of parts that are dense enough.

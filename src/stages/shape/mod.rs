@@ -9,8 +9,10 @@ pub mod edge_arc;
 pub mod fans;
 pub mod feature_size;
 pub mod file_normals;
+mod free_forms;
 pub mod hard_edges;
 mod marking;
+mod near_rays;
 mod normal_sum;
 mod parting;
 pub mod patches;
@@ -21,6 +23,7 @@ mod roughness;
 mod rounded;
 pub mod smooth_normals;
 mod smooth_vertices;
+pub mod splice;
 mod thickness;
 
 pub use curvature::Curvature;

@@ -3,18 +3,15 @@
 //! Flats, cylinders and cones are drawn as their faces have them: what bends one way only has contours
 //! along its edges already. Round is what bends both ways: scans and figures but for their creases,
 //! and of machined parts the patches between hard edges that have curvature of their own.
-//!
-//! Source for curvature by angles: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry
-//! operators for triangulated 2-manifolds", 2002, section 4.
 
 use super::HardEdges;
 use super::file_normals::file_cosines;
+use super::free_forms::add_free_forms;
 use super::planes::{Planes, area};
-use super::rounded::{LEAST_EDGES, Make, Origin, Verdict, verdicts};
-use crate::math::function::{acos, cos};
+use super::rounded::{Make, Origin, Verdict, verdicts};
+use crate::math::function::cos;
 use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::groups::Groups;
-use crate::mesh::{Dihedral, EdgeFaces, FaceId, Mesh};
+use crate::mesh::{EdgeFaces, Mesh, Turns};
 
 /// On round pieces a crease turns by so many times as much.
 const ROUND: f64 = 1.5;
@@ -24,23 +21,6 @@ const RIM_COSINE: f32 = 0.985;
 /// The cosine (20 degrees) beyond which a strip is parted from a face so many times wider.
 const STRIP_COSINE: f32 = 0.94;
 const STRIP: f64 = 6.0;
-
-/// The least total curvature of a patch that bends both ways, radians: a twelfth of a ball's.
-const FREE_FORM: f64 = 1.0;
-/// Angles around a vertex of a cylinder miss a whole turn by less than this, radians, by rounding.
-const ROUNDING: f64 = 2e-4;
-/// With more than this share of flat edges a patch is machined all over: flat quads have a third.
-const MANY_FLAT: f64 = 0.45;
-/// With more than this share of edges that turn by more than this (cosine, 15 degrees) a patch of a machined part
-/// is too coarse for a curve that all would agree on, and is what its faces are.
-const FEW_COARSE: f64 = 0.1;
-const COARSE_COSINE: f32 = 0.966;
-/// Patches of which flats hold more than this part are machined all over.
-const FEW_FLATS: f64 = 0.1;
-/// A face is long if it is so many times as long as wide: nobody knows what lies between its ends. Patches
-/// of which long faces hold more than this part stay what they are.
-const LONG: f64 = 6.0;
-const FEW_LONG: f64 = 0.1;
 
 /// How the surfaces of a mesh are meant.
 #[derive(Debug, Clone, Default)]
@@ -67,16 +47,17 @@ impl Patches {
     /// face is meant to be round, and only the edges between are sought.
     #[must_use]
     pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
-        let planes = Planes::new(mesh);
-        let verdicts = verdicts(mesh, &planes, all);
+        let turns = &Turns::of(mesh);
+        let planes = Planes::new(mesh, turns);
+        let verdicts = verdicts(mesh, turns, &planes, all);
         let believed = verdicts.iter().map(|verdict| verdict.believed).collect();
         let makes: Vec<Make> = verdicts.iter().map(|verdict| verdict.make).collect();
-        let hard = hard_edges(mesh, &verdicts, crease_deg);
-        let rims = rims(mesh, &planes, &makes);
+        let hard = hard_edges(mesh, turns, &verdicts, crease_deg);
+        let rims = rims(mesh, turns, &planes, &makes);
         let mut rounded: Vec<bool> = makes.iter().map(|make| all || *make == Make::Round).collect();
         if !all && makes.contains(&Make::Machined) {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
-            add_free_forms(mesh, &planes, &makes, parts, &mut rounded);
+            add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
         }
         let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
@@ -84,12 +65,13 @@ impl Patches {
     }
 }
 
-/// How the surface at each face of a mesh came about, and which connected piece it is of: empty if there is but
-/// one.
+/// The edges of a mesh that turn by more than `crease_deg` degrees, how the surface at each of its faces came about, and
+/// which connected piece each is of: empty if there is but one.
 #[must_use]
-pub fn origins_and_pieces(mesh: &Mesh) -> (Vec<Origin>, Vec<u32>) {
-    let verdicts = verdicts(mesh, &Planes::new(mesh), false);
-    (origins_in(&verdicts), pieces_in(&verdicts))
+pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u32>) {
+    let turns = &Turns::of(mesh);
+    let verdicts = verdicts(mesh, turns, &Planes::new(mesh, turns), false);
+    (HardEdges::above_with(mesh, turns, crease_deg), origins_in(&verdicts), pieces_in(&verdicts))
 }
 
 fn origins_in(verdicts: &[Verdict]) -> Vec<Origin> {
@@ -105,17 +87,17 @@ fn pieces_in(verdicts: &[Verdict]) -> Vec<u32> {
 
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
 /// which the file's normals turn as well, and chains that turn by more and stand out from what is around them.
-fn hard_edges(mesh: &Mesh, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
+fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
     let is_round = |face: u32| verdicts[face as usize].make == Make::Round;
     let round = (0..verdicts.len() as u32).filter(|face| is_round(*face)).count();
     if round == 0 {
-        return HardEdges::above(mesh, crease_deg);
+        return HardEdges::above_with(mesh, turns, crease_deg);
     }
-    let chains = HardEdges::find(mesh, (ROUND * crease_deg).min(180.0));
+    let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0));
     if round == verdicts.len() && mesh.corner_normals.is_empty() {
         return chains;
     }
-    let above = HardEdges::above(mesh, crease_deg);
+    let above = HardEdges::above_with(mesh, turns, crease_deg);
     let least = cos(crease_deg.to_radians()) as f32;
     let shaded_sharp = |edge: usize, faces: [u32; 2]| {
         faces.iter().all(|face| verdicts[*face as usize].believed)
@@ -130,13 +112,13 @@ fn hard_edges(mesh: &Mesh, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
 }
 
 /// Where flats and wide faces end.
-fn rims(mesh: &Mesh, planes: &Planes, makes: &[Make]) -> EdgeSet {
+fn rims(mesh: &Mesh, turns: &Turns, planes: &Planes, makes: &[Make]) -> EdgeSet {
     EdgeSet::collect(mesh.edges.len(), |edge| {
-        let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return false };
-        let cosine = Dihedral::of(mesh, faces, same_way).cosine;
+        let cosine = turns.of_two(edge);
         if cosine > RIM_COSINE {
             return false;
         }
+        let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return false };
         let [first, second] = faces.map(|face| planes.compact(face));
         if first != second {
             return true;
@@ -155,98 +137,6 @@ fn rims(mesh: &Mesh, planes: &Planes, makes: &[Make]) -> EdgeSet {
 fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
     let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
     2.0 * area(mesh, face) / a.distance(b).max(f64::MIN_POSITIVE)
-}
-
-/// What is counted of one patch.
-#[derive(Debug, Clone, Copy, Default)]
-struct Count {
-    edges: u32,
-    flat: u32,
-    coarse: u32,
-    area: f64,
-    in_flats: f64,
-    in_long: f64,
-    curvature: f64,
-}
-
-impl Count {
-    fn is_free_form(&self) -> bool {
-        self.edges >= LEAST_EDGES
-            && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
-            && f64::from(self.coarse) <= FEW_COARSE * f64::from(self.edges)
-            && self.in_flats <= FEW_FLATS * self.area
-            && self.in_long <= FEW_LONG * self.area
-            && self.curvature >= FREE_FORM
-    }
-}
-
-/// Whether the surface turns over an edge between two faces by more than a cosine says.
-fn turns(mesh: &Mesh, edge: usize, cosine: f32) -> bool {
-    match mesh.edges.faces(edge) {
-        EdgeFaces::Two { faces, same_way } => Dihedral::of(mesh, faces, same_way).cosine < cosine,
-        _ => false,
-    }
-}
-
-/// Marks the faces of machined pieces that lie in patches that bend both ways.
-fn add_free_forms(
-    mesh: &Mesh,
-    planes: &Planes,
-    makes: &[Make],
-    parts: impl Fn(usize) -> bool,
-    rounded: &mut [bool],
-) {
-    let machined = |face: u32| makes[face as usize] == Make::Machined;
-    let inner = |edge: usize| match mesh.edges.faces(edge) {
-        EdgeFaces::Two { faces, same_way: false } if machined(faces[0]) && !parts(edge) => Some(faces),
-        _ => None,
-    };
-    let patches = Groups::new(mesh.triangles.len(), |join| {
-        for [a, b] in (0..mesh.edges.len()).filter_map(inner) {
-            join(a, b);
-        }
-    });
-    let mut counts = vec![Count::default(); mesh.triangles.len()];
-    // The angles around each vertex, and whether a patch ends there.
-    let mut angles = vec![0.0; mesh.positions.len()];
-    let mut ends = vec![false; mesh.positions.len()];
-    for edge in 0..mesh.edges.len() {
-        match inner(edge) {
-            Some([face, _]) => {
-                let count = &mut counts[patches.of(face) as usize];
-                count.edges += 1;
-                count.flat += u32::from(planes.flat.contains(edge));
-                count.coarse += u32::from(turns(mesh, edge, COARSE_COSINE));
-            }
-            None => mesh.edges.vertices[edge].iter().for_each(|v| ends[*v as usize] = true),
-        }
-    }
-    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
-        let count = &mut counts[patches.of(face) as usize];
-        let area = area(mesh, face);
-        count.area += area;
-        count.in_flats += if planes.of(face).is_some() { area } else { 0.0 };
-        let corners = mesh.corners(FaceId(face));
-        let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
-        count.in_long += if longest > LONG * 2.0 * area { area } else { 0.0 };
-        for (k, vertex) in mesh.triangles[face as usize].iter().enumerate() {
-            let [a, b] = [1, 2].map(|step| (corners[(k + step) % 3] - corners[k]).normalize_or_zero());
-            angles[*vertex as usize] += acos(a.dot(b).clamp(-1.0, 1.0));
-        }
-    }
-    let mut done = vec![false; mesh.positions.len()];
-    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
-        for vertex in mesh.triangles[face as usize] {
-            let vertex = vertex as usize;
-            if !ends[vertex] && !std::mem::replace(&mut done[vertex], true) {
-                let missing = (std::f64::consts::TAU - angles[vertex]).abs();
-                counts[patches.of(face) as usize].curvature += (missing - ROUNDING).max(0.0);
-            }
-        }
-    }
-    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
-        rounded[face as usize] = counts[patches.of(face) as usize].is_free_form();
-    }
 }
 
 #[cfg(test)]

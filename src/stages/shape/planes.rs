@@ -3,11 +3,9 @@
 //! Machined parts have them, scans and figures do not: their triangles turn a little at almost every
 //! edge.
 
-use glam::Vec3;
-
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::groups::Groups;
-use crate::mesh::{EdgeFaces, FaceId, Mesh};
+use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 
 /// The cosine above which an edge counts as flat: a tenth of a degree.
 const FLAT_COSINE: f32 = 0.999_998_5;
@@ -32,9 +30,9 @@ pub(super) struct Planes {
 }
 
 impl Planes {
-    pub fn new(mesh: &Mesh) -> Self {
+    pub fn new(mesh: &Mesh, turns: &Turns) -> Self {
         let faces = mesh.triangles.len();
-        let flat = EdgeSet::collect(mesh.edges.len(), |edge| is_flat(mesh, edge));
+        let flat = EdgeSet::collect(mesh.edges.len(), |edge| turns.of_two(edge) > FLAT_COSINE);
         let groups = Groups::new(faces, |join| {
             for edge in flat.iter() {
                 if let EdgeFaces::Two { faces: [a, b], .. } = mesh.edges.faces(edge) {
@@ -92,10 +90,4 @@ impl Planes {
 pub(super) fn area(mesh: &Mesh, face: u32) -> f64 {
     let [a, b, c] = mesh.corners(FaceId(face));
     (b - a).cross(c - a).length() / 2.0
-}
-
-fn is_flat(mesh: &Mesh, edge: usize) -> bool {
-    let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return false };
-    let [n, m] = faces.map(|f| Vec3::from_array(mesh.face_normals[f as usize]));
-    (if same_way { -n.dot(m) } else { n.dot(m) }) > FLAT_COSINE
 }

@@ -4,27 +4,32 @@
 //! Whether and where an edge is cut depends on the edge alone, so that the faces on both its sides
 //! agree and no crack opens. Faces are cut by the patterns of their cut sides.
 
+use std::borrow::Cow;
+use std::collections::hash_map::Entry;
+
 use glam::DVec3;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::marking::{Marks, marks};
 use super::smooth_normals::NO_NORMAL;
+use super::splice::{Cuts, Kept, splice};
 use super::{EdgeArc, SmoothNormals};
-use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::{EdgeMark, Edges, Mesh};
+use crate::mesh::{EdgeMark, Mesh};
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
 
-/// A face that may be cut further.
-#[derive(Clone, Copy)]
-struct Facet {
-    corners: [u32; 3],
+/// A piece of a face, which may be cut further.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Facet {
+    /// Smooth vertices.
+    pub corners: [u32; 3],
     /// Whether the sides 0-1, 1-2, 2-0 may be cut.
     open: [bool; 3],
-    marks: [EdgeMark; 3],
+    pub marks: [EdgeMark; 3],
     /// The face of the given mesh it is part of.
-    face: u32,
+    pub face: u32,
 }
 
 /// A mesh of which faces were cut.
@@ -36,13 +41,12 @@ pub struct Refined {
     pub smooth: SmoothNormals,
     /// The face of the given mesh that each of its faces is part of.
     pub hosts: Vec<u32>,
+    /// The edge of the finer mesh that each edge of the given one is, `u32::MAX` for those that were cut.
+    pub edges: Vec<u32>,
 }
 
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
-/// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
-/// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
-/// than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
-/// cut loses the file's normals.
+/// hardly any is: see [`cuts`].
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
@@ -50,27 +54,39 @@ pub fn refined(
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<Refined> {
+    let cuts = cuts(mesh, smooth, is_long, want)?;
+    Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
+}
+
+/// What is cut of a mesh where all edges of rounded surfaces are cut that are wanted, or `None` where
+/// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
+/// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
+/// than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
+/// cut loses the file's normals.
+#[must_use]
+pub fn cuts(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
+    want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
+) -> Option<Cuts> {
     if smooth.is_empty() {
         return None;
     }
-    let Marks { cut, thin } = marks(mesh, smooth, &is_long, &want);
+    let Marks { cut, edges, thin } = marks(mesh, smooth, &is_long, &want);
     if cut.is_empty() && thin.is_empty() {
         return None;
     }
     let mut work = Work::new(mesh, smooth);
-    for ends in cut {
-        work.cut(ends);
-    }
-    let (kept, mut open) = work.affected(mesh, smooth);
+    work.cut(&cut, |_, _| true);
+    let (kept, mut open) = work.affected(&edges);
     let mut done: Vec<Facet> = Vec::new();
     for cuts in 0..MOST_CUTS {
         let mut next = Vec::with_capacity(open.len() * 2);
-        for piece in &open {
-            if cuts > 0 {
-                work.decide(piece, &|ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
-            }
-            work.split(piece, &mut next);
+        if cuts > 0 {
+            work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
         }
+        open.iter().for_each(|piece| work.split(piece, &mut next));
         open.clear();
         for piece in next {
             if piece.open.contains(&true) { open.push(piece) } else { done.push(piece) }
@@ -80,78 +96,96 @@ pub fn refined(
         }
     }
     done.append(&mut open);
-    let straight = smooth.straight.with(&thin, mesh.edges.len());
-    Some(work.finish(mesh, smooth, &straight, &kept, &done))
+    let Work { positions, normals, .. } = work;
+    Some(Cuts { positions, normals, pieces: done, kept, thin })
 }
 
-struct Work {
-    /// All vertices, the new ones behind those of the mesh.
+struct Work<'a> {
+    mesh: &'a Mesh,
+    smooth: &'a SmoothNormals,
+    /// The new vertices: positions and normals.
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// The mesh vertex of each smooth vertex.
-    vertices: Vec<u32>,
-    /// The smooth vertex in the middle of an edge between two, [`NO_NORMAL`] where it is not cut.
+    /// The smooth vertex in the middle of an edge between two, [`NO_NORMAL`] where it is not cut. New ones are numbered behind
+    /// those of the mesh.
     middles: FxHashMap<[u32; 2], u32>,
 }
 
-impl Work {
-    fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
-        Self {
-            positions: mesh.positions.clone(),
-            normals: smooth.normals.clone(),
-            vertices: smooth.vertices.clone(),
-            middles: FxHashMap::default(),
+impl<'a> Work<'a> {
+    fn new(mesh: &'a Mesh, smooth: &'a SmoothNormals) -> Self {
+        Self { mesh, smooth, positions: Vec::new(), normals: Vec::new(), middles: FxHashMap::default() }
+    }
+
+    fn position(&self, v: u32) -> DVec3 {
+        match self.smooth.vertices.get(v as usize) {
+            Some(vertex) => self.mesh.positions[*vertex as usize],
+            None => self.positions[v as usize - self.smooth.vertices.len()],
+        }
+    }
+
+    fn normal(&self, v: u32) -> DVec3 {
+        match self.smooth.normals.get(v as usize) {
+            Some(normal) => *normal,
+            None => self.normals[v as usize - self.smooth.normals.len()],
         }
     }
 
     fn ends(&self, ends: [u32; 2]) -> ([DVec3; 2], [DVec3; 2]) {
-        let position = |v: u32| self.positions[self.vertices[v as usize] as usize];
-        (ends.map(position), ends.map(|v| self.normals[v as usize]))
+        (ends.map(|v| self.position(v)), ends.map(|v| self.normal(v)))
     }
 
-    fn cut(&mut self, ends: [u32; 2]) {
-        let (positions, normals) = self.ends(ends);
-        let arc = EdgeArc::new(positions, normals);
-        self.middles.insert(ends, self.normals.len() as u32);
-        self.vertices.push(self.positions.len() as u32);
-        self.positions.push(arc.at(0.5));
-        self.normals.push(arc.middle_normal());
-    }
-
-    /// Decides about the open sides of a piece that are not decided yet.
-    fn decide(&mut self, piece: &Facet, wanted: &impl Fn([DVec3; 2], [DVec3; 2]) -> bool) {
-        for side in (0..3).filter(|side| piece.open[*side]) {
-            let ends = piece.side(side);
-            if self.middles.contains_key(&ends) {
-                continue;
-            }
-            let (positions, normals) = self.ends(ends);
-            if wanted(positions, normals) {
-                self.cut(ends);
-            } else {
-                self.middles.insert(ends, NO_NORMAL);
-            }
+    /// Cuts those of some edges for which `wanted` holds; the others stay whole.
+    fn cut(&mut self, edges: &[[u32; 2]], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+        let middle = |ends: &[u32; 2]| {
+            let (positions, normals) = self.ends(*ends);
+            wanted(positions, normals).then(|| {
+                let arc = EdgeArc::new(positions, normals);
+                (arc.at(0.5), arc.middle_normal())
+            })
+        };
+        let middles: Vec<Option<(DVec3, DVec3)>> =
+            edges.par_iter().with_min_len(1 << 8).map(middle).collect();
+        for (ends, (position, normal)) in
+            edges.iter().zip(middles).filter_map(|(ends, middle)| Some((*ends, middle?)))
+        {
+            self.middles.insert(ends, (self.smooth.vertices.len() + self.normals.len()) as u32);
+            self.positions.push(position);
+            self.normals.push(normal);
         }
     }
 
-    /// Which faces of the mesh stay as they are, and the pieces to begin with.
-    fn affected(&self, mesh: &Mesh, smooth: &SmoothNormals) -> (Vec<u32>, Vec<Facet>) {
-        let mut touched = vec![false; smooth.vertices.len()];
-        for [a, b] in self.middles.keys() {
-            (touched[*a as usize], touched[*b as usize]) = (true, true);
+    /// Decides about the open sides of pieces that are not decided yet.
+    fn decide(&mut self, pieces: &[Facet], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+        let mut asked = Vec::new();
+        for piece in pieces {
+            for side in (0..3).filter(|side| piece.open[*side]) {
+                if let Entry::Vacant(vacant) = self.middles.entry(piece.side(side)) {
+                    asked.push(*vacant.key());
+                    vacant.insert(NO_NORMAL);
+                }
+            }
         }
-        let (mut kept, mut open) = (Vec::new(), Vec::new());
-        for face in 0..mesh.triangles.len() as u32 {
-            let corners = smooth.corners_of(face).filter(|c| c.iter().any(|v| touched[*v as usize]));
-            let Some(corners) = corners else {
-                kept.push(face);
-                continue;
-            };
+        self.cut(&asked, wanted);
+    }
+
+    /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut.
+    fn affected(&self, cut: &[u32]) -> (Kept, Vec<Facet>) {
+        let Self { mesh, smooth, .. } = self;
+        let mut faces: Vec<u32> =
+            cut.iter().flat_map(|edge| mesh.edges.faces(*edge as usize).list().to_vec()).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        let mut open = Vec::with_capacity(faces.len());
+        for face in faces {
+            let Some(corners) = smooth.corners_of(face) else { continue };
             let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
             let mut piece = Facet { corners, open: [false; 3], marks, face };
             piece.open = [0, 1, 2].map(|side| self.middles.contains_key(&piece.side(side)));
-            if piece.open.contains(&true) { open.push(piece) } else { kept.push(face) }
+            if piece.open.contains(&true) {
+                open.push(piece);
+            }
         }
+        let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.face));
         (kept, open)
     }
 
@@ -195,10 +229,7 @@ impl Work {
             }
             2 => {
                 push([m(0), b, m(1)], [half(0), half(1), new]);
-                let length = |p: u32, q: u32| {
-                    let (ends, _) = self.ends([p, q]);
-                    ends[0].distance_squared(ends[1])
-                };
+                let length = |p: u32, q: u32| self.position(p).distance_squared(self.position(q));
                 if length(a, m(1)) <= length(m(0), c) {
                     push([a, m(0), m(1)], [half(0), new, new]);
                     push([a, m(1), c], [new, half(1), own(2)]);
@@ -215,126 +246,7 @@ impl Work {
             }
         }
     }
-
-    /// Texture coordinates of the finer mesh, and those of its corners: on a piece of a face what the face
-    /// has there.
-    fn texture(&self, mesh: &Mesh, kept: &[u32], done: &[Facet]) -> (Vec<[f32; 2]>, Vec<[u32; 3]>) {
-        if mesh.corner_uvs.is_empty() {
-            return (Vec::new(), Vec::new());
-        }
-        let mut uvs = mesh.uvs.clone();
-        let mut corner_uvs: Vec<[u32; 3]> = kept.iter().map(|face| mesh.corner_uvs[*face as usize]).collect();
-        for piece in done {
-            let own = mesh.corner_uvs[piece.face as usize].map(|uv| mesh.uvs.get(uv as usize).copied());
-            let [Some(a), Some(b), Some(c)] = own else {
-                corner_uvs.push([u32::MAX; 3]);
-                continue;
-            };
-            corner_uvs.push(piece.corners.map(|v| {
-                let at = self.positions[self.vertices[v as usize] as usize];
-                let weights = mesh.weights(crate::mesh::FaceId(piece.face), at);
-                let sum = |k: usize| {
-                    let exact: f64 = [a, b, c].iter().zip(weights).map(|(uv, w)| f64::from(uv[k]) * w).sum();
-                    // Neighbours that see the same point from their own planes are to agree.
-                    ((exact * UV_STEPS).round() / UV_STEPS) as f32
-                };
-                uvs.push([sum(0), sum(1)]);
-                uvs.len() as u32 - 1
-            }));
-        }
-        (uvs, corner_uvs)
-    }
-
-    /// The colours of the corners of the finer mesh: on a piece of a face what the face has there.
-    fn colours(&self, mesh: &Mesh, kept: &[u32], done: &[Facet]) -> Vec<[[f32; 3]; 3]> {
-        if mesh.corner_colours.is_empty() {
-            return Vec::new();
-        }
-        let of_kept = kept.iter().map(|face| mesh.corner_colours[*face as usize]);
-        let of_piece = |piece: &Facet| {
-            let own = mesh.corner_colours[piece.face as usize];
-            piece.corners.map(|v| {
-                let at = self.positions[self.vertices[v as usize] as usize];
-                let weights = mesh.weights(crate::mesh::FaceId(piece.face), at);
-                [0, 1, 2].map(|k| {
-                    let exact: f64 = own.iter().zip(weights).map(|(c, w)| f64::from(c[k]) * w).sum();
-                    ((exact * UV_STEPS).round() / UV_STEPS) as f32
-                })
-            })
-        };
-        of_kept.chain(done.iter().map(of_piece)).collect()
-    }
-
-    fn finish(
-        self,
-        mesh: &Mesh,
-        smooth: &SmoothNormals,
-        straight: &EdgeSet,
-        kept: &[u32],
-        done: &[Facet],
-    ) -> Refined {
-        let faces = || kept.iter().copied().chain(done.iter().map(|piece| piece.face));
-        let hosts: Vec<u32> = faces().collect();
-        let triangles: Vec<[u32; 3]> = kept
-            .iter()
-            .map(|face| mesh.triangles[*face as usize])
-            .chain(done.iter().map(|piece| piece.corners.map(|v| self.vertices[v as usize])))
-            .collect();
-        let corners = kept
-            .iter()
-            .map(|face| smooth.corners[*face as usize])
-            .chain(done.iter().map(|piece| piece.corners))
-            .collect();
-        let edge_marks = if mesh.edge_marks.is_empty() {
-            Vec::new()
-        } else {
-            let of_kept = kept.iter().map(|face| mesh.edge_marks[*face as usize]);
-            of_kept.chain(done.iter().map(|piece| piece.marks)).collect()
-        };
-        // What was cut is rounded, and has the smooth normals.
-        let none = |_: &Facet| [u32::MAX; 3];
-        let corner_normals = if mesh.corner_normals.is_empty() {
-            Vec::new()
-        } else {
-            let of_kept = kept.iter().map(|face| mesh.corner_normals[*face as usize]);
-            of_kept.chain(done.iter().map(none)).collect()
-        };
-        let (uvs, corner_uvs) = self.texture(mesh, kept, done);
-        let finer = Mesh {
-            uvs,
-            corner_uvs,
-            corner_colours: self.colours(mesh, kept, done),
-            normals: mesh.normals.clone(),
-            corner_normals,
-            origin: mesh.origin,
-            extents: mesh.extents.clone(),
-            face_normals: crate::mesh::build::face_normals(&self.positions, &triangles, |f| {
-                mesh.extent(crate::mesh::FaceId(hosts[f])).scale
-            }),
-            face_part: faces().map(|f| mesh.face_part[f as usize]).collect(),
-            face_material: faces().map(|f| mesh.face_material[f as usize]).collect(),
-            face_paint: faces().filter_map(|f| mesh.face_paint.get(f as usize).copied()).collect(),
-            edges: Edges::build(self.positions.len(), &triangles),
-            positions: self.positions,
-            triangles,
-            edge_marks,
-            wires: mesh.wires.clone(),
-            cleaning: mesh.cleaning,
-        };
-        let finer_smooth = SmoothNormals {
-            normals: self.normals,
-            vertices: self.vertices,
-            corners,
-            parting: smooth.parting.carried(mesh, &finer),
-            straight: straight.carried(mesh, &finer),
-            seamless: smooth.seamless,
-        };
-        Refined { mesh: finer, smooth: finer_smooth, hosts }
-    }
 }
-
-/// Texture coordinates and colours of new corners are rounded to this part.
-const UV_STEPS: f64 = 65536.0;
 
 impl Facet {
     /// The smooth vertices at the ends of a side, smaller first.
@@ -391,9 +303,9 @@ mod tests {
             let half = ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4;
             if half { ends[0].distance(ends[1]) * 10.0 } else { 0.0 }
         };
-        let Refined { mesh: finer, smooth: normals, hosts } =
+        let Refined { mesh: finer, smooth: normals, hosts, edges } =
             refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
-        assert_eq!(mesh.triangles.len(), 20);
+        assert_eq!((mesh.triangles.len(), edges.len()), (20, 30));
         assert!(finer.triangles.len() > 500 && hosts.len() == finer.triangles.len());
         assert_eq!((finer.edges.border_count(), finer.edges.non_manifold_count()), (0, 0));
         let euler = finer.positions.len() as i64 - finer.edges.len() as i64 + finer.triangles.len() as i64;

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::planes::{Planes, area};
 use crate::mesh::groups::Groups;
-use crate::mesh::{Dihedral, EdgeFaces, Mesh};
+use crate::mesh::{EdgeFaces, Mesh, Turns};
 
 /// A piece is machined if flats hold this part of its surface. Of 60 models looked at scans and figures
 /// have 0 to 4 %, machined parts 14 % and more.
@@ -131,7 +131,7 @@ impl Count {
 
 /// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for
 /// statistics are judged together with those of their part and material.
-pub(super) fn verdicts(mesh: &Mesh, planes: &Planes, all: bool) -> Vec<Verdict> {
+pub(super) fn verdicts(mesh: &Mesh, turns: &Turns, planes: &Planes, all: bool) -> Vec<Verdict> {
     let faces = mesh.triangles.len();
     let pieces = Groups::new(faces, |join| {
         for edge in 0..mesh.edges.len() {
@@ -155,7 +155,7 @@ pub(super) fn verdicts(mesh: &Mesh, planes: &Planes, all: bool) -> Vec<Verdict> 
     let mut counts = vec![Count::default(); pieces_found as usize];
     let of_faces = runs(faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
     let of_edges = runs(mesh.edges.len(), |edge| {
-        let (face, count) = of_edge(mesh, planes, edge)?;
+        let (face, count) = of_edge(mesh, turns, planes, edge)?;
         Some((number[face as usize], count))
     });
     for (piece, count) in of_faces.into_iter().chain(of_edges) {
@@ -203,14 +203,16 @@ fn runs(items: usize, count: impl Fn(usize) -> Option<(u32, Count)> + Sync) -> V
 }
 
 /// What is counted of an edge between two faces with area, and one of them.
-fn of_edge(mesh: &Mesh, planes: &Planes, edge: usize) -> Option<(u32, Count)> {
-    let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return None };
-    if faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
+#[inline]
+fn of_edge(mesh: &Mesh, turns: &Turns, planes: &Planes, edge: usize) -> Option<(u32, Count)> {
+    let cosine = turns.of_two(edge);
+    let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
+    // Beside a face without area the cosine is zero.
+    if cosine == 0.0 && faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
         return None;
     }
-    let sharp = Dihedral::of(mesh, faces, same_way).cosine < SHARP_COSINE;
     let flat = u32::from(planes.flat.contains(edge));
-    Some((faces[0], Count { edges: 1, flat, sharp: u32::from(sharp), ..Count::default() }))
+    Some((faces[0], Count { edges: 1, flat, sharp: u32::from(cosine < SHARP_COSINE), ..Count::default() }))
 }
 
 fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {

@@ -55,9 +55,16 @@ impl SmoothNormals {
             EdgeFaces::Many(_) => return None,
         };
         let corners = self.corners_of(face)?;
-        let triangle = mesh.triangles[face as usize];
-        let corner = |v: u32| triangle.iter().position(|t| *t == v).map(|k| corners[k]);
-        let (a, b) = (corner(ends[0])?, corner(ends[1])?);
+        let [u, v, w] = mesh.triangles[face as usize];
+        let [lo, hi] = ends;
+        // The side that the edge is, whichever way it runs.
+        let (a, b) = if (lo, hi) == (u.min(v), u.max(v)) {
+            (corners[0], corners[1])
+        } else if (lo, hi) == (v.min(w), v.max(w)) {
+            (corners[1], corners[2])
+        } else {
+            (corners[2], corners[0])
+        };
         Some([a.min(b), a.max(b)])
     }
 

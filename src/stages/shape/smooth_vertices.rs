@@ -8,7 +8,7 @@ use super::normal_sum::{FaceWeights, NormalSum};
 use super::parting;
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, Mesh};
+use crate::mesh::{EdgeFaces, Mesh, shares};
 
 impl SmoothNormals {
     /// The normals of a mesh all of which is one rounded surface without hard edges.
@@ -92,19 +92,17 @@ fn uneven(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
 /// there.
 fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
     let count = mesh.positions.len();
-    // Each worker owns a range of vertices, so that sums do not depend on the number of workers.
+    // Each worker owns a share of the vertices, so that sums do not depend on the number of workers.
     let workers = if count < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
-    let bounds: Vec<usize> = (0..=workers).map(|k| count * k / workers).collect();
-    let parts: Vec<Vec<DVec3>> = bounds
-        .par_windows(2)
-        .map(|range| {
-            let mut sums = vec![NormalSum::default(); range[1] - range[0]];
+    let parts: Vec<Vec<DVec3>> = shares(count, &mesh.triangles, workers)
+        .par_iter()
+        .with_max_len(1)
+        .map(|share| {
+            let mut sums = vec![NormalSum::default(); share.vertices.len()];
             let mut own = vec![DVec3::ZERO; if mesh.corner_normals.is_empty() { 0 } else { sums.len() }];
-            for (face, triangle) in mesh.triangles.iter().enumerate() {
-                let slots = triangle.map(|v| (v as usize).wrapping_sub(range[0]));
-                if slots.iter().all(|slot| *slot >= sums.len()) || !counts(face) {
-                    continue;
-                }
+            for face in share.faces.iter().flat_map(Clone::clone).filter(|face| counts(*face)) {
+                let triangle = mesh.triangles[face];
+                let slots = triangle.map(|v| (v as usize).wrapping_sub(share.vertices.start));
                 let Some(weighted) = FaceWeights::new(triangle.map(|v| mesh.positions[v as usize])) else {
                     continue;
                 };

@@ -5,9 +5,10 @@
 //! their sides would swell to an egg. A shell is as thin, but both its walls bend the same way, and keep
 //! their distance.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::near_rays::near_faces;
 use super::{EdgeArc, SmoothNormals};
 use crate::mesh::{FaceId, Mesh};
 use crate::trees::ray_tree::RayTree;
@@ -17,32 +18,65 @@ const HALF: f64 = 0.5;
 /// A ray starts so many heights of the arc inside the edge, so as not to meet the faces beside it.
 const INSIDE: f64 = 1e-3;
 
+/// What is asked of an edge: whether a ray from beside its middle meets the wall behind.
+struct Question {
+    edge: usize,
+    start: DVec3,
+    /// The normal in the middle of the arc.
+    normal: DVec3,
+    reach: f64,
+    rise: f64,
+}
+
+impl Question {
+    fn of(mesh: &Mesh, smooth: &SmoothNormals, edge: usize, ends: [u32; 2]) -> Self {
+        let arc = EdgeArc::over(mesh, smooth, ends);
+        let (height, normal) = (arc.height(), arc.middle_normal());
+        let rise = height.dot(normal);
+        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+        let start = (a + b) / 2.0 - normal * (INSIDE * rise.abs());
+        Self { edge, start, normal, reach: rise.abs() / HALF, rise }
+    }
+}
+
 /// Which of the edges, with the smooth vertices at their ends, are thin; in order.
 pub(super) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2])]) -> Vec<usize> {
     if edges.is_empty() {
         return Vec::new();
     }
-    let tree = RayTree::new(mesh);
-    let is_thin = |(edge, ends): &(usize, [u32; 2])| {
-        let arc = EdgeArc::over(mesh, smooth, *ends);
-        let (height, normal) = (arc.height(), arc.middle_normal());
-        let rise = height.dot(normal);
-        let [a, b] = mesh.edges.vertices[*edge].map(|v| mesh.positions[v as usize]);
-        let start = (a + b) / 2.0 - normal * (INSIDE * rise.abs());
-        let own = mesh.face_part[mesh.edges.faces(*edge).list()[0] as usize];
+    let questions: Vec<Question> =
+        edges.par_iter().map(|(edge, ends)| Question::of(mesh, smooth, *edge, *ends)).collect();
+    let rays: Vec<[DVec3; 2]> = questions.iter().map(|q| [q.start, q.start - q.normal * q.reach]).collect();
+    let near = near_faces(mesh, &rays);
+    let tree = RayTree::new(&only(mesh, &near));
+    let is_thin = |q: &Question| {
+        let own = mesh.face_part[mesh.edges.faces(q.edge).list()[0] as usize];
         // The ray leaves the part where it meets the wall behind, which does not begin at the edge.
         let is_wall = |face: u32| {
+            let face = near[face as usize];
             let outward = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
             let corners = mesh.triangles[face as usize];
             mesh.face_part[face as usize] == own
-                && outward.dot(normal) < 0.0
-                && !mesh.edges.vertices[*edge].iter().any(|v| corners.contains(v))
+                && outward.dot(q.normal) < 0.0
+                && !mesh.edges.vertices[q.edge].iter().any(|v| corners.contains(v))
         };
-        let reach = rise.abs() / HALF;
-        let behind = tree.first_met(start, -normal, reach, is_wall);
-        behind.is_some_and(|(face, thickness)| (rise + swelling(mesh, smooth, face)).abs() > HALF * thickness)
+        let behind = tree.first_met(q.start, -q.normal, q.reach, is_wall);
+        behind.is_some_and(|(face, thickness)| {
+            (q.rise + swelling(mesh, smooth, near[face as usize])).abs() > HALF * thickness
+        })
     };
-    edges.par_iter().filter(|edge| is_thin(edge)).map(|(edge, _)| *edge).collect()
+    questions.par_iter().filter(|question| is_thin(question)).map(|question| question.edge).collect()
+}
+
+/// Some faces of a mesh, enough of it for rays to meet them.
+fn only(mesh: &Mesh, faces: &[u32]) -> Mesh {
+    Mesh {
+        extents: mesh.extents.clone(),
+        positions: faces.iter().flat_map(|face| mesh.corners(FaceId(*face))).collect(),
+        triangles: (0..faces.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+        face_normals: faces.iter().map(|face| mesh.face_normals[*face as usize]).collect(),
+        ..Mesh::default()
+    }
 }
 
 /// How far a face stands out where it is rounded, on the mean over its sides; negative where it is hollow.
@@ -62,7 +96,6 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
     use crate::shape::refine::refined;
-    use glam::DVec3;
 
     /// Two square sheets back to back, so far apart; each with normals by which it bends outward, or inward if
     /// `bend` is below zero.

@@ -1,0 +1,213 @@
+//! The edges of a mesh of which some faces were left out or cut into pieces: those of the whole, without what went, and
+//! those of the pieces, in the order that building them anew would give.
+
+use super::edges::{MANY, NONE, SAME_WAY};
+use super::{EdgeFaces, Edges};
+
+/// No edge, no face.
+const GONE: u32 = u32::MAX;
+
+impl Edges {
+    /// The edges after faces were cut: `renamed` are the new numbers of the faces, `u32::MAX` for those that were cut; the
+    /// others are the first `kept` ones and keep their order. `pieces` follow them, whose new vertices are numbered behind all
+    /// others. Each side of a face that was cut is a side of one piece, or is cut for all faces beside it.
+    ///
+    /// Also tells for each edge of before which it is now, `u32::MAX` for those that were cut.
+    pub(crate) fn spliced(
+        &self,
+        renamed: &[u32],
+        kept: u32,
+        vertex_count: usize,
+        pieces: &[[u32; 3]],
+    ) -> (Self, Vec<u32>) {
+        let own = Self::build(vertex_count, pieces);
+        let mut all = Self::default();
+        all.vertices.reserve_exact(self.len() + own.len());
+        all.faces.reserve_exact(self.len() + own.len());
+        let mut ids = Vec::with_capacity(self.len());
+        let mut next = 0;
+        for (edge, ends) in self.vertices.iter().enumerate() {
+            while own.vertices.get(next).is_some_and(|other| other < ends) {
+                all.add(&own, next, kept);
+                next += 1;
+            }
+            let [first, second] = self.faces[edge];
+            let beside = own.vertices.get(next) == Some(ends);
+            if !beside && first != MANY {
+                let first = renamed[first as usize];
+                let second = match second {
+                    NONE => NONE,
+                    second => match renamed[(second & !SAME_WAY) as usize] {
+                        GONE => GONE,
+                        face => face | second & SAME_WAY,
+                    },
+                };
+                if first == GONE {
+                    ids.push(GONE);
+                    continue;
+                }
+                ids.push(all.len() as u32);
+                all.vertices.push(*ends);
+                all.faces.push([first, second]);
+                continue;
+            }
+            let (before, same_way) = match self.faces(edge) {
+                EdgeFaces::Two { same_way, .. } => (self.faces(edge), same_way),
+                faces => (faces, false),
+            };
+            let mut faces: Vec<u32> = before
+                .list()
+                .iter()
+                .map(|face| renamed[*face as usize])
+                .filter(|face| *face != GONE)
+                .collect();
+            if beside {
+                faces.extend(own.faces(next).list().iter().map(|piece| piece + kept));
+                next += 1;
+            }
+            if faces.is_empty() {
+                ids.push(GONE);
+                continue;
+            }
+            ids.push(all.len() as u32);
+            all.push(*ends, &faces, same_way);
+        }
+        (next..own.len()).for_each(|edge| all.add(&own, edge, kept));
+        (all, ids)
+    }
+
+    /// The edges after faces were left out: `renamed` are the new numbers of the faces, which keep their order, `u32::MAX` for
+    /// those that went; `triangles` are those that are left.
+    pub(super) fn without(&self, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
+        let mut all = Self::default();
+        all.vertices.reserve_exact(self.len());
+        all.faces.reserve_exact(self.len());
+        let mut left = Vec::new();
+        for (edge, ends) in self.vertices.iter().enumerate() {
+            let faces = self.faces(edge);
+            left.clear();
+            let still = faces.list().iter().map(|face| renamed[*face as usize]);
+            left.extend(still.filter(|face| *face != GONE));
+            let same_way = match (faces, left.as_slice()) {
+                (_, []) => continue,
+                (EdgeFaces::Two { same_way, .. }, _) => same_way,
+                (_, [a, b]) => {
+                    let up = |face: u32| {
+                        let [a, b, c] = triangles[face as usize];
+                        [[a, b], [b, c], [c, a]].contains(ends)
+                    };
+                    up(*a) == up(*b)
+                }
+                _ => false,
+            };
+            all.push(*ends, &left, same_way);
+        }
+        all
+    }
+
+    /// Adds an edge of others, whose faces are numbered behind so many.
+    fn add(&mut self, others: &Self, edge: usize, behind: u32) {
+        let faces = others.faces(edge);
+        let same_way = matches!(faces, EdgeFaces::Two { same_way: true, .. });
+        match faces.list() {
+            [face] => self.push(others.vertices[edge], &[face + behind], same_way),
+            [a, b] => self.push(others.vertices[edge], &[a + behind, b + behind], same_way),
+            faces => {
+                let faces: Vec<u32> = faces.iter().map(|face| face + behind).collect();
+                self.push(others.vertices[edge], &faces, same_way);
+            }
+        }
+    }
+
+    fn push(&mut self, ends: [u32; 2], faces: &[u32], same_way: bool) {
+        self.vertices.push(ends);
+        self.faces.push(match faces {
+            [face] => [*face, NONE],
+            [first, second] => [*first, second | if same_way { SAME_WAY } else { 0 }],
+            faces => {
+                self.fan_starts.push(self.fans.len() as u32);
+                self.fans.extend(faces);
+                [MANY, self.fan_starts.len() as u32 - 1]
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of cells, each cut in two, with a fin on one of its edges and a face that runs against the others.
+    fn sheet(n: u32) -> Vec<[u32; 3]> {
+        let at = |x: u32, y: u32| y * (n + 1) + x;
+        let mut faces = Vec::new();
+        for (x, y) in (0..n).flat_map(|x| (0..n).map(move |y| (x, y))) {
+            faces.push([at(x, y), at(x + 1, y), at(x + 1, y + 1)]);
+            faces.push([at(x, y), at(x + 1, y + 1), at(x, y + 1)]);
+        }
+        faces.push([at(1, 1), at(2, 1), (n + 1) * (n + 1)]);
+        faces[7].swap(0, 1);
+        faces
+    }
+
+    #[test]
+    fn edges_without_some_faces_are_those_built_anew() {
+        let faces = sheet(6);
+        let edges = Edges::build(50, &faces);
+        for every in [1, 2, 3, 7, 100] {
+            let mut left: Vec<[u32; 3]> = Vec::new();
+            let mut renamed = Vec::new();
+            for (number, face) in faces.iter().enumerate() {
+                let goes = number % every == every - 1;
+                renamed.push(if goes { GONE } else { left.len() as u32 });
+                left.extend(Some(*face).filter(|_| !goes));
+            }
+            let (fewer, anew) = (edges.without(&renamed, &left), Edges::build(50, &left));
+            assert_eq!(fewer.vertices, anew.vertices);
+            assert!((0..anew.len()).all(|edge| fewer.faces(edge) == anew.faces(edge)), "{every}");
+        }
+    }
+
+    #[test]
+    fn spliced_edges_are_those_built_anew() {
+        let n = 6;
+        let faces = sheet(n);
+        let count = (n + 1) * (n + 1) + 1;
+        let edges = Edges::build(count as usize, &faces);
+        // Some edges get a middle; faces with one or two of them are cut into fans round a corner.
+        for every in [1, 2, 5, 200] {
+            let middle = |a: u32, b: u32| {
+                let edge = edges.vertices.binary_search(&[a.min(b), a.max(b)]).unwrap();
+                (edge % every == 0).then_some(count + edge as u32)
+            };
+            let (mut renamed, mut kept, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
+            for face @ [a, b, c] in faces.iter().copied() {
+                let ring: Vec<u32> = [(a, b), (b, c), (c, a)]
+                    .into_iter()
+                    .flat_map(|(a, b)| [Some(a), middle(a, b)])
+                    .flatten()
+                    .collect();
+                if ring.len() == 3 {
+                    renamed.push(kept.len() as u32);
+                    kept.push(face);
+                } else {
+                    // Round a point of its own, so that no side runs along another.
+                    let own = count + edges.len() as u32 + renamed.len() as u32;
+                    renamed.push(GONE);
+                    pieces.extend((0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()], own]));
+                }
+            }
+            let vertices = count as usize + edges.len() + faces.len();
+            let (spliced, ids) = edges.spliced(&renamed, kept.len() as u32, vertices, &pieces);
+            let all: Vec<[u32; 3]> = kept.iter().chain(&pieces).copied().collect();
+            let anew = Edges::build(vertices, &all);
+            assert_eq!(spliced.vertices, anew.vertices);
+            assert!((0..anew.len()).all(|edge| spliced.faces(edge) == anew.faces(edge)), "{every}");
+            assert_eq!((spliced.fans, spliced.fan_starts), (anew.fans, anew.fan_starts));
+            for (edge, id) in ids.iter().enumerate() {
+                let now = spliced.vertices.get(*id as usize);
+                assert_eq!(now, Some(&edges.vertices[edge]).filter(|_| edge % every != 0));
+            }
+        }
+    }
+}
