@@ -105,7 +105,7 @@ fn a_turn_fades_from_its_last_frame_to_its_first() {
     turn("shard", "--set motion.fade=1 --shard 1/12");
     assert_eq!(folder.text("once/0.svg"), folder.text("shard/0.svg"));
     turn("plain", "");
-    // A half turn of what looks alike from both sides fades alike, at the begin too.
+    // Thinner strokes have a width of their own.
     let thin = |frame: usize| folder.text(&format!("once/{frame}.svg")).matches("stroke-width").count();
     let plain = |frame: usize| folder.text(&format!("plain/{frame}.svg")).matches("stroke-width").count();
     assert!((0..12).any(|frame| thin(frame) > plain(frame)));
