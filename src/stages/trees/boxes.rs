@@ -137,7 +137,7 @@ impl From<GridBox> for Probe {
         let mut made = Self { low: [0; 3], high: [0; 3] };
         for axis in 0..3 {
             made.low[axis] = u64::from(one.low[axis]) * ONES;
-            made.high[axis] = u64::from(one.high[axis]) * ONES | SPARE;
+            made.high[axis] = (u64::from(one.high[axis]) * ONES) | SPARE;
         }
         made
     }
