@@ -10,7 +10,7 @@ use std::sync::Arc;
 use ligne::drawing::{Drawing, Page, Unit};
 use ligne::kurbo::Vec2;
 use ligne::scene::NamedView;
-use ligne::stages::lines::{EdgeSearch, Surface};
+use ligne::stages::lines::{EdgeSearch, Known, Surface};
 use ligne::stages::mesh::Mesh;
 use ligne::stages::stroke::{self, InkContext};
 use ligne::stages::view::View;
@@ -26,6 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // What all views share.
     let surface = Surface::new(Mesh::build(scene.to_soup()), &style.lines);
     let search = EdgeSearch::new(&surface);
+    let known = Known { search: Some(&search), ..Known::default() };
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| part.name.as_str().into()).collect();
     let materials: Vec<_> = scene.materials.iter().map(|m| (m.name.as_str().into(), m.colour)).collect();
     let hidden = style.lines.hidden;
@@ -55,7 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let camera = Camera::named(named, scene.up).with_frame(page.width, page.height).fit(&scene);
         let surface = surface.clone().finer_for(&camera);
         let view = View::new(&surface.mesh, &camera);
-        let feature_lines = lines::extract_with(&surface, Some(&search), &view, &style.lines);
+        let feature_lines = lines::extract_with(&surface, known, &view, &style.lines);
         let map = viewmap::build(&surface.mesh, &view, &feature_lines, &style.lines);
         let ahead = Ahead {
             mesh: &surface.mesh,

@@ -43,6 +43,11 @@ impl<T: Copy> Grouped<T> {
         self.starts.len().saturating_sub(1)
     }
 
+    /// How many values all groups have together.
+    pub fn value_count(&self) -> usize {
+        self.values.len()
+    }
+
     /// The values of a group.
     #[inline]
     pub fn of(&self, group: usize) -> &[T] {
@@ -104,7 +109,7 @@ mod tests {
     #[test]
     fn values_keep_their_order_in_their_group() {
         let lengths = of_words(&["an", "b", "of", "", "c", "to"]);
-        assert_eq!(lengths.count(), 4);
+        assert_eq!((lengths.count(), lengths.value_count()), (4, 6));
         assert_eq!([lengths.of(0), lengths.of(1), lengths.of(3)], [&[""][..], &["b", "c"], &[]]);
         assert_eq!(lengths.of(2), ["an", "of", "to"]);
         assert_eq!(lengths.of_all(1..3), ["b", "c", "an", "of", "to"]);

@@ -1,12 +1,14 @@
-//! [`LateSearch`]: a search for contours that is made once it pays.
+//! [`LateSearch`]: what all views of a surface share, made when it pays.
 //!
 //! The trees in the dual space (see [`EdgeSearch`]) take some time to make and save a little in each view
-//! after: not for one drawing, but for all the views of a turning model.
+//! after: not for one drawing, but for all the views of a turning model. Where the surface passes through itself
+//! no view changes, so the first one finds it for all.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crate::lines::{EdgeSearch, Surface};
+use crate::lines::{EdgeSearch, Known, LineKind, LineOptions, Surface, intersections};
+use crate::trees::intersect::IntersectionCurves;
 
 /// The search is made for this view of a surface. It takes as long as it saves in 40 to 240 views, in the middle
 /// of the models of `cargo bench --bench dual_tree` in about 100 (last column). Made when as many views have
@@ -16,26 +18,29 @@ const MADE_FOR_VIEW: u32 = 100;
 /// Asking each of fewer edges than this takes half a millisecond at most.
 const FEW_EDGES: usize = 20_000;
 
-/// A search for the lines of the views of one surface, not there at first.
+/// What the views of one surface share, not there at first.
 #[derive(Debug, Default)]
 pub(super) struct LateSearch {
     views: AtomicU32,
     search: OnceLock<EdgeSearch>,
+    intersections: OnceLock<IntersectionCurves>,
 }
 
 impl LateSearch {
-    /// The search for one more view, if there is one. The lines are the same with and without.
+    /// What is known for one more view. The lines are the same with and without.
     ///
-    /// Views may be drawn side by side: one thread makes the search while the others go without, so that none
+    /// Views may be drawn side by side: one thread makes what is missing while the others go without, so that none
     /// ever waits.
-    pub fn of_next_view(&self, surface: &Surface) -> Option<&EdgeSearch> {
-        if surface.mesh.edges.len() < FEW_EDGES {
-            return None;
-        }
-        if self.search.get().is_none() && self.views.fetch_add(1, Ordering::Relaxed) + 1 == MADE_FOR_VIEW {
-            // No other view has this number.
+    pub fn of_next_view(&self, surface: &Surface, options: &LineOptions) -> Known<'_> {
+        // No other view has this number.
+        let view = self.views.fetch_add(1, Ordering::Relaxed);
+        if view + 1 == MADE_FOR_VIEW && surface.mesh.edges.len() >= FEW_EDGES {
             let _ = self.search.set(EdgeSearch::new(surface));
         }
-        self.search.get()
+        let wanted = options.enabled && options.kinds.contains(&LineKind::Intersection);
+        if view == 0 && wanted && intersections::is_searched_in_full(&surface.mesh, options.hidden) {
+            let _ = self.intersections.set(intersections::all_curves(&surface.mesh));
+        }
+        Known { search: self.search.get(), intersections: self.intersections.get() }
     }
 }

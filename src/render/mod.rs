@@ -54,7 +54,7 @@ pub use stage::Stage;
 use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
 use crate::error::Error;
 use crate::hatch::{self, Hatched};
-use crate::lines::{self, FeatureLines, LineOptions, Surface, Textures};
+use crate::lines::{self, FeatureLines, Known, LineOptions, Surface, Textures};
 
 use crate::math::colour::Colour;
 use crate::mesh::Mesh;
@@ -267,8 +267,9 @@ impl<'a> Prepared<'a> {
         report.stages_ms.topology = watch.lap_ms();
 
         // Finer triangles are those of this view alone.
-        let search = if !surface.refined { self.search.of_next_view(surface) } else { None };
-        let mut lines = lines::extract_with(surface, search, &view, sought);
+        let known =
+            if surface.refined { Known::default() } else { self.search.of_next_view(surface, sought) };
+        let mut lines = lines::extract_with(surface, known, &view, sought);
         let mut warnings = Vec::new();
         let px = Length::px(1.0).in_unit(unit);
         let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);

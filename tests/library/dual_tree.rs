@@ -9,7 +9,7 @@ use crate::support::scenes::{CAMERAS, SCENES, random_camera, random_scene};
 use crate::support::solids::{Solid, cuboid, sphere};
 use glam::DVec3;
 use ligne::scene::{Camera, Projection, Scene};
-use ligne::stages::lines::{self, Contours, EdgeSearch, LineKind, LineOptions, Surface};
+use ligne::stages::lines::{self, Contours, EdgeSearch, Known, LineKind, LineOptions, Surface};
 use ligne::stages::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
 use ligne::stages::trees::ToneTree;
 use ligne::stages::view::View;
@@ -20,7 +20,8 @@ use rayon::prelude::*;
 fn check(surface: &Surface, search: &EdgeSearch, camera: &Camera, options: &LineOptions) -> (usize, usize) {
     let view = View::new(&surface.mesh, camera);
     let plain = lines::extract(surface, &view, options);
-    assert_eq!(lines::extract_with(surface, Some(search), &view, options), plain, "{camera:?}");
+    let known = Known { search: Some(search), ..Known::default() };
+    assert_eq!(lines::extract_with(surface, known, &view, options), plain, "{camera:?}");
 
     let found = search.tree().candidates(view.frame.homogeneous_eye()).items;
     let with_fixed = search.candidates(&view.frame).items;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
+#[allow(dead_code)]
 #[path = "../../examples/make_stress/scenes.rs"]
 mod scenes;
 

@@ -5,7 +5,7 @@ use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
 use ligne::scene::{Camera, Scene, UpAxis};
 use ligne::stages::lines::intersections::{all_curves, visible_curves};
-use ligne::stages::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, Role};
+use ligne::stages::lines::{self, FeatureLines, FeatureSegment, Known, LineKind, LineOptions, Role, Surface};
 use ligne::stages::mesh::{Mesh, Soup};
 use ligne::stages::shape::Origin;
 use ligne::stages::trees::intersect::IntersectionCurves;
@@ -105,6 +105,28 @@ fn a_field_of_sunken_boxes_shows_all_its_seams() {
         cuboid(DVec3::ZERO, DVec3::new(0.9, 0.7, 0.3 + (i * 7 % 17) as f64 / 10.0)).moved(turned)
     };
     assert!(compare_solids("field", std::iter::once(ground).chain((0..900).map(house))) > 1000.0);
+}
+
+#[test]
+fn curves_found_once_make_the_lines_of_every_view() {
+    let mut both = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
+    both.add(sphere(40, 1.2));
+    let options = LineOptions::default();
+    let surface = Surface::new(mesh_of(&both), &options);
+    let curves = all_curves(&surface.mesh);
+    assert!(curves.segments.len() > 100);
+    for (azimuth, elevation) in DIRECTIONS {
+        let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z);
+        let view = View::new(&surface.mesh, &camera.fit_points(&both.positions, 0.05));
+        let with = |intersections| {
+            let known = Known { intersections: Some(intersections), ..Known::default() };
+            lines::extract_with(&surface, known, &view, &options)
+        };
+        let plain = lines::extract(&surface, &view, &options);
+        assert_eq!(with(&curves), plain);
+        // What is known is not sought again.
+        assert_ne!(with(&IntersectionCurves::default()), plain);
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! visible lines are drawn, a buffer of the faces in sight proposes those that may meet others;
 //! from the pairs found among them the curves are followed over the mesh, so that every visible
 //! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
-//! lines, get the full search.
+//! lines, get the full search, which no view changes.
 
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::mesh::{FaceId, Mesh};
@@ -20,13 +20,21 @@ pub const FULL_SEARCH_TRIANGLES: usize = 300_000;
 /// Adds the intersection curves of all faces that have area; without hidden lines, at least those
 /// that show in the view.
 pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLines) {
-    let curves = if hidden == HiddenLines::None && mesh.triangles.len() > FULL_SEARCH_TRIANGLES {
-        visible_curves(mesh, view)
-    } else {
-        all_curves(mesh)
-    };
+    let curves =
+        if is_searched_in_full(mesh, hidden) { all_curves(mesh) } else { visible_curves(mesh, view) };
+    add(&curves, mesh, view, lines);
+}
+
+/// Whether [`all_curves`] are sought, and not those that show in a view.
+#[must_use]
+pub fn is_searched_in_full(mesh: &Mesh, hidden: HiddenLines) -> bool {
+    hidden != HiddenLines::None || mesh.triangles.len() <= FULL_SEARCH_TRIANGLES
+}
+
+/// Adds curves of a mesh to the lines of a view.
+pub(super) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: &mut FeatureLines) {
     let first = (mesh.positions.len() + lines.points.len()) as u32;
-    lines.points.extend(curves.points);
+    lines.points.extend_from_slice(&curves.points);
     lines.segments.extend(curves.segments.iter().map(|s| {
         let owner = owner(mesh, view, s.faces) as usize;
         FeatureSegment {

@@ -41,6 +41,7 @@ use rayon::prelude::*;
 
 use crate::field;
 use crate::shape::{Origin, Patches};
+use crate::trees::intersect::IntersectionCurves;
 use crate::view::View;
 
 /// n·v as contours are traced from it, one per smooth vertex: averaged where it is near zero.
@@ -52,27 +53,30 @@ pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
     facing
 }
 
+/// What was made once for all views of a surface.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Known<'a> {
+    /// A search for lines along edges; one that does not fit the mesh is left alone.
+    pub search: Option<&'a EdgeSearch>,
+    /// All curves along which the surface passes through itself: [`intersections::all_curves`].
+    pub intersections: Option<&'a IntersectionCurves>,
+}
+
 /// All feature lines of a view of a surface that the options ask for.
 #[must_use]
 pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
-    extract_with(surface, None, view, options)
+    extract_with(surface, Known::default(), view, options)
 }
 
-/// All feature lines of a view, found with the help of a search that was made once for all views of the surface;
-/// a search that does not fit its mesh is left alone.
+/// All feature lines of a view, found with the help of what was made once for all views of the surface.
 #[must_use]
-pub fn extract_with(
-    surface: &Surface,
-    search: Option<&EdgeSearch>,
-    view: &View,
-    options: &LineOptions,
-) -> FeatureLines {
+pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &LineOptions) -> FeatureLines {
     let mut lines = FeatureLines::default();
     if !options.enabled || options.kinds.is_empty() {
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;
-    lines.segments = match search.filter(|search| search.fits(mesh)) {
+    lines.segments = match known.search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, options),
         Some(search) => {
             let among = search.candidates(&view.frame).items;
@@ -83,7 +87,10 @@ pub fn extract_with(
         smooth_contours::find(mesh, view, smooth, &facing(surface, view), &mut lines);
     }
     if options.kinds.contains(&LineKind::Intersection) {
-        intersections::find(mesh, view, options.hidden, &mut lines);
+        match known.intersections {
+            Some(curves) => intersections::add(curves, mesh, view, &mut lines),
+            None => intersections::find(mesh, view, options.hidden, &mut lines),
+        }
     }
     if inside::wanted(options) {
         // Contours along edges of the mesh need no normals, lines inside always do.

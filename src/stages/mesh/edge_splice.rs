@@ -178,7 +178,7 @@ mod tests {
         for every in [1, 2, 5, 200] {
             let middle = |a: u32, b: u32| {
                 let edge = edges.vertices.binary_search(&[a.min(b), a.max(b)]).unwrap();
-                (edge % every == 0).then_some(count + edge as u32)
+                edge.is_multiple_of(every).then_some(count + edge as u32)
             };
             let (mut renamed, mut kept, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
             for face @ [a, b, c] in faces.iter().copied() {

@@ -22,7 +22,10 @@ pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize
     let workers = workers.max(1);
     let bound = |k: usize| vertex_count * k / workers;
     if workers == 1 {
-        return vec![Share { vertices: 0..vertex_count, faces: vec![0..triangles.len()] }];
+        return vec![Share {
+            vertices: 0..vertex_count,
+            faces: std::iter::once(0..triangles.len()).collect(),
+        }];
     }
     let found: Vec<Vec<Vec<Range<usize>>>> = triangles
         .par_chunks(CHUNK)

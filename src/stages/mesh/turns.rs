@@ -37,7 +37,7 @@ impl Turns {
     #[must_use]
     pub fn at(&self, mesh: &Mesh, edge: usize) -> f32 {
         let cosine = self.cosines[edge];
-        if cosine < 0.0 || cosine > 0.0 { cosine } else { looked_through(mesh, edge) }
+        if cosine.abs() > 0.0 { cosine } else { looked_through(mesh, edge) }
     }
 }
 

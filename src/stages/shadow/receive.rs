@@ -17,7 +17,7 @@ use crate::view::View;
 use crate::viewmap::grid::Grid;
 use crate::viewmap::limits::Limits;
 use crate::viewmap::occlude::covered;
-use crate::viewmap::occluders::{Occluder, Triangles};
+use crate::viewmap::occluders::{Occluder, Reach, Triangles};
 
 /// Most tiles across the image.
 const MOST_TILES: u32 = 512;
@@ -99,7 +99,8 @@ fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candida
                 if items.is_empty() || ids.is_empty() {
                     continue;
                 }
-                let all: Vec<Occluder> = ids.iter().map(|id| triangles.occluder(*id)).collect();
+                let all: Vec<(Reach, Occluder)> =
+                    ids.iter().map(|id| (triangles.reach(*id), triangles.occluder(*id))).collect();
                 for item in items.iter().filter(|item| item.end > item.start) {
                     let tester = Tester { view, limits, edge: &edges[item.edge as usize] };
                     tester.gather(item, &all, &mut found);
@@ -122,12 +123,12 @@ struct Tester<'a> {
 
 impl Tester<'_> {
     /// Adds what the faces of a tile receive from a part of the edge.
-    fn gather(&self, item: &Item, faces: &[Occluder], found: &mut Vec<(u32, Candidate)>) {
+    fn gather(&self, item: &Item, faces: &[(Reach, Occluder)], found: &mut Vec<(u32, Candidate)>) {
         let edge = self.edge;
         let (p, q) = (edge.at(item.start), edge.at(item.end));
         let (low, high) = (p.min(q) - self.limits.beside, p.max(q) + self.limits.beside);
-        for face in faces {
-            let b = face.bounds.map(f64::from);
+        for (reach, face) in faces {
+            let b = reach.bounds.map(f64::from);
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }

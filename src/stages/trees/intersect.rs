@@ -11,7 +11,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::boxes::BoxTree;
-use super::triangle_pair::{Common, End, Feature, PairTolerance, Triangle, cross};
+use super::triangle_pair::{Common, End, Feature, PairTolerance, Triangle, cross_beyond};
 
 /// The triangles to look at.
 #[derive(Debug, Clone, Copy)]
@@ -91,11 +91,14 @@ pub(super) fn find_pairs(
                 continue;
             }
             let other_triangle = Triangle::new(positions, other_vertices);
+            if other_triangle.has_on_one_side(&own.corners) {
+                continue;
+            }
             let tolerance = PairTolerance::of_parts(own_scale.max(scale(other)));
             let common = if face < other {
-                cross(own, &other_triangle, tolerance)
+                cross_beyond(own, &other_triangle, tolerance)
             } else {
-                cross(&other_triangle, own, tolerance)
+                cross_beyond(&other_triangle, own, tolerance)
             };
             if let Some(common) = common {
                 found.push(Pair { faces: [face.min(other), face.max(other)], common });

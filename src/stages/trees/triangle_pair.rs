@@ -64,7 +64,26 @@ impl Triangle {
         self.trusted & (a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0)
     }
 
-    /// Distance of a point from the plane, right in sign; zero within the tolerance.
+    /// Distances of points from the plane, right in sign; zero within the tolerance.
+    #[inline]
+    fn distances(&self, points: &[DVec3; 3], normal_length: f64, tolerance: PairTolerance) -> [f64; 3] {
+        let [a, b, c] = self.corners;
+        let reach = |way: DVec3| way.x.abs() + way.y.abs() + way.z.abs();
+        let size = reach(b - a) + reach(c - a);
+        let least = (1.0 - 1e-6) * tolerance.plane * normal_length;
+        points.map(|point| {
+            let way = point - a;
+            // More than any determinant of these points is off by, so that what is below comes to zero either way.
+            let error = 48.0 * f64::EPSILON * (size + reach(way)).powi(3);
+            // Where surfaces lie on each other most corners are in the other plane, and exact signs take long to
+            // say so.
+            if self.normal.dot(way).abs() + error < least {
+                return 0.0;
+            }
+            self.distance(point, normal_length, tolerance)
+        })
+    }
+
     fn distance(&self, point: DVec3, normal_length: f64, tolerance: PairTolerance) -> f64 {
         let [a, b, c] = self.corners.map(coordinates);
         let distance = -orient3d(a, b, c, coordinates(point)) / normal_length;
@@ -112,13 +131,18 @@ pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Com
     if a.has_on_one_side(&b.corners) || b.has_on_one_side(&a.corners) {
         return None;
     }
+    cross_beyond(a, b, tolerance)
+}
+
+/// The same for triangles of which neither is seen at once to lie on one side of the other.
+pub(super) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
     let (a_length, b_length) = (a.normal.length(), b.normal.length());
     if !(a_length > 0.0 && b_length > 0.0) {
         return None;
     }
-    let b_distances = b.corners.map(|p| a.distance(p, a_length, tolerance));
+    let b_distances = a.distances(&b.corners, a_length, tolerance);
     let b_crossings = crossings(b, b_distances)?;
-    let a_distances = a.corners.map(|p| b.distance(p, b_length, tolerance));
+    let a_distances = b.distances(&a.corners, b_length, tolerance);
     let a_crossings = crossings(a, a_distances)?;
 
     let along = (a.normal / a_length).cross(b.normal / b_length);

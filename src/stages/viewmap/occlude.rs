@@ -78,13 +78,31 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     (start <= end).then_some((start, end))
 }
 
-/// What a triangle hides of the part of a segment between two parameters: that part of what it hides of the
-/// whole, so that it does not matter how the segment is cut.
+/// The part of a segment between two parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    from: f64,
+    to: f64,
+    /// Its ends in the image.
+    ends: [DVec2; 2],
+}
+
+impl Part {
+    /// The part of a segment from a parameter to a later one.
+    #[inline]
+    #[must_use]
+    pub fn new(segment: &ImageSegment, from: f64, to: f64) -> Self {
+        Self { from, to, ends: [from, to].map(|t| segment.at(t).truncate()) }
+    }
+}
+
+/// What a triangle hides of a part of a segment: that part of what it hides of the whole, so that it does not
+/// matter how the segment is cut.
 #[inline]
 #[must_use]
 pub fn hidden_interval(
     segment: &ImageSegment,
-    (from, to): (f64, f64),
+    part: &Part,
     triangle: &Occluder,
     frame: &Frame,
     limits: &Limits,
@@ -94,10 +112,13 @@ pub fn hidden_interval(
     if shared[0].is_some() && shared[1].is_some() {
         return None;
     }
-    let range =
-        |from: f64, to: f64| covered(segment.at(from).truncate(), segment.at(to).truncate(), corners, limits);
-    let part = range(from, to)?;
-    let (start, end) = if (from, to) == (0.0, 1.0) { part } else { range(0.0, 1.0)? };
+    let Part { from, to, ends: [p, q] } = *part;
+    let of_part = covered(p, q, corners, limits)?;
+    let (start, end) = if (from, to) == (0.0, 1.0) {
+        of_part
+    } else {
+        covered(segment.a.truncate(), segment.b.truncate(), corners, limits)?
+    };
     // Heights over the plane are measured from the shared corner, where they vanish exactly.
     let base = corners[shared[0].or(shared[1]).unwrap_or(0)];
     let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);

@@ -13,13 +13,20 @@ use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
-/// A triangle that may hide lines, with all that the comparison needs.
+/// How far a triangle reaches in the image, which is all that most comparisons look at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Occluder {
+pub struct Reach {
     /// Least x, greatest x, least y, greatest y in the image, rounded outward.
     pub bounds: [f32; 4],
     /// Greatest nearness of any of its points, rounded towards the eye.
     pub nearest: f32,
+    /// The triangle: a face, or beyond those, an entry of [`View::clipped`].
+    pub id: u32,
+}
+
+/// A triangle that may hide lines, with all that the comparison needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Occluder {
     /// The face it is, or is left of.
     pub face: u32,
     /// Vertex ids of that face.
@@ -107,14 +114,34 @@ impl Triangles<'_> {
     #[must_use]
     pub fn occluder(&self, id: u32) -> Occluder {
         let (corners, face) = corners(self.mesh, self.view, id);
-        let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
         Occluder {
-            bounds: outward_box(&corners),
-            nearest: (nearest as f32).next_up(),
             face,
             ids: self.mesh.triangles[face as usize],
             corners,
             slack: Slack::of(self.mesh.extent(FaceId(face))),
+        }
+    }
+
+    /// How far the triangle with this id reaches.
+    #[inline]
+    #[must_use]
+    pub fn reach(&self, id: u32) -> Reach {
+        let (corners, _) = corners(self.mesh, self.view, id);
+        let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
+        Reach { bounds: outward_box(&corners), nearest: (nearest as f32).next_up(), id }
+    }
+
+    /// How far each triangle reaches.
+    pub(super) fn reaches(&self) -> Vec<Reach> {
+        (0..self.count()).into_par_iter().with_min_len(1 << 12).map(|id| self.reach(id as u32)).collect()
+    }
+
+    /// The face that a triangle is, or is left of.
+    #[inline]
+    pub(super) fn face(&self, id: u32) -> u32 {
+        match (id as usize).checked_sub(self.mesh.triangles.len()) {
+            None => id,
+            Some(clipped) => self.view.clipped[clipped].face.0,
         }
     }
 

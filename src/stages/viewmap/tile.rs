@@ -7,13 +7,11 @@ use super::graph::ViewVertexKind;
 use super::grid::{Grid, TileBox};
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
-use super::occlude::{Interval, covered, hidden_interval};
-use super::occluders::Occluder;
+use super::occlude::{Interval, Part, covered, hidden_interval};
+use super::occluders::{Occluder, Reach, Triangles};
 use super::project::ImageSegment;
 use crate::lines::NO_FACE;
 use crate::math::grouped::grouped;
-use crate::mesh::Mesh;
-use crate::view::View;
 
 /// Lists up to this long are looked through as they are.
 const FEW: usize = 32;
@@ -46,26 +44,52 @@ pub(super) struct TileResult {
 /// What all tiles share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'a> {
-    pub(super) mesh: &'a Mesh,
-    pub(super) view: &'a View,
+    pub(super) triangles: &'a Triangles<'a>,
     pub(super) segments: &'a [ImageSegment],
     pub(super) limits: &'a Limits,
     pub(super) counting: bool,
 }
 
-/// The triangles of a tile, and which of them to look at.
+/// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole.
+#[derive(Debug, Default)]
+pub(super) struct TileTriangles {
+    reaches: Vec<Reach>,
+    /// The place of each among those that were looked up, if it was.
+    places: Vec<u32>,
+    looked_up: Vec<Occluder>,
+}
+
+/// Stands for no place.
+const NOWHERE: u32 = u32::MAX;
+
+impl TileTriangles {
+    /// Makes these the triangles of another tile.
+    pub(super) fn replace(&mut self, reaches: impl Iterator<Item = Reach>) {
+        self.reaches.clear();
+        self.reaches.extend(reaches);
+        self.places.clear();
+        self.places.resize(self.reaches.len(), NOWHERE);
+        self.looked_up.clear();
+    }
+
+    /// A triangle with all that the comparison needs.
+    #[inline]
+    fn whole(&mut self, entry: u32, triangles: &Triangles) -> &Occluder {
+        let place = &mut self.places[entry as usize];
+        if *place == NOWHERE {
+            *place = self.looked_up.len() as u32;
+            self.looked_up.push(triangles.occluder(self.reaches[entry as usize].id));
+        }
+        &self.looked_up[*place as usize]
+    }
+}
+
+/// Which triangles of a tile to look at.
 #[derive(Clone, Copy)]
 struct Entries<'a> {
-    all: &'a [Occluder],
     chosen: &'a [u32],
     /// Whether nearer ones come first.
     ordered: bool,
-}
-
-impl<'a> Entries<'a> {
-    fn iter(self) -> impl Iterator<Item = &'a Occluder> {
-        self.chosen.iter().map(move |i| &self.all[*i as usize])
-    }
 }
 
 impl Context<'_> {
@@ -73,39 +97,44 @@ impl Context<'_> {
     pub(super) fn decide_tile(
         &self,
         items: &[Item],
-        all: &[Occluder],
+        all: &mut TileTriangles,
         grid: &Grid,
         tile: usize,
         result: &mut TileResult,
     ) {
-        let chosen: Vec<u32> = (0..all.len() as u32).collect();
-        self.decide(items, Entries { all, chosen: &chosen, ordered: false }, grid, tile, result);
+        let chosen: Vec<u32> = (0..all.reaches.len() as u32).collect();
+        self.decide(items, all, Entries { chosen: &chosen, ordered: false }, (grid, tile), result);
     }
 
-    fn decide(&self, items: &[Item], entries: Entries, grid: &Grid, tile: usize, result: &mut TileResult) {
+    fn decide(
+        &self,
+        items: &[Item],
+        all: &mut TileTriangles,
+        entries: Entries,
+        (grid, tile): (&Grid, usize),
+        result: &mut TileResult,
+    ) {
         let count = entries.chosen.len();
         if count > FEW
             && items.len() * count > CROWD * (items.len() + count)
             && grid.cell > self.limits.beside * 64.0
         {
-            return self.decide_finer(items, entries, &grid.of_tile(tile, FINER), result);
+            return self.decide_finer(items, all, entries, &grid.of_tile(tile, FINER), result);
         }
-        let mut sorted = Vec::new();
+        let sorted: Vec<u32>;
         let mut entries = entries;
         // Sorting pays where many lines are asked of many triangles: hidden ones then meet what
         // hides them first.
         if !self.counting && count > FEW && items.len() > FEW / 4 {
-            sorted.extend_from_slice(entries.chosen);
-            let key = |i: &u32| entries.all[*i as usize].nearest;
-            sorted.sort_by(|a, b| key(b).total_cmp(&key(a)).then(a.cmp(b)));
-            entries = Entries { chosen: &sorted, ordered: true, ..entries };
+            sorted = nearest_first(&all.reaches, entries.chosen);
+            entries = Entries { chosen: &sorted, ordered: true };
         }
         let mut hidden: Vec<Interval> = Vec::new();
         let mut layers: Vec<Layer> = Vec::new();
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &self.segments[item.segment as usize];
             hidden.clear();
-            if self.gather_hidden(segment, item, entries, &mut hidden, &mut result.tests) {
+            if self.gather_hidden(segment, item, all, entries, &mut hidden, &mut result.tests) {
                 result.whole.push(*item);
                 continue;
             }
@@ -115,19 +144,28 @@ impl Context<'_> {
             result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
             let buried = layers.iter().any(|l| l.interval.start <= item.start && l.interval.end >= item.end);
             if segment.bounds && !buried {
-                self.gather_backed(segment, item, entries, result);
+                self.gather_backed(segment, item, all, entries, result);
             }
         }
     }
 
     /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over
     /// the page does not part its lines.
-    fn decide_finer(&self, items: &[Item], entries: Entries, grid: &Grid, result: &mut TileResult) {
+    fn decide_finer(
+        &self,
+        items: &[Item],
+        all: &mut TileTriangles,
+        entries: Entries,
+        grid: &Grid,
+        result: &mut TileResult,
+    ) {
         let mut cover = vec![OPEN; grid.len()];
         if !self.counting {
-            for entry in entries.iter() {
-                let step = |q: f64| 2.0 * self.limits.step(q, &entry.slack, false, &self.view.frame);
-                cover::add(&entry.corners, grid, step, self.limits, |_| true, &mut cover);
+            for entry in entries.chosen {
+                let whole = all.whole(*entry, self.triangles);
+                let step =
+                    |q: f64| 2.0 * self.limits.step(q, &whole.slack, false, &self.triangles.view.frame);
+                cover::add(&whole.corners, grid, step, self.limits, |_| true, &mut cover);
             }
         }
         let mut fine: Vec<(u32, Item)> = Vec::with_capacity(items.len() * 2);
@@ -160,14 +198,14 @@ impl Context<'_> {
             .chosen
             .iter()
             .map(|i| {
-                let [left, right, top, bottom] = entries.all[*i as usize].bounds.map(f64::from);
+                let [left, right, top, bottom] = all.reaches[*i as usize].bounds.map(f64::from);
                 let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
                 (*i, grid.tile_box(low - slack, high + slack))
             })
             .collect();
         let fine_entries = grouped(grid.len(), |put| {
             for (i, tiles) in &boxes {
-                let nearest = f64::from(entries.all[*i as usize].nearest);
+                let nearest = f64::from(all.reaches[*i as usize].nearest);
                 for (tile, _) in grid.tiles_of(*tiles) {
                     if nearest >= cover[tile] && !fine_items.of(tile).is_empty() {
                         put(tile, *i);
@@ -178,7 +216,7 @@ impl Context<'_> {
         for tile in 0..grid.len() {
             let (items, chosen) = (fine_items.of(tile), fine_entries.of(tile));
             if !items.is_empty() {
-                self.decide(items, Entries { chosen, ordered: false, ..entries }, grid, tile, result);
+                self.decide(items, all, Entries { chosen, ordered: false }, (grid, tile), result);
             }
         }
     }
@@ -190,6 +228,7 @@ impl Context<'_> {
         &self,
         segment: &ImageSegment,
         item: &Item,
+        all: &mut TileTriangles,
         entries: Entries,
         hidden: &mut Vec<Interval>,
         tests: &mut u64,
@@ -203,24 +242,26 @@ impl Context<'_> {
             (high.y as f32).next_up(),
         ];
         let farthest = (low.z as f32).next_down();
-        let part = (item.start, item.end);
+        let part = Part::new(segment, item.start, item.end);
         let mut run = (f64::INFINITY, f64::NEG_INFINITY);
-        for entry in entries.iter() {
-            if entry.nearest < farthest {
+        for entry in entries.chosen {
+            let reach = &all.reaches[*entry as usize];
+            if reach.nearest < farthest {
                 if entries.ordered {
                     break;
                 }
                 continue;
             }
-            let b = &entry.bounds;
+            let b = &reach.bounds;
             if b[0] > bounds[1] || b[1] < bounds[0] || b[2] > bounds[3] || b[3] < bounds[2] {
                 continue;
             }
-            if segment.hosts.contains(&entry.face) {
+            if segment.hosts.contains(&self.triangles.face(reach.id)) {
                 continue;
             }
             *tests += 1;
-            let found = hidden_interval(segment, part, entry, &self.view.frame, self.limits);
+            let whole = all.whole(*entry, self.triangles);
+            let found = hidden_interval(segment, &part, whole, &self.triangles.view.frame, self.limits);
             let Some(found) = found else {
                 continue;
             };
@@ -241,21 +282,29 @@ impl Context<'_> {
 
     /// Collects where a surface lies just beside a bounding segment, on its outer side.
     #[inline(never)]
-    fn gather_backed(&self, segment: &ImageSegment, item: &Item, entries: Entries, result: &mut TileResult) {
+    fn gather_backed(
+        &self,
+        segment: &ImageSegment,
+        item: &Item,
+        all: &mut TileTriangles,
+        entries: Entries,
+        result: &mut TileResult,
+    ) {
         let Some(outward) = self.outward(segment) else { return };
         let shift = outward * self.limits.beside;
         let (p, q) = (segment.a.truncate() + shift, segment.b.truncate() + shift);
         let (from, to) = (segment.at(item.start).truncate() + shift, segment.at(item.end).truncate() + shift);
         let (low, high) = (from.min(to), from.max(to));
-        for entry in entries.iter() {
-            let b = entry.bounds.map(f64::from);
+        for entry in entries.chosen {
+            let b = all.reaches[*entry as usize].bounds.map(f64::from);
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
-            if segment.ends.iter().all(|end| entry.ids.contains(end)) {
+            let whole = all.whole(*entry, self.triangles);
+            if segment.ends.iter().all(|end| whole.ids.contains(end)) {
                 continue;
             }
-            let Some((start, end)) = covered(p, q, &entry.corners, self.limits) else { continue };
+            let Some((start, end)) = covered(p, q, &whole.corners, self.limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
                 let kind = ViewVertexKind::Backdrop;
@@ -279,9 +328,23 @@ impl Context<'_> {
 
     /// How far the third corner of a face lies to the side of a segment; 0 where it is cut off.
     fn height(&self, segment: &ImageSegment, across: DVec2, face: u32) -> f64 {
-        let corners = self.mesh.triangles[face as usize];
+        let corners = self.triangles.mesh.triangles[face as usize];
         let third = corners.iter().find(|v| !segment.ends.contains(v));
-        let height = third.map(|v| (self.view.points[*v as usize] - segment.a).truncate().dot(across));
+        let height =
+            third.map(|v| (self.triangles.view.points[*v as usize] - segment.a).truncate().dot(across));
         height.filter(|h| h.is_finite()).unwrap_or(0.0)
     }
+}
+
+/// Some of the triangles with the nearer ones first, of equally near ones in their order.
+fn nearest_first(reaches: &[Reach], chosen: &[u32]) -> Vec<u32> {
+    // Numbers that order as the negative of a nearness does, above the place in the tile.
+    let key = |entry: &u32| {
+        let bits = reaches[*entry as usize].nearest.to_bits();
+        let falling = if bits >> 31 == 0 { !bits & (u32::MAX >> 1) } else { bits };
+        u64::from(falling) << 32 | u64::from(*entry)
+    };
+    let mut keys: Vec<u64> = chosen.iter().map(key).collect();
+    keys.sort_unstable();
+    keys.into_iter().map(|key| key as u32).collect()
 }

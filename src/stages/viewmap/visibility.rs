@@ -22,9 +22,9 @@ use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
 use super::occlude::Interval;
-use super::occluders::{Occluder, Triangles};
+use super::occluders::Triangles;
 use super::project::ImageSegment;
-use super::tile::{Context, Item, TileResult};
+use super::tile::{Context, Item, TileResult, TileTriangles};
 use crate::math::grouped::{Grouped, grouped};
 use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
@@ -105,18 +105,22 @@ pub fn decide(
     let occluders = triangles.fill(&boxes, &wanted, &covers.of_tile);
     drop(boxes);
 
-    let context = Context { mesh, view, segments, limits, counting };
+    // Where triangles lie over several tiles, how far each reaches is found once.
+    let several = occluders.value_count() > 2 * triangles.count();
+    let reaches = if several { triangles.reaches() } else { Vec::new() };
+    let reach = |id: &u32| reaches.get(*id as usize).copied().unwrap_or_else(|| triangles.reach(*id));
+
+    let context = Context { triangles: &triangles, segments, limits, counting };
     const TILES: usize = 64;
     let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
         .into_par_iter()
         .map(|k| {
             let mut result = TileResult::default();
-            let mut all: Vec<Occluder> = Vec::new();
+            let mut all = TileTriangles::default();
             for tile in k * TILES..((k + 1) * TILES).min(grid.len()) {
                 if items.of(tile).iter().any(|item| item.end > item.start) {
-                    all.clear();
-                    all.extend(occluders.of(tile).iter().map(|id| triangles.occluder(*id)));
-                    context.decide_tile(items.of(tile), &all, &grid, tile, &mut result);
+                    all.replace(occluders.of(tile).iter().map(reach));
+                    context.decide_tile(items.of(tile), &mut all, &grid, tile, &mut result);
                 }
             }
             result
