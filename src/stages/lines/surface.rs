@@ -9,8 +9,7 @@ use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
 use crate::shape::file_normals::file_cosines;
 use crate::shape::patches;
-use crate::shape::refine::Refined;
-use crate::shape::splice::{Cuts, splice};
+use crate::shape::splice::{Cuts, Refined, splice};
 use crate::shape::{HardEdges, Origin, Patches, SmoothNormals};
 use crate::view::Frame;
 

@@ -13,37 +13,12 @@ use rustc_hash::FxHashMap;
 
 use super::marking::{Marks, marks};
 use super::smooth_normals::NO_NORMAL;
-use super::splice::{Cuts, Kept, splice};
+use super::splice::{Cuts, Facet, Kept, Refined, splice};
 use super::{EdgeArc, SmoothNormals};
 use crate::mesh::{EdgeMark, Mesh};
 
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
-
-/// A piece of a face, which may be cut further.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Facet {
-    /// Smooth vertices.
-    pub corners: [u32; 3],
-    /// Whether the sides 0-1, 1-2, 2-0 may be cut.
-    open: [bool; 3],
-    pub marks: [EdgeMark; 3],
-    /// The face of the given mesh it is part of.
-    pub face: u32,
-}
-
-/// A mesh of which faces were cut.
-#[derive(Debug, Clone)]
-pub struct Refined {
-    /// The finer mesh; its first vertices are those of the given one.
-    pub mesh: Mesh,
-    /// Its normals.
-    pub smooth: SmoothNormals,
-    /// The face of the given mesh that each of its faces is part of.
-    pub hosts: Vec<u32>,
-    /// The edge of the finer mesh that each edge of the given one is, `u32::MAX` for those that were cut.
-    pub edges: Vec<u32>,
-}
 
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
 /// hardly any is: see [`cuts`].

@@ -8,12 +8,36 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::SmoothNormals;
-use super::refine::{Facet, Refined};
 use crate::mesh::build::face_normals;
-use crate::mesh::{Edges, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::mesh::{EdgeMark, Edges, FaceId, MaterialId, Mesh, PaintId, PartId};
 
 /// Texture coordinates and colours of new corners are rounded to this part.
 const UV_STEPS: f64 = 65536.0;
+
+/// A piece of a face, which may be cut further.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Facet {
+    /// Smooth vertices.
+    pub corners: [u32; 3],
+    /// Whether the sides 0-1, 1-2, 2-0 may be cut.
+    pub open: [bool; 3],
+    pub marks: [EdgeMark; 3],
+    /// The face of the given mesh it is part of.
+    pub face: u32,
+}
+
+/// A mesh of which faces were cut.
+#[derive(Debug, Clone)]
+pub struct Refined {
+    /// The finer mesh; its first vertices are those of the given one.
+    pub mesh: Mesh,
+    /// Its normals.
+    pub smooth: SmoothNormals,
+    /// The face of the given mesh that each of its faces is part of.
+    pub hosts: Vec<u32>,
+    /// The edge of the finer mesh that each edge of the given one is, `u32::MAX` for those that were cut.
+    pub edges: Vec<u32>,
+}
 
 /// What is cut of a mesh, and into what.
 #[derive(Debug, Clone)]
