@@ -4,7 +4,7 @@ use kurbo::{Point, Vec2};
 
 use super::chain::Chain;
 use super::distance::places;
-use super::grid::nearest_on;
+use super::segment::nearest_on;
 
 /// Places that are compared along each chain: enough for its points, within bounds.
 const FEWEST: usize = 5;

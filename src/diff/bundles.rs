@@ -2,7 +2,7 @@
 
 use kurbo::{Point, Rect};
 
-use super::grid::{Segment, nearest_on};
+use super::segment::{Segment, nearest_on};
 
 /// Segments of a leaf, at most.
 const LEAF: usize = 4;

@@ -405,7 +405,7 @@ fn clip(start: f64, rate: f64, low: f64, high: f64) -> Option<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::grid::nearest_on;
+    use super::super::segment::nearest_on;
     use super::*;
 
     #[test]

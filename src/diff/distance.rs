@@ -3,7 +3,8 @@
 use kurbo::Point;
 
 use super::chain::Chain;
-use super::grid::{SegmentCells, nearest_on};
+use super::grid::SegmentCells;
+use super::segment::nearest_on;
 use crate::math::tolerance::DISTANCE_SHARE;
 
 /// Polylines of more segments are searched by a grid.

@@ -6,6 +6,7 @@ use kurbo::Point;
 
 use super::bundles::Bundles;
 use super::chain::Chain;
+use super::segment::Segment;
 use crate::math::grouped::{Grouped, grouped};
 
 /// Cells along the longer side, at most.
@@ -16,14 +17,6 @@ const CELLS_OF_SEGMENT: f64 = 16.0;
 
 /// More segments than this in the cells of one are a crowd.
 const CROWD: usize = 4096;
-
-/// A segment of a chain.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Segment {
-    pub chain: u32,
-    pub from: Point,
-    pub to: Point,
-}
 
 /// Segments sorted into square cells.
 #[derive(Debug)]
@@ -184,18 +177,9 @@ impl SegmentCells {
     }
 }
 
-/// The point of a segment nearest to a point.
-pub(super) fn nearest_on(from: Point, to: Point, p: Point) -> Point {
-    let along = to - from;
-    let length2 = along.hypot2();
-    if length2 == 0.0 {
-        return from;
-    }
-    from + along * ((p - from).dot(along) / length2).clamp(0.0, 1.0)
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::segment::nearest_on;
     use super::*;
 
     fn scattered(count: u32, seed: u64) -> Vec<Chain> {

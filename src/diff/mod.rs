@@ -61,6 +61,7 @@ mod plain;
 mod read;
 mod regions;
 mod said;
+mod segment;
 mod sheet;
 mod stacking;
 mod styled;

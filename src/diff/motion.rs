@@ -3,7 +3,7 @@
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
 
 use super::bundles::Bundles;
-use super::grid::Segment;
+use super::segment::Segment;
 
 /// Motions that are tried: what carries single marks to their likes.
 const TRIED: usize = 48;

@@ -11,8 +11,8 @@ use super::whole;
 
 /// The share of a part's marks without an equal that a motion must carry.
 const CARRIED: f64 = 0.5;
-/// Of what does not stay, the share that a motion must carry.
-const BETTER: f64 = 1.0 / 3.0;
+/// A part of which so much lies where it lay did not move.
+const STAYED: f64 = 0.9;
 /// What a shift leaves, as a part of its length: parts that come nearer grow a little.
 const OFF_OF_WAY: f64 = 0.1;
 /// Least and most of it (px).
@@ -59,7 +59,7 @@ fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Op
     };
     // What is only cut otherwise, by what moves before it, lies where it lay: lines of one direction are carried along themselves.
     let stays = motion::stays(&marks, reach);
-    if found.share - stays < (1.0 - stays) * BETTER {
+    if stays >= STAYED || found.share <= stays {
         return None;
     }
     let ways = found.ways(places[0]);

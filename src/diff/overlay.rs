@@ -6,10 +6,10 @@ use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape as _};
 
 use super::chain;
 use super::finding::{Diff, Finding, Verdict};
-use super::grid::nearest_on;
 use super::ink::Paint as Ink;
 use super::legend;
 use super::picture::{Picture, Shape, ShapeKind};
+use super::segment::nearest_on;
 use super::text::line;
 use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,

@@ -11,8 +11,9 @@ use super::align::{Alignment, align};
 use super::chain::Chain;
 use super::cover::Cover;
 use super::distance::places;
-use super::grid::{SegmentCells, nearest_on};
+use super::grid::SegmentCells;
 use super::groups::{Groups, Likeness};
+use super::segment::nearest_on;
 
 /// A mark is sought no farther than this part of the page's longer side from where it was.
 const REACH_OF_PAGE: f64 = 0.03;

@@ -7,8 +7,9 @@ use usvg::roxmltree::{Document, Node, NodeType};
 
 use super::cascade::Cascade;
 use super::guard;
+use super::said::escaped;
 use super::sheet::{self, Declaration};
-use super::styled::{after_name, edited, escaped};
+use super::styled::{after_name, edited};
 use crate::error::Error;
 
 /// Properties that are attributes as well, with the same values.

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use rustc_hash::FxHashSet;
 
 use super::sheet::{self, Declaration};
-use super::styled::escaped;
 use super::tags::too_much;
 use crate::error::Error;
 
@@ -45,6 +44,11 @@ pub(super) fn said(declared: &[Declaration], own: &str) -> Result<String, Error>
         let _ = write!(out, "{name}:{}{};", escaped(value), if important { " !important" } else { "" });
     }
     Ok(out + &escaped(rest))
+}
+
+/// A text with XML's signs as entities.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

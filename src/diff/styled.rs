@@ -74,7 +74,3 @@ pub(super) fn after_name(text: &str, node: Node) -> usize {
     let rest = text.get(start..).unwrap_or_default();
     start + rest.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>')).unwrap_or(rest.len())
 }
-
-pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
-}

@@ -43,7 +43,7 @@ mod under;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use kurbo::{PathEl, Vec2};
+use kurbo::Vec2;
 
 pub use areas::hotspots;
 pub use maps::MapFiles;
@@ -415,7 +415,7 @@ impl<'a> Prepared<'a> {
         report.counts.contour_bare = map.contours.bare;
         report.counts.contour_folds = map.contours.folds;
         report.counts.chains = chains.len() as u64;
-        report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| points(&m.path)).sum();
+        report.counts.points = layers.iter().flat_map(|l| &l.marks).map(|m| report::points(&m.path)).sum();
         report.warnings = defects::of_mesh(&surface.mesh, scene).lines();
         report.warnings.extend(self.warnings.lines());
         report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
@@ -444,17 +444,6 @@ struct OnView<'a> {
     report: Report,
     watch: Stopwatch,
     warnings: Vec<String>,
-}
-
-/// Points of a path, control points counted.
-fn points(path: &kurbo::BezPath) -> u64 {
-    let of = |element: &PathEl| match element {
-        PathEl::MoveTo(_) | PathEl::LineTo(_) => 1,
-        PathEl::QuadTo(..) => 2,
-        PathEl::CurveTo(..) => 3,
-        PathEl::ClosePath => 0,
-    };
-    path.elements().iter().map(of).sum()
 }
 
 /// Moves the picture from the camera's frame to the middle of the page.

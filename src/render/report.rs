@@ -1,5 +1,6 @@
 //! [`Report`]: what a drawing took and what it holds, as JSON for other programs.
 
+use kurbo::PathEl;
 use serde::Serialize;
 
 /// How long each stage took, in milliseconds; 0 for stages that did not run.
@@ -184,6 +185,17 @@ impl Moment {
     fn seconds_since(self, _: Self) -> f64 {
         0.0
     }
+}
+
+/// Points of a path, control points counted.
+pub(super) fn points(path: &kurbo::BezPath) -> u64 {
+    let of = |element: &PathEl| match element {
+        PathEl::MoveTo(_) | PathEl::LineTo(_) => 1,
+        PathEl::QuadTo(..) => 2,
+        PathEl::CurveTo(..) => 3,
+        PathEl::ClosePath => 0,
+    };
+    path.elements().iter().map(of).sum()
 }
 
 #[cfg(test)]

@@ -229,7 +229,7 @@ fn a_model_may_come_on_standard_input() {
     refused("draw - a.svg --format obj --watch", "standard input does not change");
     refused("draw cubes.obj --format obj", "the ending of a model tells its format");
     refused("draw cubes.obj a.svg --format png", "the name of a drawing tells its format");
-    refused("draw cubes.obj --format gif", "drawings are svg, png and pdf");
+    refused("draw cubes.obj --format gif", "drawings are svg, png, pdf and dxf");
 }
 
 #[test]

@@ -28,6 +28,14 @@ const FLAT_SHARE: f64 = 0.1;
 /// Arcs turn by less than this: beyond, their ends come so near each other that their middle is uncertain.
 const LARGEST_TURN: f64 = 6.0;
 
+/// Circles of which a model has only corners are circles: between corners that turn by no more than this (radians), chords
+/// may be so many tolerances off.
+const LARGEST_FACET: f64 = 0.27;
+const FACET_RISE: f64 = 4.0;
+
+/// A whole circle may be so many tolerances off: curves are fitted to chains half by half.
+const OFF_CIRCLE: f64 = 1.5;
+
 /// Circles have at least so many points when flattened.
 const LEAST_OF_CIRCLE: usize = 8;
 
@@ -166,13 +174,31 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     if count < LEAST_OF_CIRCLE {
         return None;
     }
-    let centre = centre_of(points[0], points[count / 3], points[2 * count / 3])?;
-    // Three points carry their rounding into the centre; all of them together carry less.
+    let centre = middle_of(points)?;
     let mean = points.iter().map(|point| (*point - centre).hypot()).sum::<f64>() / count as f64;
     let mut round: Vec<Point> = points.to_vec();
     round.push(points[0]);
-    let turn = turn_about(&round, centre, mean, tolerance)?;
+    let turn = turn_about(&round, centre, mean, OFF_CIRCLE * tolerance)?;
     ((turn.abs() - std::f64::consts::TAU).abs() < 1e-6).then_some((centre, mean))
+}
+
+/// The centre of the circle that points are nearest to, by least squares of the squares of distances.
+///
+/// Source: Kåsa, A circle fitting procedure and its error analysis, 1976.
+fn middle_of(points: &[Point]) -> Option<Point> {
+    let count = points.len() as f64;
+    let mean = points.iter().fold(Vec2::ZERO, |sum, point| sum + point.to_vec2()) / count;
+    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, Vec2::ZERO);
+    for point in points {
+        let away = point.to_vec2() - mean;
+        xx += away.x * away.x;
+        xy += away.x * away.y;
+        yy += away.y * away.y;
+        right += away * away.hypot2() / 2.0;
+    }
+    let determinant = xx * yy - xy * xy;
+    let to = Vec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
+    (determinant > 0.0 && to.is_finite()).then(|| (mean + to).to_point())
 }
 
 /// The angle by which points go round a centre, always the same way, at this distance from it, their chords too.
@@ -184,10 +210,11 @@ fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Opti
         let half = (*b - *a).hypot() / 2.0;
         let rise = radius - (radius * radius - half * half).max(0.0).sqrt();
         let off = (from.hypot() - radius).abs().max((to.hypot() - radius).abs());
-        if half > radius || off + rise > tolerance {
+        let step = atan2(from.cross(to), from.dot(to));
+        let is_facet = step.abs() <= LARGEST_FACET && rise <= FACET_RISE * tolerance;
+        if half > radius || off > tolerance || (off + rise > tolerance && !is_facet) {
             return None;
         }
-        let step = atan2(from.cross(to), from.dot(to));
         if step == 0.0 || step * turn < 0.0 {
             return None;
         }
@@ -278,6 +305,24 @@ mod tests {
         path.close_path();
         let (_, pieces, closed) = only(&path);
         assert!(closed && pieces.len() == 6 && pieces.iter().all(|piece| piece.bulge == 0.0), "{pieces:?}");
+    }
+
+    /// A model's circle of many sides is a circle, one of few is not.
+    #[test]
+    fn circles_of_corners_are_circles() {
+        let polygon = |sides: u32, radius: f64| {
+            let mut path = BezPath::new();
+            for k in 0..sides {
+                let angle = std::f64::consts::TAU * f64::from(k) / f64::from(sides);
+                let corner = Point::new(radius * cos(angle), radius * sin(angle));
+                if k == 0 { path.move_to(corner) } else { path.line_to(corner) }
+            }
+            path.close_path();
+            of(&path)
+        };
+        assert!(matches!(polygon(72, 15.0).as_slice(), [Curve::Circle { .. }]));
+        assert!(matches!(polygon(8, 0.2).as_slice(), [Curve::Run { .. }]));
+        assert!(matches!(polygon(72, 100.0).as_slice(), [Curve::Run { .. }]));
     }
 
     /// Every point of any curve is near its lines and arcs.

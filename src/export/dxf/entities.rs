@@ -7,9 +7,9 @@ use kurbo::Point;
 use super::curve::{Curve, Piece, circle_of, curves};
 use super::layers::{Entry, Layers, Pen, pen_of};
 use super::objects::MODEL_SPACE;
+use super::sheet::{DxfVersion, Sheet};
 use super::tables::APPLICATION;
 use super::tags::Tags;
-use super::{DxfVersion, Sheet};
 use crate::drawing::{Mark, Paint};
 use crate::math::function::atan2;
 

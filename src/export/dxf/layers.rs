@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{Sheet, aci};
+use super::aci;
+use super::sheet::Sheet;
 use crate::drawing::{LayerKind, Mark, Paint};
 use crate::math::colour::Colour;
 

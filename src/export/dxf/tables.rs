@@ -1,9 +1,10 @@
 //! What stands before the entities: the header, types of lines, layers and blocks.
 
+use super::aci;
 use super::layers::{CONTINUOUS, Layers, ZERO};
 use super::objects::{self, MODEL_SPACE, PAPER_SPACE};
+use super::sheet::{DxfVersion, Sheet};
 use super::tags::Tags;
-use super::{DxfVersion, Sheet, aci};
 
 /// Under which name entities say of which part they are.
 pub(super) const APPLICATION: &str = "LIGNE";

@@ -4,6 +4,8 @@
 pub mod boxes;
 mod dual_boxes;
 pub mod dual_tree;
+mod eight_boxes;
+mod fine_box;
 pub mod intersect;
 pub mod nearest;
 pub mod ray_tree;

@@ -1,0 +1,112 @@
+//! [`Sheet`]: what of a drawing DXF is made of, and in which lengths.
+
+use kurbo::Affine;
+
+use crate::drawing::{Drawing, LayerKind, Mark, Paint, Unit};
+
+/// Which release of DXF is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfVersion {
+    /// Release 12 of 1992, which every program reads. It knows neither fills nor widths of lines.
+    #[default]
+    R12,
+    /// Release 2000: with fills as solid hatches, widths of lines, and the unit of lengths.
+    R2000,
+}
+
+/// What a unit of length in the file is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum DxfLength {
+    /// A millimetre of the page; a px is 1/96 inch.
+    #[default]
+    Page,
+    /// A unit of the model, of which one is so many user units of the drawing. Only parallel views have such a number.
+    Model(f64),
+}
+
+/// How DXF is written.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct DxfOptions {
+    /// Default: release 12.
+    pub version: DxfVersion,
+    /// Default: millimetres of the page.
+    pub length: DxfLength,
+}
+
+impl DxfOptions {
+    /// With another release.
+    #[must_use]
+    pub const fn with_version(mut self, version: DxfVersion) -> Self {
+        self.version = version;
+        self
+    }
+
+    /// With another unit of length.
+    #[must_use]
+    pub const fn with_length(mut self, length: DxfLength) -> Self {
+        self.length = length;
+        self
+    }
+}
+
+/// How far lines and arcs may be from the curves that they stand for, in user units: less than chains are from their lines where curves are
+/// fitted to them, so that a hole is a circle.
+const TOLERANCE_PX: f64 = 0.1;
+const TOLERANCE_MM: f64 = 0.02;
+
+const MM_PER_PX: f64 = 25.4 / 96.0;
+
+/// What of a drawing DXF is made of.
+pub(super) struct Sheet<'a> {
+    pub(super) version: DxfVersion,
+    /// From the drawing to the file.
+    pub(super) place: Affine,
+    /// Lengths of the file in a user unit.
+    pub(super) scale: f64,
+    /// How far a curve may be from its own, in lengths of the file.
+    pub(super) tolerance: f64,
+    /// Width and height in lengths of the file.
+    pub(super) size: [f64; 2],
+    /// Millimetres in a user unit, for widths of pens.
+    pub(super) mm_per_unit: f64,
+    /// Whether a length of the file is a millimetre.
+    pub(super) in_mm: bool,
+    pub(super) marks: Vec<(LayerKind, &'a Mark)>,
+}
+
+impl<'a> Sheet<'a> {
+    pub(super) fn new(drawing: &'a Drawing, options: &DxfOptions) -> Self {
+        let page = &drawing.page;
+        let (mm_per_unit, tolerance) = match page.unit {
+            Unit::Px => (MM_PER_PX, TOLERANCE_PX),
+            Unit::Mm => (1.0, TOLERANCE_MM),
+        };
+        let (scale, in_mm) = match options.length {
+            DxfLength::Page => (mm_per_unit, true),
+            DxfLength::Model(per_unit) if per_unit.is_finite() && per_unit > 0.0 => (1.0 / per_unit, false),
+            DxfLength::Model(_) => (mm_per_unit, true),
+        };
+        let place = Affine::new([scale, 0.0, 0.0, -scale, 0.0, page.height * scale]);
+        let drawn = drawing.layers.iter().filter(|layer| is_drawn(layer.kind));
+        let marks = drawn.flat_map(|layer| layer.marks.iter().map(|mark| (layer.kind, mark)));
+        let marks = marks.filter(|(_, mark)| is_told(mark, options.version)).collect();
+        let size = [page.width * scale, page.height * scale];
+        let version = options.version;
+        Self { version, place, scale, tolerance: tolerance * scale, size, mm_per_unit, in_mm, marks }
+    }
+}
+
+/// Paper and its texture are none of a plan.
+pub(super) fn is_drawn(kind: LayerKind) -> bool {
+    !matches!(kind, LayerKind::Paper | LayerKind::Tooth)
+}
+
+/// Whether a mark has a place in the file.
+pub(super) fn is_told(mark: &Mark, version: DxfVersion) -> bool {
+    match &mark.paint {
+        Paint::Stroke(_) | Paint::Outline(_) => true,
+        Paint::Fill(_) | Paint::Gradient(_) => version == DxfVersion::R2000,
+        Paint::Image(_) => false,
+    }
+}
