@@ -178,7 +178,9 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     let mean = points.iter().map(|point| (*point - centre).hypot()).sum::<f64>() / count as f64;
     let mut round: Vec<Point> = points.to_vec();
     round.push(points[0]);
-    let turn = turn_about(&round, centre, mean, OFF_CIRCLE * tolerance)?;
+    let within = OFF_CIRCLE * tolerance;
+    let turn =
+        turn_about(&round, centre, mean, within).or_else(|| turn_of_facets(&round, centre, mean, within))?;
     ((turn.abs() - std::f64::consts::TAU).abs() < 1e-6).then_some((centre, mean))
 }
 
@@ -205,22 +207,47 @@ fn middle_of(points: &[Point]) -> Option<Point> {
 fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
     let mut turn = 0.0;
     for pair in run.windows(2) {
-        let [a, b] = pair else { continue };
-        let (from, to) = (*a - centre, *b - centre);
-        let half = (*b - *a).hypot() / 2.0;
-        let rise = radius - (radius * radius - half * half).max(0.0).sqrt();
-        let off = (from.hypot() - radius).abs().max((to.hypot() - radius).abs());
-        let step = atan2(from.cross(to), from.dot(to));
-        let is_facet = step.abs() <= LARGEST_FACET && rise <= FACET_RISE * tolerance;
-        if half > radius || off > tolerance || (off + rise > tolerance && !is_facet) {
-            return None;
-        }
-        if step == 0.0 || step * turn < 0.0 {
+        let Chord { step, off, rise } = Chord::new([pair[0], pair[1]], centre, radius)?;
+        if off + rise > tolerance || step == 0.0 || step * turn < 0.0 {
             return None;
         }
         turn += step;
     }
     Some(turn)
+}
+
+/// The same of the corners of a circle that is told by its corners alone: chords that turn about alike may be further inside.
+fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
+    let (mut turn, mut least, mut most) = (0.0, f64::INFINITY, 0.0_f64);
+    for pair in run.windows(2) {
+        let Chord { step, off, rise } = Chord::new([pair[0], pair[1]], centre, radius)?;
+        if off > tolerance || rise > FACET_RISE * tolerance || step == 0.0 || step * turn < 0.0 {
+            return None;
+        }
+        turn += step;
+        (least, most) = (least.min(step.abs()), most.max(step.abs()));
+    }
+    (most <= LARGEST_FACET && most <= 2.0 * least).then_some(turn)
+}
+
+/// A straight piece beside a circle.
+struct Chord {
+    /// The angle that it turns by.
+    step: f64,
+    /// How far its ends are from the circle.
+    off: f64,
+    /// How far its middle is inside that of the arc.
+    rise: f64,
+}
+
+impl Chord {
+    fn new([a, b]: [Point; 2], centre: Point, radius: f64) -> Option<Self> {
+        let (from, to) = (a - centre, b - centre);
+        let half = (b - a).hypot() / 2.0;
+        let rise = radius - (radius * radius - half * half).max(0.0).sqrt();
+        let off = (from.hypot() - radius).abs().max((to.hypot() - radius).abs());
+        (half <= radius).then(|| Self { step: atan2(from.cross(to), from.dot(to)), off, rise })
+    }
 }
 
 /// The centre of the circle through three points, unless they are on a line.
