@@ -31,7 +31,7 @@ const LARGEST_TURN: f64 = 6.0;
 /// Circles of which a model has only corners are circles: between corners that turn by no more than this (radians), chords
 /// may be so many tolerances off.
 const LARGEST_FACET: f64 = 0.27;
-const FACET_RISE: f64 = 4.0;
+const FACET_RISE: f64 = 2.5;
 
 /// A whole circle may be so many tolerances off: curves are fitted to chains half by half.
 const OFF_CIRCLE: f64 = 1.5;
