@@ -45,6 +45,10 @@ use crate::render::{Report, Resting, Stopwatch};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
+/// Creases that a pose makes depend on so many moments before it at the most, so many seconds apart.
+const MEMORY: u32 = 24;
+const STEP: f64 = 1.0 / 24.0;
+
 /// What a frame shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
@@ -109,6 +113,17 @@ impl<'a> Animator<'a> {
         Ok(self.shown.insert(drawing))
     }
 
+    /// The poses that led to a moment, the latest first.
+    fn before<'b>(&'b self, playing: &'b [Playing]) -> impl Iterator<Item = Scene> + use<'b, 'a> {
+        (1..=MEMORY).map_while(move |steps| {
+            let scene = self.rigged.posed(&motion::earlier(playing, f64::from(steps) * STEP)).ok()?;
+            match self.level {
+                Some(level) => level.posed(&scene).ok(),
+                None => Some(scene),
+            }
+        })
+    }
+
     /// The drawing of a moment, and what it took.
     ///
     /// # Errors
@@ -127,7 +142,7 @@ impl<'a> Animator<'a> {
             None => scene,
         };
         let pose = watch.lap_ms();
-        let prepared = resting.posed(&scene);
+        let prepared = resting.posed_after(&scene, || self.before(playing));
         let preparing = watch.lap_ms();
         let (drawing, mut report) = prepared.draw(camera, *page, None)?;
         report.stages_ms.pose = pose;

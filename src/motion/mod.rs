@@ -127,7 +127,7 @@ fn above(rigged: &Rigged, body: &Body, all: &[(usize, Body, Starts, bool)]) -> O
 }
 
 /// The same clips some seconds before.
-fn earlier(playing: &[Playing], seconds: f64) -> Vec<Playing> {
+pub(crate) fn earlier(playing: &[Playing], seconds: f64) -> Vec<Playing> {
     playing.iter().map(|own| Playing { time: own.time - seconds, ..*own }).collect()
 }
 

@@ -73,18 +73,37 @@ impl<'a> Resting<'a> {
     where
         'a: 'b,
     {
+        self.posed_after(posed, std::iter::empty)
+    }
+
+    /// The scene in a pose, creased where it was creased a moment ago: `before` tells the poses of earlier moments, the latest first. No
+    /// more of them are asked for than decide about edges that turn by nearly the angle of a crease.
+    #[must_use]
+    pub fn posed_after<'b, I: Iterator<Item = Scene>>(
+        &self,
+        posed: &'b Scene,
+        before: impl Fn() -> I,
+    ) -> Prepared<'b>
+    where
+        'a: 'b,
+    {
         let prepared = self
-            .following(posed, self.style)
+            .following(posed, self.style, before())
             .or_else(|| {
                 let rest = left_of(self.scene, posed)?;
-                Resting::without_anchors(&rest, self.style).following(posed, self.style)
+                Resting::without_anchors(&rest, self.style).following(posed, self.style, before())
             })
             .unwrap_or_else(|| Prepared::new(posed, self.style));
         prepared.anchored(posed, self.scene)
     }
 
     /// A pose in which the mesh is that at rest, moved.
-    fn following<'b>(&self, posed: &'b Scene, style: &'b Style) -> Option<Prepared<'b>> {
+    fn following<'b>(
+        &self,
+        posed: &'b Scene,
+        style: &'b Style,
+        before: impl Iterator<Item = Scene>,
+    ) -> Option<Prepared<'b>> {
         let names = |scene: &Scene| scene.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>();
         if names(self.scene) != names(posed) {
             return None;
@@ -106,9 +125,14 @@ impl<'a> Resting<'a> {
                 paints.as_ref()?;
             }
         }
-        let mesh = self.still.surface.mesh.posed(self.sources.as_ref()?, &soup)?;
+        let (still, sources) = (&self.still.surface, self.sources.as_ref()?);
+        let mesh = still.mesh.posed(sources, &soup)?;
+        let before = before.map_while(|scene| {
+            let cut = glass::cut(&scene, &glass::left(&scene, style)).scene.to_soup();
+            still.mesh.posed(sources, &cut)
+        });
         let sought = fills::sought(style);
-        let surface = self.still.surface.posed(mesh, self.patches.as_ref());
+        let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
         let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
         let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
         let search = LateSearch::default();

@@ -1,4 +1,4 @@
-//! Creases in time: those of the rest, however a surface folds and whatever is hidden.
+//! Creases in time: those of the rest and those that a pose folds, with a memory, whatever is hidden.
 
 use std::collections::BTreeSet;
 
@@ -60,10 +60,23 @@ fn what_is_bent_at_rest_is_as_it_was() {
     for time in [0.0, 0.5, 1.0] {
         assert_eq!(creases(&frame(&animator, time)), 1, "{time}");
     }
-    // What bends at rest is no fold.
-    let board = sheet("bent", 20.0, 90.0);
+}
+
+#[test]
+fn what_a_pose_folds_is_creased_while_it_is() {
+    let (board, style) = (sheet("fold", 0.0, 90.0), Style::default());
     let rigged = Rigged::open(&board.0).unwrap();
-    assert_eq!(creases(&frame(&Animator::new(&rigged, &style), 1.0)), 0);
+    let animator = Animator::new(&rigged, &style);
+    // Its corner goes straight from (1, 0) to (0, 1): at a time t it is at (1 - t, t).
+    let time = |degrees: f64| {
+        let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
+        s / (s + c)
+    };
+    // It closes: no crease up to 45 degrees. It opens: a crease down to 35.
+    for (degrees, closing, opening) in [(30.0, 0, 0), (36.0, 0, 1), (44.0, 0, 1), (46.0, 1, 1), (80.0, 1, 1)] {
+        assert_eq!(creases(&frame(&animator, time(degrees))), closing, "{degrees}");
+        assert_eq!(creases(&frame(&animator, 3.0 - 2.0 * time(degrees))), opening, "{degrees}, opening");
+    }
 }
 
 #[test]
@@ -88,7 +101,8 @@ fn figures_keep_the_creases_of_their_rest() {
 
 #[test]
 fn what_hides_another_part_moves_no_crease() {
-    // The other square is hidden from 1 s on, as the sheet opens: at 2.06 s it turns by 41 degrees, which at rest were a crease.
+    // The other square is hidden from 1 s on, as the sheet opens: at 2.06 s it turns by 41 degrees, which at rest were a crease, and at
+    // 2.3 s by 28.
     let with = |name: &str, hides: bool| {
         let shows = "/nodes/1/extensions/KHR_node_visibility/visible";
         let board = sheet(name, 0.0, 90.0);
@@ -105,8 +119,8 @@ fn what_hides_another_part_moves_no_crease() {
         let style = Style::default();
         let animator = Animator::new(&rigged, &style);
         let parts = rigged.posed(&[Playing::all(0, 1.0)]).unwrap().parts.len();
-        (parts, [1.0, 2.06].map(|time| creases(&frame(&animator, time))))
+        (parts, [1.0, 2.06, 2.3].map(|time| creases(&frame(&animator, time))))
     };
-    assert_eq!(with("all", false), (2, [0, 0]));
-    assert_eq!(with("less", true), (1, [0, 0]));
+    assert_eq!(with("all", false), (2, [1, 1, 0]));
+    assert_eq!(with("less", true), (1, [1, 1, 0]));
 }

@@ -7,6 +7,7 @@ use super::options::{Contours, Normals};
 use crate::field;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
+use crate::shape::bends::bent;
 use crate::shape::file_normals::file_cosines;
 use crate::shape::patches;
 use crate::shape::splice::{Cuts, Refined, splice};
@@ -56,7 +57,7 @@ impl Surface {
         if options.normals == Normals::Auto {
             mesh.forget_normals(|face| !patches.believed[face as usize]);
         }
-        let smooth = normals(&mesh, &patches);
+        let smooth = normals(&mesh, &patches, &[]);
         let surface = Self {
             mesh,
             hard: patches.hard.clone(),
@@ -68,15 +69,31 @@ impl Surface {
         (surface, Some(patches))
     }
 
-    /// This surface with its mesh moved, but creased and round where it was: both are how it is meant, and not how it bends
-    /// at a moment. `patches` are those that it was made with.
+    /// This surface with its mesh moved: creased and round where it was, which is how it is meant and not how it bends at a moment, and
+    /// creased where the pose folds it, but for figures, whose skin is round however it bends. `patches` are those that it was made with;
+    /// `before` has the mesh as it was at earlier moments, the latest first, and `crease_deg` is that of its options
+    /// ([`bent`]).
     #[must_use]
-    pub fn posed(&self, mesh: Mesh, patches: Option<&Patches>) -> Self {
-        let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches));
+    pub fn posed(
+        &self,
+        mesh: Mesh,
+        patches: Option<&Patches>,
+        crease_deg: f64,
+        before: impl Iterator<Item = Mesh>,
+    ) -> Self {
+        let is_figure = |edge: usize| {
+            let figure = |patches: &Patches| {
+                mesh.edges.faces(edge).list().iter().any(|face| patches.figure[*face as usize])
+            };
+            patches.is_some_and(figure)
+        };
+        let hard = &self.hard;
+        let folds = bent(&self.mesh, &mesh, crease_deg, |edge| !hard.is_hard(edge) && !is_figure(edge), before);
+        let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches, &folds));
         Self {
+            hard: hard.clone().with(&mesh, &folds),
             mesh,
             smooth,
-            hard: self.hard.clone(),
             origins: self.origins.clone(),
             pieces: self.pieces.clone(),
             refined: false,
@@ -121,9 +138,10 @@ impl Surface {
     }
 }
 
-/// The normals of the patches that are meant to be round.
-pub(super) fn normals(mesh: &Mesh, patches: &Patches) -> SmoothNormals {
-    SmoothNormals::new(mesh, |face| patches.rounded[face as usize], |edge| parts(mesh, edge, patches))
+/// The normals of the patches that are meant to be round, parted at folds as well: edges, ascending.
+pub(super) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> SmoothNormals {
+    let parted = |edge: usize| parts(mesh, edge, patches) || folds.binary_search(&edge).is_ok();
+    SmoothNormals::new(mesh, |face| patches.rounded[face as usize], parted)
 }
 
 /// Whether an edge parts two rounded surfaces: by its angle and what is around it, or where the file's

@@ -106,6 +106,18 @@ impl HardEdges {
         Self::of_edges(mesh, (0..mesh.edges.len()).filter(|edge| is_hard(*edge)))
     }
 
+    /// These and more edges of a mesh.
+    #[must_use]
+    pub fn with(mut self, mesh: &Mesh, more: &[usize]) -> Self {
+        if more.is_empty() {
+            return self;
+        }
+        self.bits.resize(mesh.edges.len().div_ceil(64), 0);
+        more.iter().for_each(|edge| self.bits[edge / 64] |= 1 << (edge % 64));
+        self.count = count(&self.bits);
+        self
+    }
+
     fn of_edges(mesh: &Mesh, edges: impl Iterator<Item = usize>) -> Self {
         let mut bits = vec![0u64; mesh.edges.len().div_ceil(64)];
         edges.for_each(|e| bits[e / 64] |= 1 << (e % 64));

@@ -1,6 +1,7 @@
 //! The surface a mesh stands for: where it is creased and where it is round, its normals, how it bends, and
 //! finer faces where it does.
 
+pub mod bends;
 mod crease_chains;
 pub mod curvature;
 mod curvature_derivative;
