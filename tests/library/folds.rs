@@ -73,7 +73,8 @@ fn what_a_pose_folds_is_creased_while_it_is() {
         s / (s + c)
     };
     // It closes: no crease up to 45 degrees. It opens: a crease down to 35.
-    for (degrees, closing, opening) in [(30.0, 0, 0), (36.0, 0, 1), (44.0, 0, 1), (46.0, 1, 1), (80.0, 1, 1)] {
+    for (degrees, closing, opening) in [(30.0, 0, 0), (36.0, 0, 1), (44.0, 0, 1), (46.0, 1, 1), (80.0, 1, 1)]
+    {
         assert_eq!(creases(&frame(&animator, time(degrees))), closing, "{degrees}");
         assert_eq!(creases(&frame(&animator, 3.0 - 2.0 * time(degrees))), opening, "{degrees}, opening");
     }

@@ -94,8 +94,9 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     }
     if inside::wanted(options) {
         // Contours along edges of the mesh need no normals, lines inside always do.
-        let own =
-            smooth.is_empty().then(|| surface::normals(mesh, &Patches::new(mesh, options.crease_deg, false), &[]));
+        let own = smooth
+            .is_empty()
+            .then(|| surface::normals(mesh, &Patches::new(mesh, options.crease_deg, false), &[]));
         let smooth = own.as_ref().unwrap_or(smooth);
         let curvature = inside::curvature(mesh, smooth, &options.inside);
         inside::find(mesh, view, smooth, &curvature, options, &mut lines);

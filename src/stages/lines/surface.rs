@@ -88,7 +88,8 @@ impl Surface {
             patches.is_some_and(figure)
         };
         let hard = &self.hard;
-        let folds = bent(&self.mesh, &mesh, crease_deg, |edge| !hard.is_hard(edge) && !is_figure(edge), before);
+        let folds =
+            bent(&self.mesh, &mesh, crease_deg, |edge| !hard.is_hard(edge) && !is_figure(edge), before);
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches, &folds));
         Self {
             hard: hard.clone().with(&mesh, &folds),

@@ -45,8 +45,7 @@ pub fn bent(
         may(*edge) && Dihedral::at(posed, *edge).is_some_and(|dihedral| dihedral.cosine < least)
     };
     let asked = (0..posed.edges.len()).into_par_iter().with_min_len(GRAIN).filter(turns);
-    let bends: Vec<(usize, f32)> =
-        asked.filter_map(|edge| Some((edge, bend(rest, posed, edge)?))).collect();
+    let bends: Vec<(usize, f32)> = asked.filter_map(|edge| Some((edge, bend(rest, posed, edge)?))).collect();
     let (mut creased, mut open) = (Vec::new(), Vec::new());
     for (edge, now) in bends {
         match thresholds.decide(now) {

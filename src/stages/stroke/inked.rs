@@ -8,13 +8,15 @@ use std::sync::Arc;
 use kurbo::BezPath;
 
 use super::axis::Axis;
+use super::breaks::Breaks;
 use super::brush;
 use super::brush_strip::Strip;
 use super::context::InkContext;
 use super::inks::{Stretch, Tint};
+use super::mooring;
 use super::outline::{Nib, outline};
 use super::pen::Pen;
-use super::pieces::{AxisPart, End, broken, parted};
+use super::pieces::{AxisPart, End, parted};
 use super::tinted::{Drawn, parts};
 use super::tremor::Tremor;
 use super::widths::{Setting, mean, meet, taper};
@@ -98,11 +100,12 @@ impl Inked<'_> {
         }
         // The widths travel in place of the strengths, which they have used up.
         axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
-        let (mean, gap) = (in_unit(hand.breaks), in_unit(hand.break_gap));
+        let breaks = Breaks { mean: in_unit(hand.breaks), gap: in_unit(hand.break_gap), seed };
+        let moored = mooring::of(self.chain, self.axis.length());
         let pieces: Vec<AxisPart> = parted(&axis, self.gaps, lifts, ends, px)
             .into_iter()
             .enumerate()
-            .flat_map(|(k, piece)| broken(piece, mean, gap, hash(seed, &[0, k as u64]), px))
+            .flat_map(|(k, piece)| breaks.leave(piece, k, moored, px))
             .collect();
         let mut shapes = Vec::new();
         for pass in 0..u64::from(hand.passes.max(1)) {

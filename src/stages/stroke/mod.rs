@@ -1,6 +1,7 @@
 //! Strokes: chains with their ink, as the line layers of a drawing.
 
 mod axis;
+mod breaks;
 pub mod brush;
 mod brush_core;
 mod brush_image;
@@ -15,6 +16,7 @@ mod halo;
 pub mod hand;
 mod inked;
 mod inks;
+mod mooring;
 pub mod options;
 mod outline;
 pub mod pen;
@@ -41,7 +43,7 @@ pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions}
 pub use pen::{Ink, Pen, PenChange};
 pub use swell::{Swell, SwellChange};
 
-use crate::chain::{Anchor, Chain, Under};
+use crate::chain::{Chain, Under};
 use crate::drawing::{
     ImagePaint, Layer, LayerKind, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit,
 };
@@ -228,28 +230,6 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
     Some(stroked(chain.path.clone(), chain.closed, colour(chain, context, pen), chain, context, pen))
 }
 
-/// Where on the model a chain begins and ends, if it knows.
-fn ends(chain: &Chain) -> Option<[Anchor; 2]> {
-    let ends = [chain.samples.first()?.anchor, chain.samples.last()?.anchor];
-    ends.iter().all(Anchor::is_known).then_some(ends)
-}
-
-/// A way of space that no model is built along.
-const ASLANT: [f64; 3] = [0.37, 0.79, 0.49];
-
-/// At what share of the length of a closed chain a place is that does not move when the chain begins elsewhere: the one that lies
-/// farthest along a fixed way on the model at rest; 0 where the chain does not know.
-fn mooring(chain: &Chain) -> f64 {
-    let along = |anchor: Anchor| (0..3).map(|k| ASLANT[k] * f64::from(anchor.place[k])).sum::<f64>();
-    let known = chain.samples.iter().map(|sample| sample.anchor).enumerate().filter(|(_, a)| a.is_known());
-    let farthest = known.map(|(k, anchor)| (k, along(anchor))).max_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((farthest, _)) = farthest else { return 0.0 };
-    let next = chain.points.iter().cycle().skip(1);
-    let lengths: Vec<f64> = chain.points.iter().zip(next).map(|(a, b)| a.distance(*b)).collect();
-    let total: f64 = lengths.iter().sum();
-    if total > 0.0 { lengths.iter().take(farthest).sum::<f64>() / total } else { 0.0 }
-}
-
 /// A path stroked with a chain's pen.
 fn stroked(
     path: BezPath,
@@ -263,9 +243,9 @@ fn stroked(
         (Vec::new(), 0.0)
     } else {
         let period: Vec<f64> = pen.dash.iter().map(|length| length.in_unit(context.unit)).collect();
-        match ends(chain).filter(|_| !closed) {
+        match mooring::ends(chain).filter(|_| !closed) {
             Some(ends) => dash::fixed(&path, ends, &period),
-            None if closed => dash::fit_round(&path, mooring(chain), &period),
+            None if closed => dash::fit_round(&path, mooring::place(chain), &period),
             None => dash::fit(&path, closed, &period),
         }
     };

@@ -1,8 +1,6 @@
-//! Cuts an axis where nothing is drawn: halos of nearer lines, and gaps that the hand leaves; and lifts the
-//! pen at corners.
+//! Cuts an axis where nothing is drawn, such as in halos of nearer lines, and lifts the pen at corners.
 
 use super::axis::Axis;
-use crate::math::noise::{hash, unit};
 
 /// The hand lifts at corners that turn by more than this (cosine of 35 degrees).
 const LIFT_COSINE: f64 = 0.819;
@@ -27,9 +25,6 @@ impl End {
     /// The end at a corner at which the pen is lifted.
     const LIFTED: Self = Self { tapers: true, runs_on: true };
 }
-
-/// Most gaps that the hand leaves in a line.
-const MOST_BREAKS: f64 = 10_000.0;
 
 /// Lines with gaps in them are whole in between at least over this length, px.
 const SHORTEST_PX: f64 = 0.75;
@@ -74,20 +69,4 @@ pub(super) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2]
         }
     }
     pieces
-}
-
-/// A piece with gaps of about a length that the hand leaves, on the mean so far from each other; how
-/// many there are does not depend on the seed.
-pub(super) fn broken(piece: AxisPart, mean: f64, gap: f64, seed: u64, px: f64) -> Vec<AxisPart> {
-    let total = piece.axis.length();
-    let count = if mean > 0.0 { (total / mean).round().min(MOST_BREAKS) as usize } else { 0 };
-    let (Some(first), true) = (piece.axis.arcs.first(), count > 0 && gap > 0.0) else { return vec![piece] };
-    let step = total / count as f64;
-    let chance = |k: usize, word: u64| unit(hash(seed, &[k as u64, word]));
-    let gaps = (0..count).map(|k| {
-        let middle = first + (k as f64 + 0.2 + 0.6 * chance(k, 0)) * step;
-        let half = (gap * (0.6 + 0.8 * chance(k, 1)) / 2.0).min(0.15 * step);
-        [middle - half, middle + half]
-    });
-    parted(&piece.axis, &gaps.collect::<Vec<_>>(), false, piece.ends, px)
 }
