@@ -20,20 +20,38 @@ use floor::Floor;
 use process::Threads;
 use scenes::Triangles;
 
-/// Models, and how many times their floor a drawing may take where that is laid down.
-const MODELS: [(&str, Option<f64>); 8] = [
-    ("organic/stanford-bunny.obj", Some(4.0)),
-    ("organic/dragon-202k.ply", None),
-    ("organic/dragon-871k.ply", Some(3.0)),
+/// Models, and how many times their floor a drawing should take where that is laid down.
+const MODELS: [(&str, Option<f64>); 11] = [
+    ("organic/stanford-bunny.obj", Some(1.8)),
+    ("cad/drive.obj", Some(1.3)),
+    ("cad/conveyor.glb", Some(2.0)),
+    ("mechanical/2CylinderEngine.glb", Some(2.0)),
+    ("organic/dragon-202k.ply", Some(2.5)),
+    ("organic/dragon-871k.ply", Some(2.0)),
     ("cad/knot_1k.glb", None),
     ("cad/knot_10k.glb", None),
     ("cad/knot_50k.glb", None),
     ("cad/knot_100k.glb", None),
-    ("cad/drive.obj", None),
+    ("cad/drive.glb", None),
 ];
 
-/// The same for the models that are made here.
-const MADE_LIMIT: Option<f64> = Some(8.0);
+/// The same for models that are made here: what makes them, of how many, and the limit.
+const MADE: [(&str, Make, u32, f64); 6] = [
+    ("nested", scenes::nested, 224, 3.0),
+    ("printed", scenes::printed, 39, 4.0),
+    ("doubled", scenes::doubled, 18, 3.0),
+    ("menger", scenes::menger, 4, 4.0),
+    ("city", scenes::city, 300, 6.0),
+    (TEN_MILLION, scenes::knot, 1118, 2.5),
+];
+
+/// A model that takes minutes: it is drawn only where it is asked for by name.
+const TEN_MILLION: &str = "knot_10m";
+
+/// Contours along the edges of the mesh, for the costs of smooth ones.
+const ALONG_EDGES: [&str; 2] = ["--set", "lines.contours=mesh"];
+
+const MIB: f64 = 1024.0 * 1024.0;
 
 /// A model is measured at least so often, and again until so much time has passed.
 const LEAST_ROUNDS: usize = 3;
@@ -57,10 +75,26 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "Least times in ms. `all` is a drawing on {cores} threads, `one` on one; `fl` the floor; `cpu` the CPU of"
     );
-    println!("`one`, over that of the floor, which a busy machine disturbs least. Load: {}", load());
     println!(
-        "{:<15} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}",
-        "model", "triangles", "floor", "all", "one", "all/fl", "one/fl", "cpu/fl", "limit", "B/tri", "ns/tri"
+        "`one`, over that of the floor, which a busy machine disturbs least; `edge` is `all` with contours along the"
+    );
+    println!("edges of the mesh; `2/1` the CPU on all threads over that on one. Load: {}", load());
+    println!(
+        "{:<15} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>6} {:>7} {:>7} {:>6} {:>7} {:>6} {:>7}",
+        "model",
+        "triangles",
+        "floor",
+        "all",
+        "one",
+        "all/fl",
+        "edge/fl",
+        "limit",
+        "one/fl",
+        "cpu/fl",
+        "2/1",
+        "MiB",
+        "B/tri",
+        "ns/tri"
     );
     let mut rows = Vec::new();
     for (path, limit) in MODELS {
@@ -74,11 +108,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!("{path}: not there, passed over");
         }
     }
-    for (name, make) in [("city", scenes::city as fn(u32) -> Triangles), ("menger", scenes::menger)] {
-        if is_wanted(name) {
+    for (name, make, count, limit) in MADE {
+        let asked = wanted.iter().any(|word| name.contains(word.as_str()));
+        if is_wanted(name) && (asked || name != TEN_MILLION) {
             let model = folder.join(name).with_extension("obj");
-            write_obj(&model, &make(if name == "city" { 300 } else { 4 }))?;
-            rows.push(measure(&model, MADE_LIMIT, &folder)?);
+            write_obj(&model, &make(count))?;
+            rows.push(measure(&model, Some(limit), &folder)?);
+            std::fs::remove_file(&model)?;
         }
     }
     print_growth(&rows);
@@ -92,18 +128,21 @@ fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<d
     let floor = Floor::new(model)?;
     let drawing = folder.join("drawing.svg");
     let mut least_floor = floor.run(model);
-    let (mut all, mut alone) = (f64::INFINITY, f64::INFINITY);
+    let (mut all, mut alone, mut along) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
     let start = Instant::now();
     for round in 0..MOST_ROUNDS {
         if round >= LEAST_ROUNDS && start.elapsed() > PATIENCE {
             break;
         }
         least_floor = least_floor.least(floor.run(model));
-        all = all.min(process::draw(model, &drawing, Threads::All)?);
-        alone = alone.min(process::draw(model, &drawing, Threads::One)?);
+        all = all.min(process::draw(model, &drawing, Threads::All, &[])?);
+        alone = alone.min(process::draw(model, &drawing, Threads::One, &[])?);
+        along = along.min(process::draw(model, &drawing, Threads::All, &ALONG_EDGES)?);
     }
-    let cpu = (0..LEAST_ROUNDS).filter_map(|_| process::cpu(model, &drawing, Threads::One));
-    let cpu = cpu.reduce(f64::min);
+    let cpu = |threads: Threads| {
+        (0..LEAST_ROUNDS).filter_map(|_| process::cpu(model, &drawing, threads)).reduce(f64::min)
+    };
+    let (cpu, cpu_of_all) = (cpu(Threads::One), cpu(Threads::All));
     let memory = process::memory(model, &drawing, Threads::All);
 
     let name = model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -113,14 +152,17 @@ fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<d
     let known = |number: Option<f64>, decimals| number.map_or("-".to_owned(), |n| format!("{n:.decimals$}"));
     let per_triangle = cpu.unwrap_or(alone) / triangles;
     println!(
-        "{name:<15} {triangles:>9} {:>8} {:>8} {:>8} {:>7.2} {:>7.2} {:>7} {:>6} {:>6} {:>7.0}",
+        "{name:<15} {triangles:>9} {:>8} {:>8} {:>8} {:>7.2} {:>7.2} {:>6} {:>7.2} {:>7} {:>6} {:>7} {:>6} {:>7.0}",
         ms(total),
         ms(all),
         ms(alone),
         all / total,
+        along / total,
+        known(limit, 1),
         alone / total,
         known(cpu.map(|cpu| cpu / least_floor.cpu), 2),
-        known(limit, 0),
+        known(cpu_of_all.zip(cpu).map(|(all, one)| all / one), 2),
+        known(memory.map(|bytes| bytes / MIB), 0),
         known(memory.map(|bytes| bytes / triangles), 0),
         per_triangle * 1e9,
     );
@@ -160,7 +202,12 @@ fn write_obj(path: &Path, scene: &Triangles) -> std::io::Result<()> {
     for [x, y, z] in &scene.points {
         writeln!(file, "v {x:.6} {y:.6} {z:.6}")?;
     }
-    for [a, b, c] in scene.faces.iter().map(|face| face.map(|corner| corner + 1)) {
+    let mut objects = scene.objects.iter().enumerate().peekable();
+    for (number, face) in scene.faces.iter().enumerate() {
+        if let Some((object, _)) = objects.next_if(|(_, first)| **first == number) {
+            writeln!(file, "o object{object}")?;
+        }
+        let [a, b, c] = face.map(|corner| corner + 1);
         writeln!(file, "f {a} {b} {c}")?;
     }
     file.flush()

@@ -20,10 +20,11 @@ pub enum Threads {
     All,
 }
 
-/// Seconds that drawing the model takes from start to end of the process.
-pub fn draw(model: &Path, drawing: &Path, threads: Threads) -> Result<f64, Error> {
+/// Seconds that drawing the model takes from start to end of the process, with more options if there are any.
+pub fn draw(model: &Path, drawing: &Path, threads: Threads, options: &[&str]) -> Result<f64, Error> {
     let mut command = Command::new(LIGNE);
     add_arguments(&mut command, model, drawing, threads);
+    command.args(options);
     let start = Instant::now();
     let output = command.stdin(Stdio::null()).output()?;
     let seconds = start.elapsed().as_secs_f64();
