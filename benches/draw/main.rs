@@ -35,6 +35,9 @@ const MODELS: [(&str, Option<f64>); 11] = [
     ("cad/drive.glb", None),
 ];
 
+/// What makes a model of so many.
+type Make = fn(u32) -> Triangles;
+
 /// The same for models that are made here: what makes them, of how many, and the limit.
 const MADE: [(&str, Make, u32, f64); 6] = [
     ("nested", scenes::nested, 224, 3.0),
