@@ -9,6 +9,7 @@
 //! assert!(sheet.to_svg(&SvgOptions::default()).contains(r#"width="210mm""#));
 //! ```
 
+pub mod composition;
 pub mod hotspot;
 pub mod length;
 #[cfg(feature = "cli")]
@@ -17,6 +18,7 @@ pub mod mark;
 mod moved;
 pub mod page;
 
+pub use composition::{Boxes, Composition, Item};
 pub use hotspot::Hotspot;
 pub use length::Length;
 pub use mark::{
