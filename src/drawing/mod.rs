@@ -9,7 +9,9 @@
 //! assert!(sheet.to_svg(&SvgOptions::default()).contains(r#"width="210mm""#));
 //! ```
 
+mod clipped;
 pub mod composition;
+mod flattened;
 pub mod hotspot;
 pub mod length;
 #[cfg(feature = "cli")]

@@ -1,31 +1,46 @@
-//! Marks moved on the page.
+//! Marks elsewhere on a page, or on another one.
 
 use kurbo::{Affine, Vec2};
 
 use super::{Mark, Paint, Shows};
 
 impl Mark {
-    /// The mark, so far from where it was.
+    /// The mark on a page to whose units `place` leads: lengths of its pen go with it.
     #[must_use]
-    pub fn moved(mut self, by: Vec2) -> Self {
-        let moved = Affine::translate(by);
-        self.path.apply_affine(moved);
+    pub fn placed(mut self, place: Affine) -> Self {
+        let scale = place.determinant().abs().sqrt();
+        self.path.apply_affine(place);
         match &mut self.paint {
-            Paint::Stroke(_) | Paint::Fill(_) => {}
-            Paint::Gradient(gradient) => {
-                gradient.start += by;
-                gradient.end += by;
+            Paint::Stroke(stroke) => {
+                stroke.width *= scale;
+                stroke.dash.iter_mut().for_each(|length| *length *= scale);
+                stroke.dash_offset *= scale;
             }
-            Paint::Outline(outline) => outline.axis.apply_affine(moved),
+            Paint::Fill(_) => {}
+            Paint::Gradient(gradient) => {
+                gradient.start = place * gradient.start;
+                gradient.end = place * gradient.end;
+            }
+            Paint::Outline(outline) => {
+                outline.axis.apply_affine(place);
+                outline.width *= scale;
+                outline.pen_width *= scale;
+            }
             Paint::Image(image) => {
                 for piece in &mut image.pieces {
-                    piece.outline.apply_affine(moved);
-                    if let Shows::Pixels(place) = &mut piece.shows {
-                        *place = moved * *place;
+                    piece.outline.apply_affine(place);
+                    if let Shows::Pixels(at) = &mut piece.shows {
+                        *at = place * *at;
                     }
                 }
             }
         }
         self
+    }
+
+    /// The mark, so far from where it was.
+    #[must_use]
+    pub fn moved(self, by: Vec2) -> Self {
+        self.placed(Affine::translate(by))
     }
 }
