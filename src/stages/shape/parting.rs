@@ -30,6 +30,7 @@ pub(super) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
     cuts.iter().for_each(|[vertex, _]| is_parted[*vertex as usize] = true);
 
     let mut corners = corners(mesh, smooth, &is_parted);
+    let mut added = Added::default();
     corners.sort_unstable_by_key(|c| (c.vertex, c.face));
     let mut sides: Vec<(u32, usize)> = Vec::new();
     let mut before: Vec<usize> = Vec::new();
@@ -55,10 +56,22 @@ pub(super) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
             if before[fan] == fan {
                 let own: Vec<Corner> =
                     (fan..around.len()).filter(|k| first(&before, *k) == fan).map(|k| around[k]).collect();
-                add(mesh, smooth, vertex, fan == 0, &own);
+                add(mesh, smooth, &mut added, (vertex, fan == 0), &own);
             }
         }
     }
+    // They are few: lists that grow by themselves grow to twice as much.
+    smooth.normals.reserve_exact(added.normals.len());
+    smooth.normals.append(&mut added.normals);
+    smooth.vertices.reserve_exact(added.vertices.len());
+    smooth.vertices.append(&mut added.vertices);
+}
+
+/// The new smooth vertices, numbered behind those that are there.
+#[derive(Default)]
+struct Added {
+    normals: Vec<DVec3>,
+    vertices: Vec<u32>,
 }
 
 fn corners(mesh: &Mesh, smooth: &SmoothNormals, is_parted: &[bool]) -> Vec<Corner> {
@@ -94,7 +107,13 @@ fn first(before: &[usize], mut corner: usize) -> usize {
 }
 
 /// Gives a fan its normal, and all fans but the first a new smooth vertex.
-fn add(mesh: &Mesh, smooth: &mut SmoothNormals, vertex: u32, keeps: bool, fan: &[Corner]) {
+fn add(
+    mesh: &Mesh,
+    smooth: &mut SmoothNormals,
+    added: &mut Added,
+    (vertex, keeps): (u32, bool),
+    fan: &[Corner],
+) {
     let (mut of_faces, mut of_file) = (NormalSum::default(), DVec3::ZERO);
     for corner in fan {
         let which = usize::from(corner.which);
@@ -104,12 +123,12 @@ fn add(mesh: &Mesh, smooth: &mut SmoothNormals, vertex: u32, keeps: bool, fan: &
         of_file += file_normals(mesh, corner.face as usize)[which];
     }
     let normal = chosen(of_faces.normal(), of_file);
-    let id = if keeps { vertex } else { smooth.vertices.len() as u32 };
+    let id = if keeps { vertex } else { (smooth.vertices.len() + added.vertices.len()) as u32 };
     if keeps {
         smooth.normals[id as usize] = normal;
     } else {
-        smooth.normals.push(normal);
-        smooth.vertices.push(vertex);
+        added.normals.push(normal);
+        added.vertices.push(vertex);
     }
     for corner in fan {
         smooth.corners[corner.face as usize][usize::from(corner.which)] = id;
