@@ -1,9 +1,12 @@
 //! Drops what no illustrator would draw: crumbs, spurs, tiny loops and creases that are noise.
 
+use rustc_hash::FxHashSet;
+
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
 use crate::shape::Origin;
+use crate::viewmap::ViewVertexId;
 
 /// A crease of a scan must be this many times longer than a crumb if it turns by a right angle; the
 /// fainter, the longer.
@@ -28,7 +31,8 @@ const INSIDE_PEAK: f64 = 0.25;
 /// Leaves out every line that is a crumb.
 pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
     // All are judged before any goes, so that no order matters.
-    let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, tidy)).collect();
+    let rims = Rims::of(raws);
+    let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, &rims, tidy)).collect();
     let mut crumb = crumbs.into_iter();
     raws.retain(|raw| {
         let goes = crumb.next().unwrap_or(false);
@@ -40,14 +44,31 @@ pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64,
     });
 }
 
-fn is_crumb(raw: &Raw, degrees: &Degrees, tidy: f64) -> bool {
+/// Where contours begin and end.
+struct Rims(FxHashSet<ViewVertexId>);
+
+impl Rims {
+    fn of(raws: &[Raw]) -> Self {
+        let contours = raws
+            .iter()
+            .filter(|raw| raw.class.kind == LineKind::Contour && !raw.class.hidden && !raw.is_ring());
+        Self(contours.flat_map(|raw| raw.ends).collect())
+    }
+
+    /// Whether a line goes on as a contour at both its ends, as where one sees the near side of the rim of a hole, or only into it.
+    fn holds(&self, raw: &Raw) -> bool {
+        !raw.is_ring() && raw.ends.iter().all(|end| self.0.contains(end))
+    }
+}
+
+fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
     if raw.class.hidden {
         return false;
     }
     let length = raw.length();
     let scanned = raw.class.origin == Origin::Scanned;
     if scanned && raw.class.kind == LineKind::Crease {
-        return raw.pronounced < NOISE * tidy;
+        return raw.pronounced < NOISE * tidy && !(rims.holds(raw) && length >= tidy);
     }
     if raw.class.kind.is_inside() {
         return raw.line.strength() < INSIDE * tidy || raw.line.peak() < INSIDE_PEAK;

@@ -1,4 +1,4 @@
-//! Drops second strokes: lines that run beside a longer one within a pen's width.
+//! Drops second strokes: what of lines runs beside a longer one within a pen's width.
 
 use std::ops::RangeInclusive;
 
@@ -29,6 +29,9 @@ const FLAKE_DISTANCE: f64 = 4.0;
 /// Part of a flake that may be silhouette.
 const OUTLINE: f64 = 0.25;
 
+/// What of a double runs by itself for more than so many distances is drawn, and all of it that is outline.
+const BARE: f64 = 10.0;
+
 /// Part of the distance by which lines beside each other may miss each other lengthwise.
 const ABREAST: f64 = 0.3;
 
@@ -51,7 +54,7 @@ struct Buckets {
 }
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within
-/// `distance`, shortest first.
+/// `distance`, shortest first, but for what of them runs by itself.
 pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance: f64, bin: &mut Bin) {
     let mut suspects: Vec<u32> = (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize])).collect();
     if suspects.is_empty() {
@@ -69,7 +72,8 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
     }
     let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
     suspects.sort_by(|a, b| lengths[*a as usize].total_cmp(&lengths[*b as usize]).then(a.cmp(b)));
-    let mut gone = vec![false; raws.len()];
+    // Of doubles, which of their sides run by themselves.
+    let mut gone: Vec<Option<Vec<bool>>> = vec![None; raws.len()];
     for i in suspects {
         let own = &pieces[spans[i as usize]..spans[i as usize + 1]];
         let total = lengths[i as usize];
@@ -78,33 +82,83 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
         let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
         let allowed = (1.0 - COVERED) * total;
         let mut bare = 0.0;
-        'line: for piece in own {
+        let mut alone = Vec::with_capacity(own.len());
+        for piece in own {
             let side = length(piece.b - piece.a);
             let parts = (side / distance).ceil().clamp(1.0, 256.0);
+            let before = bare;
             for k in 0..parts as usize {
                 let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
                 if !buckets.beside(&pieces, point, piece.direction, distance, |other| {
                     let other = other as usize;
-                    other != i as usize && !gone[other] && lengths[other] > total
+                    other != i as usize && gone[other].is_none() && lengths[other] > total
                 }) {
                     bare += side / parts;
                 }
                 if bare > allowed {
-                    break 'line;
+                    break;
                 }
             }
+            alone.push(bare > before);
+            if bare > allowed {
+                break;
+            }
         }
-        gone[i as usize] = total > 0.0 && bare <= allowed;
+        if total > 0.0 && bare <= allowed {
+            gone[i as usize] = Some(alone);
+        }
     }
-    let mut doubles = gone.iter();
-    raws.retain(|raw| {
-        let goes = doubles.next().copied().unwrap_or(false);
-        if goes {
-            bin.put(raw, || Reason::Double);
-            degrees.leave_out(raw);
+    if gone.iter().all(Option::is_none) {
+        return;
+    }
+    let mut kept = Vec::with_capacity(raws.len());
+    for (raw, alone) in std::mem::take(raws).into_iter().zip(gone) {
+        let Some(alone) = alone else {
+            kept.push(raw);
+            continue;
+        };
+        let parts = parts_alone(&raw, &alone, distance);
+        bin.put(&raw, || Reason::Double);
+        if parts.is_empty() {
+            degrees.leave_out(&raw);
         }
-        !goes
-    });
+        kept.extend(parts);
+    }
+    *raws = kept;
+}
+
+/// What of a double is drawn: runs of sides that are alone and long, or that are outline for more than a distance.
+fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
+    if !alone.contains(&true) {
+        return Vec::new();
+    }
+    // A ring is opened where it is not alone.
+    let start = if raw.line.closed { alone.iter().position(|alone| !alone).unwrap_or(0) } else { 0 };
+    let open = if raw.line.closed { raw.line.opened_at(start) } else { raw.line.clone() };
+    let is_alone = |side: usize| alone.get((side + start) % alone.len()).copied().unwrap_or(false);
+    let sides = open.len() - 1;
+    let mut parts = Vec::new();
+    let mut first = 0;
+    while first < sides {
+        if !is_alone(first) {
+            first += 1;
+            continue;
+        }
+        let last = (first..sides).take_while(|side| is_alone(*side)).last().unwrap_or(first);
+        let long = |side: usize| length(open.points[side + 1] - open.points[side]);
+        let all: f64 = (first..=last).map(long).sum();
+        let outline: f64 = (first..=last).filter(|side| open.silhouette[*side]).map(long).sum();
+        if all > BARE * distance || outline > distance {
+            let ends = [first == 0, last + 1 == sides];
+            let covered = [0, 1].map(|end| !raw.line.closed && ends[end] && raw.covered[end]);
+            // Where it was cut another line runs on, so that its vertices stay joined.
+            let part =
+                Raw { line: open.slice(first, last + 1), covered, vertices: Vec::new(), ..raw.clone() };
+            parts.push(part);
+        }
+        first = last + 1;
+    }
+    parts
 }
 
 /// Whether a line may be a double at all: exact models draw every line they have.

@@ -463,3 +463,35 @@ fn any_graph_gives_finite_chains() {
         }
     });
 }
+
+#[test]
+fn what_of_a_double_runs_by_itself_is_drawn() {
+    let straight = |from: i32, to: i32, y: f64| (from..=to).map(move |k| (10.0 * f64::from(k), y));
+    let drawn = |off: f64| {
+        let long = straight(0, 40, 100.0).collect();
+        let beside: Vec<(f64, f64)> = straight(10, 30, 100.8).chain([(300.0 + off, 100.8 + off)]).collect();
+        let lines = [(long, LineKind::Contour, true), (beside, LineKind::Contour, true)];
+        let chains = linked(&map_of(&lines), &ChainOptions::default(), Unit::Px);
+        chains.iter().flat_map(|chain| &chain.points).map(|p| p.y).fold(0.0, f64::max)
+    };
+    assert!((drawn(30.0) - 130.8).abs() < 0.5, "{}", drawn(30.0));
+    // A little of it is none.
+    assert!((drawn(5.0) - 100.0).abs() < 0.5, "{}", drawn(5.0));
+}
+
+#[test]
+fn half_a_rim_is_no_noise() {
+    let half = |from: usize, joined: bool| -> Vec<(f64, f64)> {
+        let at = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / 12.0;
+            (50.0 + 4.0 * cos(angle), if joined { 50.0 } else { 80.0 } + 4.0 * sin(angle))
+        };
+        (from..=from + 6).map(|k| at(k % 12)).collect()
+    };
+    let creases = |joined: bool| {
+        let lines = [(half(0, true), LineKind::Contour, false), (half(6, joined), LineKind::Crease, true)];
+        let chains = linked(&map_of(&lines), &ChainOptions::default(), Unit::Px);
+        chains.iter().filter(|chain| chain.kind == LineKind::Crease).count()
+    };
+    assert_eq!((creases(true), creases(false)), (1, 0));
+}
