@@ -56,6 +56,7 @@ pub mod motion;
 pub mod pose;
 pub mod render;
 pub mod scene;
+pub mod section;
 pub mod stages;
 pub mod style;
 #[cfg(feature = "diff")]

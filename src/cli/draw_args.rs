@@ -10,6 +10,7 @@ use super::framing_args::{FramingArgs, SaveArgs};
 use super::many::args::ManyArgs;
 use super::offered::Offered;
 use super::paper::{self, Extent, Measure};
+use super::section_args::SectionArgs;
 use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;
@@ -157,6 +158,9 @@ pub(super) struct HowArgs {
 
     #[command(flatten)]
     pub(super) framing: FramingArgs,
+
+    #[command(flatten)]
+    pub(super) section: SectionArgs,
 
     /// Size of the drawing in px: 1000x800, or 1000 for a square [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",

@@ -25,6 +25,7 @@ mod paper;
 mod pipeline;
 mod progress;
 mod request;
+mod section_args;
 mod shard;
 mod status;
 mod styles;

@@ -6,6 +6,7 @@ use super::draw_args::{DrawArgs, GroupBy, HowArgs};
 use super::dxf_args::DxfArgs;
 use super::framing_args::Frame;
 use super::output::{Format, Output, is_stdout};
+use super::section_args::SectionArgs;
 use super::viewpoint::{Lens, Sheet, View};
 use super::web_args::WebArgs;
 use crate::drawing::Unit;
@@ -44,6 +45,8 @@ pub(super) struct DrawRequest {
     pub(super) sheet: Sheet,
     /// What the frame is to hold.
     pub(super) frame: Frame,
+    /// Where the model is cut open.
+    pub(super) section: SectionArgs,
     /// Where the camera of the drawing is written.
     pub(super) save_camera: Option<PathBuf>,
     pub(super) svg: SvgChoices,
@@ -158,6 +161,7 @@ impl DrawRequest {
                 unit: args.framing.unit,
             },
             frame: args.framing.frame,
+            section: args.section,
             save_camera: None,
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             web: WebArgs::default(),

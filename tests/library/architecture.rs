@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use crate::support::imports::{File, circles, imports};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
-const ROOMS: [&str; 29] = [
-    "error", "math", "mesh", "trees", "shape", "scene", "lod", "pose", "load", "view", "raster", "field",
+const ROOMS: [&str; 30] = [
+    "error", "math", "mesh", "trees", "shape", "scene", "section", "lod", "pose", "load", "view", "raster", "field",
     "lines", "viewmap", "shadow", "drawing", "chain", "export", "region", "picture", "diff", "testing",
     "stroke", "hatch", "motion", "style", "render", "animate", "cli",
 ];
@@ -245,7 +245,7 @@ fn files_open_with_what_they_make() {
 #[test]
 fn readers_do_not_panic() {
     let mut faults = Vec::new();
-    for source in sources().iter().filter(|s| ["scene", "lod", "load"].contains(&&*s.room) && !s.is_test()) {
+    for source in sources().iter().filter(|s| ["scene", "section", "lod", "load"].contains(&&*s.room) && !s.is_test()) {
         for (number, line) in source.code() {
             // `self.expect` is a parser's own method, which returns an error.
             let line = &line.replace("self.expect(", "self.demand(");

@@ -48,6 +48,7 @@ mod precedence;
 mod properties;
 mod random_widths;
 mod regions;
+mod sections;
 mod shadows;
 mod smooth_contours;
 mod stability;
