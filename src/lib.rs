@@ -47,6 +47,7 @@ pub mod cli;
 pub mod diff;
 pub mod drawing;
 mod error;
+pub mod explode;
 pub mod export;
 pub mod load;
 pub mod lod;

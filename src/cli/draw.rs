@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::export::gzip;
 use crate::load::ModelFormat;
 use crate::pose::Rigged;
-use crate::render::{MapFiles, Prepared, Report, Stopwatch, hatched};
+use crate::render::{MapFiles, Prepared, Report, Stopwatch, hatched, trailed};
 use crate::scene::Scene;
 use crate::scene::framing::world_points;
 use crate::style::Style;
@@ -108,6 +108,10 @@ pub(super) fn draw_views(
         if let Some(section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
             style = hatched(&style, &section);
         }
+    }
+    if request.section.take_apart(&mut scene) {
+        framed = None;
+        style = trailed(&style);
     }
     let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));

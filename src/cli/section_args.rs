@@ -7,6 +7,7 @@ use super::model_unit::ModelUnit;
 use crate::drawing::Length;
 use crate::drawing::Unit;
 use crate::error::Error;
+use crate::explode::{Explosion, explode, with_trails};
 use crate::math::glob::Glob;
 use crate::scene::Scene;
 use crate::section::{Plane, Section, cut};
@@ -19,9 +20,28 @@ pub(super) struct SectionArgs {
     #[arg(long, value_name = "PLANE", help_heading = "View", allow_hyphen_values = true, value_parser = cut_plane)]
     pub(super) section: Option<CutPlane>,
 
-    /// Leave the parts whole whose name matches where the model is cut, may be given again
+    /// Leave the parts whole whose name matches where the plane goes through them, may be given again
     #[arg(long, value_name = "GLOB", help_heading = "View", requires = "section")]
     pub(super) uncut: Vec<String>,
+
+    /// Take the model apart along the axis x, y or z, or the best one (auto), with trail lines; :FACTOR says how far [default: 1]
+    #[arg(long, value_name = "AXIS[:FACTOR]", help_heading = "View", value_parser = explosion)]
+    pub(super) explode: Option<Explosion>,
+}
+
+/// Reads `z`, `auto`, `x:1.5` or `:2`.
+fn explosion(text: &str) -> Result<Explosion, String> {
+    let (axis, factor) = text.split_once(':').map_or((text, None), |(axis, factor)| (axis, Some(factor)));
+    let wrong = || "write x, y, z or auto, and how far behind a colon: z:1.5".to_owned();
+    let axis = match axis.trim() {
+        "x" | "X" => Some(DVec3::X),
+        "y" | "Y" => Some(DVec3::Y),
+        "z" | "Z" => Some(DVec3::Z),
+        "" | "auto" => None,
+        _ => return Err(wrong()),
+    };
+    let factor = factor.map_or(Ok(1.0), |factor| factor.trim().parse::<f64>().map_err(|_| wrong()))?;
+    if (0.0..=1000.0).contains(&factor) { Ok(Explosion { axis, factor }) } else { Err(wrong()) }
 }
 
 /// A plane as it is written.
@@ -132,6 +152,19 @@ impl CutPlane {
 }
 
 impl SectionArgs {
+    /// Whether the model is drawn otherwise than it stands.
+    pub(super) fn is_asked(&self) -> bool {
+        self.section.is_some() || self.explode.is_some()
+    }
+
+    /// Takes the scene apart, if it is to be.
+    pub(super) fn take_apart(&self, scene: &mut Scene) -> bool {
+        let Some(explosion) = &self.explode else { return false };
+        let ways = explode(scene, explosion);
+        *scene = with_trails(std::mem::take(scene), &ways);
+        true
+    }
+
     /// The scene as it is cut open, if it is to be.
     pub(super) fn cut(
         &self,
@@ -164,6 +197,10 @@ mod tests {
         assert_eq!(cut_plane("-x=25%"), plane(DVec3::NEG_X, true, At::Share(0.75)));
         assert_eq!(cut_plane("-x=-3"), plane(DVec3::NEG_X, true, At::Units(3.0)));
         assert_eq!(cut_plane("normal:0,0,2@4"), plane(DVec3::Z, false, At::Units(4.0)));
+        let apart = |axis, factor| Ok(Explosion { axis, factor });
+        assert_eq!(explosion("z"), apart(Some(DVec3::Z), 1.0));
+        assert_eq!(explosion("auto:1.5"), apart(None, 1.5));
+        assert!(["w", "z:", "z:-1", "z:a"].iter().all(|wrong| explosion(wrong).is_err()));
         for wrong in ["", "w", "x=", "x=a", "x=5furlong", "normal:1,2", "normal:0,0,0", "x=nan", "normal:1,0,0@"] {
             assert!(cut_plane(wrong).is_err(), "{wrong}");
         }

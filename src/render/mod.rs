@@ -50,7 +50,7 @@ pub use areas::hotspots;
 pub use maps::MapFiles;
 pub use report::{Report, Stopwatch};
 pub use resting::Resting;
-pub use sections::hatched;
+pub use sections::{hatched, trailed};
 pub use stage::Stage;
 
 use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};

@@ -1,10 +1,30 @@
-//! [`hatched`]: a style that hatches the faces along which a scene is cut open.
+//! [`hatched`], [`trailed`]: styles that also hatch the faces along which a scene is cut open, and draw trails of parts.
 
 use crate::drawing::Length;
+use crate::explode::TRAIL;
 use crate::hatch::{Pattern, PatternKind};
+use crate::lines::LineKind;
 use crate::math::glob::Glob;
 use crate::section::{Section, material_name};
+use crate::stroke::{Condition, PenChange, Rule};
 use crate::style::Style;
+
+/// The style with thin chain lines (ISO 128-2, line type 04.1) for the trails of parts that were moved apart.
+#[must_use]
+pub fn trailed(style: &Style) -> Style {
+    let mut style = style.clone();
+    let dash = [24.0, 3.0, 0.5, 3.0].map(|part| Length::mm(part * TRAIL_MM));
+    let pen = PenChange { width: Some(Length::mm(TRAIL_MM)), dash: Some(dash.into()), ..PenChange::default() };
+    let when = Condition { material: Some(Glob::new(TRAIL)), ..Condition::default() };
+    style.stroke.rules.push(Rule { when, pen });
+    if !style.lines.kinds.contains(&LineKind::Wire) {
+        style.lines.kinds.push(LineKind::Wire);
+    }
+    style
+}
+
+/// Width of trail lines.
+const TRAIL_MM: f64 = 0.25;
 
 /// The distance of lines on cut faces, and their width.
 const SPACING_MM: f64 = 2.0;

@@ -63,7 +63,7 @@ pub fn material_name(kind: usize) -> String {
 ///
 /// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
 /// the part. They cover what the part's outlines in the plane go round, by number of turns. Outlines that do not close, where a surface
-/// is open, are left open and counted in the warnings of the scene. Parts whose name fits `uncut` stay whole, on whichever side they are.
+/// is open, are left open and counted in the warnings of the scene. Of parts whose name fits `uncut` nothing is cut off where the plane goes through them.
 #[must_use]
 pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     let mut keep = vec![true; scene.parts.len()];
@@ -75,7 +75,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     for number in 0..scene.parts.len() {
         let part = &scene.parts[number];
         let stays = uncut.iter().any(|glob| glob.matches(&part.name));
-        let Some(shape) = scene.geometry_of(part).filter(|_| !stays) else { continue };
+        let Some(shape) = scene.geometry_of(part) else { continue };
         let place = part.world_from_part;
         let (behind, before) = clip::reaches(shape, &place, plane);
         if !before {
@@ -83,6 +83,9 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         }
         if !behind {
             keep[number] = false;
+            continue;
+        }
+        if stays {
             continue;
         }
         let mut left = clipped(shape, &place, plane);

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use crate::support::imports::{File, circles, imports};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
-const ROOMS: [&str; 30] = [
-    "error", "math", "mesh", "trees", "shape", "scene", "section", "lod", "pose", "load", "view", "raster", "field",
+const ROOMS: [&str; 31] = [
+    "error", "math", "mesh", "trees", "shape", "scene", "section", "explode", "lod", "pose", "load", "view", "raster", "field",
     "lines", "viewmap", "shadow", "drawing", "chain", "export", "region", "picture", "diff", "testing",
     "stroke", "hatch", "motion", "style", "render", "animate", "cli",
 ];

@@ -17,6 +17,7 @@ mod dry_brush;
 mod dual_tree;
 mod dxf;
 mod example_models;
+mod explode;
 mod export;
 mod fmt;
 mod folds;
