@@ -41,14 +41,23 @@ const FIELDS: f64 = 160.0;
 /// Surfaces so near, as a share of the model's diagonal, touch.
 const TOUCH: f64 = 1e-5;
 
-/// The way of each part, world: zero for those that stay.
+/// How far the parts of a scene move, world: zero for those that stay.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Ways {
+    /// The whole way of each part.
+    pub offsets: Vec<DVec3>,
+    /// What of it the part goes by itself, and not with others that it is held by.
+    pub alone: Vec<DVec3>,
+}
+
+/// How far each part moves.
 ///
 /// Of the parts that hang together the largest stays. Where two parts overlap seen along the axis, one is before the other on it, but for
 /// parts that hold each other along all axes, which move as one.
 #[must_use]
-pub fn explode(scene: &Scene, explosion: &Explosion) -> Vec<DVec3> {
+pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
     let bodies: Vec<Vec<[DVec3; 3]>> = (0..scene.parts.len()).map(|part| body(scene, part)).collect();
-    let mut ways = vec![DVec3::ZERO; bodies.len()];
+    let mut ways = Ways { offsets: vec![DVec3::ZERO; bodies.len()], alone: vec![DVec3::ZERO; bodies.len()] };
     let Some((low, high)) = scene.bounds() else { return ways };
     let diagonal = (high - low).length();
     let parts: Vec<usize> = (0..bodies.len()).filter(|part| !bodies[*part].is_empty()).collect();
@@ -85,7 +94,7 @@ struct Reach {
 }
 
 /// Puts parts apart along the first axis, and those that hold each other along the next ones.
-fn apart(bodies: &[Vec<[DVec3; 3]>], parts: &[usize], grids: &[Grid], reach: &Reach, ways: &mut [DVec3]) {
+fn apart(bodies: &[Vec<[DVec3; 3]>], parts: &[usize], grids: &[Grid], reach: &Reach, ways: &mut Ways) {
     let Some((grid, others)) = grids.split_first() else { return };
     let columns: Vec<Columns> = parts.iter().map(|part| Columns::new(&bodies[*part], grid)).collect();
     let groups = order::groups(&columns, reach.touch);
@@ -93,9 +102,13 @@ fn apart(bodies: &[Vec<[DVec3; 3]>], parts: &[usize], grids: &[Grid], reach: &Re
     for (group, offset) in groups.iter().zip(moved) {
         let own: Vec<usize> = group.iter().map(|k| parts[*k]).collect();
         for part in &own {
-            ways[*part] += grid.axes[2] * offset;
+            ways.offsets[*part] += grid.axes[2] * offset;
+            if offset != 0.0 {
+                ways.alone[*part] = grid.axes[2] * offset;
+            }
         }
         if own.len() > 1 {
+            own.iter().for_each(|part| ways.alone[*part] = DVec3::ZERO);
             apart(bodies, &own, others, reach, ways);
         }
     }
@@ -103,8 +116,8 @@ fn apart(bodies: &[Vec<[DVec3; 3]>], parts: &[usize], grids: &[Grid], reach: &Re
 
 /// The scene with its parts moved so.
 #[must_use]
-pub fn moved(mut scene: Scene, ways: &[DVec3]) -> Scene {
-    for (part, way) in scene.parts.iter_mut().zip(ways) {
+pub fn moved(mut scene: Scene, ways: &Ways) -> Scene {
+    for (part, way) in scene.parts.iter_mut().zip(&ways.offsets) {
         part.world_from_part = DAffine3::from_translation(*way) * part.world_from_part;
     }
     scene

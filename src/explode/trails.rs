@@ -2,18 +2,20 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::body;
+use super::{Ways, body};
 use crate::math::colour::Colour;
 use crate::scene::{Geometry, Material, Part, Scene};
 
 /// The name of the parts and of the material of these lines.
 pub const TRAIL: &str = "trail";
 
-/// The scene with its parts moved so, and with a wire from the middle of where each was to the middle of where it is.
+/// The scene with its parts moved so, and with a wire from the middle of where each was, once all that holds it had moved,
+/// to the middle of where it is.
 #[must_use]
-pub fn with_trails(scene: Scene, ways: &[DVec3]) -> Scene {
+pub fn with_trails(scene: Scene, ways: &Ways) -> Scene {
     let mut wires = Geometry::default();
-    for (part, way) in ways.iter().enumerate().filter(|(_, way)| **way != DVec3::ZERO) {
+    let both = ways.offsets.iter().zip(&ways.alone).enumerate();
+    for (part, (whole, way)) in both.filter(|(_, (_, alone))| **alone != DVec3::ZERO) {
         let body = body(&scene, part);
         let corners = body.as_flattened();
         let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -23,7 +25,7 @@ pub fn with_trails(scene: Scene, ways: &[DVec3]) -> Scene {
         }
         let from = (low + high) / 2.0;
         let first = wires.positions.len() as u32;
-        wires.positions.extend([from, from + *way]);
+        wires.positions.extend([from + (*whole - *way), from + *whole]);
         wires.wires.push([first, first + 1]);
     }
     let mut scene = super::moved(scene, ways);
