@@ -62,6 +62,8 @@ pub mod stages;
 pub mod style;
 #[cfg(feature = "diff")]
 pub mod testing;
+#[cfg(feature = "page")]
+pub mod text;
 
 // Inside, each stage goes by its own name.
 use stages::{

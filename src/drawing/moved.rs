@@ -10,6 +10,9 @@ impl Mark {
     pub fn moved(mut self, by: Vec2) -> Self {
         let moved = Affine::translate(by);
         self.path.apply_affine(moved);
+        if let Some(text) = &mut self.provenance.text {
+            text.place = moved * text.place;
+        }
         match &mut self.paint {
             Paint::Stroke(_) | Paint::Fill(_) => {}
             Paint::Gradient(gradient) => {

@@ -432,6 +432,9 @@ fn write_mark(
     if provenance.identity > 0 {
         named(b" data-id=\"", &short_id(provenance.identity));
     }
+    if let Some(text) = &provenance.text {
+        named(b" aria-label=\"", &text.words);
+    }
     if let Paint::Outline(outline) = &mark.paint {
         out.extend_from_slice(b" data-axis=\"");
         out.extend_from_slice(axis);

@@ -33,6 +33,7 @@ fn mark(data: &str, paint: Paint, classes: &[&'static str], part: Option<&str>) 
             material: None,
             invisibility: 0,
             note: None,
+            text: None,
         },
     }
 }

@@ -55,6 +55,7 @@ mod stages;
 mod style;
 mod style_fills;
 mod testing;
+mod text;
 mod textures;
 mod turning_strokes;
 mod visibility;

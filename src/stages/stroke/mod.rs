@@ -293,6 +293,7 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
         identity: chain.identity,
         places: Arc::clone(&chain.places),
         note: None,
+        text: None,
     }
 }
 
