@@ -13,6 +13,7 @@ pub mod comic;
 pub mod composed;
 pub mod figure;
 pub mod file;
+pub mod layout;
 pub mod length;
 pub mod sheet;
 pub mod size;
