@@ -18,10 +18,12 @@ mod cap;
 mod clip;
 mod differing;
 pub mod plane;
+pub mod told;
 
 use glam::{DAffine3, DVec2};
 
 pub use plane::Plane;
+pub use told::CutPlane;
 
 use crate::math::glob::Glob;
 use crate::mesh::{EdgeMark, weld};
