@@ -53,6 +53,7 @@ mod regions;
 mod sections;
 mod shadows;
 mod smooth_contours;
+mod sheets;
 mod stability;
 mod stages;
 mod style;

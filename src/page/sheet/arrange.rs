@@ -4,7 +4,7 @@
 
 use kurbo::{Point, Rect};
 
-use super::keys::Method;
+use super::method::Method;
 use super::pack::Room;
 use super::scales::SERIES;
 use super::sight::Sight;
@@ -13,6 +13,14 @@ use crate::scene::NamedView;
 /// Room between views in a row, and around those that stand alone, mm.
 pub(super) const BETWEEN: f64 = 22.0;
 const AROUND: f64 = 7.0;
+
+/// Room at the border of the sheet for the lengths of the first views, mm.
+const BESIDE: f64 = 9.0;
+
+/// Views without a scale are up to so many times as large as the others, and are made smaller by this factor until they fit.
+const LARGEST: f64 = 2.0;
+const FREE_STEP: f64 = 0.94;
+const FREE_STEPS: i32 = 60;
 
 /// Height of a title above a view.
 pub(super) const TITLE: f64 = 8.0;
@@ -36,10 +44,17 @@ pub(super) enum Stands {
     Beside(NamedView),
     /// Anywhere, at the scale of the sheet, or at a smaller one.
     Alone,
+    /// Anywhere, as large as it may be there.
+    Free,
     /// Anywhere, at a scale so many times that of the sheet.
     Enlarged(f64),
     /// Anywhere, at that scale.
     At(f64),
+}
+
+/// A scale, and those of the series that are a little smaller.
+fn smaller(scale: f64, place: usize) -> Vec<f64> {
+    [scale].into_iter().chain(SERIES.iter().skip(place + 1).copied().take(SMALLER)).collect()
 }
 
 /// The column and the row of a view.
@@ -66,11 +81,17 @@ pub(super) fn arrange(
     let told = told.map(|scale| vec![scale]);
     told.as_deref().unwrap_or(&SERIES).iter().copied().find(|scale| {
         let mut room = room.clone();
-        try_scale(views, &mut room, method, *scale, unit_mm).is_some()
+        try_scale(views, (&mut room, space), method, *scale, unit_mm).is_some()
     })
 }
 
-fn try_scale(views: &mut [Placed], room: &mut Room, method: Method, scale: f64, unit_mm: f64) -> Option<()> {
+fn try_scale(
+    views: &mut [Placed],
+    (room, space): (&mut Room, Rect),
+    method: Method,
+    scale: f64,
+    unit_mm: f64,
+) -> Option<()> {
     let unit = scale * unit_mm;
     let group = |views: &[Placed]| -> Vec<(usize, [i32; 2])> {
         let of = |(k, placed): (usize, &Placed)| match placed.stands {
@@ -92,20 +113,19 @@ fn try_scale(views: &mut [Placed], room: &mut Room, method: Method, scale: f64, 
             })
         };
         let mut middles = [Vec::new(), Vec::new()];
-        let mut sizes = [0.0; 2];
         for line in 0..2 {
-            let mut at = BETWEEN / 2.0 + AROUND;
+            let mut at = BETWEEN / 2.0 + BESIDE;
             for k in -2..=3 {
                 if let Some([before, after]) = reach(line, k) {
                     middles[line].push((k, at + before));
                     at += before + after + BETWEEN;
                 }
             }
-            sizes[line] = at - BETWEEN / 2.0;
         }
         let titled = beside.iter().any(|(k, _)| views[*k].sight.title.is_some());
         let above = if titled { TITLE } else { 0.0 };
-        let place = room.put(sizes[0], sizes[1] + above)?;
+        let place = space;
+        let mut taken = Vec::new();
         for (k, field) in &beside {
             let middle = |line: usize| {
                 middles[line].iter().find(|(at, _)| *at == field[line]).map_or(0.0, |(_, middle)| *middle)
@@ -116,7 +136,15 @@ fn try_scale(views: &mut [Placed], room: &mut Room, method: Method, scale: f64, 
                 place.x0 + middle(0) + sight.low.x * unit,
                 place.y0 + above + middle(1) - sight.high.y * unit,
             );
+            let titled = if sight.title.is_some() { TITLE } else { 0.0 };
+            let own = sight.rect().inflate(BETWEEN / 2.0, BETWEEN / 2.0);
+            taken.push(Rect { y0: own.y0 - titled, ..own });
         }
+        // They stand in the upper left corner; what lies in the angle between them is free.
+        if !taken.iter().all(|rect| room.has(*rect)) {
+            return None;
+        }
+        taken.into_iter().for_each(|rect| room.take(rect));
     }
     for placed in views.iter_mut() {
         let from = SERIES.iter().position(|own| *own <= scale * (1.0 + 1e-9)).unwrap_or_default();
@@ -124,7 +152,9 @@ fn try_scale(views: &mut [Placed], room: &mut Room, method: Method, scale: f64, 
             Stands::Beside(_) => continue,
             Stands::Enlarged(times) => vec![scale * times],
             Stands::At(scale) => vec![scale],
-            Stands::Alone => [scale].into_iter().chain(SERIES.iter().skip(from + 1).copied().take(SMALLER)).collect(),
+            Stands::Alone => smaller(scale, from),
+            // Nobody measures in it.
+            Stands::Free => (0..FREE_STEPS).map(|k| scale * LARGEST * FREE_STEP.powi(k)).collect(),
         };
         let margin = placed.margin + AROUND;
         let title = if placed.sight.title.is_some() { TITLE } else { 0.0 };

@@ -7,7 +7,7 @@ use kurbo::{Point, Rect};
 use serde::Deserialize;
 
 use super::ink::{CHAIN, Ink, NARROW, Stand, WIDE, way};
-use super::keys::Method;
+use super::method::Method;
 use crate::error::Error;
 
 /// Width of the title block, mm.

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::block::TitleKeys;
+use super::method::Method;
 use crate::page::figure::Models;
 use crate::page::size::Size;
 
@@ -49,17 +50,6 @@ pub struct SheetPage {
     pub dimension: Vec<DimensionKeys>,
     /// Notes.
     pub notes: Vec<String>,
-}
-
-/// Which side of a view shows what lies beside it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// A view from the left is on the right of the front view.
-    #[default]
-    First,
-    /// A view from the left is on the left of the front view.
-    Third,
 }
 
 /// A view of the model cut open.

@@ -12,6 +12,7 @@ pub mod frame;
 mod ink;
 pub mod keys;
 pub mod list;
+pub mod method;
 mod notes;
 mod pack;
 mod plan;
@@ -24,7 +25,8 @@ use kurbo::{Affine, Rect, Shape};
 use toml::Spanned;
 
 pub use block::TitleKeys;
-pub use keys::{Method, SheetPage};
+pub use keys::SheetPage;
+pub use method::Method;
 
 use super::composed::Composed;
 use super::figure;
@@ -87,6 +89,11 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     let space = frame::space(size);
     let title = block::place(space);
     let (columns, rows, high) = notes::list_size(items.len(), space.height() * 0.3);
+    if high > space.height() * 0.6 {
+        return Err(Error::new(format!("a list of {} items does not fit on this sheet", items.len()))
+            .in_file(&source.path)
+            .remedy("choose a larger size, hide parts with `hide`, or leave parts_list out"));
+    }
     let list_place = Rect { y0: title.y0 - high, y1: title.y0, ..title };
     let mut taken = vec![title];
     if !items.is_empty() {

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use kurbo::{Circle, Point, Rect, Vec2};
 
+use super::arrange::Stands;
 use super::balloons::{leaders, slots};
 use super::dimension::{dimension, value};
 use super::ink::{CHAIN, Ink, NARROW, Stand, WIDE, way};
@@ -23,7 +24,7 @@ const SMALL: f64 = 2.5;
 pub(super) fn titles(plan: &Plan, scale: f64, ink: &mut Ink) -> Result<(), Error> {
     for (k, placed) in plan.views.iter().enumerate() {
         let own = placed.sight.unit / plan.unit_mm;
-        let other = (own / scale - 1.0).abs() > 1e-9;
+        let other = placed.stands != Stands::Free && (own / scale - 1.0).abs() > 1e-9;
         let scale = other.then(|| scales::written(own));
         let words = match (&placed.sight.title, scale) {
             (Some(title), Some(scale)) => format!("{title} ({scale})"),
@@ -39,15 +40,17 @@ pub(super) fn titles(plan: &Plan, scale: f64, ink: &mut Ink) -> Result<(), Error
     Ok(())
 }
 
+/// The view in which the line of a cutting plane is drawn: the first one in which it is seen edge-on.
+fn crossed(plan: &Plan, cut: &CutLine) -> Option<usize> {
+    let edge_on = |sight: &Sight| cut.plane.normal().dot(sight.axes()[2]).abs() < 1e-9;
+    plan.views.iter().position(|placed| edge_on(&placed.sight) && placed.sight.title.is_none())
+}
+
 /// The line of a cutting plane in the first view in which it is seen edge-on, with arrows in the direction of sight (ISO 128-3).
 pub(super) fn cutting_plane(plan: &Plan, cut: &CutLine, ink: &mut Ink) -> Result<(), Error> {
     let normal = cut.plane.normal();
-    let edge_on = |sight: &Sight| normal.dot(sight.axes()[2]).abs() < 1e-9;
-    let Some(placed) = plan.views.iter().find(|placed| edge_on(&placed.sight) && placed.sight.title.is_none())
-    else {
-        return Ok(());
-    };
-    let sight = &placed.sight;
+    let Some(view) = crossed(plan, cut) else { return Ok(()) };
+    let sight = &plan.views[view].sight;
     // Towards the eye of the section, on the page.
     let back = sight.page(plan.middle + normal) - sight.page(plan.middle);
     let back = back / back.hypot2().sqrt();
@@ -95,9 +98,14 @@ pub(super) fn circle_of(shown: &Sight) -> Circle {
 pub(super) fn overall(plan: &Plan, ink: &mut Ink) -> Result<(), Error> {
     let points = world_points(&plan.sets[0].scene);
     let mut told: Vec<DVec3> = Vec::new();
-    let sides = plan.views.iter().filter(|placed| matches!(placed.stands, super::arrange::Stands::Beside(_)));
-    for placed in sides {
-        let sight = &placed.sight;
+    let is_side = |k: &usize| matches!(plan.views[*k].stands, Stands::Beside(_));
+    let mut sides: Vec<usize> = (0..plan.views.len()).filter(is_side).collect();
+    // Lines of cutting planes stand in the way.
+    let crossed: Vec<usize> = plan.cuts.iter().filter_map(|cut| crossed(plan, cut)).collect();
+    sides.sort_by_key(|k| crossed.contains(k));
+    for view in sides {
+        let sight = &plan.views[view].sight;
+        let aside = if crossed.contains(&view) { 19.0 } else { 9.0 };
         let [right, up, _] = sight.axes();
         let rect = sight.rect();
         for (axis, along) in [(right, Vec2::new(1.0, 0.0)), (up, Vec2::new(0.0, 1.0))] {
@@ -124,7 +132,7 @@ pub(super) fn overall(plan: &Plan, ink: &mut Ink) -> Result<(), Error> {
                 continue;
             };
             let through =
-                if is_across { Point::new(rect.x0, rect.y1 + 9.0) } else { Point::new(rect.x0 - 9.0, rect.y0) };
+                if is_across { Point::new(rect.x0, rect.y1 + aside) } else { Point::new(rect.x0 - aside, rect.y0) };
             let text = value((to - from).dot(axis).abs() * plan.unit_mm);
             dimension([sight.page(from), sight.page(to)], along, through, &text, ink)?;
         }

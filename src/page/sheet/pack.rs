@@ -25,6 +25,11 @@ impl Room {
         Some(place)
     }
 
+    /// Whether nothing is in a rectangle.
+    pub fn has(&self, rect: Rect) -> bool {
+        self.free.iter().any(|own| own.x0 <= rect.x0 && own.y0 <= rect.y0 && own.x1 >= rect.x1 && own.y1 >= rect.y1)
+    }
+
     /// Takes a rectangle away.
     pub fn take(&mut self, taken: Rect) {
         let mut left = Vec::new();

@@ -107,7 +107,7 @@ impl Plan {
         }
         plan.sets.push(Set { scene, style: style.clone() });
         plan.add_sections(sheet, &views, (&points, &pictorial), source)?;
-        if views.iter().any(|view| !SIDES.contains(view)) {
+        if sheet.hidden && views.iter().any(|view| !SIDES.contains(view)) {
             let scene = plan.sets[0].scene.clone();
             plan.sets.push(Set { scene, style: pictorial.clone() });
             for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
@@ -198,7 +198,7 @@ impl Plan {
         let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
         self.sets.push(Set { scene, style: trailed(style) });
         let set = self.sets.len() - 1;
-        self.add("exploded", camera, &points, (set, Stands::Alone, 0.0));
+        self.add("exploded", camera, &points, (set, Stands::Free, 0.0));
         Ok(())
     }
 
