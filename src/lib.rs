@@ -53,6 +53,8 @@ pub mod lod;
 #[doc(hidden)]
 pub mod math;
 pub mod motion;
+#[cfg(feature = "page")]
+pub mod page;
 pub mod pose;
 pub mod render;
 pub mod scene;

@@ -269,7 +269,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     time.ok_or_else(|| "write a number of seconds".to_owned())
 }
 
-fn dots_per_inch(text: &str) -> Result<f64, String> {
+pub(super) fn dots_per_inch(text: &str) -> Result<f64, String> {
     let dpi = text.parse().ok().filter(|dpi: &f64| (1.0..=9600.0).contains(dpi));
     dpi.ok_or_else(|| "write a number from 1 to 9600".to_owned())
 }

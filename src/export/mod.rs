@@ -49,8 +49,11 @@ pub(crate) mod piece;
 #[cfg(feature = "png")]
 pub mod png;
 #[cfg(feature = "png")]
+mod png_composition;
+#[cfg(feature = "png")]
 mod png_image;
 pub mod svg;
+mod svg_composition;
 mod svg_image;
 mod touching;
 pub(crate) mod xml;

@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use crate::support::imports::{File, circles, imports};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
-const ROOMS: [&str; 30] = [
+const ROOMS: [&str; 31] = [
     "error", "math", "mesh", "trees", "shape", "scene", "lod", "pose", "load", "view", "raster", "field",
     "lines", "viewmap", "shadow", "drawing", "text", "chain", "export", "region", "picture", "diff",
-    "testing", "stroke", "hatch", "motion", "style", "render", "animate", "cli",
+    "testing", "stroke", "hatch", "motion", "style", "render", "animate", "page", "cli",
 ];
 
 /// The folder of those rooms that are stages; it is no room itself.

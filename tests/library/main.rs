@@ -37,6 +37,7 @@ mod lod;
 mod marked_edges;
 mod models;
 mod motion;
+mod pages;
 mod painted_surfaces;
 mod paper;
 mod part_groups;
