@@ -16,4 +16,5 @@ mod framing;
 mod lod;
 mod many;
 mod pictures;
+mod print;
 mod web;
