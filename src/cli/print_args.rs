@@ -9,7 +9,7 @@ use clap::{Args, ValueHint};
 use super::output::{Format, Output};
 use crate::drawing::{Composition, Drawing, Item, Page};
 use crate::error::Error;
-use crate::export::{Inks, PdfOptions, Spot, Standard, to_pdf};
+use crate::export::{Inks, PdfOptions, Screen, Spot, Standard, to_pdf};
 use crate::math::colour::Colour;
 
 /// How PDF is written, but for its inks.
@@ -26,6 +26,10 @@ pub(super) struct PrintArgs {
     /// All inks of a place together, percent of one, with --ink cmyk: 300
     #[arg(long, value_name = "PERCENT", help_heading = "Print")]
     ink_limit: Option<f64>,
+
+    /// Print fills as dots of solid ink, in PDF: rows of dots an inch, and the angle of black's, 60 or 60@45
+    #[arg(long, value_name = "LPI@ANGLE", value_parser = screen, help_heading = "Print")]
+    screen: Option<Screen>,
 
     /// Print crop marks and registration marks around the page, in PDF
     #[arg(long, help_heading = "Print")]
@@ -52,6 +56,13 @@ fn spot(text: &str) -> Result<Spot, String> {
     Ok(Spot { colour, name: name.trim().to_owned() })
 }
 
+/// A half-tone screen.
+fn screen(text: &str) -> Result<Screen, String> {
+    let (lpi, angle) = text.split_once('@').unwrap_or((text, "45"));
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| format!("`{text}` is not a number"));
+    Ok(Screen { lpi: number(lpi)?, angle_deg: number(angle)? })
+}
+
 impl PrintArgs {
     /// What was asked for with those inks; none if nothing was.
     ///
@@ -69,6 +80,7 @@ impl PrintArgs {
         };
         let mut options =
             PdfOptions { spots: self.spots.clone(), marks: self.marks, ..PdfOptions::default() };
+        options.screen = self.screen;
         (options.standard, options.outlined, options.ink_limit) =
             (self.standard, self.outlined, self.ink_limit);
         match ink.as_deref() {
@@ -112,6 +124,7 @@ impl PrintArgs {
             (self.icc.is_some(), "--icc"),
             (!self.spots.is_empty(), "--spot"),
             (self.ink_limit.is_some(), "--ink-limit"),
+            (self.screen.is_some(), "--screen"),
             (self.marks, "--marks"),
             (self.standard.is_some(), "--pdf"),
             (self.outlined, "--outlined"),

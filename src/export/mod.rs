@@ -41,6 +41,8 @@ mod pdf_paints;
 #[cfg(feature = "pdf")]
 mod pdf_pictures;
 #[cfg(feature = "pdf")]
+pub mod pdf_screen;
+#[cfg(feature = "pdf")]
 mod pdf_sheet;
 #[cfg(feature = "pdf")]
 mod pdf_standard;
@@ -63,6 +65,8 @@ pub use dxf::{DxfLength, DxfOptions, DxfVersion};
 pub use pdf_options::{Inks, PdfOptions, Spot, Standard};
 #[cfg(feature = "pdf")]
 pub use pdf_pages::to_pdf;
+#[cfg(feature = "pdf")]
+pub use pdf_screen::Screen;
 #[cfg(feature = "png")]
 pub use png::{Pixels, PngOptions, Resolution};
 pub use svg::{Grouping, SvgOptions};

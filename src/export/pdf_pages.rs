@@ -25,12 +25,13 @@ use rayon::prelude::*;
 use super::SvgOptions;
 use super::number::Decimals;
 use super::pdf::{CHUNK, DEFLATE_LEVEL, group_name};
-use super::pdf_content::{Press, Writer, pattern_name, picture_name, spot_name, state_name};
+use super::pdf_content::{Dots, Press, Writer, pattern_name, picture_name, spot_name, state_name};
 use super::pdf_fonts::{Fonts, OBJECTS_PER_FONT, font_name};
 use super::pdf_inks::{Ink, Plates, srgb_profile};
-use super::pdf_options::{PdfOptions, Standard};
+use super::pdf_options::{Inks, PdfOptions, Standard};
 use super::pdf_paints::{write_gradient, write_picture};
 use super::pdf_pictures::Crops;
+use super::pdf_screen::Screen;
 use super::pdf_sheet::{ALL_INKS, Sheet};
 use super::pdf_standard::{id, write_info, write_intent, xmp};
 use super::pictures::matrix;
@@ -60,6 +61,7 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         return Err(Error::new("a PDF without pages cannot be written").remedy("give a page"));
     };
     let plates = Plates::new(options)?;
+    let screen = screen(options)?;
     let profile = intent(&plates, options)?;
     let sheets: Vec<Sheet> =
         pages.iter().map(|page| Sheet::new(page, options.marks)).collect::<Result<_, _>>()?;
@@ -72,8 +74,8 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         fonts.cut();
     }
     let crops: Vec<Crops> = drawings(pages).map(Crops::of).collect();
-    let press = Press { plates: &plates, fonts: Some(&fonts), first_picture: 0 };
-    let mut document = Document::new(press);
+    let press = Press { plates: &plates, fonts: Some(&fonts), first_picture: 0, dots: None };
+    let mut document = Document::new(press, screen);
     for (page, sheet) in pages.iter().zip(&sheets) {
         document.page(page, sheet, &crops, options.marks);
     }
@@ -271,6 +273,20 @@ fn intent(plates: &Plates, options: &PdfOptions) -> Result<Option<(Vec<u8>, usiz
     }
 }
 
+/// The half-tone screen, if it is one.
+fn screen(options: &PdfOptions) -> Result<Option<Screen>, Error> {
+    let Some(screen) = options.screen else { return Ok(None) };
+    if !(screen.lpi.is_finite() && (5.0..=200.0).contains(&screen.lpi) && screen.angle_deg.is_finite()) {
+        return Err(Error::new(format!("a screen of {} lines an inch cannot be printed", screen.lpi))
+            .remedy("give 5 to 200 lines an inch"));
+    }
+    if options.inks == Inks::Screen {
+        return Err(Error::new("only the inks of a press are printed as dots")
+            .remedy("print with black alone, or with four inks"));
+    }
+    Ok(Some(screen))
+}
+
 /// All drawings of all pages.
 fn drawings(pages: &[Composition]) -> impl Iterator<Item = &Drawing> {
     pages.iter().flat_map(|page| page.items.iter().map(|item| &item.drawing))
@@ -296,7 +312,12 @@ fn states(pages: &[Composition], plates: &Plates) -> BTreeSet<(u8, bool)> {
     let paper = pages.iter().map(|page| &page.page).chain(drawings(pages).map(|drawing| &drawing.page));
     let paper = paper.filter_map(|page| page.background).map(state);
     // Pictures and marks of the printer are opaque.
-    drawings(pages).flat_map(marks).flat_map(of_mark).chain(paper).chain([(255, false)]).collect()
+    drawings(pages)
+        .flat_map(marks)
+        .flat_map(of_mark)
+        .chain(paper)
+        .chain([(255, false), (255, plates.is_press())])
+        .collect()
 }
 
 /// A layer of the document.
@@ -311,6 +332,7 @@ struct Group {
 enum Segment<'a> {
     Raw(Vec<u8>),
     Marks {
+        dots: Option<Dots>,
         marks: &'a [Mark],
         crops: &'a Crops<'a>,
         first_picture: usize,
@@ -324,8 +346,8 @@ impl Segment<'_> {
     fn write(&self, press: Press) -> Vec<u8> {
         match self {
             Self::Raw(bytes) => compress_to_vec_zlib(bytes, DEFLATE_LEVEL),
-            Self::Marks { marks, crops, first_picture, first_pattern, decimals } => {
-                let press = Press { first_picture: *first_picture, ..press };
+            Self::Marks { dots, marks, crops, first_picture, first_pattern, decimals } => {
+                let press = Press { first_picture: *first_picture, dots: *dots, ..press };
                 let mut writer = Writer::new(*decimals, *first_pattern, Some(press));
                 marks.iter().for_each(|mark| writer.mark(mark, crops));
                 compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL)
@@ -337,6 +359,7 @@ impl Segment<'_> {
 /// What is gathered of the pages.
 struct Document<'a> {
     press: Press<'a>,
+    screen: Option<Screen>,
     groups: Vec<Group>,
     /// Of each page.
     segments: Vec<Vec<Segment<'a>>>,
@@ -348,9 +371,9 @@ struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    fn new(press: Press<'a>) -> Self {
+    fn new(press: Press<'a>, screen: Option<Screen>) -> Self {
         let (groups, segments, titles, gradients) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { press, groups, segments, titles, gradients, pictures: 0, drawings: 0 }
+        Self { press, screen, groups, segments, titles, gradients, pictures: 0, drawings: 0 }
     }
 
     fn page(&mut self, page: &'a Composition, sheet: &Sheet, crops: &'a [Crops<'a>], marks: bool) {
@@ -427,6 +450,7 @@ impl<'a> Document<'a> {
         let larger = item.place.determinant().abs().sqrt();
         let more = [1.0, 10.0, 100.0].iter().filter(|step| larger > **step).count() as u8;
         let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + more);
+        let dots = self.screen.map(|screen| Dots { screen, place: item.place, mm: sheet.mm });
         for layer in &drawing.layers {
             let inner = self.group(&drawing.names(layer).1, Some(group));
             self.raw(format!("/OC /{} BDC\n", group_name(inner)).into_bytes());
@@ -438,7 +462,7 @@ impl<'a> Document<'a> {
                 });
                 self.gradients.extend(graded);
                 if let Some(page) = self.segments.last_mut() {
-                    page.push(Segment::Marks { marks, crops, first_picture, first_pattern, decimals });
+                    page.push(Segment::Marks { dots, marks, crops, first_picture, first_pattern, decimals });
                 }
             }
             self.raw(b"EMC\n".to_vec());

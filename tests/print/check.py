@@ -79,14 +79,14 @@ def plates(file):
     shares = {}
     with tempfile.TemporaryDirectory() as folder:
         status, text = said(
-            "gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", "-sDEVICE=tiffsep", "-r100", "-dLastPage=1",
+            "gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", "-sDEVICE=tiffsep", "-r300", "-dLastPage=1",
             f"-sOutputFile={folder}/p%d.tif", str(file),
         )
         if status or "rror" in text:
             fault(f"{file.name}: Ghostscript says {text}")
         for path in sorted(Path(folder).glob("p1(*).tif")):
             image = Image.open(path).convert("L")
-            edge = 9 / 25.4 * 100 + 1
+            edge = 9 / 25.4 * 300 + 2
             image = image.crop((edge, edge, image.width - edge, image.height - edge))
             inked = sum(count * (255 - value) for value, count in enumerate(image.histogram()))
             shares[path.name[3:-5]] = inked / 255 / (image.width * image.height)
@@ -96,7 +96,7 @@ def plates(file):
 def check_plates(file):
     shares = plates(file)
     print(f"  {file.name}:", ", ".join(f"{name} {100 * share:.2f} %" for name, share in shares.items()))
-    black_alone = file.name in ("k.pdf", "x4-k.pdf", "outlined.pdf", "spot.pdf")
+    black_alone = file.name in ("k.pdf", "x4-k.pdf", "outlined.pdf", "spot.pdf", "dots.pdf")
     for name in PLATES[:3]:
         if black_alone and shares[name]:
             fault(f"{file.name}: ink on the plate {name}")
@@ -107,6 +107,7 @@ def check_plates(file):
     wants_spot = file.name in ("spot.pdf", "x4.pdf")
     if wants_spot != ("PANTONE 185 C" in shares) or wants_spot and not shares["PANTONE 185 C"]:
         fault(f"{file.name}: plates {list(shares)}")
+    return shares
 
 
 def check_structure(file):
@@ -168,16 +169,24 @@ def main():
         sys.exit(1)
     files = sorted(folder.glob("*.pdf"))
     wanted = {"screen.pdf", "archive.pdf", "k.pdf", "spot.pdf", "outlined.pdf", "x4-k.pdf", "x4.pdf", "cmyk.pdf"}
+    wanted |= {"dots.pdf", "cmyk-dots.pdf"}
     if not wanted <= {file.name for file in files}:
         sys.exit(f"{folder} lacks {sorted(wanted - {file.name for file in files})}; see the head of this file")
     files = [file for file in files if file.name in wanted]
+    found = {}
     for file in files:
         check_syntax(file)
         check_boxes(file)
         check_fonts(file)
         check_structure(file)
         if file.name not in ("screen.pdf", "archive.pdf"):
-            check_plates(file)
+            found[file.name] = check_plates(file)
+    # Dots cover as much as the tones they stand for; Ghostscript paints every pixel that is touched, so that they are a little more.
+    for name, tones in (("dots.pdf", "k.pdf"), ("cmyk-dots.pdf", "cmyk.pdf")):
+        for plate in PLATES:
+            dots, tone = found[name][plate], found[tones][plate]
+            if not tone - 0.005 <= dots <= tone * 1.3 + 0.005:
+                fault(f"{name}: {100 * dots:.2f} % on the plate {plate}, not {100 * tone:.2f} %")
     for name in ("cmyk.pdf", "x4.pdf"):
         most = limit_of(folder / name)
         print(f"  {name}: at most {most:.0f} % ink")
