@@ -29,6 +29,8 @@ pub mod pdf;
 #[cfg(feature = "pdf")]
 mod pdf_content;
 #[cfg(feature = "pdf")]
+mod pdf_document;
+#[cfg(feature = "pdf")]
 mod pdf_fonts;
 #[cfg(feature = "pdf")]
 mod pdf_inks;
@@ -40,6 +42,8 @@ pub mod pdf_pages;
 mod pdf_paints;
 #[cfg(feature = "pdf")]
 mod pdf_pictures;
+#[cfg(feature = "pdf")]
+mod pdf_resources;
 #[cfg(feature = "pdf")]
 pub mod pdf_screen;
 #[cfg(feature = "pdf")]
