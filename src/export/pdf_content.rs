@@ -65,6 +65,11 @@ impl<'a> Writer<'a> {
         Self { out: Vec::new(), decimals, stroke: None, fill: None, state: None, patterns, press }
     }
 
+    /// Paints a mark that is no picture.
+    pub(super) fn plain(&mut self, mark: &Mark) {
+        self.mark(mark, &Crops::default());
+    }
+
     /// Paints one mark of a drawing with those pictures.
     pub(super) fn mark(&mut self, mark: &Mark, pictures: &Crops) {
         if mark.path.elements().is_empty() {

@@ -1,6 +1,6 @@
 //! [`Document`]: the layers of pages and the stretches of their content, gathered before anything is written.
 
-use kurbo::Affine;
+use kurbo::{Affine, Rect, Shape};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Name, Ref, TextStr};
 
@@ -12,7 +12,8 @@ use super::pdf_pictures::Crops;
 use super::pdf_screen::Screen;
 use super::pdf_sheet::Sheet;
 use super::pictures::matrix;
-use crate::drawing::{Composition, Gradient, Item, LayerKind, Mark, Paint, Unit};
+use crate::drawing::{Composition, Gradient, Item, LayerKind, Mark, Paint, Provenance, Unit};
+use crate::math::colour::Colour;
 
 /// Decimals of matrices.
 const FINE: u8 = 6;
@@ -75,21 +76,14 @@ impl<'a> Document<'a> {
 
     /// Gathers what is on a page; `crops` are of all drawings of all pages.
     pub fn page(&mut self, page: &'a Composition, sheet: &Sheet, crops: &'a [Crops<'a>], marks: bool) {
-        let fine = Decimals::new(FINE);
         let decimals = Decimals::new(SvgOptions::default().decimals(page.page.unit));
         self.segments.push(Vec::new());
         self.titles.push(page.title.clone());
         // Miters end where they do in SVG.
         let mut start = format!("q\n{} cm\n4 M\n", matrix(sheet.matrix(), " ")).into_bytes();
         if let Some(colour) = page.page.background {
-            let mut writer = Writer::new(decimals, 0, Some(self.press));
-            writer.set_state(colour);
-            writer.set_fill(colour);
-            let bleed = sheet.bleed;
-            let sides =
-                [bleed.x0, bleed.y0, bleed.width(), bleed.height()].map(|side| fine.text(side)).join(" ");
-            writer.out.extend_from_slice(format!("{sides} re f\n").as_bytes());
-            start.append(&mut writer.out);
+            let dots = self.dots(Affine::IDENTITY, sheet);
+            start.append(&mut self.paper(sheet.bleed, colour, decimals, dots));
         }
         self.raw(start);
         for item in &page.items {
@@ -99,6 +93,19 @@ impl<'a> Document<'a> {
             self.raw(sheet.paint_marks(Decimals::new(3)));
         }
         self.raw(b"Q\n".to_vec());
+    }
+
+    /// How fills become dots in a drawing in that place.
+    fn dots(&self, place: Affine, sheet: &Sheet) -> Option<Dots> {
+        self.screen.map(|screen| Dots { screen, place, mm: sheet.mm })
+    }
+
+    /// Paints paper.
+    fn paper(&self, rect: Rect, colour: Colour, decimals: Decimals, dots: Option<Dots>) -> Vec<u8> {
+        let mut writer = Writer::new(decimals, 0, Some(Press { dots, ..self.press }));
+        let (path, paint) = (rect.to_path(0.0), Paint::Fill(colour));
+        writer.plain(&Mark { path, paint, provenance: Provenance::default() });
+        writer.out
     }
 
     fn raw(&mut self, bytes: Vec<u8>) {
@@ -137,18 +144,17 @@ impl<'a> Document<'a> {
         if let Some(colour) = drawing.page.background {
             let paper = self.group(LayerKind::Paper.id(), Some(group));
             writer.out.extend_from_slice(format!("/OC /{} BDC\n", group_name(paper)).as_bytes());
-            writer.set_state(colour);
-            writer.set_fill(colour);
-            let fine = Decimals::new(FINE);
-            let sides = [drawing.page.width, drawing.page.height].map(|side| fine.text(side)).join(" ");
-            writer.out.extend_from_slice(format!("0 0 {sides} re f\nEMC\n").as_bytes());
+            let dots = self.dots(item.place, sheet);
+            let whole = Rect::new(0.0, 0.0, drawing.page.width, drawing.page.height);
+            writer.out.append(&mut self.paper(whole, colour, Decimals::new(FINE), dots));
+            writer.out.extend_from_slice(b"EMC\n");
         }
         self.raw(writer.out);
         // Where a drawing is enlarged its coordinates get more decimals.
         let larger = item.place.determinant().abs().sqrt();
         let more = [1.0, 10.0, 100.0].iter().filter(|step| larger > **step).count() as u8;
         let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + more);
-        let dots = self.screen.map(|screen| Dots { screen, place: item.place, mm: sheet.mm });
+        let dots = self.dots(item.place, sheet);
         for layer in &drawing.layers {
             let inner = self.group(&drawing.names(layer).1, Some(group));
             self.raw(format!("/OC /{} BDC\n", group_name(inner)).into_bytes());

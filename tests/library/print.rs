@@ -144,7 +144,7 @@ fn drawings_are_layers_in_their_place_and_clip() {
     assert!(
         content.replace('\n', " ").contains(
             "/OC /L0 BDC q 1 2 m 30 2 l 30 40 l 1 40 l h W n 2 0 0 2 5 6 cm /OC /L1 BDC /A255 gs 1 1 1 rg \
-             0 0 100 60 re f EMC /OC /L2 BDC /A255 gs 1 w 0 J 0 j 0 0 0 RG [] 0 d 0 0 m 10 10 l S EMC Q EMC"
+             0 0 m 100 0 l 100 60 l 0 60 l h f EMC /OC /L2 BDC /A255 gs 1 w 0 J 0 j 0 0 0 RG [] 0 d 0 0 m 10 10 l S EMC Q EMC"
         ),
         "{content}"
     );
