@@ -5,6 +5,8 @@
 use kurbo::{PathEl, Point};
 
 use super::number::Decimals;
+use super::pdf_fonts::Fonts;
+use super::pdf_inks::{Ink, Plates};
 use super::pdf_pictures::Crops;
 use super::pictures::matrix;
 use crate::drawing::{Cap, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
@@ -14,22 +16,35 @@ use crate::math::colour::Colour;
 const WIDTH_DECIMALS: u8 = 3;
 const CHANNEL_DECIMALS: u8 = 4;
 
+/// What prints marks, and in which fonts they are set.
+#[derive(Clone, Copy)]
+pub(super) struct Press<'a> {
+    pub plates: &'a Plates,
+    /// None where letters are outlines.
+    pub fonts: Option<&'a Fonts>,
+    /// The number that the first picture of the drawing has in the document.
+    pub first_picture: usize,
+}
+
 /// Paints marks, one after the other.
-pub(super) struct Writer {
+pub(super) struct Writer<'a> {
     pub(super) out: Vec<u8>,
     decimals: Decimals,
     /// The ink that is set; nothing is known at the start.
     stroke: Option<StrokePaint>,
     fill: Option<Colour>,
-    opacity: Option<u8>,
+    /// Opacity, and whether inks below stay.
+    state: Option<(u8, bool)>,
     /// The number of the next gradient.
     patterns: usize,
+    /// None for the colours of screens and outlines of letters.
+    press: Option<Press<'a>>,
 }
 
-impl Writer {
+impl<'a> Writer<'a> {
     /// Coordinates get so many decimals; gradients are numbered on from `patterns`.
-    pub(super) fn new(decimals: Decimals, patterns: usize) -> Self {
-        Self { out: Vec::new(), decimals, stroke: None, fill: None, opacity: None, patterns }
+    pub(super) fn new(decimals: Decimals, patterns: usize, press: Option<Press<'a>>) -> Self {
+        Self { out: Vec::new(), decimals, stroke: None, fill: None, state: None, patterns, press }
     }
 
     /// Paints one mark of a drawing with those pictures.
@@ -40,7 +55,7 @@ impl Writer {
         }
         match &mark.paint {
             Paint::Stroke(stroke) => {
-                self.set_opacity(stroke.colour.a);
+                self.set_state(stroke.colour);
                 self.set_stroke(stroke);
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"S\n");
@@ -55,8 +70,13 @@ impl Writer {
                 self.out.extend_from_slice(b"f\n");
             }
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => {
-                self.set_opacity(colour.a);
+                self.set_state(*colour);
                 self.set_fill(*colour);
+                let fonts = self.press.and_then(|press| press.fonts);
+                let set = fonts.zip(mark.provenance.text.as_ref());
+                if set.is_some_and(|(fonts, run)| fonts.set(&mut self.out, run, self.decimals)) {
+                    return;
+                }
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"f\n");
             }
@@ -69,12 +89,13 @@ impl Writer {
 
     /// Paints the pieces of a picture.
     fn pieces(&mut self, image: &ImagePaint, pictures: &Crops) {
+        let first = self.press.map_or(0, |press| press.first_picture);
         for piece in &image.pieces {
             match piece.shows {
                 Shows::Pixels(transform) => {
                     let Some((number, crop)) = pictures.shown(piece) else { continue };
                     let place = matrix(transform * crop.pixels_from_object(), " ");
-                    let shown = format!("{place} cm\n/{} Do\n", picture_name(number));
+                    let shown = format!("{place} cm\n/{} Do\n", picture_name(first + number));
                     self.clipped(piece.outline.elements(), |writer| {
                         writer.out.extend_from_slice(shown.as_bytes());
                     });
@@ -90,13 +111,13 @@ impl Writer {
 
     /// Lets that be seen of what is painted which lies inside a path.
     fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
-        let ink = (self.stroke.clone(), self.fill, self.opacity);
+        let ink = (self.stroke.clone(), self.fill, self.state);
         self.out.extend_from_slice(b"q\n");
         self.path(elements);
         self.out.extend_from_slice(b"W n\n");
         paint(self);
         self.out.extend_from_slice(b"Q\n");
-        (self.stroke, self.fill, self.opacity) = ink;
+        (self.stroke, self.fill, self.state) = ink;
     }
 
     fn set_stroke(&mut self, stroke: &StrokePaint) {
@@ -146,24 +167,54 @@ impl Writer {
         }
     }
 
+    /// Chooses the graphics state of what has that colour: its opacity, and printed over what is below or not.
+    pub(super) fn set_state(&mut self, colour: Colour) {
+        let overprints = self.press.is_some_and(|press| press.plates.overprints(colour));
+        self.choose((colour.a, overprints));
+    }
+
     /// Chooses the graphics state of that opacity, by its [`state_name`].
-    pub(super) fn set_opacity(&mut self, opacity: u8) {
-        if self.opacity != Some(opacity) {
+    fn set_opacity(&mut self, opacity: u8) {
+        self.choose((opacity, false));
+    }
+
+    fn choose(&mut self, state: (u8, bool)) {
+        if self.state != Some(state) {
             self.out.push(b'/');
-            self.out.extend_from_slice(state_name(opacity).as_bytes());
+            self.out.extend_from_slice(state_name(state).as_bytes());
             self.operator(b" gs");
-            self.opacity = Some(opacity);
+            self.state = Some(state);
         }
     }
 
+    /// Sets a colour: `operator` is that of RGB, `rg` or `RG`.
     fn colour(&mut self, colour: Colour, operator: &[u8]) {
-        for channel in [colour.r, colour.g, colour.b] {
-            self.value(Decimals::new(CHANNEL_DECIMALS), f64::from(channel) / 255.0);
+        let fills = operator == b"rg";
+        let fine = Decimals::new(CHANNEL_DECIMALS);
+        match self.press.map(|press| press.plates.ink(colour)) {
+            None => {
+                for channel in colour.channels() {
+                    self.value(fine, channel);
+                }
+                self.operator(operator);
+            }
+            Some(Ink::Rgb(channels)) => {
+                channels.into_iter().for_each(|channel| self.value(fine, channel));
+                self.operator(operator);
+            }
+            Some(Ink::Cmyk(inks)) => {
+                inks.into_iter().for_each(|ink| self.value(fine, ink));
+                self.operator(if fills { b"k" } else { b"K" });
+            }
+            Some(Ink::Spot(number)) => {
+                let (space, tint) = if fills { ("cs", "scn") } else { ("CS", "SCN") };
+                self.out.extend_from_slice(format!("/{} {space} 1 {tint}\n", spot_name(number)).as_bytes());
+            }
         }
-        self.operator(operator);
     }
 
-    fn path(&mut self, elements: &[PathEl]) {
+    /// Begins a path.
+    pub(super) fn path(&mut self, elements: &[PathEl]) {
         let mut pen = Point::ZERO;
         let mut start = Point::ZERO;
         for (index, element) in elements.iter().enumerate() {
@@ -226,9 +277,14 @@ pub(super) fn pattern_name(number: usize) -> String {
     format!("G{number}")
 }
 
-/// Name of the graphics state of an opacity.
-pub(super) fn state_name(opacity: u8) -> String {
-    format!("A{opacity}")
+/// Name of the colour space of an ink of its own.
+pub(super) fn spot_name(number: usize) -> String {
+    format!("S{number}")
+}
+
+/// Name of the graphics state of an opacity, with inks below that stay or not.
+pub(super) fn state_name((opacity, overprints): (u8, bool)) -> String {
+    format!("{}{opacity}", if overprints { 'O' } else { 'A' })
 }
 
 #[cfg(test)]
@@ -241,7 +297,7 @@ mod tests {
     const PAGE: Page = Page { width: 9.0, height: 9.0, unit: Unit::Px, background: None };
 
     fn content(marks: &[(&str, Paint)]) -> String {
-        let mut writer = Writer::new(Decimals::new(2), 0);
+        let mut writer = Writer::new(Decimals::new(2), 0, None);
         for (data, paint) in marks {
             let path = BezPath::from_svg(data).unwrap();
             let mark = Mark { path, paint: paint.clone(), provenance: Provenance::default() };
