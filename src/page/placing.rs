@@ -5,6 +5,7 @@
 
 use kurbo::{Point, Vec2};
 
+use super::figure::Cover;
 use super::layout::polygon::cross;
 use super::layout::{Polygon, Reading};
 
@@ -17,6 +18,9 @@ const MOST_LOOKS: usize = 60_000;
 /// From the tip of a tail to what it points at, in gaps.
 const SHORT_OF: f64 = 0.6;
 
+/// How many mm of a longer way a balloon that covers models wholly is worth.
+const COVERING: f64 = 40.0;
+
 /// A balloon that wants a place.
 #[derive(Debug, Clone)]
 pub struct Wish {
@@ -24,6 +28,8 @@ pub struct Wish {
     pub hull: Polygon,
     /// What its tail points at, and towards which point of it.
     pub target: Option<(Polygon, Point)>,
+    /// How long its tail is at least.
+    pub tail: f64,
     /// Where it is told to be.
     pub at: Option<Point>,
     /// Whether it stands in the corner where reading begins, or near to it.
@@ -39,6 +45,8 @@ pub struct Room {
     pub kept: Vec<Polygon>,
     /// On none of these, and with no tail over them.
     pub obstacles: Vec<Polygon>,
+    /// What of the panel models cover; balloons stay on what is free if they can.
+    pub cover: Option<Cover>,
     /// From one to the other, at least.
     pub gap: f64,
     /// In which direction they are read.
@@ -91,7 +99,7 @@ fn next(
         }
         let tip = match &wish.target {
             None => None,
-            Some((target, aim)) => match tip(middle, &hull, target, *aim, room.gap) {
+            Some((target, aim)) => match tip(middle, &hull, (target, *aim), wish.tail, room.gap) {
                 Some(tip) => Some(tip),
                 None => continue,
             },
@@ -133,7 +141,13 @@ fn middles(wish: &Wish, room: &Room) -> Vec<Point> {
 }
 
 /// Where a tail ends: a little before it reaches what it points at.
-fn tip(middle: Point, hull: &Polygon, target: &Polygon, aim: Point, gap: f64) -> Option<Point> {
+fn tip(
+    middle: Point,
+    hull: &Polygon,
+    (target, aim): (&Polygon, Point),
+    shortest: f64,
+    gap: f64,
+) -> Option<Point> {
     let way = aim - middle;
     let length = way.hypot();
     if length < 1e-9 {
@@ -144,7 +158,7 @@ fn tip(middle: Point, hull: &Polygon, target: &Polygon, aim: Point, gap: f64) ->
     let leaves = leaves(hull, middle, aim);
     // From within a large part the tail leads to the point itself.
     let end = if target.holds(middle) { length } else { enters } - gap * SHORT_OF;
-    (end > leaves + gap).then(|| middle + way * end)
+    (end >= leaves + shortest).then(|| middle + way * end)
 }
 
 /// How far it is from a point to where the way to another one enters a polygon.
@@ -212,12 +226,13 @@ fn cost(own: &Placed, wish: &Wish, room: &Room, placed: &[Placed]) -> f64 {
         Reading::Ltr => own.hull.bounds().x0 - bounds.x0,
         Reading::Rtl => bounds.x1 - own.hull.bounds().x1,
     };
+    let covers = COVERING * room.cover.as_ref().map_or(0.0, |cover| cover.share(&own.hull));
     if wish.cornered {
-        return 2.0 * down + late;
+        return 2.0 * down + late + 0.3 * covers;
     }
     let tail = own.tip.map_or(0.0, |tip| tip.distance(own.middle));
     // Steep tails read better than flat ones.
     let flat = own.tip.map_or(0.0, |tip| (tip.x - own.middle.x).abs());
     let behind = placed.last().map_or(0.0, |before| before.middle.distance(own.middle));
-    0.6 * tail + 0.35 * flat + 0.8 * down + 0.12 * late + 0.1 * behind
+    0.6 * tail + 0.35 * flat + 0.8 * down + 0.12 * late + 0.1 * behind + covers
 }

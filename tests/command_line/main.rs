@@ -15,5 +15,6 @@ mod fmt;
 mod framing;
 mod lod;
 mod many;
+mod pages;
 mod pictures;
 mod web;

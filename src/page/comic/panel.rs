@@ -10,7 +10,7 @@ use crate::drawing::{Drawing, Item, Layer, LayerKind, Mark, Page, Paint, Provena
 use crate::error::Error;
 use crate::math::colour::Colour;
 use crate::math::function::{atan2, tan};
-use crate::page::figure::{self, Place, aim, is_named};
+use crate::page::figure::{self, Cover, Place, aim, is_named};
 use crate::page::length::Mm;
 use crate::page::source::Source;
 use crate::render;
@@ -42,6 +42,11 @@ pub(super) struct Seen {
 }
 
 impl Seen {
+    /// Which of the panel models cover.
+    pub fn cover(&self) -> Cover {
+        Cover::of(&self.scene, &self.camera, self.place.to_point())
+    }
+
     /// Where parts are on the page.
     ///
     /// # Errors

@@ -81,6 +81,11 @@ impl Balloon {
         self.half + Vec2::new(beyond, beyond) * self.em
     }
 
+    /// How long its tail is at least.
+    pub fn shortest_tail(&self) -> f64 {
+        self.em * if self.kind == BalloonKind::Thought { 2.4 } else { 1.1 }
+    }
+
     /// A polygon around it, without its tail.
     pub fn hull(&self) -> Polygon {
         let reach = self.reach();

@@ -148,6 +148,7 @@ impl<'a> Lettering<'a> {
             kept.extend(places.into_iter().map(|place| within(place.hull)).filter(|hull| !hull.0.is_empty()));
         }
         kept.extend(told.iter().filter_map(|told| told.target.as_ref()?.face.clone()));
+        let cover = seen.map(Seen::cover);
         let mut stuck = 0;
         for size in SIZES {
             for aspect in ASPECTS {
@@ -157,6 +158,7 @@ impl<'a> Lettering<'a> {
                     outline: shape.outline.inset(gap).common(&Polygon::from(sheet.safe)),
                     kept: kept.clone(),
                     obstacles: obstacles.clone(),
+                    cover: cover.clone(),
                     gap,
                     reading: self.reading,
                 };
@@ -244,6 +246,7 @@ impl<'a> Lettering<'a> {
             hull: balloon.hull(),
             target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
             at,
+            tail: balloon.shortest_tail(),
             cornered: told.keys.kind == BalloonKind::Caption,
         }
     }
