@@ -15,6 +15,7 @@ pub mod figure;
 pub mod file;
 pub mod layout;
 pub mod length;
+pub mod placing;
 pub mod sheet;
 pub mod size;
 pub mod source;

@@ -52,6 +52,17 @@ impl Source {
         self.fault(&word.span(), &format!("there is no {what} `{}`", word.get_ref()), &advice)
     }
 
+    /// An error about a place within a text of the file, in bytes of that text.
+    #[must_use]
+    pub fn within(&self, text: &Spanned<String>, place: &Range<usize>, message: &str, advice: &str) -> Error {
+        let span = text.span();
+        // With escapes in it the text stands nowhere as it is.
+        let raw = self.text.get(span.clone()).unwrap_or_default();
+        let start = raw.find(text.get_ref().as_str()).map(|start| span.start + start);
+        let place = start.map_or(span, |start| start + place.start..start + place.end);
+        self.fault(&place, message, advice)
+    }
+
     /// A path that the file names: relative to its folder.
     #[must_use]
     pub fn beside(&self, path: &str) -> PathBuf {

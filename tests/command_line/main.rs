@@ -15,5 +15,7 @@ mod fmt;
 mod framing;
 mod lod;
 mod many;
+mod pages;
 mod pictures;
+mod print;
 mod web;

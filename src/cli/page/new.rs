@@ -1,4 +1,4 @@
-//! `ligne page --new`: a page file to start from, with a word on each key.
+//! `ligne page --new`: a page file to start from, with a word on each key, and the models that it shows.
 
 use std::path::Path;
 
@@ -6,7 +6,22 @@ use crate::cli::output::{Staging, check_place};
 use crate::cli::say;
 use crate::error::Error;
 
-/// Writes a page file of that kind; one that is there stays.
+/// A file beside the page file: its name and its bytes.
+type Beside = (&'static str, &'static [u8]);
+
+/// The page file of a comic page, and its models.
+const COMIC: (&str, &[Beside]) = (
+    include_str!("new-comic.toml"),
+    &[
+        ("example-crane.glb", include_bytes!("../../../examples/models/crane.glb")),
+        ("example-goose.obj", include_bytes!("../../../examples/models/goose.obj")),
+    ],
+);
+
+/// The same of a technical sheet.
+const SHEET: (&str, &[Beside]) = ("[page]\nkind = \"sheet\"\n", &[]);
+
+/// Writes a page file of that kind, and its models beside it; files that are there stay.
 pub(super) fn write(kind: &str, out: &Path, quiet: bool) -> Result<(), Error> {
     check_place(out)?;
     if out.exists() {
@@ -14,19 +29,19 @@ pub(super) fn write(kind: &str, out: &Path, quiet: bool) -> Result<(), Error> {
             .in_file(out)
             .remedy("give the page file another name, or remove the old one"));
     }
-    let text = text(kind);
+    let (text, models) = if kind == "sheet" { SHEET } else { COMIC };
     let mut staging = Staging::default();
     staging.add(out, text.as_bytes())?;
+    let missing = models.iter().map(|(name, bytes)| (out.with_file_name(name), bytes));
+    let missing: Vec<_> = missing.filter(|(path, _)| !path.exists()).collect();
+    for (path, bytes) in &missing {
+        staging.add(path, bytes)?;
+    }
     staging.commit()?;
     if !quiet {
-        say(&format!("{}: `ligne page {}` draws it", out.display(), out.display()));
+        let beside: Vec<String> = missing.iter().map(|(path, _)| path.display().to_string()).collect();
+        let beside = if beside.is_empty() { String::new() } else { format!(", with {}", beside.join(", ")) };
+        say(&format!("{}{beside}: `ligne page {}` draws it", out.display(), out.display()));
     }
     Ok(())
-}
-
-fn text(kind: &str) -> String {
-    match kind {
-        "sheet" => "[page]\nkind = \"sheet\"\n".to_owned(),
-        _ => "[page]\nkind = \"comic\"\n".to_owned(),
-    }
 }

@@ -4,12 +4,14 @@
 //! order: [`look::style`], [`models::staged`], [`aim::camera`], [`draw`], and [`places::places`].
 
 pub mod aim;
+pub mod cover;
 pub mod look;
 pub mod models;
 mod moved;
 pub mod places;
 
 pub use aim::{Aim, AimKeys, Crop, camera};
+pub use cover::Cover;
 pub use look::style;
 pub use models::{ModelKeys, Models, staged};
 pub use places::{Place, is_named, places};

@@ -101,6 +101,7 @@ fn split(
         if rows { (grid.gutter[1], rect.y0, rect.y1) } else { (grid.gutter[0], rect.x0, rect.x1) };
     let length = to - from - gutter * (stack.items.len() - 1) as f64;
     let shares = shares(stack)?;
+    let within = sides.iter().fold(Polygon::from(grid.frame), |rest, side| rest.cut(side));
     let mut begin = from;
     let last = stack.items.len() - 1;
     // The gutter before an item, as the side on which the item is.
@@ -120,6 +121,13 @@ fn split(
         };
         let side =
             |way: f64| HalfPlane { point: centre + across * (way * gutter / 2.0), normal: across * way };
+        if number < last && before.as_ref().is_some_and(|before| meet(before, &side(-1.0), &within)) {
+            return Err(Fault {
+                span: item.span.clone(),
+                message: "the gutters beside this panel meet on the page".to_owned(),
+                advice: "let them lean less, or more alike".to_owned(),
+            });
+        }
         let mut own_sides = sides.to_vec();
         own_sides.extend(before.take());
         if number < last {
@@ -133,6 +141,19 @@ fn split(
         begin = end + gutter;
     }
     Ok(())
+}
+
+/// Whether the edges of two lines meet in a polygon.
+fn meet(a: &HalfPlane, b: &HalfPlane, within: &Polygon) -> bool {
+    let area = a.normal.cross(b.normal);
+    if area == 0.0 {
+        return false;
+    }
+    // Where both depths are 0 (Cramer's rule).
+    let [u, v] = [a, b].map(|side| side.point.to_vec2().dot(side.normal));
+    let x = (u * b.normal.y - v * a.normal.y) / area;
+    let y = (v * a.normal.x - u * b.normal.x) / area;
+    within.holds(Point::new(x, y))
 }
 
 /// The share of each item of a stack; together 1.

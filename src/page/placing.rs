@@ -1,0 +1,238 @@
+//! Placing: where balloons go so that they cover nothing they should not, are read in their order, and their tails do not cross.
+//!
+//! Places are tried from the best on, one balloon after another; where the next finds none, the last one moves on. What a place
+//! must hold is never weighed against anything: only what is left is compared by cost.
+
+use kurbo::{Point, Vec2};
+
+use super::figure::Cover;
+use super::layout::polygon::cross;
+use super::layout::{Polygon, Reading};
+
+/// Places tried across and down a panel.
+const ACROSS: usize = 26;
+
+/// Places looked at, at most, until it is clear that there is no way.
+const MOST_LOOKS: usize = 60_000;
+
+/// From the tip of a tail to what it points at, in gaps.
+const SHORT_OF: f64 = 0.6;
+
+/// How many mm of a longer way a balloon that covers models wholly is worth.
+const COVERING: f64 = 40.0;
+
+/// A balloon that wants a place.
+#[derive(Debug, Clone)]
+pub struct Wish {
+    /// Around it, its middle at 0, 0.
+    pub hull: Polygon,
+    /// What its tail points at, and towards which point of it.
+    pub target: Option<(Polygon, Point)>,
+    /// How long its tail is at least.
+    pub tail: f64,
+    /// Where it is told to be.
+    pub at: Option<Point>,
+    /// Whether it stands in the corner where reading begins, or near to it.
+    pub cornered: bool,
+}
+
+/// Where balloons may be.
+#[derive(Debug, Clone)]
+pub struct Room {
+    /// Within this.
+    pub outline: Polygon,
+    /// On none of these; tails may reach them.
+    pub kept: Vec<Polygon>,
+    /// On none of these, and with no tail over them.
+    pub obstacles: Vec<Polygon>,
+    /// What of the panel models cover; balloons stay on what is free if they can.
+    pub cover: Option<Cover>,
+    /// From one to the other, at least.
+    pub gap: f64,
+    /// In which direction they are read.
+    pub reading: Reading,
+}
+
+/// A balloon in its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// Its middle.
+    pub middle: Point,
+    /// Where its tail ends.
+    pub tip: Option<Point>,
+    /// Around it.
+    pub hull: Polygon,
+}
+
+impl Placed {
+    /// Its tail, from the middle to the tip.
+    fn tail(&self) -> Option<[Point; 2]> {
+        self.tip.map(|tip| [self.middle, tip])
+    }
+}
+
+/// Places for all balloons, in their order.
+///
+/// # Errors
+/// Which of them found none.
+pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
+    let mut placed = Vec::new();
+    let mut looks = 0;
+    let mut farthest = 0;
+    if next(wishes, room, &mut placed, &mut looks, &mut farthest) { Ok(placed) } else { Err(farthest) }
+}
+
+fn next(
+    wishes: &[Wish],
+    room: &Room,
+    placed: &mut Vec<Placed>,
+    looks: &mut usize,
+    farthest: &mut usize,
+) -> bool {
+    let Some(wish) = wishes.get(placed.len()) else { return true };
+    *farthest = placed.len().max(*farthest);
+    let mut found: Vec<(f64, Placed)> = Vec::new();
+    for middle in middles(wish, room) {
+        let hull = wish.hull.moved(middle.to_vec2());
+        if wish.at.is_none() && !hull.0.iter().all(|p| room.outline.holds(*p)) {
+            continue;
+        }
+        let tip = match &wish.target {
+            None => None,
+            Some((target, aim)) => match tip(middle, &hull, (target, *aim), wish.tail, room.gap) {
+                Some(tip) => Some(tip),
+                None => continue,
+            },
+        };
+        let own = Placed { middle, tip, hull };
+        if fits(&own, wish, room, placed) {
+            found.push((cost(&own, wish, room, placed), own));
+        }
+    }
+    found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    for (_, own) in found {
+        *looks += 1;
+        if *looks > MOST_LOOKS {
+            return false;
+        }
+        placed.push(own);
+        if next(wishes, room, placed, looks, farthest) {
+            return true;
+        }
+        placed.pop();
+    }
+    false
+}
+
+/// Where its middle may be.
+fn middles(wish: &Wish, room: &Room) -> Vec<Point> {
+    if let Some(at) = wish.at {
+        return vec![at];
+    }
+    let (bounds, own) = (room.outline.bounds(), wish.hull.bounds());
+    let free = Vec2::new(bounds.width() - own.width(), bounds.height() - own.height());
+    if free.x < 0.0 || free.y < 0.0 {
+        return Vec::new();
+    }
+    let from = Point::new(bounds.x0 - own.x0, bounds.y0 - own.y0);
+    let step = free / (ACROSS - 1) as f64;
+    let places = (0..ACROSS * ACROSS).map(|k| (k % ACROSS, k / ACROSS));
+    places.map(|(x, y)| from + Vec2::new(x as f64 * step.x, y as f64 * step.y)).collect()
+}
+
+/// Where a tail ends: a little before it reaches what it points at.
+fn tip(
+    middle: Point,
+    hull: &Polygon,
+    (target, aim): (&Polygon, Point),
+    shortest: f64,
+    gap: f64,
+) -> Option<Point> {
+    let way = aim - middle;
+    let length = way.hypot();
+    if length < 1e-9 {
+        return None;
+    }
+    let way = way / length;
+    let enters = enters(target, middle, aim).unwrap_or(length);
+    let leaves = leaves(hull, middle, aim);
+    // From within a large part the tail leads to the point itself.
+    let end = if target.holds(middle) { length } else { enters } - gap * SHORT_OF;
+    (end >= leaves + shortest).then(|| middle + way * end)
+}
+
+/// How far it is from a point to where the way to another one enters a polygon.
+fn enters(polygon: &Polygon, from: Point, to: Point) -> Option<f64> {
+    crossings(polygon, from, to).reduce(f64::min)
+}
+
+/// How far it is from a point within a polygon to where the way to another one leaves it.
+fn leaves(polygon: &Polygon, from: Point, to: Point) -> f64 {
+    crossings(polygon, from, to).fold(0.0, f64::max)
+}
+
+fn crossings(polygon: &Polygon, from: Point, to: Point) -> impl Iterator<Item = f64> + '_ {
+    let way = to - from;
+    polygon.sides().filter_map(move |(a, b)| {
+        let side = b - a;
+        let area = way.cross(side);
+        let (along, across) = ((a - from).cross(side) / area, (a - from).cross(way) / area);
+        let is_there = area != 0.0 && (0.0..=1.0).contains(&along) && (0.0..=1.0).contains(&across);
+        is_there.then(|| along * way.hypot())
+    })
+}
+
+/// Whether a balloon may be where it is.
+fn fits(own: &Placed, wish: &Wish, room: &Room, placed: &[Placed]) -> bool {
+    let told = wish.at.is_some();
+    let free = |other: &Polygon| !own.hull.meets(other, room.gap);
+    if !told && !room.kept.iter().chain(&room.obstacles).all(free) {
+        return false;
+    }
+    if let Some([from, to]) = own.tail() {
+        let is_own = |other: &Polygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);
+        let others = room.kept.iter().filter(|other| !is_own(other)).chain(&room.obstacles);
+        if !told && others.clone().any(|other| other.is_crossed(from, to)) {
+            return false;
+        }
+    }
+    placed.iter().all(|before| {
+        let crosses =
+            |tail: Option<[Point; 2]>, hull: &Polygon| tail.is_some_and(|[a, b]| hull.is_crossed(a, b));
+        let tails = own.tail().zip(before.tail()).is_some_and(|(a, b)| cross(a, b));
+        !own.hull.meets(&before.hull, room.gap)
+            && !tails
+            && !crosses(own.tail(), &before.hull)
+            && !crosses(before.tail(), &own.hull)
+            && (told || is_read_after(own, before, room.reading))
+    })
+}
+
+/// Whether one is read after the other: below its middle, or beside it on the side that is read later and no higher.
+fn is_read_after(own: &Placed, before: &Placed, reading: Reading) -> bool {
+    let (mine, other) = (own.hull.bounds(), before.hull.bounds());
+    let beside = match reading {
+        Reading::Ltr => mine.x0 >= other.center().x,
+        Reading::Rtl => mine.x1 <= other.center().x,
+    };
+    (mine.y0 >= other.center().y) || (beside && mine.center().y >= other.center().y - 0.15 * other.height())
+}
+
+/// How bad a place is: far from what speaks, low, late in its line, and far behind those before it.
+fn cost(own: &Placed, wish: &Wish, room: &Room, placed: &[Placed]) -> f64 {
+    let bounds = room.outline.bounds();
+    let down = own.hull.bounds().y0 - bounds.y0;
+    let late = match room.reading {
+        Reading::Ltr => own.hull.bounds().x0 - bounds.x0,
+        Reading::Rtl => bounds.x1 - own.hull.bounds().x1,
+    };
+    let covers = COVERING * room.cover.as_ref().map_or(0.0, |cover| cover.share(&own.hull));
+    if wish.cornered {
+        return 2.0 * down + late + 0.3 * covers;
+    }
+    let tail = own.tip.map_or(0.0, |tip| tip.distance(own.middle));
+    // Steep tails read better than flat ones.
+    let flat = own.tip.map_or(0.0, |tip| (tip.x - own.middle.x).abs());
+    let behind = placed.last().map_or(0.0, |before| before.middle.distance(own.middle));
+    0.6 * tail + 0.35 * flat + 0.8 * down + 0.12 * late + 0.1 * behind + covers
+}
