@@ -6,7 +6,6 @@
 use kurbo::{Point, Vec2};
 
 use super::figure::Cover;
-use super::layout::polygon::cross;
 use super::layout::{Polygon, Reading};
 
 /// Places tried across and down a panel.
@@ -30,6 +29,8 @@ pub struct Wish {
     pub target: Option<(Polygon, Point)>,
     /// How long its tail is at least.
     pub tail: f64,
+    /// Half the width of its tail where it begins.
+    pub foot: f64,
     /// Where it is told to be.
     pub at: Option<Point>,
     /// Whether it stands in the corner where reading begins, or near to it.
@@ -65,11 +66,18 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// Its tail, from the middle to the tip.
-    fn tail(&self) -> Option<[Point; 2]> {
-        self.tip.map(|tip| [self.middle, tip])
+    /// Around its tail, from the middle to the tip, with room for a bend.
+    fn tail(&self, foot: f64) -> Option<Polygon> {
+        let tip = self.tip?;
+        let way = tip - self.middle;
+        let across = Vec2::new(-way.y, way.x).normalize();
+        let (wide, narrow) = (across * (foot + BEND * way.hypot()), across * (0.3 * foot));
+        Some(Polygon(vec![self.middle - wide, tip - narrow, tip + narrow, self.middle + wide]))
     }
 }
+
+/// How far tails bend aside, in shares of their length.
+const BEND: f64 = 0.03;
 
 /// Places for all balloons, in their order.
 ///
@@ -105,7 +113,7 @@ fn next(
             },
         };
         let own = Placed { middle, tip, hull };
-        if fits(&own, wish, room, placed) {
+        if fits(&own, wish, wishes, room, placed) {
             found.push((cost(&own, wish, room, placed), own));
         }
     }
@@ -183,27 +191,26 @@ fn crossings(polygon: &Polygon, from: Point, to: Point) -> impl Iterator<Item = 
 }
 
 /// Whether a balloon may be where it is.
-fn fits(own: &Placed, wish: &Wish, room: &Room, placed: &[Placed]) -> bool {
+fn fits(own: &Placed, wish: &Wish, wishes: &[Wish], room: &Room, placed: &[Placed]) -> bool {
     let told = wish.at.is_some();
-    let free = |other: &Polygon| !own.hull.meets(other, room.gap);
-    if !told && !room.kept.iter().chain(&room.obstacles).all(free) {
-        return false;
-    }
-    if let Some([from, to]) = own.tail() {
+    let tail = own.tail(wish.foot);
+    let is_clear =
+        |tail: &Option<Polygon>, other: &Polygon| tail.as_ref().is_none_or(|tail| !tail.meets(other, 0.0));
+    if !told {
+        let free = |other: &Polygon| !own.hull.meets(other, room.gap);
         let is_own = |other: &Polygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);
-        let others = room.kept.iter().filter(|other| !is_own(other)).chain(&room.obstacles);
-        if !told && others.clone().any(|other| other.is_crossed(from, to)) {
+        if !room.kept.iter().all(|other| free(other) && (is_own(other) || is_clear(&tail, other)))
+            || !room.obstacles.iter().all(|other| free(other) && is_clear(&tail, other))
+        {
             return false;
         }
     }
-    placed.iter().all(|before| {
-        let crosses =
-            |tail: Option<[Point; 2]>, hull: &Polygon| tail.is_some_and(|[a, b]| hull.is_crossed(a, b));
-        let tails = own.tail().zip(before.tail()).is_some_and(|(a, b)| cross(a, b));
+    placed.iter().zip(wishes).all(|(before, its)| {
+        let other = before.tail(its.foot);
         !own.hull.meets(&before.hull, room.gap)
-            && !tails
-            && !crosses(own.tail(), &before.hull)
-            && !crosses(before.tail(), &own.hull)
+            && is_clear(&tail, &before.hull)
+            && is_clear(&other, &own.hull)
+            && other.as_ref().is_none_or(|other| is_clear(&tail, other))
             && (told || is_read_after(own, before, room.reading))
     })
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 17] = [
+const DOCUMENTS: [&str; 19] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -16,7 +16,9 @@ const DOCUMENTS: [&str; 17] = [
     "docs/lines.md",
     "docs/many.md",
     "docs/motion.md",
+    "docs/pages.md",
     "docs/print.md",
+    "docs/sheets.md",
     "docs/smooth.md",
     "docs/stages.md",
     "docs/testing.md",
@@ -129,6 +131,7 @@ fn options_that_the_readme_names_are_there() {
         "docs/diff.md",
         "docs/testing.md",
         "docs/print.md",
+        "docs/sheets.md",
         "docs/web.md",
         "examples/README.md",
     ] {

@@ -18,4 +18,5 @@ mod many;
 mod pages;
 mod pictures;
 mod print;
+mod sheets;
 mod web;

@@ -19,7 +19,10 @@ const COMIC: (&str, &[Beside]) = (
 );
 
 /// The same of a technical sheet.
-const SHEET: (&str, &[Beside]) = ("[page]\nkind = \"sheet\"\n", &[]);
+const SHEET: (&str, &[Beside]) = (
+    include_str!("new-sheet.toml"),
+    &[("example-pump.glb", include_bytes!("../../../examples/models/pump.glb"))],
+);
 
 /// Writes a page file of that kind, and its models beside it; files that are there stay.
 pub(super) fn write(kind: &str, out: &Path, quiet: bool) -> Result<(), Error> {

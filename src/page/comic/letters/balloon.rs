@@ -58,7 +58,8 @@ impl Balloon {
         let (block, half) = match kind {
             BalloonKind::Caption => {
                 let (ellipse, _) = Block::in_ellipse(text, setting, aspect)?;
-                let block = Block::balanced(text, setting, ellipse.width.max(em))?;
+                // As wide as its longest line, and a hair more: widths are sums.
+                let block = Block::balanced(text, setting, ellipse.width * 1.001)?;
                 let half = Vec2::new(block.width, block.height) / 2.0 + pad;
                 (block, half)
             }
@@ -84,6 +85,16 @@ impl Balloon {
     /// How long its tail is at least.
     pub fn shortest_tail(&self) -> f64 {
         self.em * if self.kind == BalloonKind::Thought { 2.4 } else { 1.1 }
+    }
+
+    /// Half the width of its tail where it begins, with its line.
+    pub fn foot(&self) -> f64 {
+        self.em
+            * match self.kind {
+                BalloonKind::Shout => 1.4,
+                BalloonKind::Thought => 0.6,
+                _ => TAIL + 0.15,
+            }
     }
 
     /// A polygon around it, without its tail.
