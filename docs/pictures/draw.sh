@@ -58,3 +58,6 @@ brick=(--camera camera --size 480x370 --set motion.enabled=true --quiet)
 
 # docs/pages.md and the README
 "$ligne" page examples/pages/comic.toml $pictures/page-comic.png --dpi 110 --quiet
+
+# docs/sheets.md and the README
+"$ligne" page examples/pages/pump.toml $pictures/sheet-pump.png --dpi 90 --quiet

@@ -64,12 +64,16 @@ impl SectionArgs {
         forward: DVec3,
     ) -> Result<Option<Section>, Error> {
         let Some(plane) = &self.section else { return Ok(None) };
-        let plane = plane.of(scene, ModelUnit::of(scene, unit).mm(), forward).map_err(|error| error.at("--section"))?;
+        let plane = plane
+            .of(scene, ModelUnit::of(scene, unit).mm(), forward)
+            .map_err(|error| error.at("--section"))?;
         let uncut: Vec<Glob> = self.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
         let mut section = cut(std::mem::take(scene), &plane, &uncut);
         *scene = std::mem::take(&mut section.scene);
         if scene.parts.is_empty() {
-            return Err(Error::new("nothing is left of the model behind the plane").at("--section").remedy("move it"));
+            return Err(Error::new("nothing is left of the model behind the plane")
+                .at("--section")
+                .remedy("move it"));
         }
         Ok(Some(section))
     }

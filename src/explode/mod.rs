@@ -68,7 +68,11 @@ pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
     let mut grids: Vec<Grid> = match explosion.axis.and_then(DVec3::try_normalize) {
         Some(axis) => {
             let grid = grid(axis, step);
-            vec![grid, Grid { axes: rotated(grid.axes), step }, Grid { axes: rotated(rotated(grid.axes)), step }]
+            vec![
+                grid,
+                Grid { axes: rotated(grid.axes), step },
+                Grid { axes: rotated(rotated(grid.axes)), step },
+            ]
         }
         None => [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| grid(axis, step)).into(),
     };

@@ -67,9 +67,7 @@ pub(super) fn groups(columns: &[Columns], touch: f64) -> Vec<Vec<usize>> {
 
 /// How far each group moves along the axis.
 pub(super) fn offsets(columns: &[Columns], groups: &[Vec<usize>], touch: f64, gap: f64) -> Vec<f64> {
-    let whole = |group: &Vec<usize>| {
-        group.iter().fold(Columns::default(), |sum, k| sum.with(&columns[*k]))
-    };
+    let whole = |group: &Vec<usize>| group.iter().fold(Columns::default(), |sum, k| sum.with(&columns[*k]));
     let bodies: Vec<Columns> = groups.iter().map(whole).collect();
     let count = bodies.len();
     let middle = |k: usize| bodies[k].low + bodies[k].high;
@@ -96,7 +94,9 @@ pub(super) fn offsets(columns: &[Columns], groups: &[Vec<usize>], touch: f64, ga
         let left = || (0..count).filter(|k| offsets[*k].is_none());
         let lowest = |a: &usize, b: &usize| middle(*a).total_cmp(&middle(*b)).then(a.cmp(b));
         let is_free = |k: &usize| under[*k].iter().all(|lower| offsets[*lower].is_some());
-        let Some(next) = left().filter(is_free).min_by(lowest).or_else(|| left().min_by(lowest)) else { break };
+        let Some(next) = left().filter(is_free).min_by(lowest).or_else(|| left().min_by(lowest)) else {
+            break;
+        };
         let needed = (0..count)
             .filter(|k| under[next].contains(k) || under[*k].contains(&next))
             .filter_map(|k| Some(bodies[k].high + offsets[k]? + gap - bodies[next].low));

@@ -14,7 +14,8 @@ use crate::style::Style;
 pub fn trailed(style: &Style) -> Style {
     let mut style = style.clone();
     let dash = [24.0, 3.0, 0.5, 3.0].map(|part| Length::mm(part * TRAIL_MM));
-    let pen = PenChange { width: Some(Length::mm(TRAIL_MM)), dash: Some(dash.into()), ..PenChange::default() };
+    let pen =
+        PenChange { width: Some(Length::mm(TRAIL_MM)), dash: Some(dash.into()), ..PenChange::default() };
     let when = Condition { material: Some(Glob::new(TRAIL)), ..Condition::default() };
     style.stroke.rules.push(Rule { when, pen });
     if !style.lines.kinds.contains(&LineKind::Wire) {
@@ -32,8 +33,16 @@ const WIDTH_MM: f64 = 0.18;
 
 /// Degrees that the lines of cut parts are turned by, and by how much they are farther apart: neighbours differ in one of both
 /// (ISO 128-50, 6.2).
-const KINDS: [(f64, f64); 8] =
-    [(45.0, 1.0), (135.0, 1.0), (45.0, 1.7), (135.0, 1.7), (45.0, 0.6), (135.0, 0.6), (30.0, 1.0), (120.0, 1.0)];
+const KINDS: [(f64, f64); 8] = [
+    (45.0, 1.0),
+    (135.0, 1.0),
+    (45.0, 1.7),
+    (135.0, 1.7),
+    (45.0, 0.6),
+    (135.0, 0.6),
+    (30.0, 1.0),
+    (120.0, 1.0),
+];
 
 /// The style with thin lines at 45 degrees on the cut faces of a section, at other angles or distances on neighbouring parts. A pattern
 /// that the style itself has for the material of such faces (`cut 1`, `cut 2` and so on) is left as it is.

@@ -177,7 +177,11 @@ impl Outlines {
             }
             let mut from = ends[0];
             for (n, cut) in way.into_iter().chain([ends[1]]).enumerate() {
-                if n == 0 { self.edges[k] = ([from, cut], times) } else { self.edges.push(([from, cut], times)) }
+                if n == 0 {
+                    self.edges[k] = ([from, cut], times)
+                } else {
+                    self.edges.push(([from, cut], times))
+                }
                 from = cut;
             }
         }

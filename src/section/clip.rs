@@ -111,11 +111,7 @@ impl<'a> Clipper<'a> {
     fn triangle(&mut self, index: usize, turned: bool) {
         let corners = self.shape.triangles[index];
         let sides = corners.map(|v| self.side(v));
-        let is_kept = if sides == [0; 3] {
-            self.faces_front(corners) != turned
-        } else {
-            sides.contains(&-1)
-        };
+        let is_kept = if sides == [0; 3] { self.faces_front(corners) != turned } else { sides.contains(&-1) };
         if !is_kept {
             return;
         }

@@ -26,8 +26,8 @@ pub use plane::Plane;
 pub use told::CutPlane;
 
 use crate::math::glob::Glob;
-use crate::mesh::{EdgeMark, weld};
 use crate::math::tolerance;
+use crate::mesh::{EdgeMark, weld};
 use crate::scene::{Alpha, Geometry, Material, Part, Scene};
 use clip::Clipped;
 
@@ -124,7 +124,8 @@ fn clipped(shape: &Geometry, place: &DAffine3, plane: &Plane) -> Clipped {
     if unclosed == 0 {
         return cut;
     }
-    let world: Vec<_> = shape.positions.iter().map(|p| place.transform_point3(*p) + glam::DVec3::ZERO).collect();
+    let world: Vec<_> =
+        shape.positions.iter().map(|p| place.transform_point3(*p) + glam::DVec3::ZERO).collect();
     let mut used: Vec<u32> = shape.triangles.as_flattened().to_vec();
     used.sort_unstable();
     used.dedup();

@@ -37,53 +37,55 @@ impl CutPlane {
     /// # Errors
     /// Says what would be right.
     pub fn parse(text: &str) -> Result<Self, String> {
-    let wrong = || {
-        "write a plane such as x, y=12.5, z=10mm, x=30% or normal:1,0,1@5; + or - before it takes that side away"
+        let wrong = || {
+            "write a plane such as x, y=12.5, z=10mm, x=30% or normal:1,0,1@5; + or - before it takes that side away"
             .to_owned()
-    };
-    let text = text.trim();
-    let (sign, rest) = match (text.strip_prefix('+'), text.strip_prefix('-')) {
-        (Some(rest), _) => (Some(1.0), rest),
-        (_, Some(rest)) => (Some(-1.0), rest),
-        _ => (None, text),
-    };
-    let (normal, at) = match rest.strip_prefix("normal:") {
-        Some(rest) => {
-            let (normal, at) = rest.split_once('@').map_or((rest, None), |(normal, at)| (normal, Some(at)));
-            let numbers: Vec<f64> = normal.split(',').filter_map(|n| n.trim().parse().ok()).collect();
-            match numbers.as_slice() {
-                [x, y, z] if normal.split(',').count() == 3 => (DVec3::new(*x, *y, *z), at),
-                _ => return Err(wrong()),
+        };
+        let text = text.trim();
+        let (sign, rest) = match (text.strip_prefix('+'), text.strip_prefix('-')) {
+            (Some(rest), _) => (Some(1.0), rest),
+            (_, Some(rest)) => (Some(-1.0), rest),
+            _ => (None, text),
+        };
+        let (normal, at) = match rest.strip_prefix("normal:") {
+            Some(rest) => {
+                let (normal, at) =
+                    rest.split_once('@').map_or((rest, None), |(normal, at)| (normal, Some(at)));
+                let numbers: Vec<f64> = normal.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+                match numbers.as_slice() {
+                    [x, y, z] if normal.split(',').count() == 3 => (DVec3::new(*x, *y, *z), at),
+                    _ => return Err(wrong()),
+                }
             }
-        }
-        None => {
-            let (axis, at) = rest.split_once('=').map_or((rest, None), |(axis, at)| (axis, Some(at)));
-            let normal = match axis.trim() {
-                "x" | "X" => DVec3::X,
-                "y" | "Y" => DVec3::Y,
-                "z" | "Z" => DVec3::Z,
-                _ => return Err(wrong()),
-            };
-            (normal, at)
-        }
-    };
-    let at = match at.map(str::trim) {
-        None => At::Share(0.5),
-        Some(at) => match at.strip_suffix('%') {
-            Some(percent) => At::Share(percent.trim().parse::<f64>().map_err(|_| wrong())? / 100.0),
-            None if at.ends_with(|c: char| c.is_ascii_alphabetic()) => {
-                let number = at.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-                let unit = UNITS.iter().find(|(name, _)| *name == &at[number.len()..]).ok_or_else(wrong)?;
-                At::Mm(number.trim().parse::<f64>().map_err(|_| wrong())? * unit.1)
+            None => {
+                let (axis, at) = rest.split_once('=').map_or((rest, None), |(axis, at)| (axis, Some(at)));
+                let normal = match axis.trim() {
+                    "x" | "X" => DVec3::X,
+                    "y" | "Y" => DVec3::Y,
+                    "z" | "Z" => DVec3::Z,
+                    _ => return Err(wrong()),
+                };
+                (normal, at)
             }
-            None => At::Units(at.parse().map_err(|_| wrong())?),
-        },
-    };
-    let (At::Units(number) | At::Mm(number) | At::Share(number)) = at;
-    let normal = normal.try_normalize().filter(|_| number.is_finite()).ok_or_else(wrong)?;
-    // Where the plane lies is told along the axis itself, whichever side goes.
-    Ok(CutPlane { normal: normal * sign.unwrap_or(1.0), signed: sign.is_some(), at: at.turned(sign) })
-}
+        };
+        let at = match at.map(str::trim) {
+            None => At::Share(0.5),
+            Some(at) => match at.strip_suffix('%') {
+                Some(percent) => At::Share(percent.trim().parse::<f64>().map_err(|_| wrong())? / 100.0),
+                None if at.ends_with(|c: char| c.is_ascii_alphabetic()) => {
+                    let number = at.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+                    let unit =
+                        UNITS.iter().find(|(name, _)| *name == &at[number.len()..]).ok_or_else(wrong)?;
+                    At::Mm(number.trim().parse::<f64>().map_err(|_| wrong())? * unit.1)
+                }
+                None => At::Units(at.parse().map_err(|_| wrong())?),
+            },
+        };
+        let (At::Units(number) | At::Mm(number) | At::Share(number)) = at;
+        let normal = normal.try_normalize().filter(|_| number.is_finite()).ok_or_else(wrong)?;
+        // Where the plane lies is told along the axis itself, whichever side goes.
+        Ok(CutPlane { normal: normal * sign.unwrap_or(1.0), signed: sign.is_some(), at: at.turned(sign) })
+    }
 
     /// Its normal, and whether that tells the side that is taken away.
     #[must_use]
@@ -111,8 +113,10 @@ impl CutPlane {
             At::Share(share) => least + (most - least) * share,
         };
         if !(least..=most).contains(&at) {
-            return Err(Error::new(format!("the plane lies beside the model, which reaches from {least} to {most} there"))
-                .remedy("move the plane, or give a share of the extent such as x=50%"));
+            return Err(Error::new(format!(
+                "the plane lies beside the model, which reaches from {least} to {most} there"
+            ))
+            .remedy("move the plane, or give a share of the extent such as x=50%"));
         }
         let plane = Plane::new(self.normal * at, self.normal)
             .ok_or_else(|| Error::new("this is no plane").remedy("give a plane such as x=50%"))?;

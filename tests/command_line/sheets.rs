@@ -9,11 +9,12 @@ fn sections_are_hatched_and_closed() {
     let cut = folder.ligne("draw cubes.obj cut.svg --view front --section z --quiet");
     assert!(cut.done().err.is_empty());
     let svg = folder.text("cut.svg");
-    assert!(svg.contains("id=\"hatching\"") && svg.contains("data-material=\"cut 1\""), "{svg}");
-    assert!(svg.contains("cut 2") && !folder.text("whole.svg").contains("cut 1"));
+    let hatched = |svg: &str, part: &str| svg.contains(&format!("<path class=\"pattern\" data-part=\"{part}\""));
+    assert!(hatched(&svg, "base") && hatched(&svg, "knob"), "{svg}");
+    assert!(!folder.text("whole.svg").contains("pattern"));
     folder.ligne("draw cubes.obj one.svg --view front --section z --uncut knob").done();
     let svg = folder.text("one.svg");
-    assert!(svg.contains("cut 1") && !svg.contains("cut 2"));
+    assert!(hatched(&svg, "base") && !hatched(&svg, "knob"), "{svg}");
     // The frame stays that of the whole model; both sides of a plane may go.
     for plane in ["x=0.5", "+x=0.5", "-x=0.5", "y=20%", "x=1mm", "normal:1,1,0@0.2"] {
         folder.ligne(&format!("draw cubes.obj a.svg --section {plane}")).done();
@@ -24,10 +25,10 @@ fn sections_are_hatched_and_closed() {
 #[test]
 fn explosions_have_trails() {
     let folder = Folder::with_cubes("explode");
-    folder.ligne("draw cubes.obj a.svg --view front --explode y").done();
+    folder.ligne("draw cubes.obj a.svg --view front --explode y:20").done();
     let svg = folder.text("a.svg");
     assert!(svg.contains("class=\"wire\"") && svg.contains("data-part=\"trail\""), "{svg}");
-    folder.ligne("draw cubes.obj b.svg --view front --explode y:3").done();
+    folder.ligne("draw cubes.obj b.svg --view front --explode y:30").done();
     assert_ne!(svg, folder.text("b.svg"));
     folder.ligne("draw cubes.obj c.svg --view front --explode auto").done();
 }

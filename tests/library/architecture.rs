@@ -245,7 +245,9 @@ fn files_open_with_what_they_make() {
 #[test]
 fn readers_do_not_panic() {
     let mut faults = Vec::new();
-    for source in sources().iter().filter(|s| ["scene", "section", "lod", "load"].contains(&&*s.room) && !s.is_test()) {
+    for source in
+        sources().iter().filter(|s| ["scene", "section", "lod", "load"].contains(&&*s.room) && !s.is_test())
+    {
         for (number, line) in source.code() {
             // `self.expect` is a parser's own method, which returns an error.
             let line = &line.replace("self.expect(", "self.demand(");

@@ -150,7 +150,8 @@ fn a_drive_is_taken_apart() {
     let scene = Scene::open(path).expect("a model");
     let ways = explode(&scene, &Explosion::default());
     let way = |name: &str| {
-        let part = scene.parts.iter().position(|part| part.name == name).unwrap_or_else(|| panic!("a {name}"));
+        let part =
+            scene.parts.iter().position(|part| part.name == name).unwrap_or_else(|| panic!("a {name}"));
         ways.offsets[part]
     };
     let moving = ways.offsets.iter().filter(|way| **way != DVec3::ZERO).count();

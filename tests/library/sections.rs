@@ -8,10 +8,10 @@ use ligne::kurbo::{PathEl, Point};
 use ligne::load::ModelFormat;
 use ligne::math::function::{cos, sin};
 use ligne::math::glob::Glob;
-use ligne::stages::mesh::{EdgeFaces, FaceId, Mesh};
 use ligne::render::{Prepared, hatched};
 use ligne::scene::{Geometry, NamedView, Part, UpAxis};
 use ligne::section::{Plane, Section, cut};
+use ligne::stages::mesh::{EdgeFaces, FaceId, Mesh};
 use ligne::{Camera, Scene, Style};
 
 use crate::support::dice::Dice;
@@ -135,12 +135,18 @@ fn cut_faces_are_as_large_as_in_closed_form() {
     let mut nested = ball(3.0);
     nested.add(inside_out(ball(2.0)));
     nested.add(ball(1.0));
-    close(&cut(scene_of(nested), &plane(DVec3::ZERO, DVec3::Z), &[]), equator(3.0) - equator(2.0) + equator(1.0));
+    close(
+        &cut(scene_of(nested), &plane(DVec3::ZERO, DVec3::Z), &[]),
+        equator(3.0) - equator(2.0) + equator(1.0),
+    );
     // A torus across its axis: two polygons; along it: a ring.
     let ring = |m: u32, r: f64| f64::from(m) / 2.0 * sin(TAU / f64::from(m)) * r * r;
     let across = cut(scene_of(torus(40, 16, 4.0, 1.0)), &plane(DVec3::ZERO, DVec3::Y), &[]);
     close(&across, 2.0 * ring(16, 1.0));
-    close(&cut(scene_of(torus(40, 16, 4.0, 1.0)), &plane(DVec3::ZERO, DVec3::Z), &[]), ring(40, 5.0) - ring(40, 3.0));
+    close(
+        &cut(scene_of(torus(40, 16, 4.0, 1.0)), &plane(DVec3::ZERO, DVec3::Z), &[]),
+        ring(40, 5.0) - ring(40, 3.0),
+    );
     // Solids of one part that overlap are one.
     let mut crossed = cuboid(DVec3::new(-3.0, -1.0, -1.0), DVec3::new(3.0, 1.0, 1.0));
     crossed.add(cuboid(DVec3::new(-1.0, -3.0, -1.0), DVec3::new(1.0, 3.0, 1.0)));
@@ -166,12 +172,8 @@ fn cut_faces_are_as_large_as_rows_of_rays_say() {
 #[test]
 fn both_halves_are_closed_and_make_up_the_whole() {
     let mut dice = Dice::new(5);
-    let solids = [
-        cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)),
-        torus(24, 12, 3.0, 1.0),
-        icosphere(3),
-        prism(7, 1.5),
-    ];
+    let solids =
+        [cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)), torus(24, 12, 3.0, 1.0), icosphere(3), prism(7, 1.5)];
     for (k, solid) in solids.iter().enumerate() {
         for round in 0..6 {
             let mut number = || dice.between(-1.0, 1.0);
@@ -183,7 +185,11 @@ fn both_halves_are_closed_and_make_up_the_whole() {
             let halves = volume(&behind.scene) + volume(&before.scene);
             assert!((whole - halves).abs() < 1e-12 * whole, "solid {k}: {whole} and {halves}");
             assert!((area(&behind) - area(&before)).abs() < 1e-12);
-            assert_eq!([&behind, &before].map(|half| open_edges(&half.scene)), [0, 0], "solid {k}, round {round}");
+            assert_eq!(
+                [&behind, &before].map(|half| open_edges(&half.scene)),
+                [0, 0],
+                "solid {k}, round {round}"
+            );
             assert!(behind.scene.warnings.is_empty());
         }
     }
@@ -264,8 +270,11 @@ fn parts_stay_whole_where_they_are_told_to_and_neighbours_differ() {
 #[test]
 fn placed_and_mirrored_parts_are_cut_where_they_stand() {
     let mut scene = scene_of(cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)));
-    scene.parts[0].world_from_part =
-        DAffine3::from_scale_rotation_translation(DVec3::new(2.0, -1.0, 3.0), glam::DQuat::IDENTITY, DVec3::X * 5.0);
+    scene.parts[0].world_from_part = DAffine3::from_scale_rotation_translation(
+        DVec3::new(2.0, -1.0, 3.0),
+        glam::DQuat::IDENTITY,
+        DVec3::X * 5.0,
+    );
     let section = cut(scene, &plane(DVec3::X * 5.0, DVec3::X), &[]);
     assert!((area(&section) - 12.0).abs() < 1e-12);
     assert_eq!(open_edges(&section.scene), 0);
@@ -307,10 +316,11 @@ fn lines_of_cut_faces_lie_in_material_at_the_angle_of_their_part() {
         let (drawing, _) = prepared.draw(&camera, page, None).expect("a drawing");
         let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Hatching).expect("hatching");
         let patterns = || layer.marks.iter().filter(|mark| mark.provenance.classes == ["pattern"]);
-        let unit = camera.height / match camera.projection {
-            ligne::scene::Projection::Orthographic { height } => height,
-            ligne::scene::Projection::Perspective { .. } => unreachable!("a parallel view"),
-        };
+        let unit = camera.height
+            / match camera.projection {
+                ligne::scene::Projection::Orthographic { height } => height,
+                ligne::scene::Projection::Perspective { .. } => unreachable!("a parallel view"),
+            };
         let (mut lines, mut inked) = (0, 0.0);
         for mark in patterns() {
             let name = mark.provenance.part.as_deref().expect("a part");

@@ -88,9 +88,13 @@ fn has(item: &Item, wide: f64, rect: Rect) -> bool {
 
 #[test]
 fn frames_and_title_blocks_are_where_the_standards_say() {
-    for (name, w, h) in
-        [("A4", 210.0, 297.0), ("A3", 420.0, 297.0), ("A2", 594.0, 420.0), ("A1", 841.0, 594.0), ("A0", 1189.0, 841.0)]
-    {
+    for (name, w, h) in [
+        ("A4", 210.0, 297.0),
+        ("A3", 420.0, 297.0),
+        ("A2", 594.0, 420.0),
+        ("A1", 841.0, 594.0),
+        ("A0", 1189.0, 841.0),
+    ] {
         let composed = sheet(name, &format!("size = '{name}'\nviews = ['front']\n")).expect("a sheet");
         let page = composed.composition.page;
         assert_eq!([page.width, page.height], [w, h], "{name}");
@@ -111,7 +115,8 @@ fn frames_and_title_blocks_are_where_the_standards_say() {
         // Trimming marks of 10 x 5 mm at the corners.
         for (px, py) in [(0.0, 0.0), (w, 0.0), (0.0, h), (w, h)] {
             for (a, b) in [(10.0, 5.0), (5.0, 10.0)] {
-                let corner = Point::new(if px > 0.0 { w - a } else { 0.0 }, if py > 0.0 { h - b } else { 0.0 });
+                let corner =
+                    Point::new(if px > 0.0 { w - a } else { 0.0 }, if py > 0.0 { h - b } else { 0.0 });
                 let own = Rect::from_origin_size(corner, (a, b));
                 assert!(marks(frame).any(|(_, m)| near(m.path.bounding_box(), own)), "{name}: {own:?}");
             }
@@ -133,7 +138,8 @@ fn frames_and_title_blocks_are_where_the_standards_say() {
 fn views_stand_in_line_at_one_scale() {
     let keys = "views = ['front', 'top', 'left', 'right', 'bottom', 'back', 'iso']\noverall = false\n";
     for method in ["first", "third"] {
-        let composed = sheet(&format!("line-{method}"), &format!("projection = '{method}'\nsize = 'A2'\n{keys}"));
+        let composed =
+            sheet(&format!("line-{method}"), &format!("projection = '{method}'\nsize = 'A2'\n{keys}"));
         let composed = composed.expect("a sheet");
         let of = |name: &str| bounds(item(&composed, name));
         let [front, top, left, right, bottom, back] =
@@ -219,7 +225,8 @@ fn leaders_of_twenty_assemblies_do_not_cross() {
             parts.push((format!("part{k}x"), cuboid(at - size, at + size)));
         }
         fs::write(folder.join("a.obj"), obj(&parts)).expect("written");
-        let text = "[page]\nkind = 'sheet'\nmodel = 'a.obj'\nviews = ['iso']\nparts_list = true\nsize = 'A2'\n";
+        let text =
+            "[page]\nkind = 'sheet'\nmodel = 'a.obj'\nviews = ['iso']\nparts_list = true\nsize = 'A2'\n";
         let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
         let composed = page.compose().expect("drawn").remove(0);
         fs::remove_dir_all(&folder).expect("removed");
@@ -232,7 +239,8 @@ fn leaders_of_twenty_assemblies_do_not_cross() {
                 _ => circles.push(mark.path.bounding_box()),
             }
         }
-        let hidden = composed.warnings.iter().filter(|warning| warning.contains("nothing is seen of item")).count();
+        let hidden =
+            composed.warnings.iter().filter(|warning| warning.contains("nothing is seen of item")).count();
         assert_eq!([lines.len() + hidden, circles.len() + hidden], [parts.len(); 2], "round {round}");
         for (k, line) in lines.iter().enumerate() {
             for other in &lines[..k] {
@@ -242,7 +250,10 @@ fn leaders_of_twenty_assemblies_do_not_cross() {
         for (k, circle) in circles.iter().enumerate() {
             let centre = circle.center();
             assert!((circle.width() - 8.0).abs() < 0.01);
-            assert!(circles[..k].iter().all(|other| (other.center() - centre).hypot2() > 64.0), "round {round}");
+            assert!(
+                circles[..k].iter().all(|other| (other.center() - centre).hypot2() > 64.0),
+                "round {round}"
+            );
         }
     }
 }
@@ -253,7 +264,8 @@ fn leaders_of_random_anchors_do_not_cross() {
     for round in 0..200 {
         let count = 2 + dice.below(40);
         let border = Rect::new(0.0, 0.0, dice.between(60.0, 200.0), dice.between(60.0, 200.0));
-        let mut point = || Point::new(dice.between(10.0, border.x1 - 10.0), dice.between(10.0, border.y1 - 10.0));
+        let mut point =
+            || Point::new(dice.between(10.0, border.x1 - 10.0), dice.between(10.0, border.y1 - 10.0));
         let anchors: Vec<Point> = (0..count).map(|_| point()).collect();
         let slots = slots(border, count);
         let of = leaders(&anchors, &slots);
@@ -302,6 +314,7 @@ fn what_is_wrong_is_told_with_its_place() {
         assert!(error.to_string().contains(told), "{keys}: {error}");
         assert!(error.file.is_some(), "{keys}: {error}");
     }
-    let error = PageFile::from_text("[page]\nkind = 'sheet'\n", "a.toml").expect("read").compose().expect_err("none");
+    let error =
+        PageFile::from_text("[page]\nkind = 'sheet'\n", "a.toml").expect("read").compose().expect_err("none");
     assert!(error.to_string().contains("shows no model"), "{error}");
 }

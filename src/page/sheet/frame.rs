@@ -110,8 +110,7 @@ mod tests {
     #[test]
     fn sheets_have_as_many_zones_as_the_standard_says() {
         // ISO 5457:1999, table 2: along the longer side, along the shorter side.
-        for (name, long, short) in
-            [("A0", 24, 16), ("A1", 16, 12), ("A2", 12, 8), ("A3", 8, 6), ("A4", 6, 4)]
+        for (name, long, short) in [("A0", 24, 16), ("A1", 16, 12), ("A2", 12, 8), ("A3", 8, 6), ("A4", 6, 4)]
         {
             let size = Size::parse(name).unwrap();
             let size = if name == "A4" { size } else { size.lying() };

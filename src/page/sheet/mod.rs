@@ -105,7 +105,8 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
         let corner = kurbo::Point::new(space.x0 + INSET + 12.0, 0.0);
         let height = written.lines(&notes, corner, NOTES[0], NOTES[1])?;
         let top = space.y1 - INSET - 2.0 - height;
-        written.marks = written.marks.into_iter().map(|mark| mark.moved(kurbo::Vec2::new(0.0, top))).collect();
+        written.marks =
+            written.marks.into_iter().map(|mark| mark.moved(kurbo::Vec2::new(0.0, top))).collect();
         taken.push(Rect::new(corner.x, top, corner.x + NOTES[1], space.y1));
     }
     let taken: Vec<Rect> = taken.iter().map(|rect| rect.inflate(INSET, INSET)).collect();
@@ -148,7 +149,8 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     }
     annotate(sheet, &plan, scale, &mut written, source)?;
     drawn.push(whole("notes", written, size));
-    let page = Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
+    let page =
+        Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
     let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
     Ok(Composed { composition: Composition::new(name, page, drawn), warnings })
 }

@@ -127,12 +127,16 @@ pub(super) fn overall(plan: &Plan, ink: &mut Ink) -> Result<(), Error> {
                 let ((a, c), (b, d)) = (key(a), key(b));
                 a.total_cmp(&b).then(d.total_cmp(&c))
             };
-            let (Some(from), Some(to)) = (points.iter().copied().min_by(order), points.iter().copied().max_by(last))
+            let (Some(from), Some(to)) =
+                (points.iter().copied().min_by(order), points.iter().copied().max_by(last))
             else {
                 continue;
             };
-            let through =
-                if is_across { Point::new(rect.x0, rect.y1 + aside) } else { Point::new(rect.x0 - aside, rect.y0) };
+            let through = if is_across {
+                Point::new(rect.x0, rect.y1 + aside)
+            } else {
+                Point::new(rect.x0 - aside, rect.y0)
+            };
             let text = value((to - from).dot(axis).abs() * plan.unit_mm);
             dimension([sight.page(from), sight.page(to)], along, through, &text, ink)?;
         }
@@ -203,7 +207,12 @@ pub(super) fn list_size(items: usize, most: f64) -> (usize, usize, f64) {
 }
 
 /// The parts list in a rectangle: read from below, as new items are added above (ISO 7573), or from above where there are several columns.
-pub(super) fn list(place: Rect, items: &[Item], (columns, rows): (usize, usize), ink: &mut Ink) -> Result<(), Error> {
+pub(super) fn list(
+    place: Rect,
+    items: &[Item],
+    (columns, rows): (usize, usize),
+    ink: &mut Ink,
+) -> Result<(), Error> {
     let width = place.width() / columns as f64;
     let material = if columns < 3 { width * 0.28 } else { 0.0 };
     let ends = [0.0, 9.0, 18.0, width - material, width];

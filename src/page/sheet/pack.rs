@@ -27,7 +27,9 @@ impl Room {
 
     /// Whether nothing is in a rectangle.
     pub fn has(&self, rect: Rect) -> bool {
-        self.free.iter().any(|own| own.x0 <= rect.x0 && own.y0 <= rect.y0 && own.x1 >= rect.x1 && own.y1 >= rect.y1)
+        self.free
+            .iter()
+            .any(|own| own.x0 <= rect.x0 && own.y0 <= rect.y0 && own.x1 >= rect.x1 && own.y1 >= rect.y1)
     }
 
     /// Takes a rectangle away.
@@ -49,7 +51,8 @@ impl Room {
         left.retain(|rect| rect.width() > 1.0 && rect.height() > 1.0);
         let inside = |k: usize, rect: &Rect| {
             left.iter().enumerate().any(|(n, other)| {
-                let holds = other.x0 <= rect.x0 && other.y0 <= rect.y0 && other.x1 >= rect.x1 && other.y1 >= rect.y1;
+                let holds =
+                    other.x0 <= rect.x0 && other.y0 <= rect.y0 && other.x1 >= rect.x1 && other.y1 >= rect.y1;
                 n != k && holds && (other != rect || n < k)
             })
         };

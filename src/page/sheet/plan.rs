@@ -82,7 +82,9 @@ impl Plan {
         let scene = figure::staged(&sheet.model, None, None, &style, source)?;
         let unit_mm = unit_mm(sheet.unit.as_ref(), &scene, source)?;
         let (low, high) = scene.bounds().ok_or_else(|| {
-            Error::new("there is nothing to draw in the model").in_file(&source.path).remedy("name another one")
+            Error::new("there is nothing to draw in the model")
+                .in_file(&source.path)
+                .remedy("name another one")
         })?;
         let points = world_points(&scene);
         let mut plan = Self {
@@ -125,7 +127,13 @@ impl Plan {
         Ok(plan)
     }
 
-    fn add(&mut self, name: &str, camera: Camera, points: &[DVec3], (set, stands, margin): (usize, Stands, f64)) {
+    fn add(
+        &mut self,
+        name: &str,
+        camera: Camera,
+        points: &[DVec3],
+        (set, stands, margin): (usize, Stands, f64),
+    ) {
         let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
         let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
         let sight = Sight::new(&name, camera, self.middle, points);
@@ -189,7 +197,11 @@ impl Plan {
         };
         let factor = keys.factor.as_ref().map_or(1.0, |factor| *factor.get_ref());
         if let Some(told) = keys.factor.as_ref().filter(|_| !(0.0..=1000.0).contains(&factor)) {
-            return Err(source.fault(&told.span(), "parts cannot come apart so far", "write a number from 0 to 1000"));
+            return Err(source.fault(
+                &told.span(),
+                "parts cannot come apart so far",
+                "write a number from 0 to 1000",
+            ));
         }
         let view = keys.view.as_ref().map_or(Ok(NamedView::Iso), |view| named(view, source))?;
         let whole = &self.sets[0].scene;
@@ -223,7 +235,11 @@ impl Plan {
         let of = keys.of.as_ref().map_or(Ok(0), |of| self.view(of, source))?;
         let radius = *keys.radius.get_ref();
         if !(radius.is_finite() && radius > 0.0) {
-            return Err(source.fault(&keys.radius.span(), "this is no radius", "write units of the model above 0"));
+            return Err(source.fault(
+                &keys.radius.span(),
+                "this is no radius",
+                "write units of the model above 0",
+            ));
         }
         let label = keys.label.clone().unwrap_or_else(|| letter(number));
         let at = DVec3::from_array(keys.at);

@@ -1,9 +1,8 @@
 //! Scales of the series (ISO 5455:1979).
 
 /// Length on paper of one unit of length, falling.
-pub(super) const SERIES: [f64; 16] = [
-    50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005,
-];
+pub(super) const SERIES: [f64; 16] =
+    [50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005];
 
 /// How a scale is written: `1:2`, `5:1`.
 pub(super) fn written(scale: f64) -> String {
