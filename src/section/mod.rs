@@ -74,7 +74,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     // What has no material looks like the one after the last, which is another one when there are more.
     let plain = scene.materials.len() as u32;
     scene.materials.push(Material::default());
-    for number in 0..scene.parts.len() {
+    for (number, keep) in keep.iter_mut().enumerate() {
         let part = &scene.parts[number];
         let stays = uncut.iter().any(|glob| glob.matches(&part.name));
         let Some(shape) = scene.geometry_of(part) else { continue };
@@ -84,7 +84,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
             continue;
         }
         if !behind {
-            keep[number] = false;
+            *keep = false;
             continue;
         }
         if stays {
@@ -93,7 +93,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let mut left = clipped(shape, &place, plane);
         let faces = cap::cap(&mut left, plane);
         unclosed += faces.unclosed;
-        keep[number] = !(left.geometry.triangles.is_empty() && left.geometry.wires.is_empty());
+        *keep = !(left.geometry.triangles.is_empty() && left.geometry.wires.is_empty());
         let looks = shape.material_of(0).unwrap_or(plain);
         let Part { geometry, world_from_part, .. } = &mut scene.parts[number];
         (*geometry, *world_from_part) = (scene.geometries.len(), DAffine3::IDENTITY);

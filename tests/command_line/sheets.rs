@@ -9,7 +9,8 @@ fn sections_are_hatched_and_closed() {
     let cut = folder.ligne("draw cubes.obj cut.svg --view front --section z --quiet");
     assert!(cut.done().err.is_empty());
     let svg = folder.text("cut.svg");
-    let hatched = |svg: &str, part: &str| svg.contains(&format!("<path class=\"pattern\" data-part=\"{part}\""));
+    let hatched =
+        |svg: &str, part: &str| svg.contains(&format!("<path class=\"pattern\" data-part=\"{part}\""));
     assert!(hatched(&svg, "base") && hatched(&svg, "knob"), "{svg}");
     assert!(!folder.text("whole.svg").contains("pattern"));
     folder.ligne("draw cubes.obj one.svg --view front --section z --uncut knob").done();

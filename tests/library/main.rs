@@ -8,6 +8,7 @@ mod chains;
 mod closed_forms;
 mod contour_validity;
 mod cutouts;
+mod cylinders;
 mod default_drawings;
 mod default_properties;
 mod diff;

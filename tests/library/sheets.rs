@@ -214,6 +214,37 @@ fn sections_take_the_place_of_their_view_and_details_are_round() {
 }
 
 #[test]
+fn axes_of_cylinders_are_crosses_and_lines() {
+    let folder = folder("centre");
+    let mut pin = Solid::default();
+    // A prism of 48 sides about the z axis, radius 10, from 0 to 30.
+    for k in 0..48 {
+        let angle = std::f64::consts::TAU * f64::from(k) / 48.0;
+        let (x, y) = (10.0 * ligne::math::function::cos(angle), 10.0 * ligne::math::function::sin(angle));
+        pin.positions.extend([glam::DVec3::new(x, y, 0.0), glam::DVec3::new(x, y, 30.0)]);
+    }
+    for k in 0..48u32 {
+        let [a, b] = [2 * k, 2 * ((k + 1) % 48)];
+        pin.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1], [0, b, a], [1, a + 1, b + 1]]);
+    }
+    fs::write(folder.join("pin.obj"), obj(&[("pin".into(), pin)])).expect("written");
+    let text = "[page]\nkind = 'sheet'\nmodel = { file = 'pin.obj', up = 'z' }\nviews = ['front', 'top']\noverall = false\n";
+    let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
+    let composed = page.compose().expect("drawn").remove(0);
+    fs::remove_dir_all(&folder).expect("removed");
+    let [front, top] = ["front", "top"].map(|name| bounds(item(&composed, name)));
+    let lines: Vec<Rect> =
+        marks(item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box()).collect();
+    let middle = front.center().x;
+    let axis = Rect::new(middle, front.y0 - 2.5, middle, front.y1 + 2.5);
+    assert!(lines.iter().any(|line| near(*line, axis)), "{lines:?}");
+    let centre = top.center();
+    let arm = Rect::new(centre.x, centre.y, top.x1 + 2.5, centre.y);
+    assert!(lines.iter().any(|line| near(*line, arm)), "{lines:?} {arm:?}");
+    assert_eq!(lines.len(), 5);
+}
+
+#[test]
 fn leaders_of_twenty_assemblies_do_not_cross() {
     let mut dice = Dice::new(17);
     for round in 0..20 {

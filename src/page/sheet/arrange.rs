@@ -113,11 +113,11 @@ fn try_scale(
             })
         };
         let mut middles = [Vec::new(), Vec::new()];
-        for line in 0..2 {
+        for (line, middles) in middles.iter_mut().enumerate() {
             let mut at = BETWEEN / 2.0 + BESIDE;
             for k in -2..=3 {
                 if let Some([before, after]) = reach(line, k) {
-                    middles[line].push((k, at + before));
+                    middles.push((k, at + before));
                     at += before + after + BETWEEN;
                 }
             }

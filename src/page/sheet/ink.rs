@@ -45,13 +45,18 @@ impl Ink {
 
     /// A path of one width; no dashes is solid.
     pub fn path(&mut self, path: BezPath, width: f64, dash: &[f64]) {
+        self.dashed(path, width, dash, 0.0);
+    }
+
+    /// The same with dashes that begin so far in.
+    pub fn dashed(&mut self, path: BezPath, width: f64, dash: &[f64], dash_offset: f64) {
         let paint = Paint::Stroke(StrokePaint {
             width,
             colour: Colour::BLACK,
             cap: Cap::Butt,
             join: Join::Miter,
             dash: dash.to_vec(),
-            dash_offset: 0.0,
+            dash_offset,
         });
         self.marks.push(Mark { path, paint, provenance: self.provenance() });
     }

@@ -34,6 +34,8 @@ pub struct SheetPage {
     pub hidden: bool,
     /// Whether the length, the height and the depth of the whole are told. Default: yes.
     pub overall: Option<bool>,
+    /// Whether axes of whole cylinders are drawn. Default: where the model is a single part.
+    pub centre_lines: Option<bool>,
     /// What the title block says.
     pub title: TitleKeys,
     /// Views of the model cut open.

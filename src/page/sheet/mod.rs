@@ -7,6 +7,7 @@ mod arrange;
 mod balloon_anchors;
 pub mod balloons;
 pub mod block;
+mod centre;
 mod dimension;
 pub mod frame;
 mod ink;
@@ -190,6 +191,10 @@ fn annotate(sheet: &SheetPage, plan: &Plan, scale: f64, ink: &mut Ink, source: &
     }
     for circled in &plan.circled {
         notes::circled(plan, circled, ink)?;
+    }
+    let is_single = plan.sets[0].scene.parts.len() == 1;
+    if sheet.centre_lines.unwrap_or(is_single) {
+        centre::centre_lines(plan, ink);
     }
     if sheet.overall.unwrap_or(true) {
         notes::overall(plan, ink)?;

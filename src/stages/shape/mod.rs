@@ -4,6 +4,7 @@
 mod crease_chains;
 pub mod curvature;
 mod curvature_derivative;
+pub mod cylinders;
 mod diffusion;
 pub mod edge_arc;
 pub mod fans;
@@ -27,6 +28,7 @@ pub mod splice;
 mod thickness;
 
 pub use curvature::Curvature;
+pub use cylinders::{Cylinder, cylinders};
 pub use edge_arc::EdgeArc;
 pub use hard_edges::HardEdges;
 pub use patches::Patches;
