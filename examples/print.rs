@@ -36,11 +36,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     write("k.pdf", &black)?;
     write("spot.pdf", &black.clone().with_spot(RED, "PANTONE 185 C"))?;
     write("outlined.pdf", &black.clone().outlined())?;
+    write("dots.pdf", &black.clone().with_screen(45.0, 45.0))?;
     if let Some(profile) = profile {
         write("x4-k.pdf", &black.with_profile(Arc::clone(&profile)).with_standard(Standard::X4))?;
         let four = plain.with_inks(Inks::Cmyk(profile)).with_ink_limit(240.0).with_marks();
         write("x4.pdf", &four.clone().with_standard(Standard::X4).with_spot(RED, "PANTONE 185 C"))?;
         write("cmyk.pdf", &four)?;
+        write("cmyk-dots.pdf", &four.with_screen(45.0, 45.0))?;
     }
     Ok(())
 }

@@ -8,6 +8,8 @@ use glam::DVec3;
 use super::framing_args::Frame;
 use super::moment::scene_at;
 use super::output::{Format, Staging, check_place, is_stdout};
+#[cfg(feature = "pdf")]
+use super::print_args;
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
@@ -160,7 +162,7 @@ fn draw_view(
         Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
         Format::Png => pipeline::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
         #[cfg(feature = "pdf")]
-        Format::Pdf => Ok(drawing.to_pdf()),
+        Format::Pdf => print_args::encode(&drawing, request.print.as_ref()),
         Format::Dxf => {
             let (bytes, told) = dxf_args::encode(&drawing, &camera, &request.dxf)?;
             left_out = told;

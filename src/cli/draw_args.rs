@@ -10,6 +10,8 @@ use super::framing_args::{FramingArgs, SaveArgs};
 use super::many::args::ManyArgs;
 use super::offered::Offered;
 use super::paper::{self, Extent, Measure};
+#[cfg(feature = "pdf")]
+use super::print_args::PrintArgs;
 use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;
@@ -61,6 +63,10 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) dxf: DxfArgs,
+
+    #[cfg(feature = "pdf")]
+    #[command(flatten)]
+    pub(super) print: PrintArgs,
 
     /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]

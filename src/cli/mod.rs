@@ -25,6 +25,8 @@ mod output;
 mod page;
 mod paper;
 mod pipeline;
+#[cfg(feature = "pdf")]
+mod print_args;
 mod progress;
 mod request;
 mod shard;

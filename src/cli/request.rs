@@ -10,6 +10,8 @@ use super::viewpoint::{Lens, Sheet, View};
 use super::web_args::WebArgs;
 use crate::drawing::Unit;
 use crate::error::Error;
+#[cfg(feature = "pdf")]
+use crate::export::PdfOptions;
 use crate::load::ModelFormat;
 use crate::math::colour::Colour;
 use crate::render::{MapFiles, Stage};
@@ -49,6 +51,9 @@ pub(super) struct DrawRequest {
     pub(super) svg: SvgChoices,
     pub(super) web: WebArgs,
     pub(super) dxf: DxfArgs,
+    /// How PDF is written, where that was said.
+    #[cfg(feature = "pdf")]
+    pub(super) print: Option<PdfOptions>,
     pub(super) dpi: Option<f64>,
     pub(super) stage: Option<Stage>,
     pub(super) threads: Option<u16>,
@@ -84,7 +89,11 @@ impl DrawRequest {
         check_apart(&args.model, &outputs, &besides, args.maps.as_deref())?;
         let piped = args.many.piped([&args.model])?;
         let request = Self::of_model(args.model, args.how)?.reading(piped);
+        #[cfg(feature = "pdf")]
+        let print = args.print.of_outputs(args.web.ink.as_deref(), &outputs)?;
         Ok(Self {
+            #[cfg(feature = "pdf")]
+            print,
             outputs,
             report: args.report,
             maps: args.maps,
@@ -162,6 +171,8 @@ impl DrawRequest {
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             web: WebArgs::default(),
             dxf: DxfArgs::default(),
+            #[cfg(feature = "pdf")]
+            print: None,
             dpi: args.dpi,
             stage: None,
             threads: args.threads,

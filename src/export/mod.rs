@@ -29,6 +29,8 @@ pub mod pdf;
 #[cfg(feature = "pdf")]
 mod pdf_content;
 #[cfg(feature = "pdf")]
+mod pdf_document;
+#[cfg(feature = "pdf")]
 mod pdf_fonts;
 #[cfg(feature = "pdf")]
 mod pdf_inks;
@@ -40,6 +42,10 @@ pub mod pdf_pages;
 mod pdf_paints;
 #[cfg(feature = "pdf")]
 mod pdf_pictures;
+#[cfg(feature = "pdf")]
+mod pdf_resources;
+#[cfg(feature = "pdf")]
+pub mod pdf_screen;
 #[cfg(feature = "pdf")]
 mod pdf_sheet;
 #[cfg(feature = "pdf")]
@@ -63,6 +69,8 @@ pub use dxf::{DxfLength, DxfOptions, DxfVersion};
 pub use pdf_options::{Inks, PdfOptions, Spot, Standard};
 #[cfg(feature = "pdf")]
 pub use pdf_pages::to_pdf;
+#[cfg(feature = "pdf")]
+pub use pdf_screen::Screen;
 #[cfg(feature = "png")]
 pub use png::{Pixels, PngOptions, Resolution};
 pub use svg::{Grouping, SvgOptions};

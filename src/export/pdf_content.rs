@@ -2,19 +2,25 @@
 //!
 //! Source: ISO 32000-1, tables 57 (graphics state), 59 (path construction), 60 (path painting).
 
-use kurbo::{PathEl, Point};
+use std::collections::BTreeMap;
+
+use kurbo::{Affine, PathEl, Point};
 
 use super::number::Decimals;
 use super::pdf_fonts::Fonts;
 use super::pdf_inks::{Ink, Plates};
 use super::pdf_pictures::Crops;
+use super::pdf_screen::{Screen, Tone, diameter, dots as screen_dots, share_of, tone};
 use super::pictures::matrix;
-use crate::drawing::{Cap, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
+use crate::drawing::{Cap, Gradient, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
 use crate::math::colour::Colour;
 
 /// Decimals of widths and dashes, as in SVG, and of the channels of colours.
 const WIDTH_DECIMALS: u8 = 3;
 const CHANNEL_DECIMALS: u8 = 4;
+
+/// Dots that are painted at once: programs take their time with long paths.
+const DOTS_OF_PATH: usize = 1000;
 
 /// What prints marks, and in which fonts they are set.
 #[derive(Clone, Copy)]
@@ -24,6 +30,18 @@ pub(super) struct Press<'a> {
     pub fonts: Option<&'a Fonts>,
     /// The number that the first picture of the drawing has in the document.
     pub first_picture: usize,
+    /// How fills become dots.
+    pub dots: Option<Dots>,
+}
+
+/// How fills become dots.
+#[derive(Clone, Copy)]
+pub(super) struct Dots {
+    pub screen: Screen,
+    /// From units of the drawing to those of its page.
+    pub place: Affine,
+    /// Units of the page in a mm.
+    pub mm: f64,
 }
 
 /// Paints marks, one after the other.
@@ -47,6 +65,11 @@ impl<'a> Writer<'a> {
         Self { out: Vec::new(), decimals, stroke: None, fill: None, state: None, patterns, press }
     }
 
+    /// Paints a mark that is no picture.
+    pub(super) fn plain(&mut self, mark: &Mark) {
+        self.mark(mark, &Crops::default());
+    }
+
     /// Paints one mark of a drawing with those pictures.
     pub(super) fn mark(&mut self, mark: &Mark, pictures: &Crops) {
         if mark.path.elements().is_empty() {
@@ -60,6 +83,12 @@ impl<'a> Writer<'a> {
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"S\n");
             }
+            Paint::Gradient(gradient)
+                if self.screened(mark, gradient.stops.first().map_or(255, |s| s.1.a)) =>
+            {
+                self.patterns += 1;
+            }
+            Paint::Fill(colour) if mark.provenance.text.is_none() && self.screened(mark, colour.a) => {}
             Paint::Gradient(gradient) => {
                 self.set_opacity(gradient.stops.first().map_or(255, |(_, colour)| colour.a));
                 let name = pattern_name(self.patterns);
@@ -83,6 +112,98 @@ impl<'a> Writer<'a> {
             Paint::Image(image) => {
                 self.set_opacity(255);
                 self.clipped(mark.path.elements(), |writer| writer.pieces(image, pictures));
+            }
+        }
+    }
+
+    /// Paints a fill as dots, and says so; fills that are not dots stay.
+    fn screened(&mut self, mark: &Mark, opacity: u8) -> bool {
+        let Some((press, dots)) = self.press.and_then(|press| Some((press, press.dots?))) else {
+            return false;
+        };
+        let clear = f64::from(opacity) / 255.0;
+        let inks = |colour: Colour| match press.plates.ink(colour) {
+            Ink::Cmyk(inks) => Some(inks.map(|ink| ink * clear)),
+            _ => None,
+        };
+        let gradient = match &mark.paint {
+            Paint::Gradient(gradient) => Some(gradient),
+            _ => None,
+        };
+        let colour = match &mark.paint {
+            Paint::Fill(colour) => *colour,
+            _ => gradient.map_or(Colour::BLACK, Gradient::middle),
+        };
+        let Some(flat) = inks(colour) else { return false };
+        let is_flat = gradient.is_none();
+        if is_flat && flat.iter().all(|ink| tone(*ink) != Tone::Dots) && opacity == 255 {
+            return false;
+        }
+        // What is below goes away, as below any fill.
+        if opacity == 255 {
+            self.choose((255, false));
+            self.out.extend_from_slice(b"0 0 0 0 k\n");
+            self.fill = None;
+            self.path(mark.path.elements());
+            self.out.extend_from_slice(b"f\n");
+        }
+        self.clipped(mark.path.elements(), |writer| {
+            writer.choose((255, true));
+            let mut before = Affine::IDENTITY;
+            for (plate, ink) in flat.iter().enumerate() {
+                if is_flat && tone(*ink) == Tone::None {
+                    continue;
+                }
+                let mut solid = [0.0; 4];
+                if let Some(one) = solid.get_mut(plate) {
+                    *one = 1.0;
+                }
+                // From the lattice to units of the drawing.
+                let lattice = dots.place.inverse() * dots.screen.lattice(plate, dots.mm);
+                let outline = lattice.inverse() * &mark.path;
+                let share = |at: Point| match gradient {
+                    None => *ink,
+                    Some(gradient) => {
+                        let (line, at) = (gradient.end - gradient.start, lattice * at - gradient.start);
+                        let along = if line.hypot2() > 0.0 { line.dot(at) / line.hypot2() } else { 0.5 };
+                        inks(gradient.at(along.clamp(0.0, 1.0)))
+                            .and_then(|inks| inks.get(plate).copied())
+                            .unwrap_or(0.0)
+                    }
+                };
+                let laid =
+                    if is_flat && tone(*ink) == Tone::Solid { None } else { screen_dots(&outline, share) };
+                let change = before.inverse() * lattice;
+                before = lattice;
+                writer.out.extend_from_slice(format!("{} cm\n", matrix(change, " ")).as_bytes());
+                match laid {
+                    Some(laid) => writer.lay(&laid, solid),
+                    None => {
+                        let tint = solid.map(|one| one * ink);
+                        tint.into_iter().for_each(|ink| writer.value(Decimals::new(CHANNEL_DECIMALS), ink));
+                        writer.operator(b"k");
+                        writer.path(outline.elements());
+                        writer.operator(b"f");
+                    }
+                }
+            }
+        });
+        true
+    }
+
+    /// Lays dots of an ink: points of a round pen.
+    fn lay(&mut self, dots: &BTreeMap<u8, Vec<(i32, i32)>>, solid: [f64; 4]) {
+        solid.into_iter().for_each(|ink| self.value(Decimals::new(CHANNEL_DECIMALS), ink));
+        self.operator(b"K");
+        self.operator(b"1 J [] 0 d");
+        for (size, places) in dots {
+            self.value(Decimals::new(4), diameter(share_of(*size)));
+            self.operator(b"w");
+            for places in places.chunks(DOTS_OF_PATH) {
+                for (x, y) in places {
+                    self.out.extend_from_slice(format!("{x} {y} m {x} {y} l\n").as_bytes());
+                }
+                self.operator(b"S");
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::pdf_screen::Screen;
 use crate::math::colour::Colour;
 
 /// The inks that a page is printed with.
@@ -50,6 +51,8 @@ pub struct PdfOptions {
     /// Colours without hue that are no lighter, as 0 to 1 of white, are printed as solid black, and so are all such ones of
     /// [`Inks::K`].
     pub solid_black: f64,
+    /// A half-tone screen: fills are dots of solid ink; only of the inks of a press.
+    pub screen: Option<Screen>,
     /// Whether crop marks and registration marks are printed outside the trimmed page.
     pub marks: bool,
     /// The standard.
@@ -68,6 +71,7 @@ impl Default for PdfOptions {
             ink_limit: None,
             profile: None,
             solid_black: 0.11,
+            screen: None,
             marks: false,
             standard: None,
             outlined: false,
@@ -102,6 +106,13 @@ impl PdfOptions {
     #[must_use]
     pub fn with_profile(mut self, profile: impl Into<Arc<[u8]>>) -> Self {
         self.profile = Some(profile.into());
+        self
+    }
+
+    /// With fills as dots of solid ink, so many rows an inch, at that angle of the black plate in degrees.
+    #[must_use]
+    pub fn with_screen(mut self, lpi: f64, angle_deg: f64) -> Self {
+        self.screen = Some(Screen { lpi, angle_deg });
         self
     }
 

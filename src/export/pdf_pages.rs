@@ -16,25 +16,23 @@
 
 use std::collections::BTreeSet;
 
-use kurbo::Affine;
 use miniz_oxide::deflate::compress_to_vec_zlib;
-use pdf_writer::types::OverprintMode;
 use pdf_writer::{Filter, Finish, Name, Pdf, Ref, TextStr};
 use rayon::prelude::*;
 
-use super::SvgOptions;
-use super::number::Decimals;
-use super::pdf::{CHUNK, DEFLATE_LEVEL, group_name};
-use super::pdf_content::{Press, Writer, pattern_name, picture_name, spot_name, state_name};
-use super::pdf_fonts::{Fonts, OBJECTS_PER_FONT, font_name};
-use super::pdf_inks::{Ink, Plates, srgb_profile};
-use super::pdf_options::{PdfOptions, Standard};
+use super::pdf::DEFLATE_LEVEL;
+use super::pdf_content::Press;
+use super::pdf_document::Document;
+use super::pdf_fonts::{Fonts, OBJECTS_PER_FONT};
+use super::pdf_inks::{Plates, srgb_profile};
+use super::pdf_options::{Inks, PdfOptions, Standard};
 use super::pdf_paints::{write_gradient, write_picture};
 use super::pdf_pictures::Crops;
-use super::pdf_sheet::{ALL_INKS, Sheet};
+use super::pdf_resources::{Ids, write_resources};
+use super::pdf_screen::Screen;
+use super::pdf_sheet::Sheet;
 use super::pdf_standard::{id, write_info, write_intent, xmp};
-use super::pictures::matrix;
-use crate::drawing::{Composition, Drawing, Gradient, Item, LayerKind, Mark, OutlinePaint, Paint, Unit};
+use crate::drawing::{Composition, Drawing, Mark, OutlinePaint, Paint};
 use crate::error::Error;
 use crate::math::colour::Colour;
 
@@ -45,9 +43,6 @@ const RESOURCES: Ref = Ref::new(4);
 const XMP: Ref = Ref::new(5);
 const PROFILE: Ref = Ref::new(6);
 const FIRST_FREE: i32 = 7;
-
-/// Decimals of matrices.
-const FINE: u8 = 6;
 
 /// Pages of several drawings as one PDF file: a layer of the document for each drawing of a page, and within it for each of its own.
 /// The same pages give the same bytes: no clock and no chance is in them.
@@ -60,6 +55,7 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         return Err(Error::new("a PDF without pages cannot be written").remedy("give a page"));
     };
     let plates = Plates::new(options)?;
+    let screen = screen(options)?;
     let profile = intent(&plates, options)?;
     let sheets: Vec<Sheet> =
         pages.iter().map(|page| Sheet::new(page, options.marks)).collect::<Result<_, _>>()?;
@@ -72,8 +68,8 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         fonts.cut();
     }
     let crops: Vec<Crops> = drawings(pages).map(Crops::of).collect();
-    let press = Press { plates: &plates, fonts: Some(&fonts), first_picture: 0 };
-    let mut document = Document::new(press);
+    let press = Press { plates: &plates, fonts: Some(&fonts), first_picture: 0, dots: None };
+    let mut document = Document::new(press, screen);
     for (page, sheet) in pages.iter().zip(&sheets) {
         document.page(page, sheet, &crops, options.marks);
     }
@@ -142,87 +138,8 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         page.insert(Name(b"Resources")).primitive(RESOURCES);
     }
 
-    let mut resources = pdf.indirect(RESOURCES).start::<pdf_writer::writers::Resources>();
-    let named = |ids: &[Ref], name: fn(usize) -> String| -> Vec<(String, Ref)> {
-        ids.iter().enumerate().map(|(number, id)| (name(number), *id)).collect()
-    };
-    let mut dict = resources.ext_g_states();
-    for (state, id) in states.iter().zip(&state_ids) {
-        dict.pair(Name(state_name(*state).as_bytes()), *id);
-    }
-    dict.finish();
-    if options.marks || !plates.spots.is_empty() {
-        let mut spaces = resources.color_spaces();
-        if options.marks {
-            let mut all = spaces
-                .insert(Name(ALL_INKS.as_bytes()))
-                .start::<pdf_writer::writers::ColorSpace>()
-                .separation(Name(b"All"));
-            all.alternate_color_space().device_gray();
-            all.tint_exponential().domain([0.0, 1.0]).c0([1.0]).c1([0.0]).n(1.0);
-        }
-        for (number, spot) in plates.spots.iter().enumerate() {
-            let space =
-                spaces.insert(Name(spot_name(number).as_bytes())).start::<pdf_writer::writers::ColorSpace>();
-            let mut ink = space.separation(Name(spot.name.as_bytes()));
-            match plates.process(spot.colour) {
-                Ink::Rgb(channels) => {
-                    ink.alternate_color_space().device_rgb();
-                    ink.tint_exponential()
-                        .domain([0.0, 1.0])
-                        .c0([1.0; 3])
-                        .c1(channels.map(|x| x as f32))
-                        .n(1.0);
-                }
-                _ => {
-                    ink.alternate_color_space().device_cmyk();
-                    let inks = plates.seen_as(spot.colour);
-                    ink.tint_exponential().domain([0.0, 1.0]).c0([0.0; 4]).c1(inks.map(|x| x as f32)).n(1.0);
-                }
-            }
-        }
-        spaces.finish();
-    }
-    if !pattern_ids.is_empty() {
-        let mut dict = resources.patterns();
-        for (name, id) in named(&pattern_ids, pattern_name) {
-            dict.pair(Name(name.as_bytes()), id);
-        }
-    }
-    let mut dict = resources.insert(Name(b"Properties")).dict();
-    for (name, id) in named(&group_ids, group_name) {
-        dict.pair(Name(name.as_bytes()), id);
-    }
-    dict.finish();
-    if !picture_ids.is_empty() {
-        let mut dict = resources.x_objects();
-        for (name, id) in named(&picture_ids, picture_name) {
-            dict.pair(Name(name.as_bytes()), id);
-        }
-    }
-    if !font_ids.is_empty() {
-        let mut dict = resources.fonts();
-        for (number, ids) in font_ids.chunks(OBJECTS_PER_FONT).enumerate() {
-            if let Some(id) = ids.first() {
-                dict.pair(Name(font_name(number).as_bytes()), *id);
-            }
-        }
-    }
-    resources.finish();
-
-    for ((opacity, overprints), id) in states.iter().zip(&state_ids) {
-        let alpha = f32::from(*opacity) / 255.0;
-        let mut state = pdf.ext_graphics(*id);
-        state.stroking_alpha(alpha).non_stroking_alpha(alpha);
-        if plates.is_press() {
-            let mode = if *overprints {
-                OverprintMode::IgnoreZeroChannel
-            } else {
-                OverprintMode::OverrideAllColorants
-            };
-            state.overprint(*overprints).overprint_fill(*overprints).overprint_mode(mode);
-        }
-    }
+    let ids = Ids { groups: &group_ids, patterns: &pattern_ids, pictures: &picture_ids, fonts: &font_ids };
+    write_resources(&mut pdf, RESOURCES, (&plates, options.marks), (&states, &state_ids), &ids);
     let colours = Some(&plates);
     for ((place, gradient), ids) in document.gradients.iter().zip(pattern_ids.iter().zip(&function_ids)) {
         write_gradient(&mut pdf, gradient, place.as_coeffs().map(|x| x as f32), [*ids.0, *ids.1], colours);
@@ -271,6 +188,20 @@ fn intent(plates: &Plates, options: &PdfOptions) -> Result<Option<(Vec<u8>, usiz
     }
 }
 
+/// The half-tone screen, if it is one.
+fn screen(options: &PdfOptions) -> Result<Option<Screen>, Error> {
+    let Some(screen) = options.screen else { return Ok(None) };
+    if !(screen.lpi.is_finite() && (5.0..=200.0).contains(&screen.lpi) && screen.angle_deg.is_finite()) {
+        return Err(Error::new(format!("a screen of {} lines an inch cannot be printed", screen.lpi))
+            .remedy("give 5 to 200 lines an inch"));
+    }
+    if options.inks == Inks::Screen {
+        return Err(Error::new("only the inks of a press are printed as dots")
+            .remedy("print with black alone, or with four inks"));
+    }
+    Ok(Some(screen))
+}
+
 /// All drawings of all pages.
 fn drawings(pages: &[Composition]) -> impl Iterator<Item = &Drawing> {
     pages.iter().flat_map(|page| page.items.iter().map(|item| &item.drawing))
@@ -296,190 +227,10 @@ fn states(pages: &[Composition], plates: &Plates) -> BTreeSet<(u8, bool)> {
     let paper = pages.iter().map(|page| &page.page).chain(drawings(pages).map(|drawing| &drawing.page));
     let paper = paper.filter_map(|page| page.background).map(state);
     // Pictures and marks of the printer are opaque.
-    drawings(pages).flat_map(marks).flat_map(of_mark).chain(paper).chain([(255, false)]).collect()
-}
-
-/// A layer of the document.
-struct Group {
-    label: String,
-    /// The page, and the layer it is within.
-    page: usize,
-    within: Option<usize>,
-}
-
-/// A stretch of the content of a page.
-enum Segment<'a> {
-    Raw(Vec<u8>),
-    Marks {
-        marks: &'a [Mark],
-        crops: &'a Crops<'a>,
-        first_picture: usize,
-        first_pattern: usize,
-        decimals: Decimals,
-    },
-}
-
-impl Segment<'_> {
-    /// The content, deflated.
-    fn write(&self, press: Press) -> Vec<u8> {
-        match self {
-            Self::Raw(bytes) => compress_to_vec_zlib(bytes, DEFLATE_LEVEL),
-            Self::Marks { marks, crops, first_picture, first_pattern, decimals } => {
-                let press = Press { first_picture: *first_picture, ..press };
-                let mut writer = Writer::new(*decimals, *first_pattern, Some(press));
-                marks.iter().for_each(|mark| writer.mark(mark, crops));
-                compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL)
-            }
-        }
-    }
-}
-
-/// What is gathered of the pages.
-struct Document<'a> {
-    press: Press<'a>,
-    groups: Vec<Group>,
-    /// Of each page.
-    segments: Vec<Vec<Segment<'a>>>,
-    titles: Vec<String>,
-    /// Gradients, and from their units to those of the paper.
-    gradients: Vec<(Affine, &'a Gradient)>,
-    pictures: usize,
-    drawings: usize,
-}
-
-impl<'a> Document<'a> {
-    fn new(press: Press<'a>) -> Self {
-        let (groups, segments, titles, gradients) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { press, groups, segments, titles, gradients, pictures: 0, drawings: 0 }
-    }
-
-    fn page(&mut self, page: &'a Composition, sheet: &Sheet, crops: &'a [Crops<'a>], marks: bool) {
-        let fine = Decimals::new(FINE);
-        let decimals = Decimals::new(SvgOptions::default().decimals(page.page.unit));
-        self.segments.push(Vec::new());
-        self.titles.push(page.title.clone());
-        // Miters end where they do in SVG.
-        let mut start = format!("q\n{} cm\n4 M\n", matrix(sheet.matrix(), " ")).into_bytes();
-        if let Some(colour) = page.page.background {
-            let mut writer = Writer::new(decimals, 0, Some(self.press));
-            writer.set_state(colour);
-            writer.set_fill(colour);
-            let bleed = sheet.bleed;
-            let sides =
-                [bleed.x0, bleed.y0, bleed.width(), bleed.height()].map(|side| fine.text(side)).join(" ");
-            writer.out.extend_from_slice(format!("{sides} re f\n").as_bytes());
-            start.append(&mut writer.out);
-        }
-        self.raw(start);
-        for item in &page.items {
-            self.item(item, sheet, crops, page.page.unit);
-        }
-        if marks {
-            self.raw(sheet.paint_marks(Decimals::new(3)));
-        }
-        self.raw(b"Q\n".to_vec());
-    }
-
-    fn raw(&mut self, bytes: Vec<u8>) {
-        if let Some(page) = self.segments.last_mut() {
-            page.push(Segment::Raw(bytes));
-        }
-    }
-
-    fn group(&mut self, label: &str, within: Option<usize>) -> usize {
-        let page = self.segments.len().saturating_sub(1);
-        self.groups.push(Group { label: label.to_owned(), page, within });
-        self.groups.len() - 1
-    }
-
-    fn item(&mut self, item: &'a Item, sheet: &Sheet, crops: &'a [Crops<'a>], unit: Unit) {
-        let drawing = &item.drawing;
-        let Some(crops) = crops.get(self.drawings) else { return };
-        let first_picture = self.pictures;
-        self.drawings += 1;
-        self.pictures += crops.list.len();
-        let group = self.group(&item.name, None);
-        let mut writer =
-            Writer::new(Decimals::new(SvgOptions::default().decimals(unit)), 0, Some(self.press));
-        writer.out.extend_from_slice(format!("/OC /{} BDC\nq\n", group_name(group)).as_bytes());
-        if let Some(clip) = &item.clip {
-            // Nothing is seen through a clip that is no path.
-            if clip.elements().is_empty() {
-                writer.out.extend_from_slice(b"0 0 m\n");
-            }
-            writer.path(clip.elements());
-            writer.out.extend_from_slice(b"W n\n");
-        }
-        if item.place != Affine::IDENTITY {
-            writer.out.extend_from_slice(format!("{} cm\n", matrix(item.place, " ")).as_bytes());
-        }
-        if let Some(colour) = drawing.page.background {
-            let paper = self.group(LayerKind::Paper.id(), Some(group));
-            writer.out.extend_from_slice(format!("/OC /{} BDC\n", group_name(paper)).as_bytes());
-            writer.set_state(colour);
-            writer.set_fill(colour);
-            let fine = Decimals::new(FINE);
-            let sides = [drawing.page.width, drawing.page.height].map(|side| fine.text(side)).join(" ");
-            writer.out.extend_from_slice(format!("0 0 {sides} re f\nEMC\n").as_bytes());
-        }
-        self.raw(writer.out);
-        // Where a drawing is enlarged its coordinates get more decimals.
-        let larger = item.place.determinant().abs().sqrt();
-        let more = [1.0, 10.0, 100.0].iter().filter(|step| larger > **step).count() as u8;
-        let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + more);
-        for layer in &drawing.layers {
-            let inner = self.group(&drawing.names(layer).1, Some(group));
-            self.raw(format!("/OC /{} BDC\n", group_name(inner)).into_bytes());
-            for marks in layer.marks.chunks(CHUNK) {
-                let first_pattern = self.gradients.len();
-                let graded = marks.iter().filter_map(|mark| match &mark.paint {
-                    Paint::Gradient(gradient) => Some((sheet.matrix() * item.place, gradient)),
-                    _ => None,
-                });
-                self.gradients.extend(graded);
-                if let Some(page) = self.segments.last_mut() {
-                    page.push(Segment::Marks { marks, crops, first_picture, first_pattern, decimals });
-                }
-            }
-            self.raw(b"EMC\n".to_vec());
-        }
-        self.raw(b"Q\nEMC\n".to_vec());
-    }
-
-    /// Lists the layers as programs show them: by page, the front ones first, those of a drawing under it.
-    fn write_layers(&self, catalog: &mut pdf_writer::writers::Catalog, ids: &[Ref]) {
-        if ids.is_empty() {
-            return;
-        }
-        let mut properties = catalog.insert(Name(b"OCProperties")).dict();
-        properties.insert(Name(b"OCGs")).array().items(ids.iter().copied());
-        let mut shown = properties.insert(Name(b"D")).dict();
-        shown.pair(Name(b"Name"), TextStr("layers"));
-        let mut order = shown.insert(Name(b"Order")).array();
-        let several = self.titles.len() > 1;
-        for (number, title) in self.titles.iter().enumerate() {
-            if several {
-                let mut page = order.push().array();
-                page.push().primitive(TextStr(title));
-                self.write_page_layers(&mut page, number, ids);
-            } else {
-                self.write_page_layers(&mut order, number, ids);
-            }
-        }
-    }
-
-    fn write_page_layers(&self, list: &mut pdf_writer::Array, page: usize, ids: &[Ref]) {
-        let own =
-            || self.groups.iter().zip(ids).enumerate().filter(|(_, (group, _))| group.page == page).rev();
-        for (number, (_, id)) in own().filter(|(_, (group, _))| group.within.is_none()) {
-            list.push().primitive(*id);
-            let inner: Vec<Ref> = own()
-                .filter(|(_, (group, _))| group.within == Some(number))
-                .map(|(_, (_, id))| *id)
-                .collect();
-            if !inner.is_empty() {
-                list.push().array().items(inner);
-            }
-        }
-    }
+    drawings(pages)
+        .flat_map(marks)
+        .flat_map(of_mark)
+        .chain(paper)
+        .chain([(255, false), (255, plates.is_press())])
+        .collect()
 }

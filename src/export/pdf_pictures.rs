@@ -29,6 +29,7 @@ pub(super) struct Crop<'a> {
 }
 
 /// The parts of the pictures of a drawing.
+#[derive(Default)]
 pub(super) struct Crops<'a> {
     pub list: Vec<Crop<'a>>,
     /// The number of the part that a piece shows, by where the piece lies in memory.

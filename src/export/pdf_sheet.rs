@@ -13,7 +13,7 @@ const CROP_LENGTH: f64 = 5.0;
 const MARK_WIDTH: f64 = 0.1;
 
 /// The radius of the circle of registration marks, mm; its lines are twice as long.
-const REGISTER: f64 = 1.5;
+const REGISTER: f64 = 1.25;
 
 /// How much paper is left beyond marks, mm.
 const MARGIN: f64 = 1.0;
@@ -32,7 +32,7 @@ pub(super) struct Sheet {
     pub scale: f64,
     pub user_unit: f64,
     /// Units of the page in a mm.
-    mm: f64,
+    pub mm: f64,
     /// Where lines end that are drawn from the trimmed page outward.
     reach: f64,
 }

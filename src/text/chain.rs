@@ -41,15 +41,19 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    pub fn new(asked: &Font) -> Result<Self, Error> {
-        let mut fonts = vec![asked.clone()];
+    pub fn new(asked: &Font) -> Self {
+        Self { fonts: vec![asked.clone()], known: BTreeMap::new() }
+    }
+
+    /// Adds the fonts that come with the project.
+    fn add_others(&mut self) -> Result<(), Error> {
         for name in Font::names() {
             let font = Font::named(name)?;
-            if !fonts.contains(&font) {
-                fonts.push(font);
+            if !self.fonts.contains(&font) {
+                self.fonts.push(font);
             }
         }
-        Ok(Self { fonts, known: BTreeMap::new() })
+        Ok(())
     }
 
     /// The number of the first font that has a letter with its marks.
@@ -63,7 +67,11 @@ impl Chain {
         };
         // What is not seen is in every font.
         let unseen = letter.chars().all(|c| c.is_control() || c.is_whitespace() && c != '\u{3000}');
-        let number = if unseen { Some(0) } else { self.fonts.iter().position(has) };
+        let mut number = if unseen { Some(0) } else { self.fonts.iter().position(has) };
+        if number.is_none() && self.fonts.len() == 1 {
+            self.add_others()?;
+            number = self.fonts.iter().position(has);
+        }
         let Some(number) = number else {
             let names: Vec<&str> = self.fonts.iter().map(Font::name).collect();
             let message =

@@ -54,12 +54,12 @@ pub(super) struct Pieces<'a> {
 }
 
 impl<'a> Pieces<'a> {
-    pub fn new(text: &'a str, setting: &'a Setting) -> Result<Self, Error> {
+    pub fn new(text: &'a str, setting: &'a Setting) -> Self {
         let runs_left = runs_left(text);
         let levels = levels(text, u8::from(runs_left));
         let levels = text.char_indices().map(|(at, _)| at).zip(levels).collect();
-        let chain = Chain::new(&setting.font)?;
-        Ok(Self { text, setting, chain, levels, runs_left, known: BTreeMap::new() })
+        let chain = Chain::new(&setting.font);
+        Self { text, setting, chain, levels, runs_left, known: BTreeMap::new() }
     }
 
     /// The piece between two bytes of the text, with a hyphen behind it or none.

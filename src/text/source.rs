@@ -39,7 +39,7 @@ impl<'a> Source<'a> {
         }
         let language = setting.language.as_deref().map(language).transpose()?;
         let breaks = breaks(text, language);
-        let mut pieces = Pieces::new(text, setting)?;
+        let mut pieces = Pieces::new(text, setting);
         let whole: Vec<usize> = (0..breaks.len()).filter(|number| !breaks[*number].hyphen).collect();
         let mut widths = vec![0.0];
         let mut reach = [setting.font.file().cap_height, 0.0];

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 16] = [
+const DOCUMENTS: [&str; 18] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -12,10 +12,12 @@ const DOCUMENTS: [&str; 16] = [
     "docs/detail.md",
     "docs/exactness.md",
     "docs/fills.md",
+    "docs/letters.md",
     "docs/lines.md",
     "docs/many.md",
     "docs/motion.md",
     "docs/pages.md",
+    "docs/print.md",
     "docs/smooth.md",
     "docs/stages.md",
     "docs/testing.md",
@@ -127,6 +129,7 @@ fn options_that_the_readme_names_are_there() {
         "docs/stages.md",
         "docs/diff.md",
         "docs/testing.md",
+        "docs/print.md",
         "docs/web.md",
         "examples/README.md",
     ] {

@@ -17,4 +17,5 @@ mod lod;
 mod many;
 mod pages;
 mod pictures;
+mod print;
 mod web;

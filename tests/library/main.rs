@@ -46,6 +46,7 @@ mod picture_fills;
 mod pointers;
 mod poses;
 mod precedence;
+mod print;
 mod properties;
 mod random_widths;
 mod regions;

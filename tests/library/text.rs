@@ -87,11 +87,11 @@ fn ink(block: &Block, corner: Point) -> Rect {
 
 #[test]
 fn all_ink_is_within_the_block() {
-    let texts = [SAYING, "ÅÉ jgy", "fj", "Ω, π και β", "a\u{301} e\u{302}", "שלום: abc שלום", "f-\nj"];
+    let texts = [SAYING, "ÅÉ jgy", "fj", "2 Ω, α", "a\u{301} e\u{302}", "f-\nj"];
     for font in Font::names() {
         for align in [Align::Left, Align::Centre, Align::Right] {
             let setting = Setting::new(Font::named(font).unwrap()).with_em(3.0).aligned(align);
-            for text in texts.into_iter().filter(|text| !text.contains('ש')) {
+            for text in texts {
                 for setting in [setting.clone(), setting.clone().upper_case()] {
                     let corner = Point::new(17.0, -5.0);
                     for block in [

@@ -15,6 +15,8 @@ use crate::cli::request::same_file;
 use crate::cli::{number, pipeline, print, say};
 use crate::drawing::Composition;
 use crate::error::{Error, ErrorKind};
+#[cfg(feature = "pdf")]
+use crate::export::to_pdf;
 use crate::export::{PngOptions, Resolution, SvgOptions, gzip};
 use crate::page::{Composed, PageFile};
 use crate::render::Stopwatch;
@@ -25,6 +27,7 @@ use crate::render::Stopwatch;
   ligne page --new comic page.toml           writes a page file to start from
   ligne page page.toml page.pdf
   ligne page book.toml 'pages/%02d.svg'      a file for each page
+  ligne page page.toml print.pdf --ink k --marks
   ligne page page.toml page.png --watch      again whenever a file changes")]
 pub(super) struct PageArgs {
     /// The page file; or with --new the one to write
@@ -55,6 +58,16 @@ pub(super) struct PageArgs {
     /// Decimals of coordinates in SVG [default: 3]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=9))]
     precision: Option<u8>,
+
+    /// Inks of PDF: screen (RGB), k (black alone) or cmyk (four inks, by --icc) [default: screen]
+    #[cfg(feature = "pdf")]
+    #[arg(long, value_name = "INKS", help_heading = "Print", ignore_case = true, hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(crate::cli::print_args::INKS))]
+    ink: Option<String>,
+
+    #[cfg(feature = "pdf")]
+    #[command(flatten)]
+    print: crate::cli::print_args::PrintArgs,
 
     /// Number of threads; the page is the same with any [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -108,7 +121,17 @@ fn targets(args: &PageArgs) -> Result<Vec<Target>, Error> {
     if paths.is_empty() {
         paths.push(stem());
     }
-    paths.iter().map(|path| target(path, &args.page)).collect()
+    let targets: Vec<Target> = paths.iter().map(|path| target(path, &args.page)).collect::<Result<_, _>>()?;
+    #[cfg(feature = "pdf")]
+    {
+        let format = |target: &Target| match target {
+            Target::One(output) => output.format,
+            Target::Each(numbered) => numbered.format,
+        };
+        let writes_pdf = targets.iter().any(|target| format(target) == Format::Pdf);
+        args.print.refuse_without_pdf(args.ink.as_deref(), writes_pdf)?;
+    }
+    Ok(targets)
 }
 
 fn target(path: &Path, page: &Path) -> Result<Target, Error> {
@@ -251,8 +274,10 @@ fn encode(pages: &[Composition], format: Format, args: &PageArgs) -> Result<Vec<
         Format::Png => {
             page.to_png(&PngOptions { resolution: args.dpi.map_or(Resolution::Natural, Resolution::Dpi) })
         }
-        _ => Err(Error::new("pages are not yet written in this format")
+        #[cfg(feature = "pdf")]
+        Format::Pdf => to_pdf(pages, &args.print.options(args.ink.as_deref())?.unwrap_or_default()),
+        Format::Dxf => Err(Error::new("pages are not written as .dxf")
             .of_kind(ErrorKind::Unsupported)
-            .remedy("write .svg or .png")),
+            .remedy("write .pdf, .svg or .png")),
     }
 }
