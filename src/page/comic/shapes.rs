@@ -5,6 +5,7 @@ use toml::Spanned;
 
 use super::keys::{ComicPage, Gutter, PanelKeys};
 use crate::error::Error;
+use crate::page::layout::grammar::MOST_PANELS;
 use crate::page::layout::{Grid, Polygon, cells};
 use crate::page::length::Mm;
 use crate::page::size::Size;
@@ -92,6 +93,10 @@ pub(super) fn shapes<'a>(
     let grid = Grid { frame: sheet.frame, gutter, reading: page.reading.into() };
     let cells = cells(page.layout.get_ref(), &grid)
         .map_err(|fault| source.within(&page.layout, &fault.span, &fault.message, &fault.advice))?;
+    if let Some(extra) = page.panel.get(MOST_PANELS) {
+        let message = format!("these are more than {MOST_PANELS} panels");
+        return Err(source.fault(&head(source, extra), &message, "part them into several pages"));
+    }
     let (placed, laid): (Vec<_>, Vec<_>) = page.panel.iter().partition(|panel| panel.get_ref().at.is_some());
     if let Some(extra) = laid.get(cells.len()) {
         let message = format!("the layout has only {} panels", cells.len());

@@ -11,7 +11,7 @@ use toml::Spanned;
 
 use super::places::{is_named, part_points};
 use crate::error::Error;
-use crate::math::function::{atan2, tan};
+use crate::math::function::{atan2, cos, sin, tan};
 use crate::page::source::Source;
 use crate::scene::framing::{MARGIN, world_points};
 use crate::scene::views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
@@ -269,22 +269,12 @@ fn nearer(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Err
     camera.eye += moved;
     camera.target += moved;
     if keys.roll != 0.0 {
-        let (sine, cosine) = keys.roll.to_radians().sin_cos_portable();
+        let turn = keys.roll.to_radians();
+        let (sine, cosine) = (sin(turn), cos(turn));
         // The picture turns to the right if the camera turns to the left.
         camera.up = up * cosine - forward.cross(up) * sine;
     }
     Ok(camera)
-}
-
-/// Sine and cosine that are the same on every machine.
-trait Portable {
-    fn sin_cos_portable(self) -> (f64, f64);
-}
-
-impl Portable for f64 {
-    fn sin_cos_portable(self) -> (f64, f64) {
-        (crate::math::function::sin(self), crate::math::function::cos(self))
-    }
 }
 
 /// A camera that sees things so much larger.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -11,6 +11,7 @@ use toml::Spanned;
 
 use super::moved::{join, move_scene};
 use crate::error::Error;
+use crate::math::function::{cos, sin};
 use crate::motion;
 use crate::page::source::Source;
 use crate::pose::{Clip, Playing, Rigged};
@@ -142,7 +143,7 @@ pub fn staged(
     for keys in &models.0 {
         let mut scene = posed(keys, time, animation, style, source)?;
         let up = all.as_ref().map_or(scene.up, |all| all.up);
-        move_scene(&mut scene, place(keys, up, source)?);
+        move_scene(&mut scene, place(keys, [scene.up, up], source)?);
         scene.up = up;
         if let Some(name) = &keys.name {
             for part in &mut scene.parts {
@@ -226,8 +227,8 @@ fn playing(
     }
 }
 
-/// From a model to the scene.
-fn place(keys: &ModelKeys, up: UpAxis, source: &Source) -> Result<DAffine3, Error> {
+/// From a model, with that axis up, to the scene with another.
+fn place(keys: &ModelKeys, up: [UpAxis; 2], source: &Source) -> Result<DAffine3, Error> {
     let [x, y, z] = keys.rotation.map(f64::to_radians);
     let numbers = keys.position.iter().chain(&keys.rotation);
     let scale = keys.scale.as_ref();
@@ -237,8 +238,18 @@ fn place(keys: &ModelKeys, up: UpAxis, source: &Source) -> Result<DAffine3, Erro
     if let Some(scale) = scale.filter(|scale| !(scale.get_ref().is_finite() && *scale.get_ref() > 0.0)) {
         return Err(source.fault(&scale.span(), "a model cannot be scaled so", "write a number above 0"));
     }
-    let turned = DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
+    let half = |angle: f64| (sin(angle / 2.0), cos(angle / 2.0));
+    let [(x, of_x), (y, of_y), (z, of_z)] = [x, y, z].map(half);
+    let turned = DQuat::from_xyzw(0.0, 0.0, z, of_z)
+        * DQuat::from_xyzw(0.0, y, 0.0, of_y)
+        * DQuat::from_xyzw(x, 0.0, 0.0, of_x);
     let scale = DVec3::splat(scale.map_or(1.0, |scale| *scale.get_ref()));
-    let _ = up;
-    Ok(DAffine3::from_scale_rotation_translation(scale, turned, DVec3::from_array(keys.position)))
+    // What points up goes on to do so.
+    let raised = match up {
+        [UpAxis::Z, UpAxis::Y] => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+        [UpAxis::Y, UpAxis::Z] => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+        _ => DMat3::IDENTITY,
+    };
+    let placed = DAffine3::from_scale_rotation_translation(scale, turned, DVec3::from_array(keys.position));
+    Ok(placed * DAffine3::from_mat3(raised))
 }

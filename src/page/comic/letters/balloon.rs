@@ -183,11 +183,9 @@ impl Balloon {
         path.move_to(from);
         path.extend(arc.append_iter(FINE));
         // A tail bends a little, both its sides the same way.
+        let aside = Vec2::new(tip.y, -tip.x) * 0.06 * if tip.x < 0.0 { -1.0 } else { 1.0 };
         let tip = tip.to_point();
-        let bend = |foot: Point| {
-            let way = tip - foot;
-            foot.lerp(tip, 0.5) + Vec2::new(way.y, -way.x) * 0.06 * way.x.signum()
-        };
+        let bend = |foot: Point| foot.lerp(tip, 0.5) + aside;
         path.quad_to(bend(to), tip);
         path.quad_to(bend(from), from);
         path.close_path();

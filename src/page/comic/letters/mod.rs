@@ -29,6 +29,9 @@ const ASPECTS: [f64; 3] = [0.62, 0.9, 1.3];
 /// From a balloon to the line around its panel, to other balloons, and to faces, in ems.
 const GAP: f64 = 0.45;
 
+/// More balloons in a panel are refused.
+const MOST_BALLOONS: usize = 50;
+
 /// How letters are set on a page.
 pub(super) struct Lettering<'a> {
     keys: &'a LetteringKeys,
@@ -128,6 +131,10 @@ impl<'a> Lettering<'a> {
     ) -> Result<Vec<Mark>, Error> {
         if keys.balloon.is_empty() {
             return Ok(Vec::new());
+        }
+        if let Some(extra) = keys.balloon.get(MOST_BALLOONS) {
+            let message = format!("these are more than {MOST_BALLOONS} balloons in one panel");
+            return Err(self.source.fault(&extra.text.span(), &message, "part them among several panels"));
         }
         let told: Vec<Told> = keys
             .balloon
