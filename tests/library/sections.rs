@@ -227,8 +227,8 @@ fn what_lies_in_the_plane_is_cut_once() {
     assert_eq!(open_edges(&upper.scene), 0);
     assert!((volume(&lower.scene) + volume(&upper.scene) - 3.0).abs() < 1e-12);
     // An octahedron through four of its corners, and along its edges.
-    let mut eight = Solid::default();
-    eight.positions = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z].into();
+    let positions = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z].into();
+    let mut eight = Solid { positions, ..Solid::default() };
     for k in 0..4u32 {
         let next = (k + 1) % 4;
         eight.triangles.extend([[k, next, 4], [next, k, 5]]);

@@ -12,8 +12,8 @@ pub(super) const ROOM: f64 = 10.0;
 /// More exchanges than this are made by no sheet.
 const MOST: usize = 100_000;
 
-/// Places for balloons on the border of a rectangle, clockwise from its upper left corner; at least `count`, closer together than
-/// [`ROOM`] only where there is no more room.
+/// Places for balloons on the border of a rectangle, clockwise from its upper left corner; at least `count`, closer together than 10 mm
+/// only where there is no more room.
 #[must_use]
 pub fn slots(border: Rect, count: usize) -> Vec<Point> {
     let around = 2.0 * (border.width() + border.height());

@@ -1,6 +1,6 @@
 //! Technical sheets: a model in views that stand as the standards have it, in a frame with a title block and a parts list.
 //!
-//! [`keys`] is what is told, [`plan`] which views there are and of what, [`arrange`] where they stand and how large, [`notes`] what is
+//! [`keys`] is what is told, `plan` which views there are and of what, `arrange` where they stand and how large, `notes` what is
 //! written beside them.
 
 mod arrange;
