@@ -1,4 +1,4 @@
-//! [`draw`]: the title block, and beside it scale, tolerances and the symbol of the method of projection.
+//! The title block, and beside it scale, tolerances and the symbol of the method of projection.
 //!
 //! Source: ISO 7200:2004, Data fields in title blocks and document headers: width, names and lengths of fields. ISO 5456-2:1996, 5: the
 //! symbol, a cut cone.

@@ -1,4 +1,4 @@
-//! [`draw`]: the frame of a sheet with its zones, centring marks and trimming marks.
+//! The frame of a sheet with its zones, centring marks and trimming marks.
 //!
 //! Source: ISO 5457:1999, Technical product documentation, Sizes and layout of drawing sheets, 4.
 
