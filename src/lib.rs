@@ -47,19 +47,25 @@ pub mod cli;
 pub mod diff;
 pub mod drawing;
 mod error;
+pub mod explode;
 pub mod export;
 pub mod load;
 pub mod lod;
 #[doc(hidden)]
 pub mod math;
 pub mod motion;
+#[cfg(feature = "page")]
+pub mod page;
 pub mod pose;
 pub mod render;
 pub mod scene;
+pub mod section;
 pub mod stages;
 pub mod style;
 #[cfg(feature = "diff")]
 pub mod testing;
+#[cfg(feature = "page")]
+pub mod text;
 
 // Inside, each stage goes by its own name.
 use stages::{

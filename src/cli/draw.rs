@@ -8,6 +8,8 @@ use glam::DVec3;
 use super::framing_args::Frame;
 use super::moment::scene_at;
 use super::output::{Format, Staging, check_place, is_stdout};
+#[cfg(feature = "pdf")]
+use super::print_args;
 use super::progress::Progress;
 use super::request::DrawRequest;
 use super::viewpoint::{View, Viewpoint, viewpoint};
@@ -17,7 +19,7 @@ use crate::error::Error;
 use crate::export::gzip;
 use crate::load::ModelFormat;
 use crate::pose::Rigged;
-use crate::render::{MapFiles, Prepared, Report, Stopwatch};
+use crate::render::{MapFiles, Prepared, Report, Stopwatch, hatched, trailed};
 use crate::scene::Scene;
 use crate::scene::framing::world_points;
 use crate::style::Style;
@@ -91,15 +93,28 @@ pub(super) fn draw_views(
     mut take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let Some(request) = requests.first() else { return Ok(()) };
-    let style = pipeline::load_style(&request.style, &request.sets, request.background)?;
+    let mut style = pipeline::load_style(&request.style, &request.sets, request.background)?;
     progress.step("reading");
-    let Opened { mut scene, framed, mut notes } = open(request, &style)?;
+    let Opened { mut scene, mut framed, mut notes } = open(request, &style)?;
     if let Some(up) = request.up {
         scene.up = up;
     }
     let load_ms = watch.lap_ms();
     progress.step("drawing");
     notes.extend(wonder::idle(request, std::env::args_os()));
+    if request.section.section.is_some() {
+        // The frame is that of the whole model, so that sections fit over its other views.
+        let whole = framed.get_or_insert_with(|| world_points(&scene));
+        let eye = viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&**whole)))?;
+        let [_, _, forward] = eye.camera.axes();
+        if let Some(section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
+            style = hatched(&style, &section);
+        }
+    }
+    if request.section.take_apart(&mut scene) {
+        framed = None;
+        style = trailed(&style);
+    }
     let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
@@ -160,7 +175,7 @@ fn draw_view(
         Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
         Format::Png => pipeline::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
         #[cfg(feature = "pdf")]
-        Format::Pdf => Ok(drawing.to_pdf()),
+        Format::Pdf => print_args::encode(&drawing, request.print.as_ref()),
         Format::Dxf => {
             let (bytes, told) = dxf_args::encode(&drawing, &camera, &request.dxf)?;
             left_out = told;

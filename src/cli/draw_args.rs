@@ -10,6 +10,9 @@ use super::framing_args::{FramingArgs, SaveArgs};
 use super::many::args::ManyArgs;
 use super::offered::Offered;
 use super::paper::{self, Extent, Measure};
+#[cfg(feature = "pdf")]
+use super::print_args::PrintArgs;
+use super::section_args::SectionArgs;
 use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;
@@ -61,6 +64,10 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) dxf: DxfArgs,
+
+    #[cfg(feature = "pdf")]
+    #[command(flatten)]
+    pub(super) print: PrintArgs,
 
     /// Write what the drawing took and what it holds, as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
@@ -157,6 +164,9 @@ pub(super) struct HowArgs {
 
     #[command(flatten)]
     pub(super) framing: FramingArgs,
+
+    #[command(flatten)]
+    pub(super) section: SectionArgs,
 
     /// Size of the drawing in px: 1000x800, or 1000 for a square [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",
@@ -269,7 +279,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     time.ok_or_else(|| "write a number of seconds".to_owned())
 }
 
-fn dots_per_inch(text: &str) -> Result<f64, String> {
+pub(super) fn dots_per_inch(text: &str) -> Result<f64, String> {
     let dpi = text.parse().ok().filter(|dpi: &f64| (1.0..=9600.0).contains(dpi));
     dpi.ok_or_else(|| "write a number from 1 to 9600".to_owned())
 }

@@ -19,12 +19,17 @@ mod many;
 mod model_unit;
 mod moment;
 mod number;
+mod numbered;
 mod offered;
 mod output;
+mod page;
 mod paper;
 mod pipeline;
+#[cfg(feature = "pdf")]
+mod print_args;
 mod progress;
 mod request;
+mod section_args;
 mod shard;
 mod status;
 mod styles;
@@ -80,6 +85,8 @@ enum Command {
     Draw(Box<draw_args::DrawArgs>),
     /// Draw the frames of an animation, or of a turn round a model
     Animate(Box<animate::AnimateArgs>),
+    /// Compose drawings on pages: comic panels, technical sheets
+    Page(Box<page::PageArgs>),
     /// Compare two drawings by geometry
     Diff(Box<diff::DiffArgs>),
     /// Draw every case of a folder and compare it with the approved drawing
@@ -125,6 +132,7 @@ pub fn main() -> ExitCode {
             request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
         }
         Command::Animate(args) => animate::run(*args).map(all_well),
+        Command::Page(args) => page::run(&args).map(all_well),
         Command::Diff(args) => diff::run(&args),
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
         Command::Fmt(args) => fmt::run(&args),

@@ -6,10 +6,13 @@ use super::draw_args::{DrawArgs, GroupBy, HowArgs};
 use super::dxf_args::DxfArgs;
 use super::framing_args::Frame;
 use super::output::{Format, Output, is_stdout};
+use super::section_args::SectionArgs;
 use super::viewpoint::{Lens, Sheet, View};
 use super::web_args::WebArgs;
 use crate::drawing::Unit;
 use crate::error::Error;
+#[cfg(feature = "pdf")]
+use crate::export::PdfOptions;
 use crate::load::ModelFormat;
 use crate::math::colour::Colour;
 use crate::render::{MapFiles, Stage};
@@ -44,11 +47,16 @@ pub(super) struct DrawRequest {
     pub(super) sheet: Sheet,
     /// What the frame is to hold.
     pub(super) frame: Frame,
+    /// Where the model is cut open.
+    pub(super) section: SectionArgs,
     /// Where the camera of the drawing is written.
     pub(super) save_camera: Option<PathBuf>,
     pub(super) svg: SvgChoices,
     pub(super) web: WebArgs,
     pub(super) dxf: DxfArgs,
+    /// How PDF is written, where that was said.
+    #[cfg(feature = "pdf")]
+    pub(super) print: Option<PdfOptions>,
     pub(super) dpi: Option<f64>,
     pub(super) stage: Option<Stage>,
     pub(super) threads: Option<u16>,
@@ -84,7 +92,11 @@ impl DrawRequest {
         check_apart(&args.model, &outputs, &besides, args.maps.as_deref())?;
         let piped = args.many.piped([&args.model])?;
         let request = Self::of_model(args.model, args.how)?.reading(piped);
+        #[cfg(feature = "pdf")]
+        let print = args.print.of_outputs(args.web.ink.as_deref(), &outputs)?;
         Ok(Self {
+            #[cfg(feature = "pdf")]
+            print,
             outputs,
             report: args.report,
             maps: args.maps,
@@ -158,10 +170,13 @@ impl DrawRequest {
                 unit: args.framing.unit,
             },
             frame: args.framing.frame,
+            section: args.section,
             save_camera: None,
             svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             web: WebArgs::default(),
             dxf: DxfArgs::default(),
+            #[cfg(feature = "pdf")]
+            print: None,
             dpi: args.dpi,
             stage: None,
             threads: args.threads,

@@ -35,7 +35,7 @@ pub(super) fn svg_options(request: &DrawRequest, style: &Style) -> Result<SvgOpt
     if request.web.title.is_some() || request.web.desc.is_some() {
         options = options.read_aloud(request.web.desc.as_deref().unwrap_or_default());
     }
-    if request.web.ink.is_some() {
+    if request.web.ink.as_deref().is_some_and(|ink| ink.eq_ignore_ascii_case("currentColor")) {
         let Ink::Fixed(ink) = style.stroke.pen.colour else {
             return Err(Error::new("the style's pen has no colour of its own")
                 .at("--ink")

@@ -18,9 +18,9 @@ pub(super) struct WebArgs {
     #[arg(long, value_name = "TEXT", help_heading = "Output")]
     pub(super) desc: Option<String>,
 
-    /// Write what has the colour of the style's pen in the colour of the text around the drawing, in SVG; with --background none for
-    /// light pages and dark ones
-    #[arg(long, value_name = "currentColor", help_heading = "Output", ignore_case = true, hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(["currentColor"]))]
+    /// currentColor: write what has the colour of the style's pen in the colour of the text around the drawing, in SVG; with
+    /// --background none for light pages and dark ones. k: print with black alone, in PDF; cmyk: with four inks, by --icc
+    #[arg(long, value_name = "INK", help_heading = "Output", ignore_case = true, hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(["currentColor", "screen", "k", "cmyk"]))]
     pub(super) ink: Option<String>,
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use kurbo::{Affine, BezPath, Point};
 use serde::{Deserialize, Serialize};
 
+use super::TextRun;
 use crate::math::colour::Colour;
 use crate::math::picture::Picture;
 
@@ -140,7 +141,7 @@ pub enum Paint {
 
 /// Where a mark comes from, as plain text: becomes classes and `data-` attributes in SVG, and is
 /// what drawings are compared by.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Provenance {
     /// Classes: the line kind first, then `silhouette`.
     pub classes: Vec<&'static str>,
@@ -158,6 +159,9 @@ pub struct Provenance {
     pub places: Arc<[u64]>,
     /// What there is to say of the mark: its title in SVG, which viewers show beside it.
     pub note: Option<Arc<str>>,
+    /// The words whose letters the mark is the filled outline of. PDF sets them in their font; other files hold the outline, and SVG
+    /// the words beside it.
+    pub text: Option<TextRun>,
 }
 
 /// One painted path.

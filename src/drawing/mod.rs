@@ -19,6 +19,7 @@ pub(crate) mod lettering;
 pub mod mark;
 mod moved;
 pub mod page;
+pub mod text_run;
 
 pub use composition::{Boxes, Composition, Item};
 pub use hotspot::Hotspot;
@@ -27,6 +28,7 @@ pub use mark::{
     Cap, Gradient, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Provenance, Shows, StrokePaint,
 };
 pub use page::{Page, Unit};
+pub use text_run::{FontFile, SetGlyph, TextRun};
 
 /// The layers of a drawing, back to front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -10,6 +10,9 @@ impl Mark {
     pub fn placed(mut self, place: Affine) -> Self {
         let scale = place.determinant().abs().sqrt();
         self.path.apply_affine(place);
+        if let Some(text) = &mut self.provenance.text {
+            text.place = place * text.place;
+        }
         match &mut self.paint {
             Paint::Stroke(stroke) => {
                 stroke.width *= scale;

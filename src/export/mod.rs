@@ -29,19 +29,48 @@ pub mod pdf;
 #[cfg(feature = "pdf")]
 mod pdf_content;
 #[cfg(feature = "pdf")]
+mod pdf_document;
+#[cfg(feature = "pdf")]
+mod pdf_fonts;
+#[cfg(feature = "pdf")]
+mod pdf_inks;
+#[cfg(feature = "pdf")]
+pub mod pdf_options;
+#[cfg(feature = "pdf")]
+pub mod pdf_pages;
+#[cfg(feature = "pdf")]
+mod pdf_paints;
+#[cfg(feature = "pdf")]
 mod pdf_pictures;
+#[cfg(feature = "pdf")]
+mod pdf_resources;
+#[cfg(feature = "pdf")]
+pub mod pdf_screen;
+#[cfg(feature = "pdf")]
+mod pdf_sheet;
+#[cfg(feature = "pdf")]
+mod pdf_standard;
 mod pictures;
 pub(crate) mod piece;
 #[cfg(feature = "png")]
 pub mod png;
 #[cfg(feature = "png")]
+mod png_composition;
+#[cfg(feature = "png")]
 mod png_image;
 pub mod svg;
+mod svg_composition;
 mod svg_image;
 mod touching;
 pub(crate) mod xml;
 
 pub use dxf::{DxfLength, DxfOptions, DxfVersion};
+#[cfg(feature = "pdf")]
+pub use pdf_options::{Inks, PdfOptions, Spot, Standard};
+#[cfg(feature = "pdf")]
+pub use pdf_pages::to_pdf;
+#[cfg(feature = "pdf")]
+pub use pdf_screen::Screen;
 #[cfg(feature = "png")]
 pub use png::{Pixels, PngOptions, Resolution};
 pub use svg::{Grouping, SvgOptions};

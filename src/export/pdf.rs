@@ -6,31 +6,28 @@
 use std::collections::BTreeSet;
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
-use pdf_writer::types::FunctionShadingType;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use rayon::prelude::*;
 
 use super::SvgOptions;
 use super::number::Decimals;
 use super::pdf_content::{Writer, pattern_name, picture_name, state_name};
-use super::pdf_pictures::{Crop, Crops};
+use super::pdf_paints::{write_gradient, write_picture};
+use super::pdf_pictures::Crops;
 use crate::drawing::{Drawing, Gradient, LayerKind, Mark, OutlinePaint, Paint, Unit};
 
 /// Points, of which there are 72 to the inch, in a user unit.
-const POINTS_PER_PX: f64 = 0.75;
-const POINTS_PER_MM: f64 = 72.0 / 25.4;
+pub(super) const POINTS_PER_PX: f64 = 0.75;
+pub(super) const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
 /// The longest side of a page that all viewers show, in points.
-const LONGEST_SIDE: f64 = 14_400.0;
+pub(super) const LONGEST_SIDE: f64 = 14_400.0;
 
 /// Marks that one stream holds. Fixed, so that the bytes do not depend on the number of threads.
-const CHUNK: usize = 2048;
+pub(super) const CHUNK: usize = 2048;
 
 /// Quick, and within a tenth of what the slowest level saves.
-const DEFLATE_LEVEL: u8 = 4;
-
-/// Pictures are worth some time.
-const PICTURE_DEFLATE_LEVEL: u8 = 8;
+pub(super) const DEFLATE_LEVEL: u8 = 4;
 
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
@@ -93,7 +90,7 @@ impl Drawing {
         let mut resources = page.resources();
         let mut states = resources.ext_g_states();
         for (opacity, id) in opacities.iter().zip(&state_ids) {
-            states.pair(Name(state_name(*opacity).as_bytes()), *id);
+            states.pair(Name(state_name((*opacity, false)).as_bytes()), *id);
         }
         states.finish();
         if !gradients.is_empty() {
@@ -125,7 +122,7 @@ impl Drawing {
         for ((gradient, id), function) in gradients.iter().zip(&pattern_ids).zip(&function_ids) {
             // Patterns know the page as it is before any matrix of its content.
             let matrix = [scale, 0.0, 0.0, -scale, 0.0, self.page.height * scale].map(|x| x as f32);
-            write_gradient(&mut pdf, gradient, matrix, *id, *function);
+            write_gradient(&mut pdf, gradient, matrix, [*id, *function], None);
         }
         for (group, id) in groups.iter().zip(&group_ids) {
             let mut entry = pdf.indirect(*id).dict();
@@ -135,7 +132,7 @@ impl Drawing {
             pdf.stream(*id, stream).filter(Filter::FlateDecode);
         }
         for (picture, (id, mask)) in pictures.list.iter().zip(picture_ids.iter().zip(&mask_ids)) {
-            write_picture(&mut pdf, picture, *id, *mask);
+            write_picture(&mut pdf, picture, [*id, *mask], None);
         }
         let mut info = pdf.document_info(INFO);
         if !self.title.is_empty() {
@@ -181,7 +178,7 @@ impl Drawing {
             .zip(&before)
             .enumerate()
             .map(|(at, ((index, marks, opens, closes), before))| {
-                let mut writer = Writer::new(decimals, *before);
+                let mut writer = Writer::new(decimals, *before, None);
                 if at == 0 {
                     let top = fine.text(self.page.height * scale);
                     let scale = fine.text(scale);
@@ -194,7 +191,7 @@ impl Drawing {
                     writer.out.extend_from_slice(begin.as_bytes());
                 }
                 if let (0, Some(colour)) = (at, self.page.background) {
-                    writer.set_opacity(colour.a);
+                    writer.set_state(colour);
                     writer.set_fill(colour);
                     let (width, height) = (fine.text(self.page.width), fine.text(self.page.height));
                     writer.out.extend_from_slice(format!("0 0 {width} {height} re f\n").as_bytes());
@@ -212,7 +209,7 @@ impl Drawing {
     }
 
     /// The gradients of all marks.
-    fn gradients<'a>(&'a self) -> Vec<&'a Gradient> {
+    pub(super) fn gradients<'a>(&'a self) -> Vec<&'a Gradient> {
         let marks = self.layers.iter().flat_map(|layer| &layer.marks);
         // Marks without a path are not painted, but their gradients count.
         let of = |mark: &'a Mark| match &mark.paint {
@@ -235,36 +232,6 @@ impl Drawing {
     }
 }
 
-/// A gradient: a shading along its line, with its colours sampled evenly.
-fn write_gradient(pdf: &mut Pdf, gradient: &Gradient, matrix: [f32; 6], id: Ref, function: Ref) {
-    let mut pattern = pdf.shading_pattern(id);
-    pattern.matrix(matrix);
-    let mut shading = pattern.function_shading();
-    shading.shading_type(FunctionShadingType::Axial);
-    shading.color_space().device_rgb();
-    let Gradient { start, end, .. } = gradient;
-    shading.coords([start.x, start.y, end.x, end.y].map(|x| x as f32));
-    shading.function(function).extend([true, true]);
-    shading.finish();
-    pattern.finish();
-    let place = |k: usize| k as f64 / (SHADES - 1) as f64;
-    let samples: Vec<u8> = (0..SHADES)
-        .flat_map(|k| {
-            let colour = gradient.at(place(k));
-            [colour.r, colour.g, colour.b]
-        })
-        .collect();
-    let samples = compress_to_vec_zlib(&samples, DEFLATE_LEVEL);
-    let mut sampled = pdf.sampled_function(function, &samples);
-    sampled.filter(Filter::FlateDecode);
-    sampled.domain([0.0, 1.0]).range([0.0, 1.0, 0.0, 1.0, 0.0, 1.0]);
-    sampled.size([SHADES as i32]).bits_per_sample(8);
-    sampled.finish();
-}
-
-/// Samples of the colours of a gradient.
-const SHADES: usize = 128;
-
 /// The root of the document: its pages, and its layers in their order from the front, as
 /// programs list them.
 fn write_catalog(pdf: &mut Pdf, groups: &[Ref]) {
@@ -280,28 +247,7 @@ fn write_catalog(pdf: &mut Pdf, groups: &[Ref]) {
     shown.insert(Name(b"Order")).array().items(groups.iter().rev().copied());
 }
 
-/// A part of a picture as an object of the document; where some of it is clear, with a mask.
-fn write_picture(pdf: &mut Pdf, crop: &Crop, id: Ref, mask: Ref) {
-    let (width, height) = (crop.width as i32, crop.height as i32);
-    let deflated = |samples: Vec<u8>| compress_to_vec_zlib(&samples, PICTURE_DEFLATE_LEVEL);
-    let opacities = crop.samples(|pixel| [pixel.a]);
-    let opaque = opacities.iter().all(|opacity| *opacity == 255);
-    let samples = deflated(crop.samples(|pixel| [pixel.r, pixel.g, pixel.b]));
-    let mut object = pdf.image_xobject(id, &samples);
-    object.filter(Filter::FlateDecode);
-    object.width(width).height(height).bits_per_component(8).interpolate(true).color_space().device_rgb();
-    if opaque {
-        return;
-    }
-    object.s_mask(mask);
-    object.finish();
-    let samples = deflated(opacities);
-    let mut object = pdf.image_xobject(mask, &samples);
-    object.filter(Filter::FlateDecode);
-    object.width(width).height(height).bits_per_component(8).color_space().device_gray();
-}
-
 /// Name of a layer in the page's resources.
-fn group_name(index: usize) -> String {
+pub(super) fn group_name(index: usize) -> String {
     format!("L{index}")
 }

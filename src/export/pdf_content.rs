@@ -2,34 +2,72 @@
 //!
 //! Source: ISO 32000-1, tables 57 (graphics state), 59 (path construction), 60 (path painting).
 
-use kurbo::{PathEl, Point};
+use std::collections::BTreeMap;
+
+use kurbo::{Affine, PathEl, Point};
 
 use super::number::Decimals;
+use super::pdf_fonts::Fonts;
+use super::pdf_inks::{Ink, Plates};
 use super::pdf_pictures::Crops;
+use super::pdf_screen::{Screen, Tone, diameter, dots as screen_dots, share_of, tone};
 use super::pictures::matrix;
-use crate::drawing::{Cap, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
+use crate::drawing::{Cap, Gradient, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
 use crate::math::colour::Colour;
 
 /// Decimals of widths and dashes, as in SVG, and of the channels of colours.
 const WIDTH_DECIMALS: u8 = 3;
 const CHANNEL_DECIMALS: u8 = 4;
 
+/// Dots that are painted at once: programs take their time with long paths.
+const DOTS_OF_PATH: usize = 1000;
+
+/// What prints marks, and in which fonts they are set.
+#[derive(Clone, Copy)]
+pub(super) struct Press<'a> {
+    pub plates: &'a Plates,
+    /// None where letters are outlines.
+    pub fonts: Option<&'a Fonts>,
+    /// The number that the first picture of the drawing has in the document.
+    pub first_picture: usize,
+    /// How fills become dots.
+    pub dots: Option<Dots>,
+}
+
+/// How fills become dots.
+#[derive(Clone, Copy)]
+pub(super) struct Dots {
+    pub screen: Screen,
+    /// From units of the drawing to those of its page.
+    pub place: Affine,
+    /// Units of the page in a mm.
+    pub mm: f64,
+}
+
 /// Paints marks, one after the other.
-pub(super) struct Writer {
+pub(super) struct Writer<'a> {
     pub(super) out: Vec<u8>,
     decimals: Decimals,
     /// The ink that is set; nothing is known at the start.
     stroke: Option<StrokePaint>,
     fill: Option<Colour>,
-    opacity: Option<u8>,
+    /// Opacity, and whether inks below stay.
+    state: Option<(u8, bool)>,
     /// The number of the next gradient.
     patterns: usize,
+    /// None for the colours of screens and outlines of letters.
+    press: Option<Press<'a>>,
 }
 
-impl Writer {
+impl<'a> Writer<'a> {
     /// Coordinates get so many decimals; gradients are numbered on from `patterns`.
-    pub(super) fn new(decimals: Decimals, patterns: usize) -> Self {
-        Self { out: Vec::new(), decimals, stroke: None, fill: None, opacity: None, patterns }
+    pub(super) fn new(decimals: Decimals, patterns: usize, press: Option<Press<'a>>) -> Self {
+        Self { out: Vec::new(), decimals, stroke: None, fill: None, state: None, patterns, press }
+    }
+
+    /// Paints a mark that is no picture.
+    pub(super) fn plain(&mut self, mark: &Mark) {
+        self.mark(mark, &Crops::default());
     }
 
     /// Paints one mark of a drawing with those pictures.
@@ -40,11 +78,17 @@ impl Writer {
         }
         match &mark.paint {
             Paint::Stroke(stroke) => {
-                self.set_opacity(stroke.colour.a);
+                self.set_state(stroke.colour);
                 self.set_stroke(stroke);
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"S\n");
             }
+            Paint::Gradient(gradient)
+                if self.screened(mark, gradient.stops.first().map_or(255, |s| s.1.a)) =>
+            {
+                self.patterns += 1;
+            }
+            Paint::Fill(colour) if mark.provenance.text.is_none() && self.screened(mark, colour.a) => {}
             Paint::Gradient(gradient) => {
                 self.set_opacity(gradient.stops.first().map_or(255, |(_, colour)| colour.a));
                 let name = pattern_name(self.patterns);
@@ -55,8 +99,13 @@ impl Writer {
                 self.out.extend_from_slice(b"f\n");
             }
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => {
-                self.set_opacity(colour.a);
+                self.set_state(*colour);
                 self.set_fill(*colour);
+                let fonts = self.press.and_then(|press| press.fonts);
+                let set = fonts.zip(mark.provenance.text.as_ref());
+                if set.is_some_and(|(fonts, run)| fonts.set(&mut self.out, run, self.decimals)) {
+                    return;
+                }
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"f\n");
             }
@@ -67,14 +116,107 @@ impl Writer {
         }
     }
 
+    /// Paints a fill as dots, and says so; fills that are not dots stay.
+    fn screened(&mut self, mark: &Mark, opacity: u8) -> bool {
+        let Some((press, dots)) = self.press.and_then(|press| Some((press, press.dots?))) else {
+            return false;
+        };
+        let clear = f64::from(opacity) / 255.0;
+        let inks = |colour: Colour| match press.plates.ink(colour) {
+            Ink::Cmyk(inks) => Some(inks.map(|ink| ink * clear)),
+            _ => None,
+        };
+        let gradient = match &mark.paint {
+            Paint::Gradient(gradient) => Some(gradient),
+            _ => None,
+        };
+        let colour = match &mark.paint {
+            Paint::Fill(colour) => *colour,
+            _ => gradient.map_or(Colour::BLACK, Gradient::middle),
+        };
+        let Some(flat) = inks(colour) else { return false };
+        let is_flat = gradient.is_none();
+        if is_flat && flat.iter().all(|ink| tone(*ink) != Tone::Dots) && opacity == 255 {
+            return false;
+        }
+        // What is below goes away, as below any fill.
+        if opacity == 255 {
+            self.choose((255, false));
+            self.out.extend_from_slice(b"0 0 0 0 k\n");
+            self.fill = None;
+            self.path(mark.path.elements());
+            self.out.extend_from_slice(b"f\n");
+        }
+        self.clipped(mark.path.elements(), |writer| {
+            writer.choose((255, true));
+            let mut before = Affine::IDENTITY;
+            for (plate, ink) in flat.iter().enumerate() {
+                if is_flat && tone(*ink) == Tone::None {
+                    continue;
+                }
+                let mut solid = [0.0; 4];
+                if let Some(one) = solid.get_mut(plate) {
+                    *one = 1.0;
+                }
+                // From the lattice to units of the drawing.
+                let lattice = dots.place.inverse() * dots.screen.lattice(plate, dots.mm);
+                let outline = lattice.inverse() * &mark.path;
+                let share = |at: Point| match gradient {
+                    None => *ink,
+                    Some(gradient) => {
+                        let (line, at) = (gradient.end - gradient.start, lattice * at - gradient.start);
+                        let along = if line.hypot2() > 0.0 { line.dot(at) / line.hypot2() } else { 0.5 };
+                        inks(gradient.at(along.clamp(0.0, 1.0)))
+                            .and_then(|inks| inks.get(plate).copied())
+                            .unwrap_or(0.0)
+                    }
+                };
+                let laid =
+                    if is_flat && tone(*ink) == Tone::Solid { None } else { screen_dots(&outline, share) };
+                let change = before.inverse() * lattice;
+                before = lattice;
+                writer.out.extend_from_slice(format!("{} cm\n", matrix(change, " ")).as_bytes());
+                match laid {
+                    Some(laid) => writer.lay(&laid, solid),
+                    None => {
+                        let tint = solid.map(|one| one * ink);
+                        tint.into_iter().for_each(|ink| writer.value(Decimals::new(CHANNEL_DECIMALS), ink));
+                        writer.operator(b"k");
+                        writer.path(outline.elements());
+                        writer.operator(b"f");
+                    }
+                }
+            }
+        });
+        true
+    }
+
+    /// Lays dots of an ink: points of a round pen.
+    fn lay(&mut self, dots: &BTreeMap<u8, Vec<(i32, i32)>>, solid: [f64; 4]) {
+        solid.into_iter().for_each(|ink| self.value(Decimals::new(CHANNEL_DECIMALS), ink));
+        self.operator(b"K");
+        self.operator(b"1 J [] 0 d");
+        for (size, places) in dots {
+            self.value(Decimals::new(4), diameter(share_of(*size)));
+            self.operator(b"w");
+            for places in places.chunks(DOTS_OF_PATH) {
+                for (x, y) in places {
+                    self.out.extend_from_slice(format!("{x} {y} m {x} {y} l\n").as_bytes());
+                }
+                self.operator(b"S");
+            }
+        }
+    }
+
     /// Paints the pieces of a picture.
     fn pieces(&mut self, image: &ImagePaint, pictures: &Crops) {
+        let first = self.press.map_or(0, |press| press.first_picture);
         for piece in &image.pieces {
             match piece.shows {
                 Shows::Pixels(transform) => {
                     let Some((number, crop)) = pictures.shown(piece) else { continue };
                     let place = matrix(transform * crop.pixels_from_object(), " ");
-                    let shown = format!("{place} cm\n/{} Do\n", picture_name(number));
+                    let shown = format!("{place} cm\n/{} Do\n", picture_name(first + number));
                     self.clipped(piece.outline.elements(), |writer| {
                         writer.out.extend_from_slice(shown.as_bytes());
                     });
@@ -90,13 +232,13 @@ impl Writer {
 
     /// Lets that be seen of what is painted which lies inside a path.
     fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
-        let ink = (self.stroke.clone(), self.fill, self.opacity);
+        let ink = (self.stroke.clone(), self.fill, self.state);
         self.out.extend_from_slice(b"q\n");
         self.path(elements);
         self.out.extend_from_slice(b"W n\n");
         paint(self);
         self.out.extend_from_slice(b"Q\n");
-        (self.stroke, self.fill, self.opacity) = ink;
+        (self.stroke, self.fill, self.state) = ink;
     }
 
     fn set_stroke(&mut self, stroke: &StrokePaint) {
@@ -146,24 +288,54 @@ impl Writer {
         }
     }
 
+    /// Chooses the graphics state of what has that colour: its opacity, and printed over what is below or not.
+    pub(super) fn set_state(&mut self, colour: Colour) {
+        let overprints = self.press.is_some_and(|press| press.plates.overprints(colour));
+        self.choose((colour.a, overprints));
+    }
+
     /// Chooses the graphics state of that opacity, by its [`state_name`].
-    pub(super) fn set_opacity(&mut self, opacity: u8) {
-        if self.opacity != Some(opacity) {
+    fn set_opacity(&mut self, opacity: u8) {
+        self.choose((opacity, false));
+    }
+
+    fn choose(&mut self, state: (u8, bool)) {
+        if self.state != Some(state) {
             self.out.push(b'/');
-            self.out.extend_from_slice(state_name(opacity).as_bytes());
+            self.out.extend_from_slice(state_name(state).as_bytes());
             self.operator(b" gs");
-            self.opacity = Some(opacity);
+            self.state = Some(state);
         }
     }
 
+    /// Sets a colour: `operator` is that of RGB, `rg` or `RG`.
     fn colour(&mut self, colour: Colour, operator: &[u8]) {
-        for channel in [colour.r, colour.g, colour.b] {
-            self.value(Decimals::new(CHANNEL_DECIMALS), f64::from(channel) / 255.0);
+        let fills = operator == b"rg";
+        let fine = Decimals::new(CHANNEL_DECIMALS);
+        match self.press.map(|press| press.plates.ink(colour)) {
+            None => {
+                for channel in colour.channels() {
+                    self.value(fine, channel);
+                }
+                self.operator(operator);
+            }
+            Some(Ink::Rgb(channels)) => {
+                channels.into_iter().for_each(|channel| self.value(fine, channel));
+                self.operator(operator);
+            }
+            Some(Ink::Cmyk(inks)) => {
+                inks.into_iter().for_each(|ink| self.value(fine, ink));
+                self.operator(if fills { b"k" } else { b"K" });
+            }
+            Some(Ink::Spot(number)) => {
+                let (space, tint) = if fills { ("cs", "scn") } else { ("CS", "SCN") };
+                self.out.extend_from_slice(format!("/{} {space} 1 {tint}\n", spot_name(number)).as_bytes());
+            }
         }
-        self.operator(operator);
     }
 
-    fn path(&mut self, elements: &[PathEl]) {
+    /// Begins a path.
+    pub(super) fn path(&mut self, elements: &[PathEl]) {
         let mut pen = Point::ZERO;
         let mut start = Point::ZERO;
         for (index, element) in elements.iter().enumerate() {
@@ -226,9 +398,14 @@ pub(super) fn pattern_name(number: usize) -> String {
     format!("G{number}")
 }
 
-/// Name of the graphics state of an opacity.
-pub(super) fn state_name(opacity: u8) -> String {
-    format!("A{opacity}")
+/// Name of the colour space of an ink of its own.
+pub(super) fn spot_name(number: usize) -> String {
+    format!("S{number}")
+}
+
+/// Name of the graphics state of an opacity, with inks below that stay or not.
+pub(super) fn state_name((opacity, overprints): (u8, bool)) -> String {
+    format!("{}{opacity}", if overprints { 'O' } else { 'A' })
 }
 
 #[cfg(test)]
@@ -241,7 +418,7 @@ mod tests {
     const PAGE: Page = Page { width: 9.0, height: 9.0, unit: Unit::Px, background: None };
 
     fn content(marks: &[(&str, Paint)]) -> String {
-        let mut writer = Writer::new(Decimals::new(2), 0);
+        let mut writer = Writer::new(Decimals::new(2), 0, None);
         for (data, paint) in marks {
             let path = BezPath::from_svg(data).unwrap();
             let mark = Mark { path, paint: paint.clone(), provenance: Provenance::default() };

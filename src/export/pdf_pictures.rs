@@ -29,6 +29,7 @@ pub(super) struct Crop<'a> {
 }
 
 /// The parts of the pictures of a drawing.
+#[derive(Default)]
 pub(super) struct Crops<'a> {
     pub list: Vec<Crop<'a>>,
     /// The number of the part that a piece shows, by where the piece lies in memory.
@@ -92,7 +93,7 @@ impl<'a> Crops<'a> {
 
 impl Crop<'_> {
     /// Some samples of each pixel, row by row.
-    pub fn samples<const N: usize>(&self, of: impl Fn(crate::math::colour::Colour) -> [u8; N]) -> Vec<u8> {
+    pub fn samples<T, const N: usize>(&self, of: impl Fn(crate::math::colour::Colour) -> [T; N]) -> Vec<T> {
         let pixels = (0..self.width * self.height)
             .map(|k| self.picture.at(self.left + k % self.width, self.top + k / self.width));
         pixels.flat_map(of).collect()

@@ -1,5 +1,6 @@
 //! A drawing as PNG, rasterised from the same SVG text.
 
+use kurbo::Affine;
 use tiny_skia::{Pixmap, Transform};
 
 use super::SvgOptions;
@@ -83,10 +84,7 @@ impl Drawing {
     /// If the picture would have no pixels, or more than memory should hold, or if the drawing
     /// has more paths than the rasteriser takes.
     pub fn to_png(&self, options: &PngOptions) -> Result<Vec<u8>, Error> {
-        let Pixels { width, height, rgba, dpi } = self.to_pixels(options)?;
-        let opaque = self.page.background.is_some_and(|colour| colour.a == 255);
-        encode([width, height], rgba, opaque, dpi)
-            .map_err(|error| Error::new(format!("cannot write PNG: {error}")))
+        self.to_pixels(options)?.encode(&self.page)
     }
 
     /// The drawing as pixels, as they are in its PNG file.
@@ -94,18 +92,24 @@ impl Drawing {
     /// # Errors
     /// As [`Drawing::to_png`].
     pub fn to_pixels(&self, options: &PngOptions) -> Result<Pixels, Error> {
-        let (width, height, dpi) = self.pixels(options)?;
-        let mut pixmap = Pixmap::new(width, height)
-            .ok_or_else(|| Error::new(format!("there is no memory for {width} x {height} pixels")))?;
-        self.paint(&mut pixmap)?;
+        let (mut pixmap, dpi) = canvas(&self.page, options)?;
+        let to = self.page.fill(&pixmap);
+        self.paint(&mut pixmap, to)?;
+        let (width, height) = (pixmap.width(), pixmap.height());
         Ok(Pixels { width, height, rgba: pixmap.take_demultiplied(), dpi })
     }
 
-    /// Paints the drawing: what shows pictures from their pixels, and all between them as its SVG text says.
-    fn paint(&self, pixmap: &mut Pixmap) -> Result<(), Error> {
+    /// Whether it shows pictures.
+    pub(super) fn shows_pictures(&self) -> bool {
+        self.layers.iter().any(|layer| layer.marks.iter().any(|mark| matches!(mark.paint, Paint::Image(_))))
+    }
+
+    /// Paints the drawing: what shows pictures from their pixels, and all between them as its SVG text says. `to` leads from its
+    /// units to pixels.
+    pub(super) fn paint(&self, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
         let shows = |mark: &Mark| matches!(mark.paint, Paint::Image(_));
-        if !self.layers.iter().any(|layer| layer.marks.iter().any(shows)) {
-            return self.rasterise(pixmap);
+        if !self.shows_pictures() {
+            return self.rasterise(pixmap, to);
         }
         let empty = |background| Self::new("", Page { background, ..self.page }, Vec::new());
         let mut next = empty(self.page.background);
@@ -116,11 +120,8 @@ impl Drawing {
                     next.layers.push(Layer { marks: marks.to_vec(), pen: layer.pen.clone(), ..*layer });
                     continue;
                 }
-                std::mem::replace(&mut next, empty(None)).rasterise(pixmap)?;
-                let scale = Transform::from_scale(
-                    (f64::from(pixmap.width()) / self.page.width) as f32,
-                    (f64::from(pixmap.height()) / self.page.height) as f32,
-                );
+                std::mem::replace(&mut next, empty(None)).rasterise(pixmap, to)?;
+                let scale = transform(to);
                 for mark in marks {
                     if let Paint::Image(image) = &mark.paint {
                         png_image::paint(pixmap, &mark.path, image, scale, &mut known);
@@ -128,42 +129,79 @@ impl Drawing {
                 }
             }
         }
-        next.rasterise(pixmap)
+        next.rasterise(pixmap, to)
     }
 
     /// Paints a drawing without pictures over what is there.
-    fn rasterise(&self, pixmap: &mut Pixmap) -> Result<(), Error> {
-        let svg = self.to_svg(&SvgOptions::default());
-        let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).map_err(|error| {
-            Error::new(format!("the drawing cannot be rasterised: {error}")).remedy("write SVG instead")
-        })?;
-        drop(svg);
-        let scale = |pixels: u32, size: f32| (f64::from(pixels) / f64::from(size)) as f32;
-        let [across, down] = [(pixmap.width(), tree.size().width()), (pixmap.height(), tree.size().height())];
-        let transform = Transform::from_scale(scale(across.0, across.1), scale(down.0, down.1));
-        resvg::render(&tree, transform, &mut pixmap.as_mut());
-        Ok(())
+    fn rasterise(&self, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
+        rasterise(self.to_svg(&SvgOptions::default()), &self.page, pixmap, to)
+    }
+}
+
+/// Paints the SVG text of a page over what is there; `to` leads from the units of the page to pixels.
+pub(super) fn rasterise(svg: String, page: &Page, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
+    let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).map_err(|error| {
+        Error::new(format!("the drawing cannot be rasterised: {error}")).remedy("write SVG instead")
+    })?;
+    drop(svg);
+    let size = [tree.size().width(), tree.size().height()].map(f64::from);
+    let [across, down] = [page.width / size[0], page.height / size[1]];
+    let to = to * Affine::scale_non_uniform(across, down);
+    resvg::render(&tree, transform(to), &mut pixmap.as_mut());
+    Ok(())
+}
+
+/// A transform in the words of the rasteriser.
+pub(super) fn transform(affine: Affine) -> Transform {
+    let [a, b, c, d, x, y] = affine.as_coeffs().map(|value| value as f32);
+    Transform::from_row(a, b, c, d, x, y)
+}
+
+/// Empty pixels for a page, and how many there are to an inch.
+pub(super) fn canvas(page: &Page, options: &PngOptions) -> Result<(Pixmap, f64), Error> {
+    let (width, height, dpi) = page.pixels(options)?;
+    let pixmap = Pixmap::new(width, height)
+        .ok_or_else(|| Error::new(format!("there is no memory for {width} x {height} pixels")))?;
+    Ok((pixmap, dpi))
+}
+
+impl Page {
+    /// From units of the page to pixels that it fills.
+    pub(super) fn fill(&self, pixmap: &Pixmap) -> Affine {
+        Affine::scale_non_uniform(
+            f64::from(pixmap.width()) / self.width,
+            f64::from(pixmap.height()) / self.height,
+        )
     }
 
     /// Width and height in pixels, and pixels an inch.
     fn pixels(&self, options: &PngOptions) -> Result<(u32, u32, f64), Error> {
-        let (per_inch, natural) = match self.page.unit {
+        let (per_inch, natural) = match self.unit {
             Unit::Px => (CSS_DPI, CSS_DPI),
             Unit::Mm => (MM_PER_INCH, PRINT_DPI),
         };
         let dpi = match options.resolution {
             Resolution::Natural => natural,
             Resolution::Dpi(dpi) => dpi,
-            Resolution::Width(pixels) => f64::from(pixels) / self.page.width * per_inch,
+            Resolution::Width(pixels) => f64::from(pixels) / self.width * per_inch,
         };
-        let width = (self.page.width / per_inch * dpi).round();
-        let height = (self.page.height / per_inch * dpi).round();
+        let width = (self.width / per_inch * dpi).round();
+        let height = (self.height / per_inch * dpi).round();
         let sides = width.max(height);
         if !(width >= 1.0 && height >= 1.0 && sides <= LONGEST_SIDE && width * height <= MOST_PIXELS) {
             return Err(Error::new(format!("a picture of {width} x {height} pixels cannot be made"))
                 .remedy("choose a size of 1 to 65535 pixels a side and 268 million in all, or other dpi"));
         }
         Ok((width as u32, height as u32, dpi))
+    }
+}
+
+impl Pixels {
+    /// The file; without an alpha channel if the paper is opaque.
+    pub(super) fn encode(self, page: &Page) -> Result<Vec<u8>, Error> {
+        let opaque = page.background.is_some_and(|colour| colour.a == 255);
+        encode([self.width, self.height], self.rgba, opaque, self.dpi)
+            .map_err(|error| Error::new(format!("cannot write PNG: {error}")))
     }
 }
 

@@ -114,7 +114,7 @@ fn halved(pixmap: &Pixmap) -> Option<Pixmap> {
 }
 
 /// A path as the rasteriser has it; none if there is nothing of it.
-fn path(outline: &BezPath) -> Option<Path> {
+pub(super) fn path(outline: &BezPath) -> Option<Path> {
     let mut path = PathBuilder::new();
     for element in outline.elements() {
         let at = |p: kurbo::Point| (p.x as f32, p.y as f32);

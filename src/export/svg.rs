@@ -11,7 +11,7 @@ use super::part_groups::{PartGroup, part_groups};
 use super::pictures::Named;
 use super::svg_image;
 use super::xml::{Ids, escape};
-use crate::drawing::{Drawing, Gradient, Layer, LayerKind, Mark, Paint, Unit};
+use crate::drawing::{Drawing, Gradient, Layer, LayerKind, Mark, Page, Paint, Unit};
 use crate::math::colour::Colour;
 
 /// Decimals of dash lengths: finer than coordinates, since they add up along a path.
@@ -105,30 +105,42 @@ impl Drawing {
     /// Coordinates are off by at most half a unit of the last written decimal.
     #[must_use]
     pub fn to_svg(&self, options: &SvgOptions) -> String {
-        let decimals = Decimals::new(options.decimals(self.page.unit));
         let mut ids = Ids::new(&options.id_prefix);
         let named = &Named::of(self, &mut ids);
         let mut out = Vec::new();
-        self.open(&mut out, !named.is_empty(), options, &mut ids);
+        open(&mut out, (&self.title, &self.page), !named.is_empty(), options, &mut ids);
+        self.write_content(&mut out, named, options, &mut ids);
+        finished(out)
+    }
+
+    /// Pictures, paper, layers and areas to click on.
+    pub(super) fn write_content(
+        &self,
+        out: &mut Vec<u8>,
+        named: &Named,
+        options: &SvgOptions,
+        ids: &mut Ids,
+    ) {
+        let decimals = Decimals::new(options.decimals(self.page.unit));
         let ink = options.ink.map(|ink| Colour { a: 255, ..ink });
         if !named.is_empty() {
-            named.write(&mut out);
+            named.write(out);
         }
-        self.paper(&mut out, &mut ids);
+        self.paper(out, ids);
         match options.group {
             Grouping::Layer => {
                 for layer in &self.layers {
                     let marks: Vec<&Mark> = layer.marks.iter().collect();
                     let (id, label) = self.names(layer);
-                    open_layer(&mut out, &mut ids, &id, &label);
-                    let fills = gradient_ids(&marks, &mut ids);
+                    open_layer(out, ids, &id, &label);
+                    let fills = gradient_ids(&marks, ids);
                     let group = Group { marks: &marks, ordered: layer.ordered, decimals, named, fills, ink };
-                    group.write(&mut out, b"");
+                    group.write(out, b"");
                 }
             }
             Grouping::Part => {
                 for PartGroup { name, marks, ordered } in part_groups(self) {
-                    let fills = gradient_ids(&marks, &mut ids);
+                    let fills = gradient_ids(&marks, ids);
                     let group = Group { marks: &marks, ordered, decimals, named, fills, ink };
                     match name {
                         Some(name) => {
@@ -138,63 +150,24 @@ impl Drawing {
                             let mut title = b"<title>".to_vec();
                             escape(&mut title, &name);
                             title.extend_from_slice(b"</title>\n");
-                            group.write(&mut out, &title);
+                            group.write(out, &title);
                         }
                         None => {
                             out.extend_from_slice(b"<g");
-                            group.write(&mut out, b"");
+                            group.write(out, b"");
                         }
                     }
                 }
             }
         }
         if !self.hotspots.is_empty() {
-            open_layer(&mut out, &mut ids, hotspots::LAYER, hotspots::LAYER);
-            hotspots::write(&mut out, &self.hotspots, decimals);
-        }
-        out.extend_from_slice(b"</svg>\n");
-        // All that is written is ASCII or copied from text.
-        String::from_utf8(out).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
-    }
-
-    /// The root element and the title; what is used needs a namespace of its own.
-    fn open(&self, out: &mut Vec<u8>, uses: bool, options: &SvgOptions, ids: &mut Ids) {
-        let number = |value: f64| Decimals::new(4).text(value);
-        let unit = match self.page.unit {
-            Unit::Px => "",
-            Unit::Mm => "mm",
-        };
-        let (width, height) = (number(self.page.width), number(self.page.height));
-        let links = if uses { "xmlns:xlink=\"http://www.w3.org/1999/xlink\" " } else { "" };
-        let root = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" {links}\
-             xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
-             width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\""
-        );
-        out.extend_from_slice(root.as_bytes());
-        let texts = [("title", Some(&self.title)), ("desc", options.desc.as_ref())];
-        let texts = texts.map(|(tag, text)| {
-            let text = text.filter(|text| !text.is_empty())?;
-            Some((tag, text, options.read_aloud.then(|| ids.take(tag))))
-        });
-        if options.read_aloud {
-            out.extend_from_slice(b" role=\"img\"");
-            let known: Vec<&str> = texts.iter().flatten().filter_map(|(_, _, id)| id.as_deref()).collect();
-            if !known.is_empty() {
-                out.extend_from_slice(format!(" aria-labelledby=\"{}\"", known.join(" ")).as_bytes());
-            }
-        }
-        out.extend_from_slice(b">\n");
-        for (tag, text, id) in texts.into_iter().flatten() {
-            let id = id.map(|id| format!(" id=\"{id}\"")).unwrap_or_default();
-            out.extend_from_slice(format!("<{tag}{id}>").as_bytes());
-            escape(out, text);
-            out.extend_from_slice(format!("</{tag}>\n").as_bytes());
+            open_layer(out, ids, hotspots::LAYER, hotspots::LAYER);
+            hotspots::write(out, &self.hotspots, decimals);
         }
     }
 
     /// The coloured paper.
-    fn paper(&self, out: &mut Vec<u8>, ids: &mut Ids) {
+    pub(super) fn paper(&self, out: &mut Vec<u8>, ids: &mut Ids) {
         let Some(colour) = self.page.background else { return };
         let number = |value: f64| Decimals::new(4).text(value);
         let kind = LayerKind::Paper;
@@ -225,6 +198,55 @@ impl Drawing {
         let label = layer.pen.clone().unwrap_or_else(|| id.clone());
         (id, label)
     }
+}
+
+/// The root element and the title; what is used needs a namespace of its own.
+pub(super) fn open(
+    out: &mut Vec<u8>,
+    (title, page): (&String, &Page),
+    uses: bool,
+    options: &SvgOptions,
+    ids: &mut Ids,
+) {
+    let number = |value: f64| Decimals::new(4).text(value);
+    let unit = match page.unit {
+        Unit::Px => "",
+        Unit::Mm => "mm",
+    };
+    let (width, height) = (number(page.width), number(page.height));
+    let links = if uses { "xmlns:xlink=\"http://www.w3.org/1999/xlink\" " } else { "" };
+    let root = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" {links}\
+         xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
+         width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\""
+    );
+    out.extend_from_slice(root.as_bytes());
+    let texts = [("title", Some(title)), ("desc", options.desc.as_ref())];
+    let texts = texts.map(|(tag, text)| {
+        let text = text.filter(|text| !text.is_empty())?;
+        Some((tag, text, options.read_aloud.then(|| ids.take(tag))))
+    });
+    if options.read_aloud {
+        out.extend_from_slice(b" role=\"img\"");
+        let known: Vec<&str> = texts.iter().flatten().filter_map(|(_, _, id)| id.as_deref()).collect();
+        if !known.is_empty() {
+            out.extend_from_slice(format!(" aria-labelledby=\"{}\"", known.join(" ")).as_bytes());
+        }
+    }
+    out.extend_from_slice(b">\n");
+    for (tag, text, id) in texts.into_iter().flatten() {
+        let id = id.map(|id| format!(" id=\"{id}\"")).unwrap_or_default();
+        out.extend_from_slice(format!("<{tag}{id}>").as_bytes());
+        escape(out, text);
+        out.extend_from_slice(format!("</{tag}>\n").as_bytes());
+    }
+}
+
+/// The document, which ends here.
+pub(super) fn finished(mut out: Vec<u8>) -> String {
+    out.extend_from_slice(b"</svg>\n");
+    // All that is written is ASCII or copied from text.
+    String::from_utf8(out).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
 }
 
 /// The start tag of a layer, but for its attributes of painting and its closing bracket.
@@ -409,6 +431,9 @@ fn write_mark(
     }
     if provenance.identity > 0 {
         named(b" data-id=\"", &short_id(provenance.identity));
+    }
+    if let Some(text) = &provenance.text {
+        named(b" aria-label=\"", &text.words);
     }
     if let Paint::Outline(outline) = &mark.paint {
         out.extend_from_slice(b" data-axis=\"");

@@ -46,6 +46,9 @@ pub(super) fn read_back(text: &str) -> Cow<'_, str> {
 
 /// Ids given away so far.
 pub(super) struct Ids {
+    /// Before all ids of the document.
+    base: String,
+    /// Before those that are taken now.
     prefix: String,
     taken: FxHashSet<String>,
 }
@@ -53,7 +56,13 @@ pub(super) struct Ids {
 impl Ids {
     /// Ids that all begin with a prefix, which may be empty.
     pub fn new(prefix: &str) -> Self {
-        Self { prefix: safe(prefix), taken: FxHashSet::default() }
+        Self { base: safe(prefix), prefix: safe(prefix), taken: FxHashSet::default() }
+    }
+
+    /// From here on ids begin with this name as well, or no longer with any if it is empty.
+    pub fn within(&mut self, name: &str) {
+        let parted = if name.is_empty() { String::new() } else { format!("{}-", safe(name)) };
+        self.prefix = format!("{}{parted}", self.base);
     }
 
     /// An id made of a name, numbered if it is taken.
@@ -107,5 +116,10 @@ mod tests {
         assert_eq!(ids.take("part-big-bolt"), "part-big-bolt-3");
         assert_eq!(ids.take("1"), "_1");
         assert_eq!(Ids::new("a<b.").take("lines"), "a-b-lines");
+        let mut ids = Ids::new("p-");
+        ids.within("panel 1");
+        assert_eq!(ids.take("lines"), "p-panel-1-lines");
+        ids.within("");
+        assert_eq!([ids.take("panel-1-lines"), ids.take("lines")], ["p-panel-1-lines-2", "p-lines"]);
     }
 }

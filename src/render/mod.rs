@@ -36,6 +36,7 @@ mod patterns;
 mod pictures;
 pub mod report;
 mod resting;
+mod sections;
 pub mod stage;
 mod stages;
 mod under;
@@ -49,6 +50,7 @@ pub use areas::hotspots;
 pub use maps::MapFiles;
 pub use report::{Report, Stopwatch};
 pub use resting::Resting;
+pub use sections::{hatched, trailed};
 pub use stage::Stage;
 
 use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
@@ -306,7 +308,6 @@ impl<'a> Prepared<'a> {
         if let Some(fills) = fills.filter(|_| fills::is_lit(style)) {
             let seen =
                 behind.as_ref().map_or_else(|| fills.see(&map, &page), |behind| behind.see(fills, &page));
-            let mut patterned = Vec::new();
             if style.region.enabled {
                 let (mut painted, regions) = fills.paint(&seen, &page, camera, style);
                 report.counts.regions = regions.regions.len() as u64;
@@ -319,8 +320,8 @@ impl<'a> Prepared<'a> {
                     behind.paint(fills, &map, (&page, camera, style), &mut painted);
                 }
                 layers.extend(painted);
-                patterned = patterns::marks(fills, &seen, scene, (&page, camera, style));
             }
+            let mut patterned = patterns::marks(fills, &seen, scene, (&page, camera, style));
             report.counts.leaks = seen.leaks;
             report.stages_ms.regions = watch.lap_ms();
             let hatching = Hatching { fills, scene, page: &page, camera, style };

@@ -25,7 +25,8 @@ pub(super) fn marks(
     scene: &Scene,
     (page, camera, style): (&Page, &Camera, &Style),
 ) -> Vec<Mark> {
-    if style.patterns.is_empty() {
+    let asked = |own: &&Pattern| style.region.enabled || own.unpainted;
+    if !style.patterns.iter().any(|own| asked(&own)) {
         return Vec::new();
     }
     let offset = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
@@ -58,7 +59,7 @@ pub(super) fn marks(
         let tones = |look: &crate::region::Look| fills.tone_count(look.paint);
         hatch::pattern(&ground, &context, own, tones, fixed.as_ref())
     };
-    style.patterns.iter().flat_map(of).collect()
+    style.patterns.iter().filter(asked).flat_map(of).collect()
 }
 
 /// The lines of a pattern that is fixed to the surface: cuts through the model as far apart as they are on the page where the camera

@@ -87,7 +87,7 @@ impl Scene {
 }
 
 /// The positions that triangles or wires use, each once; usually all.
-pub(super) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
+pub(crate) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
     let mut used = vec![false; geometry.positions.len()];
     let corners = geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened());
     for &corner in corners {

@@ -9,23 +9,29 @@ impl Scene {
     pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
         let matches = |globs: &[String], name: &str| globs.iter().any(|glob| glob_matches(glob, name));
         let stays = |name: &str| (only.is_empty() || matches(only, name)) && !matches(hide, name);
+        let keep: Vec<bool> = self.parts.iter().map(|part| stays(&part.name)).collect();
+        self.retain_parts(&keep);
+    }
+
+    /// Keeps the parts that are told; gives for each part the number that it has now, or would have.
+    pub(crate) fn retain_parts(&mut self, keep: &[bool]) -> Vec<usize> {
+        let stays = |part: usize| keep.get(part).copied().unwrap_or(false);
         let mut place = 0;
-        let places: Vec<Option<usize>> = self
-            .parts
-            .iter()
+        let places: Vec<usize> = (0..self.parts.len())
             .map(|part| {
-                let own = stays(&part.name).then_some(place);
-                place += usize::from(own.is_some());
-                own
+                place += usize::from(stays(part));
+                place - usize::from(stays(part))
             })
             .collect();
-        self.parts.retain(|part| stays(&part.name));
+        let mut part = 0..;
+        self.parts.retain(|_| part.next().is_some_and(stays));
         if let Some(movers) = &mut self.movers {
             movers.retain_mut(|mover| {
-                let place = places.get(mover.part).copied().flatten();
+                let place = places.get(mover.part).copied().filter(|_| stays(mover.part));
                 place.inspect(|place| mover.part = *place).is_some()
             });
         }
+        places
     }
 }
 

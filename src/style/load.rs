@@ -132,7 +132,7 @@ fn read(text: &str) -> Result<(Sheet, Table), toml::de::Error> {
 
 /// A change, checked, with the paths of pictures and brushes in it relative to what `folder` is
 /// relative to.
-#[cfg(feature = "cli")]
+#[cfg(feature = "page")]
 pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
     let mut table = change(set)?;
     place_pictures(&mut table, folder);

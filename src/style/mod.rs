@@ -23,7 +23,7 @@ mod sheet;
 mod svg_file;
 mod tile_file;
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "page")]
 pub(crate) use load::placed_change;
 
 use crate::chain::ChainOptions;

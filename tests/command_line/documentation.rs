@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 15] = [
+const DOCUMENTS: [&str; 19] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -12,9 +12,13 @@ const DOCUMENTS: [&str; 15] = [
     "docs/detail.md",
     "docs/exactness.md",
     "docs/fills.md",
+    "docs/letters.md",
     "docs/lines.md",
     "docs/many.md",
     "docs/motion.md",
+    "docs/pages.md",
+    "docs/print.md",
+    "docs/sheets.md",
     "docs/smooth.md",
     "docs/stages.md",
     "docs/testing.md",
@@ -98,7 +102,7 @@ fn tests_that_documents_name_are_there() {
 
 #[test]
 fn options_that_the_readme_names_are_there() {
-    let help: String = ["draw", "animate", "diff", "fmt", "test", "lod", "styles"]
+    let help: String = ["draw", "animate", "diff", "fmt", "test", "lod", "styles", "page"]
         .map(|command| {
             let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
             String::from_utf8(help.stdout).unwrap()
@@ -126,6 +130,8 @@ fn options_that_the_readme_names_are_there() {
         "docs/stages.md",
         "docs/diff.md",
         "docs/testing.md",
+        "docs/print.md",
+        "docs/sheets.md",
         "docs/web.md",
         "examples/README.md",
     ] {

@@ -15,5 +15,8 @@ mod fmt;
 mod framing;
 mod lod;
 mod many;
+mod pages;
 mod pictures;
+mod print;
+mod sheets;
 mod web;

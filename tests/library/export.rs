@@ -9,6 +9,8 @@ use ligne::drawing::{
 use ligne::export::{Grouping, PngOptions, Resolution, SvgOptions};
 use ligne::math::colour::Colour;
 
+use crate::support::pdf::take_apart;
+
 fn stroke(width: f64, colour: Colour) -> Paint {
     Paint::Stroke(StrokePaint {
         width,
@@ -33,6 +35,7 @@ fn mark(data: &str, paint: Paint, classes: &[&'static str], part: Option<&str>) 
             material: None,
             invisibility: 0,
             note: None,
+            text: None,
         },
     }
 }
@@ -338,23 +341,6 @@ fn pictures_without_pixels_or_with_too_many_are_refused() {
     ] {
         assert!(drawing.to_png(&PngOptions::of_resolution(resolution)).is_err(), "{resolution:?}");
     }
-}
-
-/// The streams of a PDF file, inflated, and everything else in it.
-fn take_apart(pdf: &[u8]) -> (String, String) {
-    let find = |text: &[u8], word: &[u8]| text.windows(word.len()).position(|part| part == word);
-    let (mut content, mut rest) = (String::new(), String::new());
-    let mut left = pdf;
-    while let Some(start) = find(left, b"\nstream\n") {
-        rest.push_str(&String::from_utf8_lossy(&left[..start]));
-        left = &left[start + 8..];
-        let end = find(left, b"\nendstream").unwrap();
-        let inflated = miniz_oxide::inflate::decompress_to_vec_zlib(&left[..end]).unwrap();
-        content.push_str(std::str::from_utf8(&inflated).unwrap());
-        left = &left[end..];
-    }
-    rest.push_str(&String::from_utf8_lossy(left));
-    (content, rest)
 }
 
 #[test]

@@ -54,6 +54,11 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
             .at("--time")
             .remedy("say with --from and --to which are drawn, or draw one moment with ligne draw"));
     }
+    if request.section.is_asked() {
+        return Err(Error::new("frames are neither cut open nor taken apart")
+            .at("--section, --explode")
+            .remedy("draw one moment with ligne draw"));
+    }
     let levels = args.levels.as_ref().filter(|_| args.budget.is_some());
     for file in args.report.iter().filter(|path| !is_stdout(path)).chain(levels) {
         check_place(file)?;

@@ -6,12 +6,13 @@ use rayon::prelude::*;
 
 use super::args::AnimateArgs;
 use super::around::{Around, Drawn};
-use super::destination::{FilmFormat, Numbered};
+use super::destination::FilmFormat;
 use super::detail::Faces;
 use super::film::{Film, Frame};
 use super::plan::Plan;
 use super::total::{Total, refuse_warnings};
 use crate::animate::{Animator, Budget, Level};
+use crate::cli::numbered::Numbered;
 use crate::cli::output::{Format, Staging};
 use crate::cli::progress::Progress;
 use crate::cli::request::DrawRequest;

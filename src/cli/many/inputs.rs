@@ -2,23 +2,14 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
+use super::stamp::stamp;
 use crate::cli::request::DrawRequest;
 use crate::cli::viewpoint::View;
 use crate::style::Style;
 
 /// Sheets that extend one another, at most.
 const MOST_SHEETS: usize = 32;
-
-/// How a file was found.
-pub(super) type Stamp = Option<(SystemTime, u64)>;
-
-/// When a file was changed, and how large it is; none where there is no file.
-pub(super) fn stamp(path: &Path) -> Stamp {
-    let found = fs::metadata(path).ok()?;
-    Some((found.modified().ok()?, found.len()))
-}
 
 /// The files that a drawing is made from: the model, the style sheet and those it extends, the camera record.
 pub(super) fn inputs(request: &DrawRequest) -> Vec<PathBuf> {

@@ -5,6 +5,7 @@ mod crew;
 mod inputs;
 mod leftovers;
 mod plan;
+pub(super) mod stamp;
 mod watch;
 
 use std::path::Path;

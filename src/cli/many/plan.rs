@@ -67,7 +67,11 @@ pub(super) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
             let mut how = args.how.clone();
             how.view = view.into_iter().collect();
             let request = DrawRequest::of_model(model.clone(), how)?.reading(piped);
+            #[cfg(feature = "pdf")]
+            let print = args.print.of_outputs(args.web.ink.as_deref(), &outputs)?;
             job.requests.push(DrawRequest {
+                #[cfg(feature = "pdf")]
+                print,
                 outputs,
                 stage: args.stage,
                 web: args.web.clone(),

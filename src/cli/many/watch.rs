@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::inputs::{Stamp, inputs, stamp};
+use super::inputs::inputs;
 use super::plan::Job;
+use super::stamp::{Stamp, stamp};
 
 /// Time between two looks at all files.
 const LOOK: Duration = Duration::from_millis(60);

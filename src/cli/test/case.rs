@@ -13,7 +13,7 @@ use crate::diff::Tolerances;
 use crate::error::Error;
 
 /// Keys of a case that are no options of `ligne draw`.
-const OWN: [&str; 3] = ["model", "drawing", "tolerance"];
+const OWN: [&str; 4] = ["model", "page-file", "drawing", "tolerance"];
 
 /// Options that change nothing of the drawing.
 const WITHOUT_EFFECT: [&str; 3] = ["threads", "quiet", "dpi"];
@@ -32,9 +32,18 @@ pub(super) struct Case {
 /// What a case asks for.
 #[derive(Debug)]
 pub(super) struct Order {
-    pub(super) request: DrawRequest,
+    pub(super) made: Made,
     /// Over those of the project.
     pub(super) tolerances: Tolerances,
+}
+
+/// What is drawn.
+#[derive(Debug)]
+pub(super) enum Made {
+    /// A model.
+    Drawing(Box<DrawRequest>),
+    /// The page of this page file.
+    Page(PathBuf),
 }
 
 impl Case {
@@ -66,11 +75,16 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
             _ => Err(file.misfit(value, "a path")),
         },
     };
-    let Some((model, _)) = path_of("model")? else {
+    let (model, page) = (path_of("model")?, path_of("page-file")?);
+    if model.is_none() && page.is_none() {
         return Err(Error::new("there is no `model`")
             .in_file(path)
             .remedy("write model = \"PATH\", relative to this file; or begin the name of a file that is no case with _"));
-    };
+    }
+    if let Some((_, span)) = page.as_ref().filter(|_| model.is_some() || !given.is_empty()) {
+        let advice = "leave out all keys but `page-file`, `drawing` and `tolerance`";
+        return Err(file.fault(span, "a page is told by its page file alone", Some(advice)));
+    }
     let drawing = path_of("drawing")?;
     if let Some((drawing, span)) = &drawing
         && drawing.extension().is_none_or(|ending| ending != "svg")
@@ -83,6 +97,11 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
         None => Tolerances::default(),
     };
 
+    let drawing = drawing.map(|(drawing, _)| drawing);
+    let Some((model, _)) = model else {
+        let made = Made::Page(page.map(|(page, _)| page).unwrap_or_default());
+        return Ok((drawing, Order { made, tolerances }));
+    };
     let words = std::iter::once("draw".to_owned()).chain(given.into_iter().flat_map(|given| given.words));
     let how = command.try_get_matches_from(words).and_then(|matches| HowArgs::from_arg_matches(&matches));
     let how = how.map_err(|error| {
@@ -92,5 +111,5 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
     })?;
     let mut request = DrawRequest::of_model(model, how).map_err(|error| error.in_file(path))?;
     request.quiet = true;
-    Ok((drawing.map(|(drawing, _)| drawing), Order { request, tolerances }))
+    Ok((drawing, Order { made: Made::Drawing(Box::new(request)), tolerances }))
 }

@@ -1,10 +1,13 @@
 //! [`Outcome`]: what a case drew, and how that compares with the approved drawing.
 
-use super::case::{Case, Order};
+use std::path::Path;
+
+use super::case::{Case, Made, Order};
 use crate::cli::draw;
 use crate::diff::{self, Diff, DiffOptions, Picture, Tolerances, View};
 use crate::error::Error;
 use crate::export::SvgOptions;
+use crate::page::PageFile;
 use crate::render::Stopwatch;
 
 /// What became of a case.
@@ -44,6 +47,17 @@ pub(super) struct Outcome<'a> {
     pub(super) seconds: f64,
 }
 
+/// The one page of a page file as SVG.
+fn page(file: &Path) -> Result<Vec<u8>, Error> {
+    let pages = PageFile::open(file)?.compose()?;
+    match pages.as_slice() {
+        [page] => Ok(page.composition.to_svg(&SvgOptions::default()).into_bytes()),
+        pages => Err(Error::new(format!("it has {} pages, and a case is of one", pages.len()))
+            .in_file(file)
+            .remedy("name its pages one by one, each in a page file of its own")),
+    }
+}
+
 impl<'a> Outcome<'a> {
     /// Draws a case and compares.
     pub(super) fn of(case: &'a Case, tolerances: &Tolerances) -> Self {
@@ -58,7 +72,10 @@ impl<'a> Outcome<'a> {
     }
 
     fn draw(&mut self, order: &Order, tolerances: &Tolerances) -> Result<Verdict, Error> {
-        let svg = draw::encoded(&order.request)?;
+        let svg = match &order.made {
+            Made::Drawing(request) => draw::encoded(request)?,
+            Made::Page(file) => page(file)?,
+        };
         let after = self.after.insert(String::from_utf8_lossy(&svg).into_owned());
         let drawing = &self.case.drawing;
         let before = match std::fs::read(drawing) {

@@ -262,5 +262,6 @@ fn provenance(look: Look, context: &HatchContext) -> Provenance {
         material: context.materials.get(look.material.index()).and_then(|(text, _)| name(text)),
         invisibility: 0,
         note: None,
+        text: None,
     }
 }

@@ -78,6 +78,9 @@ pub struct Pattern {
     /// What is darker than this in the picture is drawn, 0 (white) to 1. Default: 0.5.
     #[serde(deserialize_with = "fraction")]
     pub level: f64,
+    /// Whether it is laid where no tones are painted, too.
+    #[serde(skip)]
+    pub unpainted: bool,
     /// The tile itself, once it is read.
     #[serde(skip)]
     pub tile: Tile,
@@ -100,6 +103,7 @@ impl Default for Pattern {
             file: None,
             image: None,
             level: 0.5,
+            unpainted: false,
             tile: Tile::default(),
         }
     }

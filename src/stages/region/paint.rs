@@ -124,6 +124,7 @@ pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
         material: context.materials.get(look.material.index()).and_then(name),
         invisibility: 0,
         note: None,
+        text: None,
     }
 }
 

@@ -5,6 +5,7 @@ pub mod bends;
 mod crease_chains;
 pub mod curvature;
 mod curvature_derivative;
+pub mod cylinders;
 mod diffusion;
 pub mod edge_arc;
 pub mod fans;
@@ -28,6 +29,7 @@ pub mod splice;
 mod thickness;
 
 pub use curvature::Curvature;
+pub use cylinders::{Cylinder, cylinders};
 pub use edge_arc::EdgeArc;
 pub use hard_edges::HardEdges;
 pub use patches::Patches;

@@ -273,6 +273,7 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
         identity: chain.identity,
         places: Arc::clone(&chain.places),
         note: None,
+        text: None,
     }
 }
 

@@ -11,6 +11,7 @@ pub mod long_run;
 pub mod mesh_file;
 pub mod models;
 pub mod patches;
+pub mod pdf;
 pub mod piercings;
 pub mod pipeline;
 pub mod plain_fills;

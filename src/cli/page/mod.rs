@@ -1,0 +1,283 @@
+//! `ligne page`: the pages of a page file, and page files to start from.
+
+mod new;
+mod watch;
+
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueHint};
+
+use crate::cli::numbered::Numbered;
+use crate::cli::output::{Format, Output, Staging, check_place, is_stdout};
+use crate::cli::progress::Progress;
+use crate::cli::request::same_file;
+use crate::cli::{number, pipeline, print, say};
+use crate::drawing::Composition;
+use crate::error::{Error, ErrorKind};
+#[cfg(feature = "pdf")]
+use crate::export::to_pdf;
+use crate::export::{PngOptions, Resolution, SvgOptions, gzip};
+use crate::page::{Composed, PageFile};
+use crate::render::Stopwatch;
+
+/// What was typed.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  ligne page --new comic page.toml           writes a page file to start from
+  ligne page page.toml page.pdf
+  ligne page book.toml 'pages/%02d.svg'      a file for each page
+  ligne page page.toml print.pdf --ink k --marks
+  ligne page page.toml page.png --watch      again whenever a file changes")]
+pub(super) struct PageArgs {
+    /// The page file; or with --new the one to write
+    #[arg(value_hint = ValueHint::FilePath)]
+    page: PathBuf,
+
+    /// The page: .pdf, which holds all pages of a file, or .svg, .svgz or .png, where the name numbers several pages by %d;
+    /// - for SVG on standard output [default: the page file's name with .pdf, in the current folder]
+    out: Option<PathBuf>,
+
+    /// A further output, may be given again
+    #[arg(short = 'o', long = "output", value_name = "OUT")]
+    outputs: Vec<PathBuf>,
+
+    /// Write a page file to start from, with a word on each key
+    #[arg(long, value_name = "KIND", value_parser = PossibleValuesParser::new(["comic", "sheet"]),
+        conflicts_with_all = ["out", "outputs", "watch"])]
+    new: Option<String>,
+
+    /// Draw again whenever the page file or one that it names changes
+    #[arg(long)]
+    watch: bool,
+
+    /// Pixels to the inch in PNG [default: 300]
+    #[arg(long, value_name = "N", value_parser = crate::cli::draw_args::dots_per_inch)]
+    dpi: Option<f64>,
+
+    /// Decimals of coordinates in SVG [default: 3]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=9))]
+    precision: Option<u8>,
+
+    /// Inks of PDF: screen (RGB), k (black alone) or cmyk (four inks, by --icc) [default: screen]
+    #[cfg(feature = "pdf")]
+    #[arg(long, value_name = "INKS", help_heading = "Print", ignore_case = true, hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(crate::cli::print_args::INKS))]
+    ink: Option<String>,
+
+    #[cfg(feature = "pdf")]
+    #[command(flatten)]
+    print: crate::cli::print_args::PrintArgs,
+
+    /// Number of threads; the page is the same with any [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Say nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+
+    /// Take warnings for errors
+    #[arg(long)]
+    strict: bool,
+}
+
+/// Where pages go.
+enum Target {
+    /// All to one file.
+    One(Output),
+    /// Each to a file of its own.
+    Each(Numbered),
+}
+
+/// Draws the pages, and says so; where files are watched it goes on until it is stopped.
+pub(super) fn run(args: &PageArgs) -> Result<(), Error> {
+    if let Some(kind) = &args.new {
+        return new::write(kind, &args.page, args.quiet);
+    }
+    let targets = targets(args)?;
+    let first = pipeline::in_threads(args.threads, || draw(args, &targets))?;
+    if !args.watch {
+        return first;
+    }
+    if let Err(error) = first {
+        say(&format!("error: {error}"));
+    }
+    if !args.quiet {
+        say(&format!("watching {}; Ctrl-C ends", args.page.display()));
+    }
+    let mut watch = watch::Watch::new(&args.page);
+    loop {
+        watch.changed();
+        if let Err(error) = pipeline::in_threads(args.threads, || draw(args, &targets))? {
+            say(&format!("error: {error}"));
+        }
+    }
+}
+
+fn targets(args: &PageArgs) -> Result<Vec<Target>, Error> {
+    let stem = || PathBuf::from(args.page.with_extension("pdf").file_name().unwrap_or_default());
+    let mut paths: Vec<PathBuf> = args.out.iter().chain(&args.outputs).cloned().collect();
+    if paths.is_empty() {
+        paths.push(stem());
+    }
+    let targets: Vec<Target> = paths.iter().map(|path| target(path, &args.page)).collect::<Result<_, _>>()?;
+    #[cfg(feature = "pdf")]
+    {
+        let format = |target: &Target| match target {
+            Target::One(output) => output.format,
+            Target::Each(numbered) => numbered.format,
+        };
+        let writes_pdf = targets.iter().any(|target| format(target) == Format::Pdf);
+        args.print.refuse_without_pdf(args.ink.as_deref(), writes_pdf)?;
+    }
+    Ok(targets)
+}
+
+fn target(path: &Path, page: &Path) -> Result<Target, Error> {
+    let wrong = |message: String| {
+        Error::new(message).in_file(path).remedy("write such as page-%d.svg for a file a page")
+    };
+    let (target, format) = match Numbered::of(path, "a page", wrong)? {
+        Some(numbered) => {
+            let format = numbered.format;
+            (Target::Each(numbered), format)
+        }
+        None => {
+            let output = Output::new(path.to_path_buf())?;
+            let format = output.format;
+            (Target::One(output), format)
+        }
+    };
+    if format == Format::Dxf {
+        return Err(Error::new("pages are not written as .dxf")
+            .in_file(path)
+            .remedy("end the name with .pdf, .svg or .png"));
+    }
+    if let Target::One(Output { path, format }) = &target
+        && *format != Format::SvgToStdout
+    {
+        check_place(path)?;
+        if same_file(path, page) {
+            return Err(Error::new("the page would overwrite its page file")
+                .in_file(path)
+                .remedy("give the page another name"));
+        }
+    }
+    Ok(target)
+}
+
+/// Draws and writes all pages, or nothing.
+fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
+    let watch = Stopwatch::start();
+    let progress = Progress::start(args.quiet, &args.page);
+    progress.step("reading");
+    let file = PageFile::open(&args.page)?;
+    let several = |target: &&Target| matches!(target, Target::One(output) if needs_numbers(output.format));
+    if let Some(Target::One(output)) = targets.iter().find(several).filter(|_| file.len() > 1) {
+        return Err(Error::new(format!("{} do not fit into one file of this kind", pages(file.len())))
+            .in_file(&output.path)
+            .remedy("number them, such as page-%d.svg, or write .pdf"));
+    }
+    progress.step("drawing");
+    let composed = file.compose()?;
+    drop(progress);
+    tell_warnings(args, &composed)?;
+    let compositions: Vec<Composition> = composed.into_iter().map(|page| page.composition).collect();
+    let mut staging = Staging::default();
+    let mut told = Vec::new();
+    for target in targets {
+        for (name, bytes, count) in encoded(target, &compositions, args)? {
+            match &name {
+                Some(path) => {
+                    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+                        staging.make_folder(folder)?;
+                    }
+                    staging.add(path, &bytes)?;
+                }
+                None => print(&bytes)?,
+            }
+            let name = name.map_or_else(|| "standard output".to_owned(), |path| path.display().to_string());
+            told.push((name, bytes.len() as u64, count));
+        }
+    }
+    staging.commit()?;
+    if !args.quiet {
+        for (name, bytes, count) in told {
+            let size = compositions.first().map(|page| page.page);
+            let size = size.map_or_else(String::new, |page| {
+                format!("{} x {} mm", number::plain(page.width, 2), number::plain(page.height, 2))
+            });
+            let (pages, bytes, seconds) = (pages(count), number::bytes(bytes), watch.seconds());
+            say(&format!("{name}: {pages}, {size}, {bytes}, {seconds:.2} s"));
+        }
+    }
+    Ok(())
+}
+
+fn pages(count: usize) -> String {
+    number::counted(count as u64, "page")
+}
+
+fn needs_numbers(format: Format) -> bool {
+    matches!(format, Format::Svg | Format::Svgz | Format::Png | Format::SvgToStdout)
+}
+
+/// Warnings, which are errors under `--strict`.
+fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
+    let warnings: Vec<&String> = composed.iter().flat_map(|page| &page.warnings).collect();
+    if args.strict && !warnings.is_empty() {
+        let all: Vec<&str> = warnings.iter().map(|warning| warning.as_str()).collect();
+        return Err(Error::new(all.join("; "))
+            .in_file(&args.page)
+            .remedy("mend the models, or draw without --strict"));
+    }
+    if !args.quiet {
+        warnings.iter().for_each(|warning| say(&format!("warning: {}: {warning}", args.page.display())));
+    }
+    Ok(())
+}
+
+/// The files of an output, each with how many pages it holds; no name stands for standard output.
+fn encoded(
+    target: &Target,
+    pages: &[Composition],
+    args: &PageArgs,
+) -> Result<Vec<(Option<PathBuf>, Vec<u8>, usize)>, Error> {
+    let in_file = |path: &Path, error: Error| match error.file {
+        None => error.in_file(path),
+        Some(_) => error,
+    };
+    match target {
+        Target::One(Output { path, format }) => {
+            let bytes = encode(pages, *format, args).map_err(|error| in_file(path, error))?;
+            let name = (!is_stdout(path)).then(|| path.clone());
+            Ok(vec![(name, bytes, pages.len())])
+        }
+        Target::Each(numbered) => {
+            let page = |(number, page): (usize, &Composition)| {
+                let path = numbered.path(number + 1);
+                let bytes = encode(std::slice::from_ref(page), numbered.format, args);
+                bytes.map_err(|error| in_file(&path, error)).map(|bytes| (Some(path), bytes, 1))
+            };
+            pages.iter().enumerate().map(page).collect()
+        }
+    }
+}
+
+fn encode(pages: &[Composition], format: Format, args: &PageArgs) -> Result<Vec<u8>, Error> {
+    let Some(page) = pages.first() else { return Ok(Vec::new()) };
+    let svg = || page.to_svg(&SvgOptions { precision: args.precision, ..SvgOptions::default() });
+    match format {
+        Format::Svg | Format::SvgToStdout => Ok(svg().into_bytes()),
+        Format::Svgz => Ok(gzip::packed(svg().as_bytes())),
+        Format::Png => {
+            page.to_png(&PngOptions { resolution: args.dpi.map_or(Resolution::Natural, Resolution::Dpi) })
+        }
+        #[cfg(feature = "pdf")]
+        Format::Pdf => to_pdf(pages, &args.print.options(args.ink.as_deref())?.unwrap_or_default()),
+        Format::Dxf => Err(Error::new("pages are not written as .dxf")
+            .of_kind(ErrorKind::Unsupported)
+            .remedy("write .pdf, .svg or .png")),
+    }
+}

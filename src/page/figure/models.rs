@@ -1,0 +1,256 @@
+//! [`Models`]: the models of a figure, and the scene they are placed in.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use toml::Spanned;
+
+use super::moved::{join, move_scene};
+use crate::error::Error;
+use crate::math::function::{cos, sin};
+use crate::motion;
+use crate::page::source::Source;
+use crate::pose::{Clip, Playing, Rigged};
+use crate::scene::{Scene, UpAxis};
+use crate::style::Style;
+
+/// A model of a figure.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelKeys {
+    /// Its file, relative to the page file.
+    pub file: Spanned<String>,
+    /// What its parts are called by: `hero` makes them `hero/head` and so on. Default: as in the file.
+    pub name: Option<String>,
+    /// Where its origin is, in units of the first model. Default: 0, 0, 0.
+    #[serde(default)]
+    pub position: [f64; 3],
+    /// Degrees by which it is turned about its x, then its y, then its z axis. Default: 0, 0, 0.
+    #[serde(default)]
+    pub rotation: [f64; 3],
+    /// By how much it is enlarged. Default: 1.
+    pub scale: Option<Spanned<f64>>,
+    /// Which axis points up, `y` or `z`. Default: as the format has it.
+    pub up: Option<Spanned<String>>,
+    /// The moment of its animation, in seconds. Default: that of the figure.
+    pub time: Option<Spanned<f64>>,
+    /// Which of its animations plays. Default: the only one.
+    pub animation: Option<Spanned<String>>,
+    /// Only parts with such names. Default: all.
+    #[serde(default)]
+    pub only: Vec<String>,
+    /// No parts with such names. Default: none.
+    #[serde(default)]
+    pub hide: Vec<String>,
+}
+
+/// The models of a figure: the path of one, a table with keys of its own, or a list of these.
+#[derive(Debug, Clone, Default)]
+pub struct Models(pub Vec<ModelKeys>);
+
+impl Models {
+    /// The files they are in.
+    pub fn files<'a>(&'a self, source: &'a Source) -> impl Iterator<Item = PathBuf> + 'a {
+        self.0.iter().map(|model| source.beside(model.file.get_ref()))
+    }
+}
+
+/// What is written for a model, or for several.
+enum Written {
+    Path(String),
+    Keys(Box<ModelKeys>),
+    List(Vec<Spanned<Written>>),
+}
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(WrittenVisitor)
+    }
+}
+
+struct WrittenVisitor;
+
+impl<'de> Visitor<'de> for WrittenVisitor {
+    type Value = Written;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a model: its path, a table such as { file = \"a.glb\", position = [1, 0, 0] }, or a list of these")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, path: &str) -> Result<Written, E> {
+        Ok(Written::Path(path.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Written, A::Error> {
+        ModelKeys::deserialize(MapAccessDeserializer::new(map)).map(|keys| Written::Keys(Box::new(keys)))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Written, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Written::List)
+    }
+}
+
+impl<'de> Deserialize<'de> for Models {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let written = Spanned::<Written>::deserialize(deserializer)?;
+        let mut models = Vec::new();
+        add(written, &mut models).map_err(D::Error::custom)?;
+        Ok(Self(models))
+    }
+}
+
+fn add(written: Spanned<Written>, models: &mut Vec<ModelKeys>) -> Result<(), String> {
+    let span = written.span();
+    match written.into_inner() {
+        Written::Path(path) => {
+            let file = Spanned::new(span, path);
+            models.push(ModelKeys {
+                file,
+                name: None,
+                position: [0.0; 3],
+                rotation: [0.0; 3],
+                scale: None,
+                up: None,
+                time: None,
+                animation: None,
+                only: Vec::new(),
+                hide: Vec::new(),
+            });
+        }
+        Written::Keys(keys) => models.push(*keys),
+        Written::List(list) => list.into_iter().try_for_each(|one| add(one, models))?,
+    }
+    Ok(())
+}
+
+/// The scene of all models, each in its pose and its place. `time` and `animation` are of those that tell none of their own; the
+/// style says which bodies leave motion lines.
+///
+/// # Errors
+/// If a model cannot be read, has no such animation or parts, or cannot be placed so.
+pub fn staged(
+    models: &Models,
+    time: Option<&Spanned<f64>>,
+    animation: Option<&Spanned<String>>,
+    style: &Style,
+    source: &Source,
+) -> Result<Scene, Error> {
+    let mut all: Option<Scene> = None;
+    for keys in &models.0 {
+        let mut scene = posed(keys, time, animation, style, source)?;
+        let up = all.as_ref().map_or(scene.up, |all| all.up);
+        let to = place(keys, [scene.up, up], source)?;
+        move_scene(&mut scene, to);
+        scene.up = up;
+        if let Some(name) = &keys.name {
+            for part in &mut scene.parts {
+                part.name = format!("{name}/{}", part.name);
+            }
+        }
+        match &mut all {
+            None => all = Some(scene),
+            Some(all) => join(all, scene),
+        }
+    }
+    Ok(all.unwrap_or_default())
+}
+
+/// A model at its moment, with its parts.
+fn posed(
+    keys: &ModelKeys,
+    time: Option<&Spanned<f64>>,
+    animation: Option<&Spanned<String>>,
+    style: &Style,
+    source: &Source,
+) -> Result<Scene, Error> {
+    let path = source.existing(&keys.file, "model")?;
+    let own = keys.time.is_some() || keys.animation.is_some();
+    let (time, animation) = (keys.time.as_ref().or(time), keys.animation.as_ref().or(animation));
+    let rigged = Rigged::open(&path)?;
+    let moves = !rigged.rig.clips.is_empty() && (time.is_some() || animation.is_some());
+    let mut scene = if moves || own {
+        let playing = playing(&rigged.rig.clips, time, animation, keys, source)?;
+        motion::posed(&rigged, &[playing], &style.motion, style.seed).map_err(|error| error.in_file(&path))?
+    } else {
+        Scene { movers: Some(Vec::new()), ..Scene::open(&path)? }
+    };
+    if let Some(up) = &keys.up {
+        scene.up = match up.get_ref().as_str() {
+            "y" => UpAxis::Y,
+            "z" => UpAxis::Z,
+            _ => return Err(source.unknown(up, "axis", &["y", "z"])),
+        };
+    }
+    if !(keys.only.is_empty() && keys.hide.is_empty()) {
+        let names: Vec<String> = scene.parts.iter().map(|part| part.name.clone()).take(8).collect();
+        scene.keep_parts(&keys.only, &keys.hide);
+        if scene.parts.is_empty() {
+            let advice = format!("its parts are {}", names.join(", "));
+            return Err(source.fault(&keys.file.span(), "no part is left of this model", &advice));
+        }
+    }
+    Ok(scene)
+}
+
+/// What plays of a model.
+fn playing(
+    clips: &[Clip],
+    time: Option<&Spanned<f64>>,
+    animation: Option<&Spanned<String>>,
+    keys: &ModelKeys,
+    source: &Source,
+) -> Result<Playing, Error> {
+    let names: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
+    let clip = match (animation, names.as_slice()) {
+        (Some(name), _) => match names.iter().position(|known| known == name.get_ref()) {
+            Some(clip) => clip,
+            None => return Err(source.unknown(name, "animation", &names)),
+        },
+        (None, [_]) => 0,
+        (None, []) => {
+            return Err(source.fault(&keys.file.span(), "this model has no animation", "leave out its time"));
+        }
+        (None, _) => {
+            let advice = format!("name one with `animation`: {}", names.join(", "));
+            let message = format!("which of its {} animations is drawn?", names.len());
+            return Err(source.fault(&keys.file.span(), &message, &advice));
+        }
+    };
+    match time {
+        Some(time) if !time.get_ref().is_finite() => {
+            Err(source.fault(&time.span(), "this is no time", "write a number of seconds"))
+        }
+        time => Ok(Playing::all(clip, time.map_or(0.0, |time| *time.get_ref()))),
+    }
+}
+
+/// From a model, with that axis up, to the scene with another.
+fn place(keys: &ModelKeys, up: [UpAxis; 2], source: &Source) -> Result<DAffine3, Error> {
+    let [x, y, z] = keys.rotation.map(f64::to_radians);
+    let numbers = keys.position.iter().chain(&keys.rotation);
+    let scale = keys.scale.as_ref();
+    if !numbers.copied().all(f64::is_finite) {
+        return Err(source.fault(&keys.file.span(), "this model has no place", "write finite numbers"));
+    }
+    if let Some(scale) = scale.filter(|scale| !(scale.get_ref().is_finite() && *scale.get_ref() > 0.0)) {
+        return Err(source.fault(&scale.span(), "a model cannot be scaled so", "write a number above 0"));
+    }
+    let half = |angle: f64| (sin(angle / 2.0), cos(angle / 2.0));
+    let [(x, of_x), (y, of_y), (z, of_z)] = [x, y, z].map(half);
+    let turned = DQuat::from_xyzw(0.0, 0.0, z, of_z)
+        * DQuat::from_xyzw(0.0, y, 0.0, of_y)
+        * DQuat::from_xyzw(x, 0.0, 0.0, of_x);
+    let scale = DVec3::splat(scale.map_or(1.0, |scale| *scale.get_ref()));
+    // What points up goes on to do so.
+    let raised = match up {
+        [UpAxis::Z, UpAxis::Y] => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+        [UpAxis::Y, UpAxis::Z] => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+        _ => DMat3::IDENTITY,
+    };
+    let placed = DAffine3::from_scale_rotation_translation(scale, turned, DVec3::from_array(keys.position));
+    Ok(placed * DAffine3::from_mat3(raised))
+}

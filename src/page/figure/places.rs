@@ -1,0 +1,105 @@
+//! Where parts are on the page: their boxes and hulls, by name.
+
+use glam::DVec3;
+use kurbo::{Point, Rect};
+
+use crate::scene::framing::world_points;
+use crate::scene::select::glob_matches;
+use crate::scene::{Camera, Scene};
+use crate::view::Frame;
+
+/// Where a part is in the frame of a camera, hidden or not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// The name of the part.
+    pub part: String,
+    /// The box round it, in units of the frame.
+    pub bounds: Rect,
+    /// Its convex hull, clockwise on the page.
+    pub hull: Vec<Point>,
+}
+
+/// Whether a name of a part is meant by a pattern: as a whole, behind the name of its model (`head` is `hero/head`), or as one
+/// of a model (`hero` is all of its parts).
+#[must_use]
+pub fn is_named(glob: &str, name: &str) -> bool {
+    let own = || {
+        name.split_once('/')
+            .is_some_and(|(model, part)| glob_matches(glob, part) || glob_matches(glob, model))
+    };
+    glob_matches(glob, name) || own()
+}
+
+/// The points of the parts that are meant by a pattern, world.
+pub(crate) fn part_points(scene: &Scene, glob: &str) -> Vec<DVec3> {
+    let parts = scene.parts.iter().filter(|part| is_named(glob, &part.name)).cloned().collect();
+    world_points(&Scene { parts, geometries: scene.geometries.clone(), ..Scene::default() })
+}
+
+/// Where the parts that are meant by a pattern are, those before the eye.
+#[must_use]
+pub fn places(scene: &Scene, camera: &Camera, glob: &str) -> Vec<Place> {
+    let frame = Frame::new(camera, DVec3::ZERO);
+    let mut places = Vec::new();
+    for part in scene.parts.iter().filter(|part| is_named(glob, &part.name)) {
+        let Some(geometry) = scene.geometry_of(part) else { continue };
+        let own = crate::scene::flatten::used_points(geometry);
+        let seen = own.iter().map(|p| part.world_from_part.transform_point3(*p));
+        let before = seen.filter(|p| !frame.perspective || frame.depth(*p) > 0.0);
+        let image = before.map(|p| frame.image_from_camera(frame.camera_from_local(p)));
+        let hull = hull(image.map(|p| Point::new(p.x, p.y)).filter(|p| p.is_finite()).collect());
+        let Some(first) = hull.first() else { continue };
+        let bounds = hull.iter().fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p));
+        places.push(Place { part: part.name.clone(), bounds, hull });
+    }
+    places
+}
+
+/// The convex hull of points, clockwise where y points down (Andrew's monotone chain).
+fn hull(mut points: Vec<Point>) -> Vec<Point> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let turns = |a: Point, b: Point, c: Point| (b - a).cross(c - a) > 0.0;
+    let chain = |points: &mut dyn Iterator<Item = Point>| {
+        let mut chain: Vec<Point> = Vec::new();
+        for p in points {
+            while let [.., a, b] = chain.as_slice() {
+                if turns(*a, *b, p) {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut lower = chain(&mut points.iter().copied());
+    lower.extend(chain(&mut points.iter().rev().copied()));
+    lower
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_meant_with_and_without_their_model() {
+        for (glob, name) in
+            [("head", "hero/head"), ("hero", "hero/head"), ("hero/h*", "hero/head"), ("head", "head")]
+        {
+            assert!(is_named(glob, name), "{glob} {name}");
+        }
+        assert!(!is_named("head", "hero/hand") && !is_named("her", "hero/head"));
+    }
+
+    #[test]
+    fn hulls_hold_their_points() {
+        let points = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (2.0, 2.0), (0.0, 2.0), (1.0, 0.0)];
+        let found = hull(points.iter().map(|p| Point::new(p.0, p.1)).collect());
+        assert_eq!(found.len(), 4, "{found:?}");
+    }
+}

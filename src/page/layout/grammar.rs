@@ -1,0 +1,242 @@
+//! The grammar of layouts: `30 [30 | 20 | *] / *`.
+
+use std::ops::Range;
+
+/// More panels are refused.
+pub const MOST_PANELS: usize = 10_000;
+
+/// Brackets in brackets, at most.
+const DEEPEST: usize = 32;
+
+/// What is wrong in a layout.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Where, in bytes of the text.
+    pub span: Range<usize>,
+    /// What.
+    pub message: String,
+    /// What to do.
+    pub advice: String,
+}
+
+/// Whether things stand under or beside each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// Under each other.
+    Rows,
+    /// Beside each other.
+    Columns,
+}
+
+/// How much of a stack is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Share {
+    /// Percent where others take the rest, else a part.
+    Number(f64),
+    /// Of what others leave.
+    Rest,
+}
+
+/// Rows or columns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stack {
+    /// Which of them.
+    pub axis: Axis,
+    /// They, in reading order.
+    pub items: Vec<Item>,
+    /// By how many degrees the gutter behind each but the last leans to the right, or rises to the right.
+    pub slants: Vec<f64>,
+}
+
+/// A row or a column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Item {
+    /// How much it takes.
+    pub share: Share,
+    /// What it is parted into; a panel if into nothing.
+    pub within: Option<Stack>,
+    /// Where it is written.
+    pub span: Range<usize>,
+}
+
+/// Reads a layout.
+///
+/// # Errors
+/// At the place of what is no layout.
+pub fn parse(text: &str) -> Result<Stack, Fault> {
+    let mut parser = Parser { text, at: 0, panels: 0 };
+    let stack = parser.stack(0)?;
+    match parser.peek() {
+        None => Ok(stack),
+        Some(other) => {
+            let message = format!("`{other}` does not belong here");
+            Err(parser.fault(message, "write such as 30 [30 | 20 | *] / *"))
+        }
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    panels: usize,
+}
+
+impl Parser<'_> {
+    /// The next character that is no blank.
+    fn peek(&mut self) -> Option<char> {
+        let rest = self.text.get(self.at..).unwrap_or_default();
+        self.at += rest.len() - rest.trim_start().len();
+        self.text.get(self.at..).unwrap_or_default().chars().next()
+    }
+
+    fn takes(&mut self, wanted: char) -> bool {
+        let is_there = self.peek() == Some(wanted);
+        if is_there {
+            self.at += wanted.len_utf8();
+        }
+        is_there
+    }
+
+    fn fault(&self, message: impl Into<String>, advice: &str) -> Fault {
+        let width = self.text.get(self.at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+        Fault { span: self.at..self.at + width, message: message.into(), advice: advice.to_owned() }
+    }
+
+    fn stack(&mut self, depth: usize) -> Result<Stack, Fault> {
+        if depth > DEEPEST {
+            return Err(self.fault(format!("brackets are more than {DEEPEST} deep"), "nest less"));
+        }
+        let mut stack = Stack { axis: Axis::Rows, items: vec![self.item(depth)?], slants: Vec::new() };
+        let mut axis = None;
+        loop {
+            let next = match self.peek() {
+                Some('/') => Axis::Rows,
+                Some('|') => Axis::Columns,
+                _ => break,
+            };
+            if axis.is_some_and(|axis| axis != next) {
+                let advice = "put what belongs together in brackets, such as 1 / 1 [1 | 1]";
+                return Err(self.fault("rows and columns are mixed here", advice));
+            }
+            axis = Some(next);
+            self.at += 1;
+            let slant = self.slant()?;
+            stack.slants.push(slant);
+            let item = self.item(depth)?;
+            stack.items.push(item);
+        }
+        stack.axis = axis.unwrap_or(Axis::Rows);
+        Ok(stack)
+    }
+
+    /// How a gutter leans: degrees right behind it.
+    fn slant(&mut self) -> Result<f64, Fault> {
+        let before = self.at;
+        self.peek();
+        let from = self.at;
+        let Some(number) = self.number() else { return Ok(0.0) };
+        let rest = self.text.get(self.at..).unwrap_or_default();
+        let sign = ["°", "deg"].into_iter().find(|sign| rest.starts_with(sign));
+        let Some(sign) = sign else {
+            // It is the share of what follows.
+            self.at = before;
+            return Ok(0.0);
+        };
+        self.at += sign.len();
+        if number.abs() > 60.0 {
+            let fault = Fault {
+                span: from..self.at,
+                message: "a gutter does not lean so far".to_owned(),
+                advice: "write degrees from -60 to 60".to_owned(),
+            };
+            return Err(fault);
+        }
+        Ok(number)
+    }
+
+    fn number(&mut self) -> Option<f64> {
+        let rest = self.text.get(self.at..).unwrap_or_default();
+        let length =
+            rest.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-'))).unwrap_or(rest.len());
+        let number = rest.get(..length)?.parse().ok().filter(|number: &f64| number.is_finite())?;
+        self.at += length;
+        Some(number)
+    }
+
+    fn item(&mut self, depth: usize) -> Result<Item, Fault> {
+        let wanted = "write a share: a number, or * for the rest; or brackets around rows or columns";
+        let next = self.peek();
+        let from = self.at;
+        let share = match next {
+            Some('*') => {
+                self.at += 1;
+                Share::Rest
+            }
+            Some('[') => Share::Rest,
+            Some(c) if c.is_ascii_digit() || matches!(c, '.' | '-') => {
+                let number = self.number();
+                if number.is_none_or(|share| share <= 0.0) {
+                    let span = from..self.at.max(from + 1);
+                    let message = "this share leaves no panel".to_owned();
+                    return Err(Fault { span, message, advice: "write a number above 0".to_owned() });
+                }
+                Share::Number(number.unwrap_or(1.0))
+            }
+            None => return Err(self.fault("the layout ends where a panel is due", wanted)),
+            Some(other) => return Err(self.fault(format!("`{other}` is no share"), wanted)),
+        };
+        let mut span = from..self.at;
+        let within = if self.takes('[') {
+            let stack = self.stack(depth + 1)?;
+            if !self.takes(']') {
+                return Err(self.fault("a bracket is not closed here", "write ] behind the last panel in it"));
+            }
+            span.end = self.at;
+            Some(stack)
+        } else {
+            self.panels += 1;
+            if self.panels > MOST_PANELS {
+                let message = format!("these are more than {MOST_PANELS} panels");
+                return Err(Fault { span, message, advice: "part them into several pages".to_owned() });
+            }
+            None
+        };
+        Ok(Item { share, within, span })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layouts_are_read() {
+        let stack = parse(" 30 [30 | 20 |-8.5° *] / * ").unwrap();
+        assert_eq!((stack.axis, stack.items.len()), (Axis::Rows, 2));
+        let row = stack.items[0].within.as_ref().unwrap();
+        assert_eq!((row.axis, row.slants.as_slice()), (Axis::Columns, &[0.0, -8.5][..]));
+        assert_eq!(row.items[2].share, Share::Rest);
+        assert_eq!(parse("1").unwrap().items.len(), 1);
+    }
+
+    #[test]
+    fn what_is_no_layout_is_refused_at_its_place() {
+        for (text, at, message) in [
+            ("", 0, "ends"),
+            ("1 / ", 4, "ends"),
+            ("1 | 2 / 3", 6, "mixed"),
+            ("1 [2 | 3", 8, "not closed"),
+            ("1 ]", 2, "does not belong"),
+            ("0 | 1", 0, "leaves no panel"),
+            ("-2", 0, "leaves no panel"),
+            ("1 |80° 1", 3, "lean"),
+            ("a", 0, "no share"),
+        ] {
+            let fault = parse(text).unwrap_err();
+            assert!(fault.span.start == at && fault.message.contains(message), "{text}: {fault:?}");
+        }
+        let many = format!("1{}", " | 1".repeat(MOST_PANELS));
+        assert!(parse(&many).unwrap_err().message.contains("10000 panels"));
+        assert!(parse(&"[".repeat(1000)).unwrap_err().message.contains("deep"));
+    }
+}

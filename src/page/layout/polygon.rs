@@ -1,0 +1,161 @@
+//! [`Polygon`]: convex polygons, cut by lines and asked whether they meet.
+
+use kurbo::{BezPath, Point, Rect, Vec2};
+
+/// A side of a line: the points `p` with `(p - point) · normal >= 0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfPlane {
+    /// A point of the line.
+    pub point: Point,
+    /// Into the side, unit length.
+    pub normal: Vec2,
+}
+
+impl HalfPlane {
+    /// How far a point is within; below 0 outside.
+    #[must_use]
+    pub fn depth(&self, p: Point) -> f64 {
+        (p - self.point).dot(self.normal)
+    }
+
+    /// The same, mirrored at a vertical line.
+    #[must_use]
+    pub fn mirrored(self, x: f64) -> Self {
+        let point = Point::new(2.0 * x - self.point.x, self.point.y);
+        Self { point, normal: Vec2::new(-self.normal.x, self.normal.y) }
+    }
+}
+
+/// A convex polygon, clockwise on a page whose y points down; may be empty.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Polygon(pub Vec<Point>);
+
+impl From<Rect> for Polygon {
+    fn from(r: Rect) -> Self {
+        Self([(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)].map(Point::from).to_vec())
+    }
+}
+
+impl Polygon {
+    /// What of it is on a side of a line.
+    #[must_use]
+    pub fn cut(&self, side: &HalfPlane) -> Self {
+        let mut kept = Vec::with_capacity(self.0.len() + 1);
+        for (a, b) in self.sides() {
+            let (from, to) = (side.depth(a), side.depth(b));
+            if from >= 0.0 {
+                kept.push(a);
+            }
+            if (from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0) {
+                kept.push(a.lerp(b, from / (from - to)));
+            }
+        }
+        if kept.len() < 3 { Self::default() } else { Self(kept) }
+    }
+
+    /// The same with all sides moved inwards.
+    #[must_use]
+    pub fn inset(&self, by: f64) -> Self {
+        let sides: Vec<(Point, Point)> = self.sides().collect();
+        sides.iter().filter(|(a, b)| a != b).fold(self.clone(), |rest, (a, b)| {
+            let way = (*b - *a).normalize();
+            let normal = Vec2::new(-way.y, way.x);
+            rest.cut(&HalfPlane { point: *a + normal * by, normal })
+        })
+    }
+
+    /// Its sides in order.
+    pub fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
+        let ends = self.0.iter().cycle().skip(1);
+        self.0.iter().copied().zip(ends.copied())
+    }
+
+    /// Its area.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let Some(first) = self.0.first() else { return 0.0 };
+        self.sides().map(|(a, b)| (a - *first).cross(b - *first)).sum::<f64>() / 2.0
+    }
+
+    /// The box around it.
+    #[must_use]
+    pub fn bounds(&self) -> Rect {
+        let first = self.0.first().copied().unwrap_or_default();
+        self.0.iter().fold(Rect::from_points(first, first), |rect, p| rect.union_pt(*p))
+    }
+
+    /// Whether a point is in it or on its sides.
+    #[must_use]
+    pub fn holds(&self, p: Point) -> bool {
+        !self.0.is_empty() && self.sides().all(|(a, b)| (b - a).cross(p - a) >= -1e-9)
+    }
+
+    /// What of it lies in another one.
+    #[must_use]
+    pub fn common(&self, other: &Self) -> Self {
+        other.sides().filter(|(a, b)| a != b).fold(self.clone(), |rest, (a, b)| {
+            let way = (b - a).normalize();
+            rest.cut(&HalfPlane { point: a, normal: Vec2::new(-way.y, way.x) })
+        })
+    }
+
+    /// Whether it and another one are nearer than a gap: no side of either has the other beyond it by so much.
+    #[must_use]
+    pub fn meets(&self, other: &Self, gap: f64) -> bool {
+        !self.0.is_empty() && !other.0.is_empty() && !self.parts(other, gap) && !other.parts(self, gap)
+    }
+
+    /// Whether a line along a side has the other beyond it.
+    fn parts(&self, other: &Self, gap: f64) -> bool {
+        self.sides().filter(|(a, b)| a != b).any(|(a, b)| {
+            let way = (b - a).normalize();
+            other.0.iter().all(|p| way.cross(*p - a) <= -gap)
+        })
+    }
+
+    /// The closed path around it.
+    #[must_use]
+    pub fn path(&self) -> BezPath {
+        let mut path = BezPath::new();
+        for (number, p) in self.0.iter().enumerate() {
+            if number == 0 { path.move_to(*p) } else { path.line_to(*p) }
+        }
+        if !self.0.is_empty() {
+            path.close_path();
+        }
+        path
+    }
+
+    /// It, moved.
+    #[must_use]
+    pub fn moved(&self, by: Vec2) -> Self {
+        Self(self.0.iter().map(|p| *p + by).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(x: f64, side: f64) -> Polygon {
+        Rect::new(x, 0.0, x + side, side).into()
+    }
+
+    #[test]
+    fn polygons_are_cut_and_measured() {
+        let square = square(0.0, 4.0);
+        assert_eq!(square.area(), 16.0);
+        let half = HalfPlane { point: Point::new(1.0, 0.0), normal: Vec2::new(1.0, 0.0) };
+        assert_eq!(square.cut(&half).area(), 12.0);
+        assert_eq!(square.inset(1.0).bounds(), Rect::new(1.0, 1.0, 3.0, 3.0));
+        assert_eq!(square.inset(3.0), Polygon::default());
+    }
+
+    #[test]
+    fn polygons_meet() {
+        assert!(square(0.0, 2.0).meets(&square(1.0, 2.0), 0.0));
+        assert!(!square(0.0, 2.0).meets(&square(3.0, 2.0), 0.5));
+        assert!(square(0.0, 2.0).meets(&square(3.0, 2.0), 1.5));
+        assert_eq!(square(0.0, 2.0).common(&square(1.0, 2.0)).area(), 2.0);
+    }
+}

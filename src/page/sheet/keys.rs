@@ -1,0 +1,127 @@
+//! [`SheetPage`]: the keys of a technical sheet.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::block::TitleKeys;
+use super::method::Method;
+use crate::page::figure::Models;
+use crate::page::size::Size;
+
+/// What a page file tells of a technical sheet.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SheetPage {
+    /// Its size. Sheets larger than A4 lie on their longer side. Default: A3.
+    pub size: Option<Size>,
+    /// The model, or several.
+    pub model: Models,
+    /// What a unit of the model is: `mm`, `cm`, `m`, `in` or `ft`. Default: m in glTF, mm elsewhere.
+    pub unit: Option<Spanned<String>>,
+    /// The style of the views. Default: technical.
+    pub style: Option<Spanned<String>>,
+    /// Changes to the style: `KEY=VALUE` each.
+    pub set: Vec<Spanned<String>>,
+    /// The font of all letters. Default: technical.
+    pub font: Option<Spanned<String>>,
+    /// First- or third-angle projection. Default: first.
+    pub projection: Method,
+    /// The scale of the views, such as `1:5`. Default: the largest of the series that fits.
+    pub scale: Option<Spanned<String>>,
+    /// The views. Default: front, top, left and iso.
+    pub views: Option<Vec<Spanned<String>>>,
+    /// Whether edges that are hidden are drawn dashed. Default: no.
+    pub hidden: bool,
+    /// Whether the length, the height and the depth of the whole are told. Default: yes.
+    pub overall: Option<bool>,
+    /// Whether axes of whole cylinders are drawn. Default: where the model is a single part.
+    pub centre_lines: Option<bool>,
+    /// What the title block says.
+    pub title: TitleKeys,
+    /// Views of the model cut open.
+    pub section: Vec<SectionKeys>,
+    /// Places shown larger, in circles.
+    pub detail: Vec<DetailKeys>,
+    /// The model taken apart.
+    pub exploded: Option<ExplodedKeys>,
+    /// Whether there is a parts list. Default: no.
+    pub parts_list: bool,
+    /// The view that has the balloons of the parts list. Default: exploded if there is such a view, else iso.
+    pub balloons: Option<Spanned<String>>,
+    /// Lengths in views.
+    pub dimension: Vec<DimensionKeys>,
+    /// Notes.
+    pub notes: Vec<String>,
+}
+
+/// A view of the model cut open.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SectionKeys {
+    /// The plane: `x`, `y=12.5`, `z=30%`, `normal:1,0,1@5mm`. What its normal points at is taken away, and looked at from there.
+    pub plane: Spanned<String>,
+    /// Its letter. Default: the next one.
+    pub label: Option<String>,
+    /// Parts that are not cut.
+    #[serde(default)]
+    pub uncut: Vec<String>,
+}
+
+/// A place shown larger.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DetailKeys {
+    /// The view it is in. Default: front.
+    pub of: Option<Spanned<String>>,
+    /// The middle of it, in units of the model.
+    pub at: [f64; 3],
+    /// Its radius in units of the model.
+    pub radius: Spanned<f64>,
+    /// Its scale. Default: the second larger one of the series.
+    pub scale: Option<Spanned<String>>,
+    /// Its letter. Default: the next one.
+    pub label: Option<String>,
+}
+
+/// The model taken apart.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExplodedKeys {
+    /// Along which axis: x, y or z. Default: the best one.
+    pub axis: Option<Spanned<String>>,
+    /// How far. Default: 1.
+    pub factor: Option<Spanned<f64>>,
+    /// From where it is seen. Default: iso.
+    pub view: Option<Spanned<String>>,
+}
+
+/// A length in a view.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DimensionKeys {
+    /// The view it is in. Default: front.
+    pub of: Option<Spanned<String>>,
+    /// From this point of the model, in its units.
+    pub from: [f64; 3],
+    /// To this point.
+    pub to: [f64; 3],
+    /// Which length: `horizontal`, `vertical` or `aligned`. Default: aligned.
+    pub measure: Option<Measure>,
+    /// How far beside the points its line is, mm, to the right or below if above 0. Default: 10.
+    pub offset: Option<f64>,
+    /// What it says in place of the length.
+    pub text: Option<String>,
+}
+
+/// Which length between two points is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Measure {
+    /// Across the page.
+    Horizontal,
+    /// Down the page.
+    Vertical,
+    /// From point to point, as it is in the view.
+    #[default]
+    Aligned,
+}

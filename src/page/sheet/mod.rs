@@ -1,0 +1,216 @@
+//! Technical sheets: a model in views that stand as the standards have it, in a frame with a title block and a parts list.
+//!
+//! [`keys`] is what is told, `plan` which views there are and of what, `arrange` where they stand and how large, `notes` what is
+//! written beside them.
+
+mod arrange;
+mod balloon_anchors;
+pub mod balloons;
+pub mod block;
+mod centre;
+mod dimension;
+pub mod frame;
+mod ink;
+pub mod keys;
+pub mod list;
+pub mod method;
+mod notes;
+mod pack;
+mod plan;
+mod scales;
+mod sight;
+
+use std::path::PathBuf;
+
+use kurbo::{Affine, Rect, Shape};
+use toml::Spanned;
+
+pub use block::TitleKeys;
+pub use keys::SheetPage;
+pub use method::Method;
+
+use super::composed::Composed;
+use super::figure;
+use super::size::Size;
+use super::source::Source;
+use crate::drawing::{Composition, Item, Page, Unit};
+use crate::error::Error;
+use crate::math::colour::Colour;
+use crate::render::Prepared;
+use crate::text::Font;
+use arrange::arrange;
+use ink::Ink;
+use plan::{Plan, Set, read_scale};
+
+/// Between the frame and what is drawn, mm.
+const INSET: f64 = 4.0;
+
+/// Height of notes, and how wide they are, mm.
+const NOTES: [f64; 2] = [3.5, 90.0];
+
+impl SheetPage {
+    /// The files it is made from.
+    #[must_use]
+    pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
+        let style = self.style.as_ref().and_then(|style| figure::look::file(style, source));
+        self.model.files(source).chain(style).collect()
+    }
+
+    /// Its size as it lies.
+    #[must_use]
+    pub fn lying(&self) -> Size {
+        let size = self.size.unwrap_or(Size { width: 420.0, height: 297.0 });
+        let is_small = size.width.max(size.height) <= 297.0;
+        if is_small { size } else { size.lying() }
+    }
+}
+
+/// The name of a size of the A series.
+fn size_name(size: Size) -> &'static str {
+    let is_it = |name: &&str| Size::parse(name).is_some_and(|known| known == size || known.lying() == size);
+    Size::names().find(is_it).unwrap_or("")
+}
+
+/// Draws a sheet.
+///
+/// # Errors
+/// If the model or the style cannot be read, a key tells what is not there, or the views do not fit on the sheet.
+pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
+    let size = sheet.lying();
+    let font = match &sheet.font {
+        None => Font::named("technical")?,
+        Some(name) => {
+            let file = source.beside(name.get_ref());
+            let font = if file.is_file() { Font::open(&file) } else { Font::named(name.get_ref()) };
+            font.map_err(|error| source.about(&name.span(), error))?
+        }
+    };
+    let mut plan = Plan::new(sheet, source)?;
+    let items = if sheet.parts_list { list::items(&plan.sets[0].scene) } else { Vec::new() };
+    let space = frame::space(size);
+    let title = block::place(space);
+    let (columns, rows, high) = notes::list_size(items.len(), space.height() * 0.3);
+    if high > space.height() * 0.6 {
+        return Err(Error::new(format!("a list of {} items does not fit on this sheet", items.len()))
+            .in_file(&source.path)
+            .remedy("choose a larger size, hide parts with `hide`, or leave parts_list out"));
+    }
+    let list_place = Rect { y0: title.y0 - high, y1: title.y0, ..title };
+    let mut taken = vec![title];
+    if !items.is_empty() {
+        taken.push(list_place);
+    }
+    let mut written = Ink::new(&font, "note");
+    let notes = sheet.notes.join("\n");
+    if !notes.trim().is_empty() {
+        let corner = kurbo::Point::new(space.x0 + INSET + 12.0, 0.0);
+        let height = written.lines(&notes, corner, NOTES[0], NOTES[1])?;
+        let top = space.y1 - INSET - 2.0 - height;
+        written.marks =
+            written.marks.into_iter().map(|mark| mark.moved(kurbo::Vec2::new(0.0, top))).collect();
+        taken.push(Rect::new(corner.x, top, corner.x + NOTES[1], space.y1));
+    }
+    let taken: Vec<Rect> = taken.iter().map(|rect| rect.inflate(INSET, INSET)).collect();
+    let told = sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
+    let inner = space.inflate(-INSET, -INSET);
+    let scale = arrange(&mut plan.views, (inner, &taken), (sheet.projection, plan.unit_mm, told));
+    let Some(scale) = scale else {
+        let message = "the views do not fit on this sheet";
+        let remedy = "choose a larger size, fewer views or another scale";
+        return Err(match &sheet.scale {
+            Some(told) => source.fault(&told.span(), message, remedy),
+            None => Error::new(message).in_file(&source.path).remedy(remedy),
+        });
+    };
+
+    let (mut drawn, mut warnings) = views(&plan)?;
+    let mut ink = Ink::new(&font, "frame");
+    frame::draw(size, &mut ink)?;
+    drawn.insert(0, whole("frame", ink, size));
+    let mut ink = Ink::new(&font, "title-block");
+    let names = (&*scales::written(scale), sheet.projection, size_name(size));
+    block::draw(title, &sheet.title, names, &mut ink)?;
+    drawn.insert(1, whole("title-block", ink, size));
+    if !items.is_empty() {
+        let mut ink = Ink::new(&font, "parts-list");
+        notes::list(list_place, &items, (columns, rows), &mut ink)?;
+        drawn.push(whole("parts-list", ink, size));
+    }
+    if let Some(view) = plan.balloons {
+        let sight = &plan.views[view].sight;
+        let anchors = balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, &items);
+        for (item, anchor) in items.iter().zip(&anchors) {
+            if anchor.is_none() {
+                warnings.push(format!("nothing is seen of item '{}' in the view with balloons", item.name));
+            }
+        }
+        let mut ink = Ink::new(&font, "balloon");
+        notes::balloons(sight.rect(), &anchors, &mut ink)?;
+        drawn.push(whole("balloons", ink, size));
+    }
+    annotate(sheet, &plan, scale, &mut written, source)?;
+    drawn.push(whole("notes", written, size));
+    let page =
+        Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
+    let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
+    Ok(Composed { composition: Composition::new(name, page, drawn), warnings })
+}
+
+/// The views, each as an item; details are cut to their circles.
+fn views(plan: &Plan) -> Result<(Vec<Item>, Vec<String>), Error> {
+    let mut drawn: Vec<(usize, Item)> = Vec::new();
+    let mut warnings: Vec<String> = Vec::new();
+    for (number, Set { scene, style }) in plan.sets.iter().enumerate() {
+        let own: Vec<usize> = (0..plan.views.len()).filter(|view| plan.set_of[*view] == number).collect();
+        if own.is_empty() {
+            continue;
+        }
+        let prepared = Prepared::new(scene, style);
+        for view in own {
+            let (mut item, told) = plan.views[view].sight.item(&prepared)?;
+            if plan.circled.iter().any(|circled| circled.shown == view) {
+                item.clip = Some(notes::circle_of(&plan.views[view].sight).to_path(1e-3));
+            }
+            drawn.push((view, item));
+            for warning in scene.warnings.lines().into_iter().chain(told) {
+                if !warnings.contains(&warning) {
+                    warnings.push(warning);
+                }
+            }
+        }
+    }
+    drawn.sort_by_key(|(view, _)| *view);
+    Ok((drawn.into_iter().map(|(_, item)| item).collect(), warnings))
+}
+
+/// All that is written beside views.
+fn annotate(sheet: &SheetPage, plan: &Plan, scale: f64, ink: &mut Ink, source: &Source) -> Result<(), Error> {
+    notes::titles(plan, scale, ink)?;
+    for cut in &plan.cuts {
+        notes::cutting_plane(plan, cut, ink)?;
+    }
+    for circled in &plan.circled {
+        notes::circled(plan, circled, ink)?;
+    }
+    let is_single = plan.sets[0].scene.parts.len() == 1;
+    if sheet.centre_lines.unwrap_or(is_single) {
+        centre::centre_lines(plan, ink);
+    }
+    if sheet.overall.unwrap_or(true) {
+        notes::overall(plan, ink)?;
+    }
+    for keys in &sheet.dimension {
+        let view = match &keys.of {
+            Some(name) => plan.view(name, source)?,
+            None => plan.view(&Spanned::new(0..0, "front".to_owned()), source)?,
+        };
+        notes::told(plan, view, keys, ink)?;
+    }
+    Ok(())
+}
+
+/// What lies on the sheet as a whole.
+fn whole(name: &str, ink: Ink, size: Size) -> Item {
+    let drawing = ink.drawing(name, size.width, size.height);
+    Item { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }
+}

@@ -1,0 +1,299 @@
+//! [`Plan`]: the views of a sheet, and the scenes they show.
+
+use glam::DVec3;
+use toml::Spanned;
+
+use super::arrange::{Placed, Stands};
+use super::keys::{DetailKeys, SheetPage};
+use super::scales;
+use super::sight::Sight;
+use crate::error::Error;
+use crate::explode::{Explosion, explode, with_trails};
+use crate::lines::HiddenLines;
+use crate::math::glob::Glob;
+use crate::page::figure;
+use crate::page::source::Source;
+use crate::render::{hatched, trailed};
+use crate::scene::framing::world_points;
+use crate::scene::{Camera, NamedView, Scene};
+use crate::section::{CutPlane, Plane, cut};
+use crate::style::Style;
+
+/// A scene, and the style it is drawn in.
+pub(super) struct Set {
+    pub scene: Scene,
+    pub style: Style,
+}
+
+/// A plane that a section goes through, and the letter at both its ends.
+pub(super) struct CutLine {
+    pub label: String,
+    pub plane: Plane,
+}
+
+/// A circle around what is shown larger, in a view.
+pub(super) struct Circled {
+    pub label: String,
+    /// The view it is in, and the one that shows it.
+    pub of: usize,
+    pub shown: usize,
+    pub at: DVec3,
+    pub radius: f64,
+}
+
+/// The views of a sheet, and the scenes they show.
+pub(super) struct Plan {
+    /// The whole model first.
+    pub sets: Vec<Set>,
+    pub views: Vec<Placed>,
+    /// For each view its set.
+    pub set_of: Vec<usize>,
+    pub cuts: Vec<CutLine>,
+    pub circled: Vec<Circled>,
+    /// Millimetres in a unit of the model.
+    pub unit_mm: f64,
+    /// The middle of the model.
+    pub middle: DVec3,
+    /// The view with balloons, if any.
+    pub balloons: Option<usize>,
+}
+
+/// Room round a view for its balloons, mm.
+pub(super) const BALLOONS: f64 = 16.0;
+
+/// Views in which a section is taken from, by preference.
+const SIDES: [NamedView; 6] =
+    [NamedView::Front, NamedView::Left, NamedView::Top, NamedView::Right, NamedView::Bottom, NamedView::Back];
+
+impl Plan {
+    /// Reads the model, cuts it and takes it apart.
+    ///
+    /// # Errors
+    /// Points to the key that is wrong.
+    pub fn new(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
+        let name = sheet.style.clone().unwrap_or_else(|| Spanned::new(0..0, "technical".to_owned()));
+        let mut style = figure::style(&name, &sheet.set, source)?;
+        style.lines.hidden = if sheet.hidden { HiddenLines::Dashed } else { HiddenLines::None };
+        if sheet.model.0.is_empty() {
+            return Err(Error::new("this sheet shows no model")
+                .in_file(&source.path)
+                .remedy("name one: model = \"part.glb\""));
+        }
+        let scene = figure::staged(&sheet.model, None, None, &style, source)?;
+        let unit_mm = unit_mm(sheet.unit.as_ref(), &scene, source)?;
+        let (low, high) = scene.bounds().ok_or_else(|| {
+            Error::new("there is nothing to draw in the model")
+                .in_file(&source.path)
+                .remedy("name another one")
+        })?;
+        let points = world_points(&scene);
+        let mut plan = Self {
+            sets: Vec::new(),
+            views: Vec::new(),
+            set_of: Vec::new(),
+            cuts: Vec::new(),
+            circled: Vec::new(),
+            unit_mm,
+            middle: (low + high) / 2.0,
+            balloons: None,
+        };
+        let mut pictorial = style.clone();
+        pictorial.lines.hidden = HiddenLines::None;
+        let names = |text: &str| Spanned::new(0..0, text.to_owned());
+        let views = sheet.views.clone().unwrap_or_else(|| ["front", "top", "left", "iso"].map(names).into());
+        let views = views.iter().map(|name| named(name, source)).collect::<Result<Vec<_>, _>>()?;
+        for view in &views {
+            let stands = if SIDES.contains(view) { Stands::Beside(*view) } else { Stands::Alone };
+            let camera = Camera::named(*view, scene.up);
+            plan.add(view.name(), camera, &points, (0, stands, 0.0));
+        }
+        plan.sets.push(Set { scene, style: style.clone() });
+        plan.add_sections(sheet, &views, (&points, &pictorial), source)?;
+        if sheet.hidden && views.iter().any(|view| !SIDES.contains(view)) {
+            let scene = plan.sets[0].scene.clone();
+            plan.sets.push(Set { scene, style: pictorial.clone() });
+            for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
+                if *set == 0 && placed.stands == Stands::Alone {
+                    *set = plan.sets.len() - 1;
+                }
+            }
+        }
+        plan.add_exploded(sheet, &pictorial, source)?;
+        plan.choose_balloons(sheet, source)?;
+        let letters = plan.cuts.len();
+        for (k, detail) in sheet.detail.iter().enumerate() {
+            plan.add_detail(detail, letters + k, source)?;
+        }
+        Ok(plan)
+    }
+
+    fn add(
+        &mut self,
+        name: &str,
+        camera: Camera,
+        points: &[DVec3],
+        (set, stands, margin): (usize, Stands, f64),
+    ) {
+        let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
+        let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
+        let sight = Sight::new(&name, camera, self.middle, points);
+        self.views.push(Placed { sight, stands, margin });
+        self.set_of.push(set);
+    }
+
+    fn add_sections(
+        &mut self,
+        sheet: &SheetPage,
+        views: &[NamedView],
+        (points, style): (&[DVec3], &Style),
+        source: &Source,
+    ) -> Result<(), Error> {
+        let mut taken: Vec<NamedView> = views.to_vec();
+        for (k, keys) in sheet.section.iter().enumerate() {
+            let whole = &self.sets[0].scene;
+            let span = keys.plane.span();
+            let wrong = |message: String| source.fault(&span, "this is no plane", &message);
+            let told = CutPlane::parse(keys.plane.get_ref()).map_err(wrong)?;
+            let (normal, _) = told.normal();
+            let forward = |view: &NamedView| Camera::named(*view, whole.up).axes()[2];
+            let preferred = SIDES.iter().map(forward).find(|forward| forward.dot(normal).abs() > 1.0 - 1e-9);
+            let plane = told
+                .of(whole, self.unit_mm, preferred.unwrap_or(-normal))
+                .map_err(|error| source.about(&span, error))?;
+            let side = SIDES.into_iter().find(|view| forward(view).dot(plane.normal()) < -1.0 + 1e-9);
+            let camera = side.map_or_else(|| looking_at(&plane, whole), |view| Camera::named(view, whole.up));
+            let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
+            let mut section = cut(whole.clone(), &plane, &uncut);
+            let style = hatched(style, &section);
+            self.sets.push(Set { scene: std::mem::take(&mut section.scene), style });
+            let stands = match side.filter(|view| !taken.contains(view)) {
+                Some(view) => {
+                    taken.push(view);
+                    Stands::Beside(view)
+                }
+                None => Stands::Alone,
+            };
+            let label = keys.label.clone().unwrap_or_else(|| letter(k));
+            let set = self.sets.len() - 1;
+            self.add(&format!("section-{label}"), camera, points, (set, stands, 0.0));
+            if let Some(placed) = self.views.last_mut() {
+                placed.sight.title = Some(format!("{label}-{label}"));
+            }
+            self.cuts.push(CutLine { label, plane });
+        }
+        Ok(())
+    }
+
+    fn add_exploded(&mut self, sheet: &SheetPage, style: &Style, source: &Source) -> Result<(), Error> {
+        let Some(keys) = &sheet.exploded else { return Ok(()) };
+        let axis = match &keys.axis {
+            None => None,
+            Some(axis) => Some(match &**axis.get_ref() {
+                "x" => DVec3::X,
+                "y" => DVec3::Y,
+                "z" => DVec3::Z,
+                _ => return Err(source.unknown(axis, "axis", &["x", "y", "z"])),
+            }),
+        };
+        let factor = keys.factor.as_ref().map_or(1.0, |factor| *factor.get_ref());
+        if let Some(told) = keys.factor.as_ref().filter(|_| !(0.0..=1000.0).contains(&factor)) {
+            return Err(source.fault(
+                &told.span(),
+                "parts cannot come apart so far",
+                "write a number from 0 to 1000",
+            ));
+        }
+        let view = keys.view.as_ref().map_or(Ok(NamedView::Iso), |view| named(view, source))?;
+        let whole = &self.sets[0].scene;
+        let ways = explode(whole, &Explosion { axis, factor });
+        let scene = with_trails(whole.clone(), &ways);
+        let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
+        self.sets.push(Set { scene, style: trailed(style) });
+        let set = self.sets.len() - 1;
+        self.add("exploded", camera, &points, (set, Stands::Free, 0.0));
+        Ok(())
+    }
+
+    fn choose_balloons(&mut self, sheet: &SheetPage, source: &Source) -> Result<(), Error> {
+        if !sheet.parts_list {
+            return Ok(());
+        }
+        let find = |name: &str| self.views.iter().position(|view| view.sight.name == name);
+        let chosen = match &sheet.balloons {
+            Some(name) if name.get_ref() == "none" => None,
+            Some(name) => Some(self.view(name, source)?),
+            None => find("exploded").or_else(|| find("iso")).or(Some(0)),
+        };
+        if let Some(placed) = chosen.and_then(|k| self.views.get_mut(k)) {
+            placed.margin += BALLOONS;
+        }
+        self.balloons = chosen;
+        Ok(())
+    }
+
+    fn add_detail(&mut self, keys: &DetailKeys, number: usize, source: &Source) -> Result<(), Error> {
+        let of = keys.of.as_ref().map_or(Ok(0), |of| self.view(of, source))?;
+        let radius = *keys.radius.get_ref();
+        if !(radius.is_finite() && radius > 0.0) {
+            return Err(source.fault(
+                &keys.radius.span(),
+                "this is no radius",
+                "write units of the model above 0",
+            ));
+        }
+        let label = keys.label.clone().unwrap_or_else(|| letter(number));
+        let at = DVec3::from_array(keys.at);
+        let mut sight = self.views[of].sight.around(&format!("detail-{label}"), at, radius);
+        sight.title = Some(label.clone());
+        // Twice or two and a half times as large for each step of the series; two of them are about five times.
+        let stands = match &keys.scale {
+            None => Stands::Enlarged(5.0),
+            Some(told) => Stands::At(read_scale(told, source)?),
+        };
+        self.circled.push(Circled { label, of, shown: self.views.len(), at, radius });
+        self.views.push(Placed { sight, stands, margin: 0.0 });
+        self.set_of.push(self.set_of[of]);
+        Ok(())
+    }
+
+    /// The number of a view by its name.
+    pub fn view(&self, name: &Spanned<String>, source: &Source) -> Result<usize, Error> {
+        let names: Vec<&str> = self.views.iter().map(|view| view.sight.name.as_str()).collect();
+        names
+            .iter()
+            .position(|known| known == name.get_ref())
+            .ok_or_else(|| source.unknown(name, "view on this sheet", &names))
+    }
+}
+
+/// Reads a scale.
+pub(super) fn read_scale(told: &Spanned<String>, source: &Source) -> Result<f64, Error> {
+    scales::read(told.get_ref())
+        .ok_or_else(|| source.fault(&told.span(), "this is no scale", "write such as 1:5 or 2:1"))
+}
+
+fn named(name: &Spanned<String>, source: &Source) -> Result<NamedView, Error> {
+    let known: Vec<&str> = NamedView::ALL.map(NamedView::name).into();
+    NamedView::parse(name.get_ref()).ok_or_else(|| source.unknown(name, "view", &known))
+}
+
+fn unit_mm(told: Option<&Spanned<String>>, scene: &Scene, source: &Source) -> Result<f64, Error> {
+    const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
+    let Some(told) = told else { return Ok(if scene.format == "glTF" { 1000.0 } else { 1.0 }) };
+    let found = UNITS.iter().find(|(name, _)| name == told.get_ref());
+    found.map(|(_, mm)| *mm).ok_or_else(|| source.unknown(told, "unit", &UNITS.map(|(name, _)| name)))
+}
+
+/// A, B, C and so on.
+fn letter(number: usize) -> String {
+    let letters: Vec<char> = ('A'..='Z').filter(|c| !matches!(c, 'I' | 'O' | 'Q')).collect();
+    letters.get(number).map_or_else(|| format!("S{number}"), char::to_string)
+}
+
+/// A camera that looks at a plane from the front.
+fn looking_at(plane: &Plane, scene: &Scene) -> Camera {
+    let up = Camera::named(NamedView::Front, scene.up).up;
+    let normal = plane.normal();
+    let up = if normal.cross(up).length() < 1e-6 { Camera::named(NamedView::Top, scene.up).up } else { up };
+    Camera { eye: normal, target: DVec3::ZERO, up, ..Camera::named(NamedView::Front, scene.up) }
+}

@@ -1,0 +1,181 @@
+//! [`cut`]: a scene without what lies in front of a plane, closed where it was cut open.
+//!
+//! ```
+//! use ligne::Scene;
+//! use ligne::glam::DVec3;
+//! use ligne::section::{Plane, cut};
+//!
+//! let scene = Scene::open("examples/models/pump.glb")?;
+//! let (low, high) = scene.bounds().unwrap_or_default();
+//! if let Some(plane) = Plane::new((low + high) / 2.0, DVec3::Z) {
+//!     let section = cut(scene, &plane, &[]);
+//!     assert!(section.faces.iter().all(|face| face.area > 0.0));
+//! }
+//! # Ok::<(), ligne::Error>(())
+//! ```
+
+mod cap;
+mod clip;
+mod differing;
+pub mod plane;
+pub mod told;
+
+use glam::{DAffine3, DVec2};
+
+pub use plane::Plane;
+pub use told::CutPlane;
+
+use crate::math::glob::Glob;
+use crate::math::tolerance;
+use crate::mesh::{EdgeMark, weld};
+use crate::scene::{Alpha, Geometry, Material, Part, Scene};
+use clip::Clipped;
+
+/// A scene that is cut open.
+#[derive(Debug, Clone, Default)]
+pub struct Section {
+    /// What lies behind the plane.
+    pub scene: Scene,
+    /// The faces along the plane: one entry a part that has any, in the order of parts.
+    pub faces: Vec<CutFaces>,
+}
+
+/// The faces of a part along the plane that cuts it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutFaces {
+    /// The part, an index into the parts of the scene that is left.
+    pub part: usize,
+    /// Their material, an index into [`Scene::materials`], which nothing else has: it looks like the part's.
+    pub material: u32,
+    /// Their area, units of the model squared.
+    pub area: f64,
+    /// The box around them along the axes of the plane: least and greatest coordinates.
+    pub bounds: [DVec2; 2],
+    /// A small number that parts whose faces touch have different ones of.
+    pub kind: usize,
+}
+
+/// The name of the material of cut faces, by the number that tells neighbours apart.
+#[must_use]
+pub fn material_name(kind: usize) -> String {
+    format!("cut {}", kind + 1)
+}
+
+/// Cuts a scene along a plane, and leaves what lies behind it.
+///
+/// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
+/// the part. They cover what the part's outlines in the plane go round, by number of turns. Outlines that do not close, where a surface
+/// is open, are left open and counted in the warnings of the scene. Of parts whose name fits `uncut` nothing is cut off where the plane goes through them.
+#[must_use]
+pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
+    let mut keep = vec![true; scene.parts.len()];
+    let mut caps = Vec::new();
+    let mut unclosed = 0;
+    // What has no material looks like the one after the last, which is another one when there are more.
+    let plain = scene.materials.len() as u32;
+    scene.materials.push(Material::default());
+    for (number, keep) in keep.iter_mut().enumerate() {
+        let part = &scene.parts[number];
+        let stays = uncut.iter().any(|glob| glob.matches(&part.name));
+        let Some(shape) = scene.geometry_of(part) else { continue };
+        let place = part.world_from_part;
+        let (behind, before) = clip::reaches(shape, &place, plane);
+        if !before {
+            continue;
+        }
+        if !behind {
+            *keep = false;
+            continue;
+        }
+        if stays {
+            continue;
+        }
+        let mut left = clipped(shape, &place, plane);
+        let faces = cap::cap(&mut left, plane);
+        unclosed += faces.unclosed;
+        *keep = !(left.geometry.triangles.is_empty() && left.geometry.wires.is_empty());
+        let looks = shape.material_of(0).unwrap_or(plain);
+        let Part { geometry, world_from_part, .. } = &mut scene.parts[number];
+        (*geometry, *world_from_part) = (scene.geometries.len(), DAffine3::IDENTITY);
+        if let Some(bounds) = faces.bounds {
+            let material = scene.materials.len() as u32;
+            scene.materials.push(cut_material(scene.materials.get(looks as usize)));
+            let own = close(&mut left.geometry, &faces, material, looks);
+            scene.geometries.push(own);
+            caps.push(CutFaces { part: number, material, area: faces.area, bounds, kind: 0 });
+        } else {
+            scene.geometries.push(left.geometry);
+        }
+    }
+    differing::number(&mut caps);
+    let names: Vec<usize> = scene.retain_parts(&keep);
+    for faces in &mut caps {
+        faces.part = names[faces.part];
+        scene.materials[faces.material as usize].name = material_name(faces.kind);
+    }
+    scene.warnings.count("outlines of cut surfaces that do not close, and are left open", unclosed);
+    Section { scene, faces: caps }
+}
+
+/// What is left of a shape; where its outlines do not close, vertices that nearly meet are joined as the mesh does it.
+fn clipped(shape: &Geometry, place: &DAffine3, plane: &Plane) -> Clipped {
+    let cut = clip::clip(shape, place, plane, None);
+    let (_, unclosed) = cap::closed(&cut);
+    if unclosed == 0 {
+        return cut;
+    }
+    let world: Vec<_> =
+        shape.positions.iter().map(|p| place.transform_point3(*p) + glam::DVec3::ZERO).collect();
+    let mut used: Vec<u32> = shape.triangles.as_flattened().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let corner = |v: &u32| world.get(*v as usize).copied();
+    let (mut low, mut high) = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
+    for p in used.iter().filter_map(corner) {
+        (low, high) = (low.min(p), high.max(p));
+    }
+    let mut reach = (high - low).length() * tolerance::WELD_OF_PART;
+    if shape.single_precision {
+        reach = reach.max(low.abs().max(high.abs()).max_element() * tolerance::WELD_OF_F32_COORDINATE);
+    }
+    let reaches = vec![reach; used.len()];
+    let Some(joined) = weld::near(&world, &used, &reaches) else { return cut };
+    let again = clip::clip(shape, place, plane, Some(&joined));
+    let (_, still) = cap::closed(&again);
+    if still < unclosed { again } else { cut }
+}
+
+/// The material of cut faces of a part that looks so.
+fn cut_material(of: Option<&Material>) -> Material {
+    let own = of.cloned().unwrap_or_default();
+    Material {
+        name: String::new(),
+        texture: None,
+        picture: None,
+        opacity_map: None,
+        alpha: Alpha::Opaque,
+        transmission: 0.0,
+        gloss: None,
+        ..own
+    }
+}
+
+/// Adds the cut faces to what is left of a shape.
+fn close(left: &mut Geometry, faces: &cap::Cap, material: u32, looks: u32) -> Geometry {
+    let mut shape = std::mem::take(left);
+    let before = shape.triangles.len();
+    if shape.triangle_material.is_empty() {
+        shape.triangle_material.resize(before, looks);
+    }
+    shape.triangles.extend(&faces.triangles);
+    shape.triangle_material.resize(shape.triangles.len(), material);
+    if !shape.corner_normals.is_empty() {
+        shape.corner_normals.resize(shape.triangles.len(), [u32::MAX; 3]);
+    }
+    if !shape.corner_uvs.is_empty() {
+        shape.corner_uvs.resize(shape.triangles.len(), [u32::MAX; 3]);
+    }
+    shape.edge_marks.resize(before, [EdgeMark::Unmarked; 3]);
+    shape.edge_marks.extend(&faces.marks);
+    shape
+}

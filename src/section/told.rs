@@ -1,0 +1,158 @@
+//! [`CutPlane`]: a plane as it is told: `x`, `y=12.5`, `z=50%`, `normal:1,0,1@5mm`.
+
+use glam::DVec3;
+
+use super::Plane;
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// A plane as it is told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CutPlane {
+    normal: DVec3,
+    /// Whether what lies where the normal points is taken away, whatever the eye.
+    signed: bool,
+    at: At,
+}
+
+/// How far along its normal a plane lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum At {
+    /// Units of the model from its zero.
+    Units(f64),
+    /// Millimetres from its zero.
+    Mm(f64),
+    /// A share of the model's extent.
+    Share(f64),
+}
+
+/// Units of length, in mm.
+const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
+
+impl CutPlane {
+    /// Reads a plane: an axis (through the middle of the model), or `normal:` and a direction behind `@`; where it lies along that, in
+    /// units of the model, in mm, cm, m, in or ft, or as a share of its extent; and before it a sign that says which side is taken
+    /// away.
+    ///
+    /// # Errors
+    /// Says what would be right.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let wrong = || {
+            "write a plane such as x, y=12.5, z=10mm, x=30% or normal:1,0,1@5; + or - before it takes that side away"
+            .to_owned()
+        };
+        let text = text.trim();
+        let (sign, rest) = match (text.strip_prefix('+'), text.strip_prefix('-')) {
+            (Some(rest), _) => (Some(1.0), rest),
+            (_, Some(rest)) => (Some(-1.0), rest),
+            _ => (None, text),
+        };
+        let (normal, at) = match rest.strip_prefix("normal:") {
+            Some(rest) => {
+                let (normal, at) =
+                    rest.split_once('@').map_or((rest, None), |(normal, at)| (normal, Some(at)));
+                let numbers: Vec<f64> = normal.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+                match numbers.as_slice() {
+                    [x, y, z] if normal.split(',').count() == 3 => (DVec3::new(*x, *y, *z), at),
+                    _ => return Err(wrong()),
+                }
+            }
+            None => {
+                let (axis, at) = rest.split_once('=').map_or((rest, None), |(axis, at)| (axis, Some(at)));
+                let normal = match axis.trim() {
+                    "x" | "X" => DVec3::X,
+                    "y" | "Y" => DVec3::Y,
+                    "z" | "Z" => DVec3::Z,
+                    _ => return Err(wrong()),
+                };
+                (normal, at)
+            }
+        };
+        let at = match at.map(str::trim) {
+            None => At::Share(0.5),
+            Some(at) => match at.strip_suffix('%') {
+                Some(percent) => At::Share(percent.trim().parse::<f64>().map_err(|_| wrong())? / 100.0),
+                None if at.ends_with(|c: char| c.is_ascii_alphabetic()) => {
+                    let number = at.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+                    let unit =
+                        UNITS.iter().find(|(name, _)| *name == &at[number.len()..]).ok_or_else(wrong)?;
+                    At::Mm(number.trim().parse::<f64>().map_err(|_| wrong())? * unit.1)
+                }
+                None => At::Units(at.parse().map_err(|_| wrong())?),
+            },
+        };
+        let (At::Units(number) | At::Mm(number) | At::Share(number)) = at;
+        let normal = normal.try_normalize().filter(|_| number.is_finite()).ok_or_else(wrong)?;
+        // Where the plane lies is told along the axis itself, whichever side goes.
+        Ok(CutPlane { normal: normal * sign.unwrap_or(1.0), signed: sign.is_some(), at: at.turned(sign) })
+    }
+
+    /// Its normal, and whether that tells the side that is taken away.
+    #[must_use]
+    pub fn normal(&self) -> (DVec3, bool) {
+        (self.normal, self.signed)
+    }
+
+    /// The plane in a scene whose unit is so many mm, of which what is in front is taken away: where no sign tells it, what is on the
+    /// side of an eye that looks in the direction `forward`.
+    ///
+    /// # Errors
+    /// If the plane lies beside the model.
+    pub fn of(&self, scene: &Scene, unit_mm: f64, forward: DVec3) -> Result<Plane, Error> {
+        let (low, high) = scene.bounds().unwrap_or_default();
+        let corner = |k: usize| {
+            let pick = |bit: usize| if k >> bit & 1 == 0 { low } else { high };
+            DVec3::new(pick(0).x, pick(1).y, pick(2).z).dot(self.normal)
+        };
+        let places: [f64; 8] = std::array::from_fn(corner);
+        let least = places.into_iter().fold(f64::INFINITY, f64::min);
+        let most = places.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let at = match self.at {
+            At::Units(at) => at,
+            At::Mm(mm) => mm / unit_mm,
+            At::Share(share) => least + (most - least) * share,
+        };
+        if !(least..=most).contains(&at) {
+            return Err(Error::new(format!(
+                "the plane lies beside the model, which reaches from {least} to {most} there"
+            ))
+            .remedy("move the plane, or give a share of the extent such as x=50%"));
+        }
+        let plane = Plane::new(self.normal * at, self.normal)
+            .ok_or_else(|| Error::new("this is no plane").remedy("give a plane such as x=50%"))?;
+        let before_it = self.signed || plane.normal().dot(forward) <= 0.0;
+        Ok(if before_it { plane } else { plane.turned() })
+    }
+}
+
+impl At {
+    fn turned(self, sign: Option<f64>) -> Self {
+        match self {
+            _ if sign != Some(-1.0) => self,
+            Self::Units(x) => Self::Units(-x),
+            Self::Mm(x) => Self::Mm(-x),
+            Self::Share(x) => Self::Share(1.0 - x),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_planes() {
+        let plane = |normal, signed, at| Ok(CutPlane { normal, signed, at });
+        assert_eq!(CutPlane::parse("x"), plane(DVec3::X, false, At::Share(0.5)));
+        assert_eq!(CutPlane::parse("y=12.5"), plane(DVec3::Y, false, At::Units(12.5)));
+        assert_eq!(CutPlane::parse("+z = 1cm"), plane(DVec3::Z, true, At::Mm(10.0)));
+        assert_eq!(CutPlane::parse("-x=25%"), plane(DVec3::NEG_X, true, At::Share(0.75)));
+        assert_eq!(CutPlane::parse("-x=-3"), plane(DVec3::NEG_X, true, At::Units(3.0)));
+        assert_eq!(CutPlane::parse("normal:0,0,2@4"), plane(DVec3::Z, false, At::Units(4.0)));
+        for wrong in
+            ["", "w", "x=", "x=a", "x=5furlong", "normal:1,2", "normal:0,0,0", "x=nan", "normal:1,0,0@"]
+        {
+            assert!(CutPlane::parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}

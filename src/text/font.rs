@@ -1,0 +1,233 @@
+//! [`Font`]: a font of a file, or one that comes with the project, with its letters' outlines.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use kurbo::{BezPath, Rect, Shape};
+use skrifa::font::metrics::LineBox;
+use skrifa::font::name::NameId;
+use skrifa::font::{Font as Face, glyph::outline::PathSink};
+use skrifa::{DrawMemory, GlyphId, ScalerFont};
+
+use crate::drawing::FontFile;
+use crate::error::{Error, ErrorKind};
+
+/// The fonts that come with the project, in the order in which they stand in for others.
+const SHIPPED: [(&str, &[u8]); 3] = [
+    ("comic", include_bytes!("../../fonts/ComicNeue-Bold.otf")),
+    ("technical", include_bytes!("../../fonts/RoutedGothic.ttf")),
+    ("plain", include_bytes!("../../fonts/B612-Regular.otf")),
+];
+
+/// Files that are larger are no fonts one would set a page with.
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// A font. Variable ones are as they are by default. Copies share what they hold.
+#[derive(Clone)]
+pub struct Font {
+    inner: Arc<Inner>,
+}
+
+struct Inner {
+    /// As a reader is to know it.
+    name: String,
+    file: Arc<FontFile>,
+    face: Face,
+    scaler: ScalerFont,
+    units_per_em: f64,
+}
+
+impl std::fmt::Debug for Font {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Font({})", self.inner.name)
+    }
+}
+
+impl PartialEq for Font {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner) || self.inner.file == other.inner.file
+    }
+}
+
+impl Font {
+    /// Names of the fonts that come with the project.
+    #[must_use]
+    pub fn names() -> Vec<&'static str> {
+        SHIPPED.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// A font that comes with the project.
+    ///
+    /// # Errors
+    /// Returns an error if there is none of that name.
+    pub fn named(name: &str) -> Result<Self, Error> {
+        match SHIPPED.iter().find(|(known, _)| *known == name) {
+            Some((_, bytes)) => Self::from_bytes(bytes),
+            None => Err(Error::new(format!("there is no font `{name}`"))
+                .remedy(format!("choose {}, or name a TTF or OTF file", Self::names().join(", ")))),
+        }
+    }
+
+    /// A font of a TTF or OTF file; of a collection the first.
+    ///
+    /// # Errors
+    /// Returns an error that names the file if it cannot be read or is no font.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let read = || {
+            let length = std::fs::metadata(path)?.len();
+            if length > LARGEST_FILE {
+                return Ok(Vec::new());
+            }
+            std::fs::read(path)
+        };
+        let bytes = read().map_err(|error| Error::io("cannot be read", error).in_file(path))?;
+        Self::from_bytes(&bytes).map_err(|error| error.in_file(path))
+    }
+
+    /// A font by the name of one that comes with the project, or by its file.
+    ///
+    /// # Errors
+    /// Returns an error if it is neither.
+    pub fn of(name_or_file: &str) -> Result<Self, Error> {
+        let is_name = !name_or_file.contains(['/', '\\', '.']);
+        if is_name { Self::named(name_or_file) } else { Self::open(name_or_file) }
+    }
+
+    /// A font of the bytes of a TTF or OTF file; of a collection the first.
+    ///
+    /// # Errors
+    /// Returns an error if they are no font, or one without outlines.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let remedy = "give a TTF or OTF file with outlines";
+        let refused = |what: &str| Error::new(what).of_kind(ErrorKind::Unsupported).remedy(remedy);
+        let data: Arc<[u8]> = Arc::from(bytes);
+        let held = Arc::clone(&data);
+        let blob: Arc<dyn AsRef<[u8]> + Send + Sync> = Arc::new(held);
+        let face = Face::new(skrifa::font::Blob::from(blob), 0).ok_or_else(|| refused("is no font"))?;
+        let scaler = ScalerFont::force_unhinted(face.clone(), None);
+        if scaler.outline_source().is_none() || face.num_glyphs() == 0 {
+            return Err(refused("is a font without outlines"));
+        }
+        let named = |id: NameId| -> Option<String> {
+            let name = face.names().get(id)?.english_or_first()?.name().chars().collect::<String>();
+            (!name.trim().is_empty()).then(|| name.trim().to_owned())
+        };
+        let name = named(NameId::FULL_NAME).or_else(|| named(NameId::FAMILY_NAME));
+        let name = name.unwrap_or_else(|| "a font without a name".to_owned());
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
+        let postscript = named(NameId::POSTSCRIPT_NAME).unwrap_or_else(|| name.clone());
+        let postscript: String = postscript.chars().filter(|c| plain(*c)).take(63).collect();
+        let units_per_em = f64::from(face.units_per_em());
+        let metrics = face.metrics();
+        let line = metrics.h_line().unwrap_or_else(LineBox::default);
+        let bounds = metrics.bounds;
+        let bounds =
+            [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(|x| x.to_f64() / units_per_em);
+        let mut file = FontFile {
+            embeddable: embeddable(&data),
+            data,
+            name: if postscript.is_empty() { "Font".to_owned() } else { postscript },
+            bounds: Rect::new(bounds[0], bounds[1], bounds[2], bounds[3]),
+            ascent: line.ascender.to_f64() / units_per_em,
+            descent: line.descender.to_f64() / units_per_em,
+            cap_height: 0.0,
+            italic_deg: face.style_metrics().italic_angle.map_or(0.0, |angle| angle.to_f64()),
+        };
+        let told =
+            metrics.cap_height.map(|height| height.to_f64() / units_per_em).filter(|height| *height > 0.0);
+        let drawn = || {
+            let glyph = face.charmap().map_unicode('H')?;
+            let height = -outline(&scaler, glyph, units_per_em).bounding_box().y0;
+            (height > 0.0).then_some(height)
+        };
+        file.cap_height = told.or_else(drawn).unwrap_or(0.7);
+        let inner = Inner { name, file: Arc::new(file), face, scaler, units_per_em };
+        Ok(Self { inner: Arc::new(inner) })
+    }
+
+    /// What readers know it by, such as `Comic Neue Bold`.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// Its file, for documents that hold it.
+    #[must_use]
+    pub fn file(&self) -> &Arc<FontFile> {
+        &self.inner.file
+    }
+
+    /// The outline of a letter by its number in the font, in ems with y down, standing at (0, 0); empty for blanks.
+    #[must_use]
+    pub fn outline(&self, glyph: u16) -> BezPath {
+        outline(&self.inner.scaler, GlyphId::from(glyph), self.inner.units_per_em)
+    }
+
+    /// The font as shaping wants it.
+    pub(super) fn face(&self) -> &Face {
+        &self.inner.face
+    }
+
+    /// The font's units in an em.
+    pub(super) fn units_per_em(&self) -> f64 {
+        self.inner.units_per_em
+    }
+}
+
+/// The outline of a letter, in ems with y down.
+fn outline(scaler: &ScalerFont, glyph: GlyphId, units_per_em: f64) -> BezPath {
+    let mut sink = Outline { path: BezPath::new(), units_per_em };
+    if let Some(outline) = scaler.outline(glyph)
+        && outline.draw(DrawMemory::Scratch, &mut sink).is_err()
+    {
+        return BezPath::new();
+    }
+    sink.path
+}
+
+/// A path that is drawn in units of a font.
+struct Outline {
+    path: BezPath,
+    units_per_em: f64,
+}
+
+impl Outline {
+    fn at(&self, x: f32, y: f32) -> (f64, f64) {
+        (f64::from(x) / self.units_per_em, -f64::from(y) / self.units_per_em)
+    }
+}
+
+impl PathSink for Outline {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.path.move_to(self.at(x, y));
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.path.line_to(self.at(x, y));
+    }
+
+    fn quad_to(&mut self, cx0: f32, cy0: f32, x: f32, y: f32) {
+        self.path.quad_to(self.at(cx0, cy0), self.at(x, y));
+    }
+
+    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
+        self.path.curve_to(self.at(cx0, cy0), self.at(cx1, cy1), self.at(x, y));
+    }
+
+    fn close(&mut self) {
+        self.path.close_path();
+    }
+}
+
+/// Whether the font says that documents may hold parts of it: bits of `fsType` in the table OS/2 (OpenType 1.9).
+fn embeddable(bytes: &[u8]) -> bool {
+    let flags = || -> Option<u16> {
+        let face = skrifa::FontRef::from_index(bytes, 0).ok()?;
+        let table = face.table_data(skrifa::Tag::new(b"OS/2"))?;
+        table.read_at::<u16>(8).ok()
+    };
+    let flags = flags().unwrap_or(0);
+    let (usage, no_parts, pixels_only) = (flags & 0xf, flags & 0x100 != 0, flags & 0x200 != 0);
+    usage != 2 && !no_parts && !pixels_only
+}

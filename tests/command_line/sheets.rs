@@ -1,0 +1,56 @@
+//! Models cut open and taken apart by `ligne draw`, and sheets to start from.
+
+use crate::folder::Folder;
+
+#[test]
+fn sections_are_hatched_and_closed() {
+    let folder = Folder::with_cubes("section");
+    folder.ligne("draw cubes.obj whole.svg --view front").done();
+    let cut = folder.ligne("draw cubes.obj cut.svg --view front --section z --quiet");
+    assert!(cut.done().err.is_empty());
+    let svg = folder.text("cut.svg");
+    let hatched =
+        |svg: &str, part: &str| svg.contains(&format!("<path class=\"pattern\" data-part=\"{part}\""));
+    assert!(hatched(&svg, "base") && hatched(&svg, "knob"), "{svg}");
+    assert!(!folder.text("whole.svg").contains("pattern"));
+    folder.ligne("draw cubes.obj one.svg --view front --section z --uncut knob").done();
+    let svg = folder.text("one.svg");
+    assert!(hatched(&svg, "base") && !hatched(&svg, "knob"), "{svg}");
+    // The frame stays that of the whole model; both sides of a plane may go.
+    for plane in ["x=0.5", "+x=0.5", "-x=0.5", "y=20%", "x=1mm", "normal:1,1,0@0.2"] {
+        folder.ligne(&format!("draw cubes.obj a.svg --section {plane}")).done();
+    }
+    assert_ne!(folder.text("a.svg"), svg);
+}
+
+#[test]
+fn explosions_have_trails() {
+    let folder = Folder::with_cubes("explode");
+    folder.ligne("draw cubes.obj a.svg --view front --explode y:20").done();
+    let svg = folder.text("a.svg");
+    assert!(svg.contains("class=\"wire\"") && svg.contains("data-part=\"trail\""), "{svg}");
+    folder.ligne("draw cubes.obj b.svg --view front --explode y:30").done();
+    assert_ne!(svg, folder.text("b.svg"));
+    folder.ligne("draw cubes.obj c.svg --view front --explode auto").done();
+}
+
+#[test]
+fn wrong_planes_and_axes_are_refused() {
+    let folder = Folder::with_cubes("section-wrong");
+    folder.ligne("draw cubes.obj a.svg --section w").refused("write a plane such as");
+    folder.ligne("draw cubes.obj a.svg --section x=99").refused("beside the model");
+    folder.ligne("draw cubes.obj a.svg --uncut knob").refused("--section");
+    folder.ligne("draw cubes.obj a.svg --explode w").refused("x, y, z or auto");
+    folder.ligne("animate cubes.obj a.gif --turntable 3 --section x").refused("neither cut open");
+}
+
+#[test]
+fn a_sheet_to_start_from_draws_at_once() {
+    let folder = Folder::new("new-sheet");
+    folder.ligne("page --new sheet sheet.toml").done();
+    folder.ligne("page sheet.toml a.svg").done();
+    let svg = folder.text("a.svg");
+    for name in ["frame", "title-block", "parts-list", "balloons", "section-A", "exploded", "top", "left"] {
+        assert!(svg.contains(&format!("id=\"{name}\"")), "{name}");
+    }
+}

@@ -1,0 +1,351 @@
+//! Technical sheets: figures of the standards, views that stand in line, values of lengths, leaders, what is refused.
+
+use std::fs;
+use std::path::PathBuf;
+
+use ligne::drawing::{Item, Mark, Paint};
+use ligne::kurbo::{Affine, PathEl, Point, Rect, Shape};
+use ligne::page::sheet::balloons::{cross, leaders, slots};
+use ligne::page::{Composed, PageFile};
+
+use crate::support::dice::Dice;
+use crate::support::solids::{Solid, cuboid};
+
+/// A folder of this test's own.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("ligne-sheets-{}-{name}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// An OBJ file of named solids.
+fn obj(parts: &[(String, Solid)]) -> String {
+    let mut text = String::new();
+    let mut first = 1;
+    for (name, solid) in parts {
+        text += &format!("o {name}\n");
+        for p in &solid.positions {
+            text += &format!("v {} {} {}\n", p.x, p.y, p.z);
+        }
+        for [a, b, c] in &solid.triangles {
+            text += &format!("f {} {} {}\n", a + first, b + first, c + first);
+        }
+        first += solid.positions.len() as u32;
+    }
+    text
+}
+
+fn block(low: [f64; 3], high: [f64; 3]) -> Solid {
+    cuboid(low.into(), high.into())
+}
+
+/// A sheet with these keys of a step of 60 x 40 x 30.
+fn sheet(name: &str, keys: &str) -> Result<Composed, ligne::Error> {
+    let folder = folder(name);
+    let mut step = block([0.0, 0.0, 0.0], [60.0, 30.0, 20.0]);
+    step.add(block([0.0, 0.0, 20.0], [25.0, 30.0, 40.0]));
+    fs::write(folder.join("step.obj"), obj(&[("step".into(), step)])).expect("written");
+    let text = format!("[page]\nkind = 'sheet'\nmodel = {{ file = 'step.obj', up = 'z' }}\n{keys}");
+    let composed = PageFile::from_text(&text, folder.join("sheet.toml"))?.compose()?;
+    fs::remove_dir_all(&folder).expect("removed");
+    Ok(composed.into_iter().next().expect("a page"))
+}
+
+fn item<'a>(composed: &'a Composed, name: &str) -> &'a Item {
+    let found = composed.composition.items.iter().find(|item| item.name == name);
+    found.unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn marks(item: &Item) -> impl Iterator<Item = (Affine, &Mark)> {
+    item.drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| (item.place, mark))
+}
+
+/// The box around the middles of all lines of an item.
+fn bounds(item: &Item) -> Rect {
+    let boxes = marks(item).map(|(place, mark)| (place * mark.path.clone()).bounding_box());
+    boxes.reduce(|a, b| a.union(b)).expect("something drawn")
+}
+
+fn words(item: &Item) -> Vec<String> {
+    marks(item).filter_map(|(_, mark)| Some(mark.provenance.text.as_ref()?.words.to_string())).collect()
+}
+
+fn width(mark: &Mark) -> f64 {
+    match &mark.paint {
+        Paint::Stroke(stroke) => stroke.width,
+        _ => 0.0,
+    }
+}
+
+fn near(a: Rect, b: Rect) -> bool {
+    [a.x0 - b.x0, a.y0 - b.y0, a.x1 - b.x1, a.y1 - b.y1].into_iter().all(|d| d.abs() < 0.01)
+}
+
+/// Whether a stroke of that width has that box.
+fn has(item: &Item, wide: f64, rect: Rect) -> bool {
+    marks(item).any(|(_, mark)| width(mark) == wide && near(mark.path.bounding_box(), rect))
+}
+
+#[test]
+fn frames_and_title_blocks_are_where_the_standards_say() {
+    for (name, w, h) in [
+        ("A4", 210.0, 297.0),
+        ("A3", 420.0, 297.0),
+        ("A2", 594.0, 420.0),
+        ("A1", 841.0, 594.0),
+        ("A0", 1189.0, 841.0),
+    ] {
+        let composed = sheet(name, &format!("size = '{name}'\nviews = ['front']\n")).expect("a sheet");
+        let page = composed.composition.page;
+        assert_eq!([page.width, page.height], [w, h], "{name}");
+        let frame = item(&composed, "frame");
+        // ISO 5457, 4.2 and 4.4: 20 mm on the left, 10 mm elsewhere, 0.7 mm wide; zones in a band of 5 mm.
+        assert!(has(frame, 0.7, Rect::new(20.0, 10.0, w - 10.0, h - 10.0)), "{name}");
+        assert!(has(frame, 0.35, Rect::new(15.0, 5.0, w - 5.0, h - 5.0)), "{name}");
+        // Centring marks from the border of the zones to 10 mm within the frame, on both axes of the sheet.
+        let (x, y) = (w / 2.0, h / 2.0);
+        for mark in [
+            Rect::new(15.0, y, 30.0, y),
+            Rect::new(w - 20.0, y, w - 5.0, y),
+            Rect::new(x, 5.0, x, 20.0),
+            Rect::new(x, h - 20.0, x, h - 5.0),
+        ] {
+            assert!(has(frame, 0.7, mark), "{name}: {mark:?}");
+        }
+        // Trimming marks of 10 x 5 mm at the corners.
+        for (px, py) in [(0.0, 0.0), (w, 0.0), (0.0, h), (w, h)] {
+            for (a, b) in [(10.0, 5.0), (5.0, 10.0)] {
+                let corner =
+                    Point::new(if px > 0.0 { w - a } else { 0.0 }, if py > 0.0 { h - b } else { 0.0 });
+                let own = Rect::from_origin_size(corner, (a, b));
+                assert!(marks(frame).any(|(_, m)| near(m.path.bounding_box(), own)), "{name}: {own:?}");
+            }
+        }
+        // Fields of 50 mm from the middle.
+        for k in 0..2 {
+            let line = x + 50.0 * f64::from(k);
+            assert!(has(frame, 0.35, Rect::new(line, 5.0, line, 10.0)), "{name}");
+        }
+        // ISO 7200: 180 mm wide, in the lower right corner.
+        let title = bounds(item(&composed, "title-block"));
+        assert!(near(title, Rect::new(w - 190.0, title.y0, w - 10.0, h - 10.0)), "{name}: {title:?}");
+        let letters = words(frame);
+        assert!(letters.contains(&"A".to_owned()) && !letters.iter().any(|c| c == "I" || c == "O"));
+    }
+}
+
+#[test]
+fn views_stand_in_line_at_one_scale() {
+    let keys = "views = ['front', 'top', 'left', 'right', 'bottom', 'back', 'iso']\noverall = false\n";
+    for method in ["first", "third"] {
+        let composed =
+            sheet(&format!("line-{method}"), &format!("projection = '{method}'\nsize = 'A2'\n{keys}"));
+        let composed = composed.expect("a sheet");
+        let of = |name: &str| bounds(item(&composed, name));
+        let [front, top, left, right, bottom, back] =
+            ["front", "top", "left", "right", "bottom", "back"].map(of);
+        let same = |a: f64, b: f64| (a - b).abs() < 0.001;
+        for view in [top, bottom] {
+            assert!(same(view.x0, front.x0) && same(view.x1, front.x1), "{method}: {view:?} {front:?}");
+        }
+        for view in [left, right, back] {
+            assert!(same(view.y0, front.y0) && same(view.y1, front.y1), "{method}: {view:?} {front:?}");
+        }
+        let first = method == "first";
+        assert_eq!([left.x0 > front.x1, top.y0 > front.y1], [first; 2], "{method}");
+        assert_eq!([right.x0 > front.x1, bottom.y0 > front.y1], [!first; 2], "{method}");
+        let scale = front.width() / 60.0;
+        assert!([0.5, 1.0, 2.0].iter().any(|known| same(scale, *known)), "{scale}");
+        assert!(same(front.height(), 40.0 * scale) && same(top.height(), 30.0 * scale));
+        // Nothing overlaps.
+        let views = [front, top, left, right, bottom, back, of("iso"), of("title-block")];
+        for (k, a) in views.iter().enumerate() {
+            for b in &views[..k] {
+                let both = a.intersect(*b);
+                assert!(both.width() <= 0.0 || both.height() <= 0.0, "{method}: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn scales_are_those_that_are_told_or_fit() {
+    let told = sheet("told", "scale = '1:2'\nviews = ['front']\n").expect("a sheet");
+    assert!((bounds(item(&told, "front")).width() - 30.0).abs() < 0.001);
+    assert!(words(item(&told, "title-block")).contains(&"1:2".to_owned()));
+    let inches = sheet("inches", "scale = '1:10'\nunit = 'in'\nviews = ['front']\n").expect("a sheet");
+    assert!((bounds(item(&inches, "front")).width() - 152.4).abs() < 0.001);
+    let error = sheet("large", "scale = '10:1'\n").expect_err("too large");
+    assert!(error.to_string().contains("do not fit"), "{error}");
+}
+
+#[test]
+fn lengths_are_true() {
+    let keys = "views = ['front', 'top', 'left']\n\
+        [[page.dimension]]\nfrom = [25, 0, 40]\nto = [60, 0, 20]\nmeasure = 'horizontal'\n\
+        [[page.dimension]]\nfrom = [0, 0, 0]\nto = [30, 0, 40]\n\
+        [[page.dimension]]\nof = 'top'\nfrom = [0, 0, 0]\nto = [0, 30, 0]\nmeasure = 'vertical'\ntext = 'all'\n";
+    let composed = sheet("lengths", keys).expect("a sheet");
+    let told = words(item(&composed, "notes"));
+    for value in ["60", "40", "30", "35", "50", "all"] {
+        assert!(told.contains(&value.to_owned()), "{value} of {told:?}");
+    }
+}
+
+#[test]
+fn sections_take_the_place_of_their_view_and_details_are_round() {
+    let keys = "views = ['top', 'left']\n[[page.section]]\nplane = 'y=15'\n\
+        [[page.detail]]\nof = 'top'\nat = [25, 0, 40]\nradius = 5\n";
+    let composed = sheet("section", keys).expect("a sheet");
+    let section = item(&composed, "section-A");
+    let patterns: Vec<&Mark> =
+        marks(section).map(|(_, mark)| mark).filter(|mark| mark.provenance.classes == ["pattern"]).collect();
+    assert!(!patterns.is_empty());
+    let [own, top] = ["section-A", "top"].map(|name| bounds(item(&composed, name)));
+    assert!((own.x0 - top.x0).abs() < 0.001 && own.y1 < top.y0);
+    let told = words(item(&composed, "notes"));
+    assert!(told.contains(&"A-A".to_owned()), "{told:?}");
+    assert_eq!(told.iter().filter(|word| *word == "A").count(), 2, "{told:?}");
+    let detail = item(&composed, "detail-B");
+    let clip = detail.clip.as_ref().expect("a circle").bounding_box();
+    let scale = top.width() / 60.0;
+    assert!((clip.width() - 10.0 * 5.0 * scale).abs() < 0.01, "{clip:?}");
+    assert!(told.iter().any(|word| word.starts_with("B (")), "{told:?}");
+}
+
+#[test]
+fn axes_of_cylinders_are_crosses_and_lines() {
+    let folder = folder("centre");
+    let mut pin = Solid::default();
+    // A prism of 48 sides about the z axis, radius 10, from 0 to 30.
+    for k in 0..48 {
+        let angle = std::f64::consts::TAU * f64::from(k) / 48.0;
+        let (x, y) = (10.0 * ligne::math::function::cos(angle), 10.0 * ligne::math::function::sin(angle));
+        pin.positions.extend([glam::DVec3::new(x, y, 0.0), glam::DVec3::new(x, y, 30.0)]);
+    }
+    for k in 0..48u32 {
+        let [a, b] = [2 * k, 2 * ((k + 1) % 48)];
+        pin.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1], [0, b, a], [1, a + 1, b + 1]]);
+    }
+    fs::write(folder.join("pin.obj"), obj(&[("pin".into(), pin)])).expect("written");
+    let text = "[page]\nkind = 'sheet'\nmodel = { file = 'pin.obj', up = 'z' }\nviews = ['front', 'top']\noverall = false\n";
+    let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
+    let composed = page.compose().expect("drawn").remove(0);
+    fs::remove_dir_all(&folder).expect("removed");
+    let [front, top] = ["front", "top"].map(|name| bounds(item(&composed, name)));
+    let lines: Vec<Rect> =
+        marks(item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box()).collect();
+    let middle = front.center().x;
+    let axis = Rect::new(middle, front.y0 - 2.5, middle, front.y1 + 2.5);
+    assert!(lines.iter().any(|line| near(*line, axis)), "{lines:?}");
+    let centre = top.center();
+    let arm = Rect::new(centre.x, centre.y, top.x1 + 2.5, centre.y);
+    assert!(lines.iter().any(|line| near(*line, arm)), "{lines:?} {arm:?}");
+    assert_eq!(lines.len(), 5);
+}
+
+#[test]
+fn leaders_of_twenty_assemblies_do_not_cross() {
+    let mut dice = Dice::new(17);
+    for round in 0..20 {
+        let folder = folder(&format!("assembly-{round}"));
+        let mut parts = Vec::new();
+        for k in 0..6 + round {
+            let at = dice.point(40.0);
+            let size = dice.point(6.0).abs() + glam::DVec3::splat(2.0);
+            parts.push((format!("part{k}x"), cuboid(at - size, at + size)));
+        }
+        fs::write(folder.join("a.obj"), obj(&parts)).expect("written");
+        let text =
+            "[page]\nkind = 'sheet'\nmodel = 'a.obj'\nviews = ['iso']\nparts_list = true\nsize = 'A2'\n";
+        let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
+        let composed = page.compose().expect("drawn").remove(0);
+        fs::remove_dir_all(&folder).expect("removed");
+        let balloons = item(&composed, "balloons");
+        let mut lines = Vec::new();
+        let mut circles = Vec::new();
+        for (_, mark) in marks(balloons).filter(|(_, mark)| width(mark) > 0.0) {
+            match mark.path.elements() {
+                [PathEl::MoveTo(a), PathEl::LineTo(b)] => lines.push([*a, *b]),
+                _ => circles.push(mark.path.bounding_box()),
+            }
+        }
+        let hidden =
+            composed.warnings.iter().filter(|warning| warning.contains("nothing is seen of item")).count();
+        assert_eq!([lines.len() + hidden, circles.len() + hidden], [parts.len(); 2], "round {round}");
+        for (k, line) in lines.iter().enumerate() {
+            for other in &lines[..k] {
+                assert!(!cross(*line, *other), "round {round}: {line:?} {other:?}");
+            }
+        }
+        for (k, circle) in circles.iter().enumerate() {
+            let centre = circle.center();
+            assert!((circle.width() - 8.0).abs() < 0.01);
+            assert!(
+                circles[..k].iter().all(|other| (other.center() - centre).hypot2() > 64.0),
+                "round {round}"
+            );
+        }
+    }
+}
+
+#[test]
+fn leaders_of_random_anchors_do_not_cross() {
+    let mut dice = Dice::new(4);
+    for round in 0..200 {
+        let count = 2 + dice.below(40);
+        let border = Rect::new(0.0, 0.0, dice.between(60.0, 200.0), dice.between(60.0, 200.0));
+        let mut point =
+            || Point::new(dice.between(10.0, border.x1 - 10.0), dice.between(10.0, border.y1 - 10.0));
+        let anchors: Vec<Point> = (0..count).map(|_| point()).collect();
+        let slots = slots(border, count);
+        let of = leaders(&anchors, &slots);
+        let mut taken = of.clone();
+        taken.sort_unstable();
+        taken.dedup();
+        assert_eq!(taken.len(), count);
+        for a in 0..count {
+            for b in 0..a {
+                assert!(!cross([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]), "round {round}");
+            }
+        }
+    }
+    let p = Point::new;
+    assert!(cross([p(0.0, 0.0), p(2.0, 2.0)], [p(0.0, 2.0), p(2.0, 0.0)]));
+    assert!(cross([p(0.0, 0.0), p(2.0, 0.0)], [p(1.0, 0.0), p(1.0, 5.0)]));
+    assert!(!cross([p(0.0, 0.0), p(1.0, 0.0)], [p(0.0, 1.0), p(1.0, 1.0)]));
+}
+
+#[test]
+fn parts_lists_count_what_is_there() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
+    let items = ligne::page::sheet::list::items(&ligne::Scene::open(path).expect("a model"));
+    let count = |name: &str| items.iter().find(|item| item.name == name).map_or(0, |item| item.parts.len());
+    assert_eq!([count("anchor"), count("volute"), count("motor-housing")], [6, 1, 1]);
+    assert_eq!(items.iter().map(|item| item.parts.len()).sum::<usize>(), 68);
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place() {
+    for (keys, told) in [
+        ("views = ['frnt']\n", "did you mean `front`?"),
+        ("vews = ['front']\n", "vews"),
+        ("projection = 'second'\n", "second"),
+        ("scale = 'big'\n", "this is no scale"),
+        ("unit = 'furlong'\n", "furlong"),
+        ("[[page.section]]\nplane = 'w'\n", "this is no plane"),
+        ("[[page.section]]\nplane = 'x=1000'\n", "beside the model"),
+        ("[[page.dimension]]\nof = 'back'\nfrom = [0,0,0]\nto = [1,0,0]\n", "no view on this sheet"),
+        ("[[page.detail]]\nat = [0,0,0]\nradius = -1\n", "no radius"),
+        ("[page.exploded]\naxis = 'w'\n", "no axis"),
+        ("[page.title]\nheading = 'a'\n", "heading"),
+        ("font = 'none such'\n", "none such"),
+    ] {
+        let error = sheet("wrong", keys).expect_err(keys);
+        assert!(error.to_string().contains(told), "{keys}: {error}");
+        assert!(error.file.is_some(), "{keys}: {error}");
+    }
+    let error =
+        PageFile::from_text("[page]\nkind = 'sheet'\n", "a.toml").expect("read").compose().expect_err("none");
+    assert!(error.to_string().contains("shows no model"), "{error}");
+}
