@@ -55,3 +55,6 @@ brick=(--camera camera --size 480x370 --set motion.enabled=true --quiet)
 "$ligne" draw $models/brick.glb $pictures/motion-brick.png --time 1 --style toon "${brick[@]}"
 "$ligne" draw $models/brick.glb $pictures/motion-fist.png --time 1.05 --style comic "${brick[@]}" \
     --set motion.parts=fist-right --set motion.segments=10 --set motion.taper=1 --set motion.width=2
+
+# docs/pages.md and the README
+"$ligne" page examples/pages/comic.toml $pictures/page-comic.png --dpi 110 --quiet

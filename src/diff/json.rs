@@ -33,6 +33,8 @@ struct Entry<'a> {
     verdict: Verdict,
     kind: &'static str,
     layer: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drawing: Option<&'a str>,
     classes: Vec<&'a str>,
     part: Option<&'a str>,
     place: Place,
@@ -77,6 +79,7 @@ fn entry(finding: &Finding) -> Entry<'_> {
             ShapeKind::Clip => "clip",
         },
         layer: &finding.label.layer,
+        drawing: finding.label.drawing.as_deref(),
         classes: finding.label.classes.iter().map(AsRef::as_ref).collect(),
         part: finding.label.part.as_deref(),
         place: finding.place,

@@ -9,6 +9,8 @@ use std::sync::Arc;
 pub struct Label {
     /// Id of the layer's group, such as `lines`; empty outside of layers.
     pub layer: Arc<str>,
+    /// Which drawing of a page it is in; none outside of pages.
+    pub drawing: Option<Arc<str>>,
     /// Classes in alphabetical order, but for the tone.
     pub classes: Vec<Arc<str>>,
     /// Name of the part.
@@ -39,6 +41,9 @@ impl fmt::Display for Label {
         f.write_str(self.kind())?;
         if let Some(part) = &self.part {
             write!(f, " of `{part}`")?;
+        }
+        if let Some(drawing) = &self.drawing {
+            write!(f, " in `{drawing}`")?;
         }
         Ok(())
     }

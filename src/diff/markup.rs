@@ -94,6 +94,7 @@ pub(super) fn rewrite(document: &Document) -> Result<Markup, Error> {
 #[derive(Debug, Clone, Default)]
 struct Around {
     layer: Arc<str>,
+    drawing: Option<Arc<str>>,
     part: Option<Arc<str>>,
 }
 
@@ -186,7 +187,8 @@ impl Markup {
             }
         }
         classes.sort_unstable();
-        let label = Label { layer: Arc::clone(&around.layer), classes, part: around.part.clone() };
+        let Around { layer, drawing, part } = around.clone();
+        let label = Label { layer, drawing, classes, part };
         let number = |name| node.attribute(name).and_then(|text| text.parse().ok());
         let axis = node.attribute("data-axis").zip(number("data-width"));
         let origin = Origin {
@@ -231,7 +233,8 @@ impl Markup {
                 format!("{LINKED}{href}`")
             }
         };
-        let label = Label { layer: around.layer, classes: Vec::new(), part: around.part };
+        let Around { layer, drawing, part } = around;
+        let label = Label { layer, drawing, classes: Vec::new(), part };
         let origin = Origin { label: Arc::new(label), words: Some(Arc::from(words)), ..Origin::default() };
         self.remember(node, origin);
         let mut sized = false;
@@ -299,7 +302,12 @@ fn inside(node: Node, around: &Around) -> Around {
     if node.attribute((INKSCAPE, "groupmode")) == Some("layer") {
         let id = node.attribute("id").unwrap_or_default();
         let label = node.attribute((INKSCAPE, "label")).unwrap_or(id);
-        inner.layer = Arc::from(known_layer(id).or(known_layer(label)).unwrap_or(label));
+        let known = known_layer(id).or(known_layer(label));
+        // A layer around those of a drawing is the drawing's own, on a page of several.
+        if known.is_some() && !around.layer.is_empty() && known_layer(&around.layer).is_none() {
+            inner.drawing = Some(Arc::clone(&around.layer));
+        }
+        inner.layer = Arc::from(known.unwrap_or(label));
     }
     if let Some(part) = node.attribute("data-part") {
         inner.part = Some(Arc::from(part));

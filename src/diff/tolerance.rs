@@ -156,8 +156,11 @@ mod tests {
     #[test]
     fn the_narrowest_name_counts() -> Result<(), Error> {
         let read = Tolerances::parse("1px, lines=2px, hatching=3px, contour=4px")?;
-        let label =
-            |layer: &str, class: &str| Label { layer: layer.into(), classes: vec![class.into()], part: None };
+        let label = |layer: &str, class: &str| Label {
+            layer: layer.into(),
+            classes: vec![class.into()],
+            ..Label::default()
+        };
         let px = |label: &Label, kind| read.px(label, None, kind, 0.02);
         assert_eq!(px(&label("hatching", "contour"), ShapeKind::Line), 4.0);
         assert_eq!(px(&label("hatching", "crease"), ShapeKind::Line), 3.0);

@@ -3,17 +3,16 @@
 //! Places are tried from the best on, one balloon after another; where the next finds none, the last one moves on. What a place
 //! must hold is never weighed against anything: only what is left is compared by cost.
 
-use kurbo::{Point, Vec2};
+use kurbo::{Point, Rect, Vec2};
 
 use super::figure::Cover;
-use super::layout::polygon::cross;
 use super::layout::{Polygon, Reading};
 
 /// Places tried across and down a panel.
 const ACROSS: usize = 26;
 
 /// Places looked at, at most, until it is clear that there is no way.
-const MOST_LOOKS: usize = 60_000;
+const MOST_LOOKS: usize = 2_000;
 
 /// From the tip of a tail to what it points at, in gaps.
 const SHORT_OF: f64 = 0.6;
@@ -30,6 +29,8 @@ pub struct Wish {
     pub target: Option<(Polygon, Point)>,
     /// How long its tail is at least.
     pub tail: f64,
+    /// Half the width of its tail where it begins.
+    pub foot: f64,
     /// Where it is told to be.
     pub at: Option<Point>,
     /// Whether it stands in the corner where reading begins, or near to it.
@@ -65,10 +66,26 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// Its tail, from the middle to the tip.
-    fn tail(&self) -> Option<[Point; 2]> {
-        self.tip.map(|tip| [self.middle, tip])
+    /// Around its tail, from the middle to the tip, with room for a bend.
+    fn tail(&self, foot: f64) -> Option<Polygon> {
+        let tip = self.tip?;
+        let way = tip - self.middle;
+        let across = Vec2::new(-way.y, way.x).normalize();
+        let (wide, narrow) = (across * (foot + BEND * way.hypot()), across * (0.3 * foot));
+        Some(Polygon(vec![self.middle - wide, tip - narrow, tip + narrow, self.middle + wide]))
     }
+}
+
+/// How far tails bend aside, in shares of their length.
+const BEND: f64 = 0.03;
+
+/// A place of one balloon that holds whatever becomes of the others.
+struct Candidate {
+    place: Placed,
+    tail: Option<Polygon>,
+    /// Around the balloon and its tail.
+    bounds: Rect,
+    cost: f64,
 }
 
 /// Places for all balloons, in their order.
@@ -76,22 +93,20 @@ impl Placed {
 /// # Errors
 /// Which of them found none.
 pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
-    let mut placed = Vec::new();
-    let mut looks = 0;
-    let mut farthest = 0;
-    if next(wishes, room, &mut placed, &mut looks, &mut farthest) { Ok(placed) } else { Err(farthest) }
+    let all: Vec<Vec<Candidate>> = wishes.iter().map(|wish| candidates(wish, room)).collect();
+    if let Some(none) = all.iter().position(Vec::is_empty) {
+        return Err(none);
+    }
+    let (mut placed, mut looks, mut farthest) = (Vec::new(), 0, 0);
+    if next((wishes, &all), room, &mut placed, &mut looks, &mut farthest) {
+        return Ok(placed.into_iter().map(|candidate| candidate.place.clone()).collect());
+    }
+    Err(farthest)
 }
 
-fn next(
-    wishes: &[Wish],
-    room: &Room,
-    placed: &mut Vec<Placed>,
-    looks: &mut usize,
-    farthest: &mut usize,
-) -> bool {
-    let Some(wish) = wishes.get(placed.len()) else { return true };
-    *farthest = placed.len().max(*farthest);
-    let mut found: Vec<(f64, Placed)> = Vec::new();
+/// The places of a balloon by itself, the best first.
+fn candidates(wish: &Wish, room: &Room) -> Vec<Candidate> {
+    let mut found = Vec::new();
     for middle in middles(wish, room) {
         let hull = wish.hull.moved(middle.to_vec2());
         if wish.at.is_none() && !hull.0.iter().all(|p| room.outline.holds(*p)) {
@@ -104,19 +119,40 @@ fn next(
                 None => continue,
             },
         };
-        let own = Placed { middle, tip, hull };
-        if fits(&own, wish, room, placed) {
-            found.push((cost(&own, wish, room, placed), own));
+        let place = Placed { middle, tip, hull };
+        let tail = place.tail(wish.foot);
+        if wish.at.is_some() || is_free(&place, tail.as_ref(), wish, room) {
+            let own = place.hull.bounds();
+            let bounds = tail.as_ref().map_or(own, |tail| own.union(tail.bounds()));
+            let cost = cost(&place, wish, room);
+            found.push(Candidate { place, tail, bounds, cost });
         }
     }
-    found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    for (_, own) in found {
+    found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    found
+}
+
+fn next<'a>(
+    (wishes, all): (&[Wish], &'a [Vec<Candidate>]),
+    room: &Room,
+    placed: &mut Vec<&'a Candidate>,
+    looks: &mut usize,
+    farthest: &mut usize,
+) -> bool {
+    let (Some(wish), Some(candidates)) = (wishes.get(placed.len()), all.get(placed.len())) else {
+        return true;
+    };
+    *farthest = placed.len().max(*farthest);
+    for own in candidates {
+        if !placed.iter().all(|before| goes_with(own, before, wish.at.is_some(), room)) {
+            continue;
+        }
         *looks += 1;
         if *looks > MOST_LOOKS {
             return false;
         }
         placed.push(own);
-        if next(wishes, room, placed, looks, farthest) {
+        if next((wishes, all), room, placed, looks, farthest) {
             return true;
         }
         placed.pop();
@@ -182,30 +218,31 @@ fn crossings(polygon: &Polygon, from: Point, to: Point) -> impl Iterator<Item = 
     })
 }
 
-/// Whether a balloon may be where it is.
-fn fits(own: &Placed, wish: &Wish, room: &Room, placed: &[Placed]) -> bool {
-    let told = wish.at.is_some();
+/// Whether a tail keeps off a polygon.
+fn is_clear(tail: Option<&Polygon>, other: &Polygon) -> bool {
+    tail.is_none_or(|tail| !tail.meets(other, 0.0))
+}
+
+/// Whether a balloon covers nothing that is kept, and its tail runs over nothing but what it points at.
+fn is_free(own: &Placed, tail: Option<&Polygon>, wish: &Wish, room: &Room) -> bool {
     let free = |other: &Polygon| !own.hull.meets(other, room.gap);
-    if !told && !room.kept.iter().chain(&room.obstacles).all(free) {
-        return false;
-    }
-    if let Some([from, to]) = own.tail() {
-        let is_own = |other: &Polygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);
-        let others = room.kept.iter().filter(|other| !is_own(other)).chain(&room.obstacles);
-        if !told && others.clone().any(|other| other.is_crossed(from, to)) {
-            return false;
-        }
-    }
-    placed.iter().all(|before| {
-        let crosses =
-            |tail: Option<[Point; 2]>, hull: &Polygon| tail.is_some_and(|[a, b]| hull.is_crossed(a, b));
-        let tails = own.tail().zip(before.tail()).is_some_and(|(a, b)| cross(a, b));
-        !own.hull.meets(&before.hull, room.gap)
-            && !tails
-            && !crosses(own.tail(), &before.hull)
-            && !crosses(before.tail(), &own.hull)
-            && (told || is_read_after(own, before, room.reading))
-    })
+    let is_own = |other: &Polygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);
+    room.kept.iter().all(|other| free(other) && (is_own(other) || is_clear(tail, other)))
+        && room.obstacles.iter().all(|other| free(other) && is_clear(tail, other))
+}
+
+/// Whether a balloon may be where it is beside one before it.
+fn goes_with(own: &Candidate, before: &Candidate, told: bool, room: &Room) -> bool {
+    let is_read = told || is_read_after(&own.place, &before.place, room.reading);
+    let apart = own.bounds.inset(room.gap).intersect(before.bounds).is_zero_area();
+    let keeps_off = || {
+        let (hull, other) = (&own.place.hull, &before.place.hull);
+        !hull.meets(other, room.gap)
+            && is_clear(own.tail.as_ref(), other)
+            && is_clear(before.tail.as_ref(), hull)
+            && before.tail.as_ref().is_none_or(|other| is_clear(own.tail.as_ref(), other))
+    };
+    is_read && (apart || keeps_off())
 }
 
 /// Whether one is read after the other: below its middle, or beside it on the side that is read later and no higher.
@@ -218,8 +255,8 @@ fn is_read_after(own: &Placed, before: &Placed, reading: Reading) -> bool {
     (mine.y0 >= other.center().y) || (beside && mine.center().y >= other.center().y - 0.15 * other.height())
 }
 
-/// How bad a place is: far from what speaks, low, late in its line, and far behind those before it.
-fn cost(own: &Placed, wish: &Wish, room: &Room, placed: &[Placed]) -> f64 {
+/// How bad a place is: far from what speaks, low, late in its line, and on what models cover.
+fn cost(own: &Placed, wish: &Wish, room: &Room) -> f64 {
     let bounds = room.outline.bounds();
     let down = own.hull.bounds().y0 - bounds.y0;
     let late = match room.reading {
@@ -233,6 +270,5 @@ fn cost(own: &Placed, wish: &Wish, room: &Room, placed: &[Placed]) -> f64 {
     let tail = own.tip.map_or(0.0, |tip| tip.distance(own.middle));
     // Steep tails read better than flat ones.
     let flat = own.tip.map_or(0.0, |tip| (tip.x - own.middle.x).abs());
-    let behind = placed.last().map_or(0.0, |before| before.middle.distance(own.middle));
-    0.6 * tail + 0.35 * flat + 0.8 * down + 0.12 * late + 0.1 * behind + covers
+    0.6 * tail + 0.35 * flat + 0.35 * down + 0.12 * late + covers
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const DOCUMENTS: [&str; 17] = [
+const DOCUMENTS: [&str; 18] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -16,6 +16,7 @@ const DOCUMENTS: [&str; 17] = [
     "docs/lines.md",
     "docs/many.md",
     "docs/motion.md",
+    "docs/pages.md",
     "docs/print.md",
     "docs/smooth.md",
     "docs/stages.md",
@@ -100,7 +101,7 @@ fn tests_that_documents_name_are_there() {
 
 #[test]
 fn options_that_the_readme_names_are_there() {
-    let help: String = ["draw", "animate", "diff", "fmt", "test", "lod", "styles", "page"]
+    let help: String = ["draw", "animate", "page", "diff", "fmt", "test", "lod", "styles"]
         .map(|command| {
             let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
             String::from_utf8(help.stdout).unwrap()

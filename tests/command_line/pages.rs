@@ -101,3 +101,22 @@ fn a_page_file_to_start_from_draws_at_once() {
             && svg.contains("class=\"motion\"")
     );
 }
+
+#[test]
+fn pages_are_compared_panel_by_panel_and_kept_under_test() {
+    let folder = with_page("page-diff");
+    folder.write("cases/page.toml", "page-file = '../page.toml'\n");
+    folder.ligne("test cases --bless").done();
+    folder.ligne("test cases").done().says("passed   page");
+    folder.ligne("page page.toml old.svg --quiet").done();
+    assert_eq!(folder.read("old.svg"), folder.read("cases/page.svg"));
+    folder.write("page.toml", &PAGE.replace("name = 'b', ", "name = 'b', hide = ['base'], "));
+    folder.ligne("test cases").ends(1).says("part `b/base`: all its ");
+    folder.ligne("page page.toml new.svg --quiet").done();
+    let run = folder.ligne("diff old.svg new.svg --all");
+    let told = &run.ends(1).says(" of `b/base` in `panel-2` ").out;
+    // The other panel is the same.
+    assert!(!told.contains("`panel-1`"), "{told}");
+    folder.write("cases/page.toml", "page-file = '../page.toml'\nview = 'iso'\n");
+    folder.ligne("test cases").ends(2).says("a page is told by its page file alone");
+}

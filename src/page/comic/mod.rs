@@ -17,7 +17,7 @@ use shapes::Sheet;
 
 pub use keys::ComicPage;
 
-/// Draws a comic page: the panels in their order, then the letters of all.
+/// Draws a comic page: the panels in their order, then what breaks their borders, then the letters of all.
 ///
 /// # Errors
 /// Each names the line of what is wrong.
@@ -28,14 +28,15 @@ pub fn compose(comic: &ComicPage, source: &Source) -> Result<Composed, Error> {
     let panels: Vec<panel::Drawn> =
         shapes.par_iter().map(|shape| panel::draw(shape, comic, &sheet, source)).collect::<Result<_, _>>()?;
     let mut items = Vec::new();
-    let mut letters = Vec::new();
+    let (mut over, mut letters) = (Vec::new(), Vec::new());
     let mut warnings = Vec::new();
     for (shape, mut panel) in shapes.iter().zip(panels) {
         items.append(&mut panel.items);
+        over.extend(panel.over.take());
         warnings.append(&mut panel.warnings);
         letters.extend(lettering.letter(shape, panel.seen.as_ref(), &sheet, &mut warnings)?);
     }
-    items.extend(letters);
+    items.extend(over.into_iter().chain(letters));
     let Rect { x1, y1, .. } = sheet.bleed;
     let page = Page { width: x1, height: y1, unit: Unit::Mm, background: Some(comic.background) };
     let stem =

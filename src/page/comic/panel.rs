@@ -25,8 +25,10 @@ const LAP: f64 = 0.1;
 
 /// A panel that was drawn.
 pub(super) struct Drawn {
-    /// Its drawing, its line, and what breaks that.
+    /// Its drawing and its line.
     pub items: Vec<Item>,
+    /// What breaks that line, and may reach over other panels.
+    pub over: Option<Item>,
     /// What is in it, and how it is seen.
     pub seen: Option<Seen>,
     /// What there is to say of it.
@@ -78,7 +80,7 @@ pub(super) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
     if let Some(colour) = &keys.background {
         style.background = background(colour, source)?;
     }
-    let mut drawn = Drawn { items: Vec::new(), seen: None, warnings: Vec::new() };
+    let mut drawn = Drawn { items: Vec::new(), over: None, seen: None, warnings: Vec::new() };
     let item = |name: &str, drawing, corner: Vec2, clip| Item {
         name: name.to_owned(),
         drawing,
@@ -131,7 +133,7 @@ pub(super) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
     if let Some((drawing, corner)) = broken {
         let inner = shape.outline.inset(width / 2.0 + hand + LAP);
         let clip = around(sheet.bleed, &inner.path());
-        drawn.items.push(item(&format!("{}-break", shape.name), drawing, corner, clip));
+        drawn.over = Some(item(&format!("{}-break", shape.name), drawing, corner, clip));
     }
     Ok(drawn)
 }

@@ -113,12 +113,6 @@ impl Polygon {
         })
     }
 
-    /// Whether a straight line meets it.
-    #[must_use]
-    pub fn is_crossed(&self, from: Point, to: Point) -> bool {
-        self.holds(from) || self.holds(to) || self.sides().any(|(a, b)| cross([from, to], [a, b]))
-    }
-
     /// The closed path around it.
     #[must_use]
     pub fn path(&self) -> BezPath {
@@ -137,22 +131,6 @@ impl Polygon {
     pub fn moved(&self, by: Vec2) -> Self {
         Self(self.0.iter().map(|p| *p + by).collect())
     }
-}
-
-/// Whether two straight lines have a point in common.
-#[must_use]
-pub fn cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    let side = |p: Point, q: Point, r: Point| (q - p).cross(r - p);
-    let between = |p: Point, q: Point, r: Point| {
-        r.x >= p.x.min(q.x) && r.x <= p.x.max(q.x) && r.y >= p.y.min(q.y) && r.y <= p.y.max(q.y)
-    };
-    let (c_of, d_of, a_of, b_of) = (side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b));
-    let apart = |s: f64, t: f64| (s > 0.0 && t < 0.0) || (s < 0.0 && t > 0.0);
-    (apart(c_of, d_of) && apart(a_of, b_of))
-        || (c_of == 0.0 && between(a, b, c))
-        || (d_of == 0.0 && between(a, b, d))
-        || (a_of == 0.0 && between(c, d, a))
-        || (b_of == 0.0 && between(c, d, b))
 }
 
 #[cfg(test)]
@@ -178,8 +156,6 @@ mod tests {
         assert!(square(0.0, 2.0).meets(&square(1.0, 2.0), 0.0));
         assert!(!square(0.0, 2.0).meets(&square(3.0, 2.0), 0.5));
         assert!(square(0.0, 2.0).meets(&square(3.0, 2.0), 1.5));
-        assert!(square(0.0, 2.0).is_crossed(Point::new(-1.0, 1.0), Point::new(5.0, 1.0)));
-        assert!(!square(0.0, 2.0).is_crossed(Point::new(-1.0, 3.0), Point::new(5.0, 3.0)));
         assert_eq!(square(0.0, 2.0).common(&square(1.0, 2.0)).area(), 2.0);
     }
 }

@@ -58,7 +58,8 @@ impl Balloon {
         let (block, half) = match kind {
             BalloonKind::Caption => {
                 let (ellipse, _) = Block::in_ellipse(text, setting, aspect)?;
-                let block = Block::balanced(text, setting, ellipse.width.max(em))?;
+                // As wide as its longest line, and a hair more: widths are sums.
+                let block = Block::balanced(text, setting, ellipse.width * 1.001)?;
                 let half = Vec2::new(block.width, block.height) / 2.0 + pad;
                 (block, half)
             }
@@ -84,6 +85,16 @@ impl Balloon {
     /// How long its tail is at least.
     pub fn shortest_tail(&self) -> f64 {
         self.em * if self.kind == BalloonKind::Thought { 2.4 } else { 1.1 }
+    }
+
+    /// Half the width of its tail where it begins, with its line.
+    pub fn foot(&self) -> f64 {
+        self.em
+            * match self.kind {
+                BalloonKind::Shout => 1.4,
+                BalloonKind::Thought => 0.6,
+                _ => TAIL + 0.15,
+            }
     }
 
     /// A polygon around it, without its tail.
@@ -172,11 +183,9 @@ impl Balloon {
         path.move_to(from);
         path.extend(arc.append_iter(FINE));
         // A tail bends a little, both its sides the same way.
+        let aside = Vec2::new(tip.y, -tip.x) * 0.06 * if tip.x < 0.0 { -1.0 } else { 1.0 };
         let tip = tip.to_point();
-        let bend = |foot: Point| {
-            let way = tip - foot;
-            foot.lerp(tip, 0.5) + Vec2::new(way.y, -way.x) * 0.06 * way.x.signum()
-        };
+        let bend = |foot: Point| foot.lerp(tip, 0.5) + aside;
         path.quad_to(bend(to), tip);
         path.quad_to(bend(from), from);
         path.close_path();

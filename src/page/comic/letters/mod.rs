@@ -247,6 +247,7 @@ impl<'a> Lettering<'a> {
             target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
             at,
             tail: balloon.shortest_tail(),
+            foot: balloon.foot(),
             cornered: told.keys.kind == BalloonKind::Caption,
         }
     }
