@@ -22,6 +22,9 @@ const CHANNEL_DECIMALS: u8 = 4;
 /// Dots that are painted at once: programs take their time with long paths.
 const DOTS_OF_PATH: usize = 1000;
 
+/// Classes of marks that are drawn with a pen, filled as they may be.
+const DRAWN: [&str; 3] = ["hatch", "pattern", "grain"];
+
 /// What prints marks, and in which fonts they are set.
 #[derive(Clone, Copy)]
 pub(super) struct Press<'a> {
@@ -121,6 +124,10 @@ impl<'a> Writer<'a> {
         let Some((press, dots)) = self.press.and_then(|press| Some((press, press.dots?))) else {
             return false;
         };
+        // Strokes, dots and grain of styles are no tones.
+        if mark.provenance.classes.iter().any(|class| DRAWN.contains(class)) {
+            return false;
+        }
         let clear = f64::from(opacity) / 255.0;
         let inks = |colour: Colour| match press.plates.ink(colour) {
             Ink::Cmyk(inks) => Some(inks.map(|ink| ink * clear)),

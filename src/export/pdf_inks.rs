@@ -8,7 +8,7 @@ use moxcms::{
     ColorProfile, DataColorSpace, Layout, RenderingIntent, Transform8BitExecutor, TransformOptions,
 };
 
-use super::pdf_options::{Inks, PdfOptions, Spot};
+use super::pdf_options::{Inks, PdfOptions, Spot, Standard};
 use crate::error::{Error, ErrorKind};
 use crate::math::colour::Colour;
 
@@ -28,6 +28,8 @@ pub(super) struct Plates {
     pub spots: Vec<Spot>,
     limit: Option<f64>,
     solid_black: f64,
+    /// Whether viewers may smooth pictures, which archives forbid.
+    pub smooths: bool,
     transform: Option<Arc<Transform8BitExecutor>>,
     /// The profile of the press or the screen: its bytes, how many channels it has, and what it is called.
     pub profile: Option<(Arc<[u8]>, usize, String)>,
@@ -50,6 +52,7 @@ impl Plates {
             spots: options.spots.clone(),
             limit: None,
             solid_black: options.solid_black,
+            smooths: options.standard != Some(Standard::A2b),
             transform: None,
             profile: None,
         };
@@ -167,6 +170,9 @@ impl Plates {
     }
 }
 
+/// The start of the year 2000, as profiles write it.
+const PROFILE_DATE: [u8; 12] = [7, 208, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0];
+
 /// Whether two colours are the same but for their opacity.
 fn same(a: Colour, b: Colour) -> bool {
     (a.r, a.g, a.b) == (b.r, b.g, b.b)
@@ -185,7 +191,10 @@ fn named(text: &moxcms::ProfileText) -> Option<String> {
 
 /// The profile of screens whose colours are sRGB.
 pub(super) fn srgb_profile() -> Option<Vec<u8>> {
-    ColorProfile::new_srgb().encode().ok()
+    let mut bytes = ColorProfile::new_srgb().encode().ok()?;
+    // It would tell when it was made, by the clock.
+    bytes.get_mut(24..36)?.copy_from_slice(&PROFILE_DATE);
+    Some(bytes)
 }
 
 #[cfg(test)]
@@ -217,6 +226,13 @@ mod tests {
             assert!(within.iter().all(|ink| (0.0..=1.0).contains(ink)) && within[3] >= inks[3], "{within:?}");
         }
         assert_eq!(plates.limited([0.5, 0.5, 0.5, 0.5]), [0.5; 4]);
+    }
+
+    #[test]
+    fn no_clock_is_in_the_profile_of_screens() {
+        let bytes = srgb_profile().unwrap();
+        assert_eq!(bytes[24..36], PROFILE_DATE);
+        assert_eq!(bytes[84..100], [0; 16], "an id would be another one with each date");
     }
 
     #[test]

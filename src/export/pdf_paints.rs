@@ -78,7 +78,11 @@ pub(super) fn write_picture(pdf: &mut Pdf, crop: &Crop, [id, mask]: [Ref; 2], pr
     let samples = deflated(colours.into_iter().flat_map(|colour| samples(colour, press)).collect());
     let mut object = pdf.image_xobject(id, &samples);
     object.filter(Filter::FlateDecode);
-    object.width(width).height(height).bits_per_component(8).interpolate(true);
+    object
+        .width(width)
+        .height(height)
+        .bits_per_component(8)
+        .interpolate(press.is_none_or(|plates| plates.smooths));
     space(object.color_space(), press);
     if opaque {
         return;

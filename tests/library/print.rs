@@ -194,6 +194,16 @@ fn standards_are_told_and_want_profiles() {
     assert!(!content.contains("/Filter") && rest.contains("<pdfaid:part>2</pdfaid:part>"), "{rest}");
     assert!(rest.contains("/S /GTS_PDFA1") && rest.contains("/ID ["), "{rest}");
     assert!(rest.contains("(D:20000101000000") && rest.contains("2000-01-01T00:00:00+00:00"), "{rest}");
+    let picture = Picture { width: 1, height: 1, pixels: vec![RED] };
+    let piece = ImagePiece {
+        outline: Rect::new(0.0, 0.0, 1.0, 1.0).to_path(0.1),
+        shows: Shows::Pixels(Affine::IDENTITY),
+    };
+    let image = Paint::Image(ImagePaint { picture: picture.into(), pieces: vec![piece] });
+    let image = || vec![mark("M0 0H1V1H0Z", image.clone())];
+    assert!(written(image(), &PdfOptions::default()).1.contains("/Interpolate true"));
+    let archived = written(image(), &PdfOptions::default().with_standard(Standard::A2b)).1;
+    assert!(archived.contains("/Interpolate false"), "{archived}");
     let x4 = PdfOptions::default().with_standard(Standard::X4);
     let error = to_pdf(&one(), &x4).unwrap_err().to_string();
     assert!(error.contains("PDF/X-4 needs a profile"), "{error}");

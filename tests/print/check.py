@@ -124,6 +124,19 @@ def check_structure(file):
         fault(f"{file.name}: states {dict(states)}")
     if any(state.op is not True or state.OPM != 1 for state in overprinting):
         fault(f"{file.name}: overprint by halves")
+    if "archive" in file.name:
+        xmp = bytes(pdf.Root.Metadata.read_bytes()).decode()
+        intent = pdf.Root.OutputIntents[0]
+        if "<pdfaid:part>2<" not in xmp or intent.S != "/GTS_PDFA1" or intent.DestOutputProfile.N != 3:
+            fault(f"{file.name}: not told as PDF/A-2b")
+        for key in ("Title", "Creator", "Producer"):
+            if str(pdf.docinfo["/" + key]) not in xmp:
+                fault(f"{file.name}: {key} is not in XMP")
+        if not pdf.trailer.get("/ID") or pdf.is_encrypted:
+            fault(f"{file.name}: ID or encryption")
+        for entry in pdf.objects:
+            if isinstance(entry, pikepdf.Stream) and entry.get("/Interpolate"):
+                fault(f"{file.name}: a smoothed picture")
     if "x4" in file.name:
         xmp = bytes(pdf.Root.Metadata.read_bytes()).decode()
         intents = pdf.Root.OutputIntents
