@@ -143,7 +143,8 @@ pub fn staged(
     for keys in &models.0 {
         let mut scene = posed(keys, time, animation, style, source)?;
         let up = all.as_ref().map_or(scene.up, |all| all.up);
-        move_scene(&mut scene, place(keys, [scene.up, up], source)?);
+        let to = place(keys, [scene.up, up], source)?;
+        move_scene(&mut scene, to);
         scene.up = up;
         if let Some(name) = &keys.name {
             for part in &mut scene.parts {
