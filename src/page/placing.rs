@@ -263,7 +263,7 @@ fn cost(own: &Placed, wish: &Wish, room: &Room) -> f64 {
         Reading::Ltr => own.hull.bounds().x0 - bounds.x0,
         Reading::Rtl => bounds.x1 - own.hull.bounds().x1,
     };
-    let covers = COVERING * room.cover.as_ref().map_or(0.0, |cover| cover.share(&own.hull));
+    let covers = COVERING * room.cover.as_ref().map_or(0.0, |cover| cover.share(own.hull.bounds()));
     if wish.cornered {
         return 2.0 * down + late + 0.3 * covers;
     }

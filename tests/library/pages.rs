@@ -117,7 +117,7 @@ fn shares_are_exact() {
     // A gutter that leans between two sides takes from one corner what it gives the other.
     let leaning = cells("1 |12° 1", &grid).unwrap();
     let areas = leaning.iter().map(|cell| cell.outline(grid.frame).area());
-    let gutter = 4.0 * 600.0 / f64::to_radians(12.0).cos();
+    let gutter = 4.0 * 600.0 / ligne::math::function::cos(f64::to_radians(12.0));
     areas.for_each(|area| assert!((area - (400.0 * 600.0 - gutter) / 2.0).abs() < 1e-6, "{area}"));
 }
 
@@ -295,7 +295,7 @@ fn heads(panel: &Item, text: &str, number: usize, folder: &Path) -> Vec<BezPath>
     let camera = figure::camera(&keys.camera, &scene, [bounds.width(), bounds.height()], &source).unwrap();
     let [right, up, forward] = camera.axes();
     let ligne::scene::Projection::Perspective { fov_y_deg } = camera.projection else { panic!() };
-    let scale = camera.height / 2.0 / (fov_y_deg.to_radians() / 2.0).tan();
+    let scale = camera.height / 2.0 / ligne::math::function::tan(fov_y_deg.to_radians() / 2.0);
     let parts = scene.parts.iter().filter(|part| part.name.ends_with("head"));
     parts
         .map(|part| {

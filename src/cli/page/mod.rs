@@ -238,12 +238,11 @@ fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The files of an output, each with how many pages it holds; no name stands for standard output.
-fn encoded(
-    target: &Target,
-    pages: &[Composition],
-    args: &PageArgs,
-) -> Result<Vec<(Option<PathBuf>, Vec<u8>, usize)>, Error> {
+/// A file with its bytes and how many pages it holds; no name stands for standard output.
+type Encoded = (Option<PathBuf>, Vec<u8>, usize);
+
+/// The files of an output.
+fn encoded(target: &Target, pages: &[Composition], args: &PageArgs) -> Result<Vec<Encoded>, Error> {
     let in_file = |path: &Path, error: Error| match error.file {
         None => error.in_file(path),
         Some(_) => error,

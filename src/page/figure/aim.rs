@@ -149,7 +149,7 @@ pub fn camera(
                 |key: &Option<Spanned<f64>>, default| key.as_ref().map_or(default, |key| *key.get_ref());
             let azimuth = angle(&keys.azimuth, THREE_QUARTER_AZIMUTH_DEG);
             let elevation = angle(&keys.elevation, THREE_QUARTER_ELEVATION_DEG);
-            if let Some(key) = keys.elevation.as_ref().filter(|key| !(key.get_ref().abs() <= 90.0)) {
+            if let Some(key) = keys.elevation.as_ref().filter(|key| !(-90.0..=90.0).contains(key.get_ref())) {
                 return Err(source.fault(
                     &key.span(),
                     "this is no elevation",

@@ -3,7 +3,6 @@
 use glam::DVec3;
 use kurbo::{Point, Rect, Vec2};
 
-use crate::page::layout::Polygon;
 use crate::scene::{Camera, Scene};
 use crate::view::Frame;
 
@@ -15,7 +14,8 @@ const SQUARES: usize = 48;
 pub struct Cover {
     /// The frame.
     frame: Rect,
-    squares: Vec<bool>,
+    /// How many squares are covered above and to the left of each corner of one, row by row.
+    sums: Vec<u32>,
 }
 
 impl Cover {
@@ -44,23 +44,35 @@ impl Cover {
                 }
             }
         }
-        Self { frame: Rect::from_origin_size(corner, (camera.width, camera.height)), squares }
+        Self { frame: Rect::from_origin_size(corner, (camera.width, camera.height)), sums: sums(&squares) }
     }
 
-    /// The share of a polygon that is covered.
+    /// The share of a box that is covered, in whole squares.
     #[must_use]
-    pub fn share(&self, hull: &Polygon) -> f64 {
-        let (mut all, mut covered) = (0_u32, 0_u32);
-        let step = Vec2::new(self.frame.width(), self.frame.height()) / SQUARES as f64;
-        for (number, is_covered) in self.squares.iter().enumerate() {
-            let (x, y) = ((number % SQUARES) as f64 + 0.5, (number / SQUARES) as f64 + 0.5);
-            if hull.holds(self.frame.origin() + Vec2::new(x * step.x, y * step.y)) {
-                all += 1;
-                covered += u32::from(*is_covered);
-            }
-        }
-        f64::from(covered) / f64::from(all.max(1))
+    pub fn share(&self, of: Rect) -> f64 {
+        let square = |at: f64, from: f64, length: f64| {
+            ((at - from) / length * SQUARES as f64).round().clamp(0.0, SQUARES as f64) as usize
+        };
+        let [x0, x1] = [of.x0, of.x1].map(|x| square(x, self.frame.x0, self.frame.width()));
+        let [y0, y1] = [of.y0, of.y1].map(|y| square(y, self.frame.y0, self.frame.height()));
+        let sum = |x: usize, y: usize| f64::from(self.sums.get(y * (SQUARES + 1) + x).copied().unwrap_or(0));
+        let covered = sum(x1, y1) - sum(x0, y1) - sum(x1, y0) + sum(x0, y0);
+        covered / ((x1 - x0) * (y1 - y0)).max(1) as f64
     }
+}
+
+/// How many squares are covered above and to the left of each corner.
+fn sums(squares: &[bool]) -> Vec<u32> {
+    let side = SQUARES + 1;
+    let mut sums = vec![0; side * side];
+    for y in 0..SQUARES {
+        let mut row = 0;
+        for x in 0..SQUARES {
+            row += u32::from(squares[y * SQUARES + x]);
+            sums[(y + 1) * side + x + 1] = sums[y * side + x + 1] + row;
+        }
+    }
+    sums
 }
 
 /// Marks the squares whose middle a triangle holds.
@@ -80,5 +92,23 @@ fn mark(squares: &mut [bool], [a, b, c]: [Point; 3]) {
                 *square = true;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_covered_is_counted() {
+        let mut squares = vec![false; SQUARES * SQUARES];
+        // The left half of the upper half.
+        let half = SQUARES as f64 / 2.0;
+        mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, 0.0), Point::new(half, half)]);
+        mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, half), Point::new(0.0, half)]);
+        let cover = Cover { frame: Rect::new(10.0, 20.0, 110.0, 120.0), sums: sums(&squares) };
+        assert_eq!(cover.share(Rect::new(10.0, 20.0, 60.0, 70.0)), 1.0);
+        assert_eq!(cover.share(Rect::new(10.0, 20.0, 110.0, 120.0)), 0.25);
+        assert_eq!(cover.share(Rect::new(60.0, 70.0, 110.0, 120.0)), 0.0);
     }
 }

@@ -74,7 +74,7 @@ pub fn cells(layout: &str, grid: &Grid) -> Result<Vec<Cell>, Fault> {
         let Cell { nominal, span, .. } = cell;
         let bounds = cell.outline(grid.frame).bounds();
         let shortest = bounds.width().min(bounds.height()).min(nominal.width()).min(nominal.height());
-        if !(shortest >= SHORTEST) {
+        if shortest.is_nan() || shortest < SHORTEST {
             return Err(Fault {
                 span: span.clone(),
                 message: format!(
