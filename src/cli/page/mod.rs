@@ -96,6 +96,8 @@ pub(super) fn run(args: &PageArgs) -> Result<(), Error> {
         return new::write(kind, &args.page, args.quiet);
     }
     let targets = targets(args)?;
+    // What changes while the first pages are drawn is noticed as well.
+    let mut watch = watch::Watch::new(&args.page);
     let first = pipeline::in_threads(args.threads, || draw(args, &targets))?;
     if !args.watch {
         return first;
@@ -106,7 +108,6 @@ pub(super) fn run(args: &PageArgs) -> Result<(), Error> {
     if !args.quiet {
         say(&format!("watching {}; Ctrl-C ends", args.page.display()));
     }
-    let mut watch = watch::Watch::new(&args.page);
     loop {
         watch.changed();
         if let Err(error) = pipeline::in_threads(args.threads, || draw(args, &targets))? {
