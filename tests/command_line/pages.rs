@@ -80,7 +80,9 @@ fn several_pages_are_numbered() {
         .refused("2 pages do not fit into one file of this kind; number them");
     folder.ligne("page book.toml b-%02d.svg --quiet").done();
     assert_eq!(folder.read("b-01.svg"), folder.read("b-02.svg"));
-    folder.ligne("page book.toml b.dxf").refused("pages are not written as .dxf");
+    folder.ligne("page book.toml b.dxf").refused("page-%d.svg");
+    folder.ligne("page page.toml b.dxf --quiet").done();
+    assert!(folder.text("b.dxf").contains("AC1015"));
     folder.ligne("page page.toml page.toml").refused("drawings are not written as .toml");
 }
 

@@ -5,7 +5,7 @@ mod watch;
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 
 use crate::cli::numbered::Numbered;
@@ -14,10 +14,10 @@ use crate::cli::progress::Progress;
 use crate::cli::request::same_file;
 use crate::cli::{number, pipeline, print, say};
 use crate::drawing::Composition;
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 #[cfg(feature = "pdf")]
 use crate::export::to_pdf;
-use crate::export::{PngOptions, Resolution, SvgOptions, gzip};
+use crate::export::{DxfOptions, DxfVersion, PngOptions, Resolution, SvgOptions, gzip};
 use crate::page::{Composed, PageFile};
 use crate::render::Stopwatch;
 
@@ -34,7 +34,7 @@ pub(super) struct PageArgs {
     #[arg(value_hint = ValueHint::FilePath)]
     page: PathBuf,
 
-    /// The page: .pdf, which holds all pages of a file, or .svg, .svgz or .png, where the name numbers several pages by %d;
+    /// The page: .pdf, which holds all pages of a file, or .svg, .svgz, .png or .dxf, where the name numbers several pages by %d;
     /// - for SVG on standard output [default: the page file's name with .pdf, in the current folder]
     out: Option<PathBuf>,
 
@@ -50,6 +50,12 @@ pub(super) struct PageArgs {
     /// Draw again whenever the page file or one that it names changes
     #[arg(long)]
     watch: bool,
+
+    /// Release of DXF: 2000, or r12, which every program reads, but which has no letters, fills and widths of lines
+    #[arg(long, value_name = "RELEASE", default_value = "2000", ignore_case = true,
+        value_parser = PossibleValuesParser::new(["r12", "2000"])
+            .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 }))]
+    dxf: DxfVersion,
 
     /// Pixels to the inch in PNG [default: 300]
     #[arg(long, value_name = "N", value_parser = crate::cli::draw_args::dots_per_inch)]
@@ -139,22 +145,10 @@ fn target(path: &Path, page: &Path) -> Result<Target, Error> {
     let wrong = |message: String| {
         Error::new(message).in_file(path).remedy("write such as page-%d.svg for a file a page")
     };
-    let (target, format) = match Numbered::of(path, "a page", wrong)? {
-        Some(numbered) => {
-            let format = numbered.format;
-            (Target::Each(numbered), format)
-        }
-        None => {
-            let output = Output::new(path.to_path_buf())?;
-            let format = output.format;
-            (Target::One(output), format)
-        }
+    let target = match Numbered::of(path, "a page", wrong)? {
+        Some(numbered) => Target::Each(numbered),
+        None => Target::One(Output::new(path.to_path_buf())?),
     };
-    if format == Format::Dxf {
-        return Err(Error::new("pages are not written as .dxf")
-            .in_file(path)
-            .remedy("end the name with .pdf, .svg or .png"));
-    }
     if let Target::One(Output { path, format }) = &target
         && *format != Format::SvgToStdout
     {
@@ -221,7 +215,7 @@ fn pages(count: usize) -> String {
 }
 
 fn needs_numbers(format: Format) -> bool {
-    matches!(format, Format::Svg | Format::Svgz | Format::Png | Format::SvgToStdout)
+    matches!(format, Format::Svg | Format::Svgz | Format::Png | Format::Dxf | Format::SvgToStdout)
 }
 
 /// Warnings, which are errors under `--strict`.
@@ -276,8 +270,6 @@ fn encode(pages: &[Composition], format: Format, args: &PageArgs) -> Result<Vec<
         }
         #[cfg(feature = "pdf")]
         Format::Pdf => to_pdf(pages, &args.print.options(args.ink.as_deref())?.unwrap_or_default()),
-        Format::Dxf => Err(Error::new("pages are not written as .dxf")
-            .of_kind(ErrorKind::Unsupported)
-            .remedy("write .pdf, .svg or .png")),
+        Format::Dxf => Ok(page.flattened().to_dxf(&DxfOptions::default().with_version(args.dxf))),
     }
 }
