@@ -1,6 +1,6 @@
 //! A figure: models placed in a scene, seen by a camera, drawn in a style; and where its parts are on the page.
 //!
-//! Vocabularies hold [`models::Models`], an [`aim::Aim`] and a [`look::Look`] under keys of their own, and make of them, in this
+//! Vocabularies hold [`models::Models`], an [`aim::Aim`] and a [`look`] under keys of their own, and make of them, in this
 //! order: [`look::style`], [`models::staged`], [`aim::camera`], [`draw`], and [`places::places`].
 
 pub mod aim;
