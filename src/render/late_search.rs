@@ -2,12 +2,13 @@
 //!
 //! The trees in the dual space (see [`EdgeSearch`]) take some time to make and save a little in each view
 //! after: not for one drawing, but for all the views of a turning model. Where the surface passes through itself
-//! no view changes, so the first one finds it for all.
+//! no view changes, so the first one finds it for all; for views that cut faces into finer ones, what is left whole is known.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crate::lines::{EdgeSearch, Known, LineKind, LineOptions, Surface, intersections};
+use crate::lines::{EdgeSearch, Finer, Known, LineKind, LineOptions, Surface, intersections};
+use crate::trees::finer::PairSearch;
 use crate::trees::intersect::IntersectionCurves;
 
 /// The search is made for this view of a surface. It takes as long as it saves in 40 to 240 views, in the middle
@@ -24,6 +25,9 @@ pub(super) struct LateSearch {
     views: AtomicU32,
     search: OnceLock<EdgeSearch>,
     intersections: OnceLock<IntersectionCurves>,
+    /// Of views that cut faces.
+    finer_views: AtomicU32,
+    pairs: OnceLock<PairSearch>,
 }
 
 impl LateSearch {
@@ -37,10 +41,33 @@ impl LateSearch {
         if view + 1 == MADE_FOR_VIEW && surface.mesh.edges.len() >= FEW_EDGES {
             let _ = self.search.set(EdgeSearch::new(surface));
         }
-        let wanted = options.enabled && options.kinds.contains(&LineKind::Intersection);
-        if view == 0 && wanted && intersections::is_searched_in_full(&surface.mesh, options.hidden) {
+        if view == 0 && is_wanted(surface, options) {
             let _ = self.intersections.set(intersections::all_curves(&surface.mesh));
         }
         Known { search: self.search.get(), intersections: self.intersections.get() }
     }
+
+    /// The intersections of one more view that cuts faces of a surface, if they are sooner found so.
+    pub fn of_finer_view(
+        &self,
+        surface: &Surface,
+        finer: &Finer,
+        options: &LineOptions,
+    ) -> Option<IntersectionCurves> {
+        if !is_wanted(&finer.surface, options) {
+            return None;
+        }
+        // A surface that is drawn but once, as each pose of a film is, gains nothing by it.
+        if self.finer_views.fetch_add(1, Ordering::Relaxed) == 1 {
+            let _ = self.pairs.set(intersections::search(&surface.mesh));
+        }
+        self.pairs.get().map(|pairs| intersections::curves_of_finer(pairs, finer))
+    }
+}
+
+/// Whether all intersections are sought, seen or not.
+fn is_wanted(surface: &Surface, options: &LineOptions) -> bool {
+    options.enabled
+        && options.kinds.contains(&LineKind::Intersection)
+        && intersections::is_searched_in_full(&surface.mesh, options.hidden)
 }

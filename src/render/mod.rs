@@ -232,7 +232,7 @@ impl<'a> Prepared<'a> {
     pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
         camera.validate()?;
         let refined = self.surface.refined_for(camera);
-        let surface = refined.as_ref().unwrap_or(&self.surface);
+        let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
         let view = View::new(&surface.mesh, camera);
         let maps = image::maps(surface, &view, self.style, unit);
         MapFiles::new(&surface.mesh, &maps, &self.style.lines.image)
@@ -261,16 +261,22 @@ impl<'a> Prepared<'a> {
         [report.counts.vertices, report.counts.edges] = self.counts;
 
         let refined = self.surface.refined_for(camera);
-        let surface = refined.as_ref().unwrap_or(&self.surface);
-        let own = refined.as_ref().zip(paints.as_deref()).filter(|_| fills::asks_surface(style));
+        let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
+        let own = refined.as_ref().map(|_| surface).zip(paints.as_deref());
+        let own = own.filter(|_| fills::asks_surface(style));
         let own = own.map(|(surface, paints)| Paintable::new(surface, paints));
         let paintable = own.as_ref().or(self.paintable.as_ref());
         let view = View::new(&surface.mesh, camera);
         report.stages_ms.topology = watch.lap_ms();
 
         // Finer triangles are those of this view alone.
-        let known =
-            if surface.refined { Known::default() } else { self.search.of_next_view(surface, sought) };
+        let finer =
+            refined.as_ref().and_then(|finer| self.search.of_finer_view(&self.surface, finer, sought));
+        let known = if surface.refined {
+            Known { intersections: finer.as_ref(), ..Known::default() }
+        } else {
+            self.search.of_next_view(surface, sought)
+        };
         let mut lines = lines::extract_with(surface, known, &view, sought);
         let mut warnings = Vec::new();
         let px = Length::px(1.0).in_unit(unit);

@@ -6,10 +6,12 @@
 //! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
 //! lines, get the full search, which no view changes.
 
+use super::surface::Finer;
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::mesh::{FaceId, Mesh};
 use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::shape::Origin;
+use crate::trees::finer::{Hosts, PairSearch};
 use crate::trees::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
 use crate::trees::trace::Tracer;
 use crate::view::View;
@@ -17,12 +19,10 @@ use crate::view::View;
 /// Meshes with at most this many triangles are searched in full, which takes no longer.
 pub const FULL_SEARCH_TRIANGLES: usize = 300_000;
 
-/// Adds the intersection curves of all faces that have area; without hidden lines, at least those
-/// that show in the view.
-pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines, lines: &mut FeatureLines) {
-    let curves =
-        if is_searched_in_full(mesh, hidden) { all_curves(mesh) } else { visible_curves(mesh, view) };
-    add(&curves, mesh, view, lines);
+/// The intersection curves of all faces that have area; without hidden lines, at least those that show in the view.
+#[must_use]
+pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines) -> IntersectionCurves {
+    if is_searched_in_full(mesh, hidden) { all_curves(mesh) } else { visible_curves(mesh, view) }
 }
 
 /// Whether [`all_curves`] are sought, and not those that show in a view.
@@ -73,13 +73,38 @@ fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
 /// All curves of a mesh.
 #[must_use]
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
-    let active: Vec<bool> = if mesh.cleaning.degenerate == 0 {
-        Vec::new()
-    } else {
-        (0..mesh.triangles.len()).map(|f| !mesh.is_degenerate(FaceId::from(f))).collect()
-    };
-    let input = IntersectionInput { positions: &mesh.positions, triangles: &mesh.triangles, active: &active };
-    intersections_of_parts(&input, |face| mesh.extent(FaceId(face)).scale)
+    let active = active(mesh);
+    intersections_of_parts(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+}
+
+/// All curves of a mesh, so that those of finer meshes made of it are found sooner: [`curves_of_finer`].
+#[must_use]
+pub fn search(mesh: &Mesh) -> PairSearch {
+    let active = active(mesh);
+    PairSearch::new(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+}
+
+/// All curves of a surface some of whose faces were cut, with the help of a [`search`] of the mesh it was made of:
+/// those that [`all_curves`] finds.
+#[must_use]
+pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves {
+    let mesh = &finer.surface.mesh;
+    let active = active(mesh);
+    let hosts = Hosts { faces: &finer.hosts, kept: finer.kept };
+    let scale = |face| mesh.extent(FaceId(face)).scale;
+    search.curves_of_finer(&input(mesh, &active), hosts, scale)
+}
+
+/// Which faces have area; empty if all have.
+fn active(mesh: &Mesh) -> Vec<bool> {
+    if mesh.cleaning.degenerate == 0 {
+        return Vec::new();
+    }
+    (0..mesh.triangles.len()).map(|f| !mesh.is_degenerate(FaceId::from(f))).collect()
+}
+
+fn input<'a>(mesh: &'a Mesh, active: &'a [bool]) -> IntersectionInput<'a> {
+    IntersectionInput { positions: &mesh.positions, triangles: &mesh.triangles, active }
 }
 
 /// The curves of which something shows in a view, whole, and perhaps others.

@@ -140,6 +140,18 @@ impl FeatureLines {
         if end < vertices { mesh.positions[end] } else { self.points[end - vertices] }
     }
 
+    /// Adds contours, to lines that have no points of their own yet.
+    pub(super) fn append_contours(&mut self, contours: Self) {
+        debug_assert!(self.points.is_empty() && self.curves.is_empty());
+        let first = self.segments.len() as u32;
+        self.points = contours.points;
+        self.segments.extend(contours.segments);
+        self.curves = contours.curves;
+        for curve in &mut self.curves {
+            curve.segments = curve.segments.start + first..curve.segments.end + first;
+        }
+    }
+
     /// Adds pieces of lines that run through faces, and makes segments of them. Two faces compute the same point of their edge
     /// from the same numbers, so its bits name it.
     pub(super) fn append_in_faces(

@@ -34,7 +34,7 @@ pub use kind::LineKind;
 pub use line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
 pub use lit::Lit;
 pub use options::{Contours, HiddenLines, LineOptions, Normals};
-pub use surface::Surface;
+pub use surface::{Finer, Surface};
 pub use textures::Textures;
 
 use rayon::prelude::*;
@@ -76,21 +76,33 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;
-    lines.segments = match known.search.filter(|search| search.fits(mesh)) {
+    let along_edges = || match known.search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, options),
         Some(search) => {
             let among = search.candidates(&view.frame).items;
             edge_lines::find_among(&among, surface, view, options)
         }
     };
-    if !smooth.is_empty() && options.kinds.contains(&LineKind::Contour) {
-        smooth_contours::find(mesh, view, smooth, &facing(surface, view), &mut lines);
+    let contours = || {
+        let wanted = !smooth.is_empty() && options.kinds.contains(&LineKind::Contour);
+        wanted.then(|| {
+            let facing = facing(surface, view);
+            (smooth_contours::find(mesh, view, smooth, &facing), facing)
+        })
+    };
+    let sought = options.kinds.contains(&LineKind::Intersection) && known.intersections.is_none();
+    let curves = || sought.then(|| intersections::find(mesh, view, options.hidden));
+    // None of them needs another.
+    let ((segments, contours), curves) = rayon::join(|| rayon::join(along_edges, contours), curves);
+    lines.segments = segments;
+    if let Some((contours, facing)) = contours {
+        lines.append_contours(contours);
+        folds::tell(mesh, view, smooth, &facing, &mut lines.segments);
     }
-    if options.kinds.contains(&LineKind::Intersection) {
-        match known.intersections {
-            Some(curves) => intersections::add(curves, mesh, view, &mut lines),
-            None => intersections::find(mesh, view, options.hidden, &mut lines),
-        }
+    if options.kinds.contains(&LineKind::Intersection)
+        && let Some(curves) = known.intersections.or(curves.as_ref())
+    {
+        intersections::add(curves, mesh, view, &mut lines);
     }
     if inside::wanted(options) {
         // Contours along edges of the mesh need no normals, lines inside always do.

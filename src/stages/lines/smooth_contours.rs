@@ -11,7 +11,6 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::folds;
 use super::zero_set::{self, EdgePoint, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
@@ -28,14 +27,15 @@ struct ContourPiece {
     advance: f32,
 }
 
-/// Adds the contours of all rounded surfaces, curve by curve. `facing` is n·v, one per smooth vertex.
-pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64], lines: &mut FeatureLines) {
+/// The contours of all rounded surfaces, curve by curve, and nothing else. `facing` is n·v, one per smooth vertex.
+#[must_use]
+pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64]) -> FeatureLines {
     // Faces without area have no side, but the curve passes through them.
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
-    let first = (mesh.positions.len() + lines.points.len()) as u32;
+    let first = mesh.positions.len() as u32;
     let point = |p: &EdgePoint| EdgeArc::over(mesh, smooth, p.between).at(p.t);
     let points: Vec<DVec3> = set.points.par_iter().with_min_len(1 << 10).map(point).collect();
-    lines.points.extend(points);
+    let mut lines = FeatureLines { points, ..FeatureLines::default() };
     let position = |end: u32| lines.position(mesh, end);
     let pieces: Vec<ContourPiece> = set
         .segments
@@ -53,7 +53,7 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64], li
         let advance = order.iter().map(|p| pieces[*p as usize].advance).collect();
         lines.curves.push(ContourCurve { segments: start..lines.segments.len() as u32, closed, advance });
     }
-    folds::tell(mesh, view, smooth, facing, &mut lines.segments);
+    lines
 }
 
 /// The sign of the radial curvature (DeCarlo et al. 2003, section 2), taken from the piece itself, so

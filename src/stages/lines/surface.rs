@@ -107,13 +107,13 @@ impl Surface {
     pub fn finer_for(mut self, camera: &Camera) -> Self {
         let Some(cuts) = self.cuts_for(camera) else { return self };
         let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
-        self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts))
+        self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts)).surface
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the camera; none
     /// if no part would, or if it has them.
     #[must_use]
-    pub fn refined_for(&self, camera: &Camera) -> Option<Self> {
+    pub fn refined_for(&self, camera: &Camera) -> Option<Finer> {
         let cuts = self.cuts_for(camera)?;
         Some(self.of_finer(splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts)))
     }
@@ -126,17 +126,29 @@ impl Surface {
     }
 
     /// The surface of a mesh that is finer than this one's.
-    fn of_finer(&self, finer: Refined) -> Self {
-        let Refined { mesh, smooth, hosts, edges } = finer;
-        Self {
+    fn of_finer(&self, finer: Refined) -> Finer {
+        let Refined { mesh, smooth, hosts, kept, edges } = finer;
+        let surface = Self {
             hard: self.hard.carried(&edges, mesh.edges.len()),
             mesh,
             smooth,
             origins: hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect(),
             pieces: hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect(),
             refined: true,
-        }
+        };
+        Finer { surface, hosts, kept }
     }
+}
+
+/// A surface some of whose faces were cut for a camera.
+#[derive(Debug, Clone)]
+pub struct Finer {
+    /// The surface with the pieces.
+    pub surface: Surface,
+    /// The face of the surface without that each of its faces is, or is part of.
+    pub hosts: Vec<u32>,
+    /// How many of its faces are whole: the first ones, whose hosts ascend.
+    pub kept: usize,
 }
 
 /// The normals of the patches that are meant to be round, parted at folds as well: edges, ascending.

@@ -1,5 +1,7 @@
 //! Cleaning: faces that no surface has, and the count of what was mended.
 
+use rayon::prelude::*;
+
 use super::soup::Soup;
 use super::{Edges, sheets};
 
@@ -41,28 +43,32 @@ pub(super) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
 ///
 /// Of faces that run the same way the first stays; where they run both ways, see [`sheets`].
 pub(super) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
-    let mut suspects: Vec<u32> = Vec::new();
+    if edges.suspects.is_empty() {
+        return None;
+    }
+    let mut is_suspect = vec![false; soup.triangles.len()];
     for &edge in &edges.suspects {
         match edges.faces(edge as usize) {
             super::EdgeFaces::One(_) => {}
-            faces => suspects.extend(faces.list()),
+            faces => faces.list().iter().for_each(|face| is_suspect[*face as usize] = true),
         }
     }
-    suspects.sort_unstable();
-    suspects.dedup();
     let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let key = |face: u32| {
         let mut corners = soup.triangles[face as usize];
         corners.sort_unstable();
-        (part(face), corners)
+        // Part and corners, one after the other.
+        corners.iter().fold(u128::from(part(face).0), |key, corner| key << 32 | u128::from(*corner))
     };
     // Whether the corners run from the least id to the greatest by way of the third.
     let is_upward = |face: u32| {
         let [a, b, c] = soup.triangles[face as usize];
         [a < b, b < c, c < a].into_iter().filter(|up| *up).count() == 2
     };
-    let mut keyed: Vec<_> = suspects.into_iter().map(|face| (key(face), face)).collect();
-    keyed.sort_unstable();
+    let suspects = (0..soup.triangles.len() as u32).filter(|face| is_suspect[*face as usize]);
+    let mut keyed: Vec<(u128, u32)> = suspects.map(|face| (key(face), face)).collect();
+    drop(is_suspect);
+    keyed.par_sort_unstable();
     let mut keep = vec![true; soup.triangles.len()];
     let mut pairs: Vec<[u32; 2]> = Vec::new();
     let mut dropped = false;

@@ -20,6 +20,9 @@ use crate::mesh::{EdgeMark, Mesh};
 /// An edge is cut at most this many times over: into 256 pieces.
 const MOST_CUTS: usize = 8;
 
+/// Pieces that one task cuts.
+const CHUNK: usize = 1 << 10;
+
 /// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
 /// hardly any is: see [`cuts`].
 #[must_use]
@@ -57,14 +60,14 @@ pub fn cuts(
     let (kept, mut open) = work.affected(&edges);
     let mut done: Vec<Facet> = Vec::new();
     for cuts in 0..MOST_CUTS {
-        let mut next = Vec::with_capacity(open.len() * 2);
         if cuts > 0 {
             work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
         }
-        open.iter().for_each(|piece| work.split(piece, &mut next));
+        let parted: Vec<[Vec<Facet>; 2]> = open.par_chunks(CHUNK).map(|pieces| work.parted(pieces)).collect();
         open.clear();
-        for piece in next {
-            if piece.open.contains(&true) { open.push(piece) } else { done.push(piece) }
+        for [left, whole] in parted {
+            open.extend(left);
+            done.extend(whole);
         }
         if open.is_empty() {
             break;
@@ -146,9 +149,9 @@ impl<'a> Work<'a> {
     /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut.
     fn affected(&self, cut: &[u32]) -> (Kept, Vec<Facet>) {
         let Self { mesh, smooth, .. } = self;
-        let mut faces: Vec<u32> =
-            cut.iter().flat_map(|edge| mesh.edges.faces(*edge as usize).list().to_vec()).collect();
-        faces.sort_unstable();
+        let mut faces: Vec<u32> = Vec::with_capacity(2 * cut.len());
+        cut.iter().for_each(|edge| faces.extend_from_slice(mesh.edges.faces(*edge as usize).list()));
+        faces.par_sort_unstable();
         faces.dedup();
         let mut open = Vec::with_capacity(faces.len());
         for face in faces {
@@ -169,6 +172,14 @@ impl<'a> Work<'a> {
             return None;
         }
         self.middles.get(&piece.side(side)).copied().filter(|middle| *middle != NO_NORMAL)
+    }
+
+    /// Cuts pieces: those that may be cut further, and those that are done.
+    fn parted(&self, pieces: &[Facet]) -> [Vec<Facet>; 2] {
+        let mut next = Vec::with_capacity(pieces.len() * 4);
+        pieces.iter().for_each(|piece| self.split(piece, &mut next));
+        let (open, done) = next.into_iter().partition(|piece: &Facet| piece.open.contains(&true));
+        [open, done]
     }
 
     /// Cuts a piece by the pattern of its cut sides.
@@ -278,7 +289,7 @@ mod tests {
             let half = ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4;
             if half { ends[0].distance(ends[1]) * 10.0 } else { 0.0 }
         };
-        let Refined { mesh: finer, smooth: normals, hosts, edges } =
+        let Refined { mesh: finer, smooth: normals, hosts, edges, .. } =
             refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
         assert_eq!((mesh.triangles.len(), edges.len()), (20, 30));
         assert!(finer.triangles.len() > 500 && hosts.len() == finer.triangles.len());

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::SmoothNormals;
 use crate::mesh::build::face_normals;
-use crate::mesh::{EdgeMark, Edges, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, PaintId, PartId};
 
 /// Texture coordinates and colours of new corners are rounded to this part.
 const UV_STEPS: f64 = 65536.0;
@@ -33,8 +33,10 @@ pub struct Refined {
     pub mesh: Mesh,
     /// Its normals.
     pub smooth: SmoothNormals,
-    /// The face of the given mesh that each of its faces is part of.
+    /// The face of the given mesh that each of its faces is, or is part of; those of the faces that were kept ascend.
     pub hosts: Vec<u32>,
+    /// How many faces were kept, which are the first ones.
+    pub kept: usize,
     /// The edge of the finer mesh that each edge of the given one is, `u32::MAX` for those that were cut.
     pub edges: Vec<u32>,
 }
@@ -136,30 +138,73 @@ macro_rules! part {
 }
 
 /// The finer mesh. One that is given away is changed rather than copied.
-pub fn splice(mut mesh: Cow<'_, Mesh>, mut smooth: Cow<'_, SmoothNormals>, cuts: Cuts) -> Refined {
-    let Cuts { pieces, kept, thin, .. } = &cuts;
-    let own = |piece: &Facet| piece.face as usize;
+pub fn splice(mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cuts) -> Refined {
     let old = mesh.positions.len();
     let vertex = |v: u32| match smooth.vertices.get(v as usize) {
         Some(vertex) => *vertex,
         None => (old + v as usize - smooth.vertices.len()) as u32,
     };
-    let triangles: Vec<[u32; 3]> = pieces.iter().map(|piece| piece.corners.map(vertex)).collect();
+    let triangles: Vec<[u32; 3]> = cuts.pieces.iter().map(|piece| piece.corners.map(vertex)).collect();
+    let (of_edges, (mut mesh, mut smooth)) = match (mesh, smooth) {
+        (Cow::Borrowed(mesh), Cow::Borrowed(smooth)) => rayon::join(
+            || OfEdges::new(mesh, smooth, &cuts, &triangles),
+            || of_faces(Cow::Borrowed(mesh), Cow::Borrowed(smooth), &cuts, &triangles),
+        ),
+        // One after the other, so that less is there at a time.
+        (mut mesh, smooth) => {
+            let of_edges = OfEdges::new(&mesh, &smooth, &cuts, &triangles);
+            if let Cow::Owned(mesh) = &mut mesh {
+                mesh.edges = Edges::default();
+            }
+            (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
+        }
+    };
+    mesh.edges = of_edges.edges;
+    (smooth.straight, smooth.parting) = (of_edges.straight, of_edges.parting);
+    let Cuts { pieces, kept, .. } = &cuts;
+    let hosts = kept.hosts(pieces.iter().map(|piece| piece.face));
+    Refined { mesh, smooth, hosts, kept: kept.count, edges: of_edges.ids }
+}
+
+/// What the finer mesh has by edges.
+struct OfEdges {
+    edges: Edges,
+    straight: EdgeSet,
+    parting: EdgeSet,
+    /// See [`Refined::edges`].
+    ids: Vec<u32>,
+}
+
+impl OfEdges {
+    fn new(mesh: &Mesh, smooth: &SmoothNormals, cuts: &Cuts, triangles: &[[u32; 3]]) -> Self {
+        let Cuts { kept, thin, .. } = cuts;
+        let vertices = mesh.positions.len() + cuts.positions.len();
+        let (edges, ids) = mesh.edges.spliced(&kept.renamed(), kept.count as u32, vertices, triangles);
+        let straight = smooth.straight.with(thin, mesh.edges.len()).carried(&ids, edges.len());
+        let parting = smooth.parting.carried(&ids, edges.len());
+        Self { edges, straight, parting, ids }
+    }
+}
+
+/// All of the finer mesh and its normals that is not by edges.
+fn of_faces(
+    mut mesh: Cow<'_, Mesh>,
+    mut smooth: Cow<'_, SmoothNormals>,
+    cuts: &Cuts,
+    triangles: &[[u32; 3]],
+) -> (Mesh, SmoothNormals) {
+    let Cuts { pieces, kept, .. } = cuts;
+    let own = |piece: &Facet| piece.face as usize;
+    let old = mesh.positions.len();
     let at = |vertex: u32| match mesh.positions.get(vertex as usize) {
         Some(at) => *at,
         None => cuts.positions[vertex as usize - old],
     };
-    let (new_uvs, corner_uvs) = texture(&mesh, pieces, &triangles, at);
-    let colours = colours(&mesh, pieces, &triangles, at);
+    let (new_uvs, corner_uvs) = texture(&mesh, pieces, triangles, at);
+    let colours = colours(&mesh, pieces, triangles, at);
     let positions = extended(part!(mesh, positions), &cuts.positions);
     let scale = |piece: usize| mesh.extent(FaceId(pieces[piece].face)).scale;
-    let normals = face_normals(&positions, &triangles, scale);
-    let (edges, ids) = mesh.edges.spliced(&kept.renamed(), kept.count as u32, positions.len(), &triangles);
-    let straight = smooth.straight.with(thin, mesh.edges.len()).carried(&ids, edges.len());
-    let parting = smooth.parting.carried(&ids, edges.len());
-    if let Cow::Owned(mesh) = &mut mesh {
-        mesh.edges = Edges::default();
-    }
+    let normals = face_normals(&positions, triangles, scale);
     let own_parts: Vec<PartId> = pieces.iter().map(|piece| mesh.face_part[own(piece)]).collect();
     let own_materials: Vec<MaterialId> = pieces.iter().map(|piece| mesh.face_material[own(piece)]).collect();
     let own_paints: Vec<PaintId> =
@@ -178,8 +223,8 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, mut smooth: Cow<'_, SmoothNormals>, cuts:
         face_material: kept.carry(part!(mesh, face_material), own_materials.into_iter()),
         face_paint: kept.carry(part!(mesh, face_paint), own_paints.into_iter()),
         edge_marks: kept.carry(part!(mesh, edge_marks), pieces.iter().map(|piece| piece.marks)),
-        triangles: kept.carry(part!(mesh, triangles), triangles.into_iter()),
-        edges,
+        triangles: kept.carry(part!(mesh, triangles), triangles.iter().copied()),
+        edges: Edges::default(),
         positions,
         wires: part!(mesh, wires).into_owned(),
         cleaning: mesh.cleaning,
@@ -189,11 +234,11 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, mut smooth: Cow<'_, SmoothNormals>, cuts:
         vertices: extended(part!(smooth, vertices), &added.collect::<Vec<_>>()),
         normals: extended(part!(smooth, normals), &cuts.normals),
         corners: kept.carry(part!(smooth, corners), pieces.iter().map(|piece| piece.corners)),
-        parting,
-        straight,
+        parting: EdgeSet::default(),
+        straight: EdgeSet::default(),
         seamless: smooth.seamless,
     };
-    Refined { mesh: finer, smooth, hosts: kept.hosts(pieces.iter().map(|piece| piece.face)), edges: ids }
+    (finer, smooth)
 }
 
 /// A list and what comes after it.

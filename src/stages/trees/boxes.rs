@@ -18,8 +18,8 @@ use super::fine_box::{FINE_FIELD, FineBox, LAST_FINE};
 
 /// Boxes of some triangles of a mesh, in an eight-fold tree.
 #[derive(Debug, Clone)]
-pub struct BoxTree<'a> {
-    triangles: &'a [[u32; 3]],
+pub struct BoxTree {
+    cells: Cells,
     /// Face of each rank along the curve.
     faces: Vec<u32>,
     fine: Vec<FineBox>,
@@ -28,7 +28,7 @@ pub struct BoxTree<'a> {
     levels: Vec<Vec<EightBoxes>>,
 }
 
-impl<'a> BoxTree<'a> {
+impl BoxTree {
     /// The tree of the triangles for which `active` holds (empty: all); `low` and `high` are the
     /// corners of a box around them, for which the grid is made.
     ///
@@ -36,22 +36,13 @@ impl<'a> BoxTree<'a> {
     #[must_use]
     pub fn new(
         positions: &[DVec3],
-        triangles: &'a [[u32; 3]],
+        triangles: &[[u32; 3]],
         active: &[bool],
         low: DVec3,
         high: DVec3,
     ) -> Self {
-        let extent = high - low;
-        let cells_of = |length: f64| if length > 0.0 { f64::from(LAST_FINE - 1) / length } else { 0.0 };
-        let per_length = DVec3::new(cells_of(extent.x), cells_of(extent.y), cells_of(extent.z));
-        let cell = |x: f64| u64::from(1 + (x as u32).min(LAST_FINE - 1));
-        let vertex_cells: Vec<u64> = positions
-            .par_iter()
-            .map(|&p| {
-                let c = (p - low) * per_length;
-                cell(c.x) | cell(c.y) << FINE_FIELD | cell(c.z) << (2 * FINE_FIELD)
-            })
-            .collect();
+        let cells = Cells::new(low, high);
+        let vertex_cells: Vec<u64> = positions.par_iter().map(|p| cells.of(*p)).collect();
         let box_of = |[a, b, c]: [u32; 3]| {
             FineBox::of_cells([vertex_cells[a as usize], vertex_cells[b as usize], vertex_cells[c as usize]])
         };
@@ -75,11 +66,6 @@ impl<'a> BoxTree<'a> {
         drop(entries);
         let fine: Vec<FineBox> = faces.par_iter().map(|&face| box_of(triangles[face as usize])).collect();
         drop(vertex_cells);
-        let of_leaf = |fine: &[FineBox]| {
-            let mut boxes = [GridBox::EMPTY; WIDTH];
-            boxes.iter_mut().zip(fine).for_each(|(b, fine)| *b = fine.coarse());
-            EightBoxes::new(&boxes)
-        };
         let mut level: Vec<EightBoxes> =
             fine.par_chunks(WIDTH).with_min_len(FACES_PER_TASK / WIDTH).map(of_leaf).collect();
         let mut levels = Vec::new();
@@ -94,14 +80,15 @@ impl<'a> BoxTree<'a> {
                 break;
             }
         }
-        Self { triangles, faces, fine, levels }
+        Self { cells, faces, fine, levels }
     }
 
     /// Calls `visit` for triangles with others whose boxes overlap theirs and that have no vertex
-    /// in common with them, every pair in one call, and returns what the calls pushed.
+    /// in common with them, every pair in one call, and returns what the calls pushed. `triangles` are those
+    /// that the tree was made of.
     ///
     /// Works in parallel; the order of the result does not depend on the number of threads.
-    pub fn overlaps<T, F>(&self, visit: F) -> Vec<T>
+    pub fn overlaps<T, F>(&self, triangles: &[[u32; 3]], visit: F) -> Vec<T>
     where
         T: Send,
         F: Fn(u32, &[u32], &mut Vec<T>) + Sync,
@@ -114,16 +101,75 @@ impl<'a> BoxTree<'a> {
                 let mut found = Vec::new();
                 let mut search = Search::default();
                 for group in task * GROUPS_PER_TASK..((task + 1) * GROUPS_PER_TASK).min(groups) {
-                    self.search_group(group, &mut search, &visit, &mut found);
+                    self.search_group(triangles, group, &mut search, &visit, &mut found);
                 }
                 found
             })
             .collect()
     }
 
+    /// The box on the fine grid of a triangle, which need not be one of the tree's.
+    #[inline]
+    pub(super) fn box_of(&self, corners: [DVec3; 3]) -> FineBox {
+        FineBox::of_cells(corners.map(|p| self.cells.of(p)))
+    }
+
+    /// The place of each of so many faces along the curve; `u32::MAX` for those that the tree does not have.
+    pub(super) fn ranks(&self, faces: usize) -> Vec<u32> {
+        let mut ranks = vec![u32::MAX; faces];
+        for (rank, face) in self.faces.iter().enumerate() {
+            ranks[*face as usize] = rank as u32;
+        }
+        ranks
+    }
+
+    /// The tree with other boxes at some places along the curve, which ascend.
+    pub(super) fn with_boxes(&self, changed: &[(u32, FineBox)]) -> Self {
+        let mut tree = self.clone();
+        for (rank, fine) in changed {
+            tree.fine[*rank as usize] = *fine;
+        }
+        let mut blocks: Vec<usize> = changed.iter().map(|(rank, _)| *rank as usize / WIDTH).collect();
+        blocks.dedup();
+        for block in &blocks {
+            let first = block * WIDTH;
+            tree.levels[0][*block] = of_leaf(&tree.fine[first..(first + WIDTH).min(tree.fine.len())]);
+        }
+        for level in 1..tree.levels.len() {
+            let (below, above) = tree.levels.split_at_mut(level);
+            blocks.iter_mut().for_each(|block| *block /= WIDTH);
+            blocks.dedup();
+            for block in &blocks {
+                let first = block * WIDTH;
+                let children = &below[level - 1][first..(first + WIDTH).min(below[level - 1].len())];
+                let mut boxes = [GridBox::EMPTY; WIDTH];
+                boxes.iter_mut().zip(children).for_each(|(one, child)| *one = child.union());
+                above[0][*block] = EightBoxes::new(&boxes);
+            }
+        }
+        tree
+    }
+
+    /// Calls `visit` for the faces whose boxes overlap a given one.
+    pub(super) fn near(&self, own: FineBox, stack: &mut Vec<(usize, usize)>, mut visit: impl FnMut(u32)) {
+        let wanted = &own.coarse().into();
+        stack.push((self.levels.len() - 1, 0));
+        while let Some((level, block)) = stack.pop() {
+            let Some(boxes) = self.levels[level].get(block) else { continue };
+            for node in boxes.overlapping(wanted).map(|place| block * WIDTH + place) {
+                if level > 0 {
+                    stack.push((level - 1, node));
+                } else if own.overlaps(self.fine[node]) {
+                    visit(self.faces[node]);
+                }
+            }
+        }
+    }
+
     /// Visits the triangles of one group with all that overlap them and come later on the curve.
     fn search_group<T>(
         &self,
+        all: &[[u32; 3]],
         group: usize,
         search: &mut Search,
         visit: &impl Fn(u32, &[u32], &mut Vec<T>),
@@ -145,7 +191,7 @@ impl<'a> BoxTree<'a> {
                         let near = triangles[other].overlapping(&own[place]);
                         // Within one leaf, those that come later.
                         let near = if other == leaf { near.from(place + 1) } else { near };
-                        self.add_strangers(leaf * WIDTH + place, other, near, &mut search.near[place]);
+                        self.add_strangers(all, leaf * WIDTH + place, other, near, &mut search.near[place]);
                     }
                 }
             }
@@ -176,22 +222,59 @@ impl<'a> BoxTree<'a> {
     /// Adds the faces at some places of a leaf that share no vertex with the triangle of a rank and overlap it
     /// on the fine grid as well.
     #[inline]
-    fn add_strangers(&self, rank: usize, leaf: usize, places: Places, near: &mut Vec<u32>) {
+    fn add_strangers(
+        &self,
+        triangles: &[[u32; 3]],
+        rank: usize,
+        leaf: usize,
+        places: Places,
+        near: &mut Vec<u32>,
+    ) {
         if places == Places(0) {
             return;
         }
-        let (own, own_box) = (self.triangles[self.faces[rank] as usize], self.fine[rank]);
+        let (own, own_box) = (triangles[self.faces[rank] as usize], self.fine[rank]);
         for other in places.map(|place| leaf * WIDTH + place) {
             let face = self.faces[other];
-            if own_box.overlaps(self.fine[other]) && !share_a_vertex(own, self.triangles[face as usize]) {
+            if own_box.overlaps(self.fine[other]) && !share_a_vertex(own, triangles[face as usize]) {
                 near.push(face);
             }
         }
     }
 }
 
+/// The boxes of a leaf.
+fn of_leaf(fine: &[FineBox]) -> EightBoxes {
+    let mut boxes = [GridBox::EMPTY; WIDTH];
+    boxes.iter_mut().zip(fine).for_each(|(one, fine)| *one = fine.coarse());
+    EightBoxes::new(&boxes)
+}
+
+/// The fine grid over a box. What lies outside counts as in its outermost cells.
+#[derive(Debug, Clone, Copy)]
+struct Cells {
+    low: DVec3,
+    per_length: DVec3,
+}
+
+impl Cells {
+    fn new(low: DVec3, high: DVec3) -> Self {
+        let extent = high - low;
+        let cells_of = |length: f64| if length > 0.0 { f64::from(LAST_FINE - 1) / length } else { 0.0 };
+        Self { low, per_length: DVec3::new(cells_of(extent.x), cells_of(extent.y), cells_of(extent.z)) }
+    }
+
+    /// The cell that a point lies in, packed.
+    #[inline]
+    fn of(&self, p: DVec3) -> u64 {
+        let c = (p - self.low) * self.per_length;
+        let cell = |x: f64| u64::from(1 + (x as u32).min(LAST_FINE - 1));
+        cell(c.x) | cell(c.y) << FINE_FIELD | cell(c.z) << (2 * FINE_FIELD)
+    }
+}
+
 #[inline]
-fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
+pub(super) fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
     let holds = |v: u32| (b[0] == v) | (b[1] == v) | (b[2] == v);
     holds(a[0]) | holds(a[1]) | holds(a[2])
 }

@@ -26,6 +26,13 @@ impl FineBox {
         Self { low: lesser(lesser(a, b), c), high: greater(greater(a, b), c) | FINE_SPARE }
     }
 
+    /// The box around both.
+    #[inline]
+    pub(super) fn union(self, other: Self) -> Self {
+        let high = greater(self.high & !FINE_SPARE, other.high & !FINE_SPARE);
+        Self { low: lesser(self.low, other.low), high: high | FINE_SPARE }
+    }
+
     #[inline]
     pub(super) fn overlaps(self, other: Self) -> bool {
         // A spare bit stays where its cell of `high` is at least that of `low`.

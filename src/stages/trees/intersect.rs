@@ -81,32 +81,51 @@ pub(super) fn find_pairs(
     scale: impl Fn(u32) -> f64 + Sync,
 ) -> Vec<Pair> {
     let IntersectionInput { positions, triangles, active } = *input;
-    let tree = BoxTree::new(positions, triangles, active, low, high);
-    let mut pairs = tree.overlaps(|face, others, found: &mut Vec<Pair>| {
-        let own = &Triangle::new(positions, triangles[face as usize]);
-        let own_scale = scale(face);
-        for &other in others {
-            let other_vertices = triangles[other as usize];
-            if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
-                continue;
-            }
-            let other_triangle = Triangle::new(positions, other_vertices);
-            if other_triangle.has_on_one_side(&own.corners) {
-                continue;
-            }
-            let tolerance = PairTolerance::of_parts(own_scale.max(scale(other)));
-            let common = if face < other {
-                cross_beyond(own, &other_triangle, tolerance)
-            } else {
-                cross_beyond(&other_triangle, own, tolerance)
-            };
-            if let Some(common) = common {
-                found.push(Pair { faces: [face.min(other), face.max(other)], common });
-            }
-        }
-    });
+    pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, scale)
+}
+
+/// The pairs among the triangles that a tree was made of, sorted.
+pub(super) fn pairs_in(
+    tree: &BoxTree,
+    input: &IntersectionInput,
+    scale: impl Fn(u32) -> f64 + Sync,
+) -> Vec<Pair> {
+    let mut pairs =
+        tree.overlaps(input.triangles, |face, others, found| pairs_of(input, face, others, &scale, found));
     pairs.par_sort_unstable_by_key(|pair| pair.faces);
     pairs
+}
+
+/// Adds the pairs that a triangle makes with others.
+pub(super) fn pairs_of(
+    input: &IntersectionInput,
+    face: u32,
+    others: &[u32],
+    scale: impl Fn(u32) -> f64,
+    found: &mut Vec<Pair>,
+) {
+    let IntersectionInput { positions, triangles, .. } = *input;
+    let own = &Triangle::new(positions, triangles[face as usize]);
+    let own_scale = scale(face);
+    for &other in others {
+        let other_vertices = triangles[other as usize];
+        if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
+            continue;
+        }
+        let other_triangle = Triangle::new(positions, other_vertices);
+        if other_triangle.has_on_one_side(&own.corners) {
+            continue;
+        }
+        let tolerance = PairTolerance::of_parts(own_scale.max(scale(other)));
+        let common = if face < other {
+            cross_beyond(own, &other_triangle, tolerance)
+        } else {
+            cross_beyond(&other_triangle, own, tolerance)
+        };
+        if let Some(common) = common {
+            found.push(Pair { faces: [face.min(other), face.max(other)], common });
+        }
+    }
 }
 
 /// Two triangles that have something in common.
@@ -117,7 +136,7 @@ pub(super) struct Pair {
 }
 
 /// The box around all corners of all triangles.
-fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
+pub(super) fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
     let empty = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = triangles
         .par_iter()

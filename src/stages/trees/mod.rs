@@ -6,6 +6,7 @@ mod dual_boxes;
 pub mod dual_tree;
 mod eight_boxes;
 mod fine_box;
+pub mod finer;
 pub mod intersect;
 pub mod nearest;
 pub mod ray_tree;

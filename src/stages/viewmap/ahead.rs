@@ -17,8 +17,8 @@ use crate::math::grouped::grouped;
 use crate::mesh::Mesh;
 use crate::view::View;
 
-/// Tiles along the longer side of the grid that finds triangles: ways are few and short.
-const TILES: u32 = 128;
+/// Tiles along the longer side of the grid that finds triangles: as small as ways are short, as all triangles of a tile are looked at.
+const TILES: u32 = 256;
 /// The end of a way is no feature end.
 const NO_END: u32 = u32::MAX;
 

@@ -8,7 +8,7 @@ use super::layers::{self, Layer};
 use super::limits::Limits;
 use super::occlude::Interval;
 use super::project::{ImageSegment, project};
-use super::rounded::{self, Rounded};
+use super::rounded::{self, Rounded, Smooth};
 use super::visibility::{self, Visibility, decide};
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
 use crate::mesh::Mesh;
@@ -100,12 +100,14 @@ impl<'a> Asked<'a> {
         let Self { view, lines, limits, segments, questions, .. } = self;
         let counting = self.hidden == HiddenPieces::All;
         let asked: Vec<ImageSegment> = questions.iter().map(|i| segments[*i as usize]).collect();
-        let seen = decide(mesh, view, &asked, limits, counting);
-        let rounded = if segments.iter().any(|s| s.role != Role::Line) {
-            rounded::decide(self.mesh, view, lines, segments, (&seen, questions), limits, counting)
-        } else {
-            Rounded::default()
-        };
+        let is_round = segments.iter().any(|s| s.role != Role::Line);
+        let (seen, smooth) = rayon::join(
+            || decide(mesh, view, &asked, limits, counting),
+            || is_round.then(|| Smooth::new(lines, segments, limits)),
+        );
+        let rounded = smooth.map_or_else(Rounded::default, |smooth| {
+            rounded::decide(self.mesh, view, smooth, segments, (&seen, questions), limits, counting)
+        });
         Told { seen, rounded }
     }
 

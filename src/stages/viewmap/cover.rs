@@ -1,5 +1,5 @@
-//! Covers: where one triangle fills a whole small square of the image, everything behind it there
-//! is hidden by it alone.
+//! Covers: where one triangle, or many that hang together, fill a whole small square of the image, everything behind them there
+//! is hidden by them alone.
 //!
 //! The squares are finer than the tiles. A segment that lies behind the covers of all squares it
 //! passes is hidden without a further look; a triangle that lies behind all covers of a tile hides
@@ -7,14 +7,16 @@
 //! lies on a triangle is one of its borders, or in contact with it, and so never strictly behind a
 //! square that the triangle fills.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
+use super::expanse::Expanses;
 use super::grid::Grid;
 use super::limits::{Limits, Slack};
 use super::occluders::{Triangles, corners};
 use super::project::ImageSegment;
 use super::sides::Sides;
+use super::slope::{Slope, step};
 
 /// Squares along the longer side of the grid, about: about as many as pixels of a picture.
 const SQUARES_ACROSS: u32 = 1024;
@@ -22,6 +24,8 @@ const SQUARES_ACROSS: u32 = 1024;
 pub(super) const OPEN: f64 = f64::NEG_INFINITY;
 /// With fewer layers of surface than this over the page on average, covers hide less than they cost.
 const LAYERS: f64 = 3.0;
+/// Covers of the whole page are made by no more tasks than this at a time.
+const MOST_SHARES: usize = 8;
 
 /// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
 #[derive(Debug, Clone)]
@@ -33,11 +37,11 @@ pub struct Covers {
 }
 
 impl Covers {
-    /// Finds the covers of the wanted tiles.
+    /// Finds the covers.
     ///
     /// The result does not depend on the number of threads: the nearest of all covers is taken.
     #[must_use]
-    pub fn find(triangles: &Triangles, wanted: &[bool]) -> Self {
+    pub fn find(triangles: &Triangles) -> Self {
         if triangles.mean_layers() < LAYERS {
             return Self::none(triangles.grid);
         }
@@ -48,18 +52,22 @@ impl Covers {
             .with_min_len(1 << 13)
             .filter(|id| is_large(triangles, *id, squares.cell))
             .collect();
-        let share = large.len().div_ceil(rayon::current_num_threads()).max(1 << 10);
-        let of_square = large
-            .par_chunks(share)
-            .map(|ids| {
+        let expanses = Expanses::new(triangles, squares.cell);
+        let shares = rayon::current_num_threads().min(MOST_SHARES);
+        let of_square = (0..shares)
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|share| {
                 let mut cover = vec![OPEN; squares.len()];
-                let wanted = |square| wanted[squares.tile_of_square(square, triangles.grid, per_tile)];
-                for id in ids {
+                for id in &large[share * large.len() / shares..(share + 1) * large.len() / shares] {
                     let (points, face) = corners(triangles.mesh, triangles.view, *id);
                     let slack = Slack::of(triangles.mesh.extent(crate::mesh::FaceId(face)));
                     let (frame, limits) = (&triangles.view.frame, triangles.limits);
-                    let step = |q: f64| 2.0 * limits.step(q, &slack, false, frame);
-                    add(&points, &squares, step, limits, wanted, &mut cover);
+                    add(&points, &squares, step(&points, limits, &slack, frame), limits, &mut cover);
+                }
+                let mut buffer = Vec::new();
+                for expanse in (share..expanses.count()).step_by(shares) {
+                    expanses.add(expanse, triangles, &squares, &mut buffer, &mut cover);
                 }
                 cover
             })
@@ -115,15 +123,8 @@ fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
         && !triangles.mesh.is_degenerate(crate::mesh::FaceId(face))
 }
 
-/// Raises the cover of the wanted squares that a triangle fills.
-pub(super) fn add(
-    points: &[DVec3; 3],
-    squares: &Grid,
-    step: impl Fn(f64) -> f64,
-    limits: &Limits,
-    wanted: impl Fn(usize) -> bool,
-    cover: &mut [f64],
-) {
+/// Raises the cover of the squares that a triangle fills; everything that it hides is farther by `step`.
+pub(super) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limits, cover: &mut [f64]) {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
     if high.x - low.x < squares.cell || high.y - low.y < squares.cell {
@@ -134,24 +135,21 @@ pub(super) fn add(
     if area.abs() <= limits.height * u.truncate().length().max(v.truncate().length()) {
         return;
     }
-    let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
     let sides = Sides::new(points);
     let half = squares.cell / 2.0;
+    let slope = Slope::new(points, half, step, limits);
     let tiles = squares.tile_box(low, high);
     if tiles.is_empty() {
         return;
     }
     for row in tiles.top..=tiles.bottom {
-        for column in sides.columns(squares, tiles, row, -half) {
-            let square = squares.tile(column, u32::from(row));
-            if !wanted(square) {
-                continue;
-            }
-            let centre = squares.corner(column, u32::from(row)) + half;
-            let middle = points[0].z + slope.dot(centre - points[0].truncate());
-            let least = (middle - (slope.x.abs() + slope.y.abs()) * half).max(low.z);
-            let least = least - step(least);
-            cover[square] = cover[square].max(least);
+        let columns = sides.columns(squares, tiles, row, -half);
+        if columns.is_empty() {
+            continue;
         }
+        let first = squares.tile(columns.start, u32::from(row));
+        let centre = squares.corner(columns.start, u32::from(row)) + half;
+        let own = &mut cover[first..first + columns.len()];
+        own.iter_mut().zip(slope.over(centre, squares.cell)).for_each(|(own, least)| *own = own.max(least));
     }
 }

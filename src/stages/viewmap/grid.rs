@@ -40,6 +40,19 @@ impl TileBox {
         self.left > self.right
     }
 
+    /// The tiles that both have.
+    #[inline]
+    #[must_use]
+    pub fn within(self, other: Self) -> Self {
+        let both = Self {
+            left: self.left.max(other.left),
+            right: self.right.min(other.right),
+            top: self.top.max(other.top),
+            bottom: self.bottom.min(other.bottom),
+        };
+        if both.left > both.right || both.top > both.bottom { Self::EMPTY } else { both }
+    }
+
     /// Number of tiles.
     #[inline]
     #[must_use]

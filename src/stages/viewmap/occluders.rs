@@ -149,6 +149,7 @@ impl Triangles<'_> {
     #[must_use]
     pub(super) fn fill(&self, boxes: &[TileBox], wanted: &[bool], cover: &[f64]) -> Grouped<u32> {
         let chunk = self.chunk();
+        let wanted = &Wanted::new(self.grid, wanted);
         let found: Vec<Vec<(u32, u32)>> = boxes
             .par_chunks(chunk)
             .enumerate()
@@ -174,17 +175,18 @@ impl Triangles<'_> {
         &self,
         id: u32,
         tiles: TileBox,
-        wanted: &[bool],
+        wanted: &Wanted,
         cover: &[f64],
         pairs: &mut Vec<(u32, u32)>,
     ) {
-        if tiles.is_empty() {
+        if tiles.is_empty() || !wanted.has_any(tiles) {
             return;
         }
         // For boxes of few tiles the exact test costs more than it saves.
         if tiles.area() <= 4 {
             for (tile, _) in self.grid.tiles_of(tiles) {
-                if wanted[tile] && (cover[tile] == f64::NEG_INFINITY || self.nearest(id) >= cover[tile]) {
+                if wanted.tiles[tile] && (cover[tile] == f64::NEG_INFINITY || self.nearest(id) >= cover[tile])
+                {
                     pairs.push((tile as u32, id));
                 }
             }
@@ -197,7 +199,7 @@ impl Triangles<'_> {
         for row in tiles.top..=tiles.bottom {
             for column in sides.columns(self.grid, tiles, row, reach) {
                 let tile = self.grid.tile(column, u32::from(row));
-                if wanted[tile] && nearest >= cover[tile] {
+                if wanted.tiles[tile] && nearest >= cover[tile] {
                     pairs.push((tile as u32, id));
                 }
             }
@@ -207,6 +209,38 @@ impl Triangles<'_> {
     fn nearest(&self, id: u32) -> f64 {
         let (points, _) = corners(self.mesh, self.view, id);
         points[0].z.max(points[1].z).max(points[2].z)
+    }
+}
+
+/// Which tiles are wanted, with their number in each block of tiles.
+struct Wanted<'a> {
+    tiles: &'a [bool],
+    /// How many are wanted of those above and to the left of each corner of a tile.
+    sums: Vec<u32>,
+    width: usize,
+}
+
+impl<'a> Wanted<'a> {
+    fn new(grid: &Grid, tiles: &'a [bool]) -> Self {
+        let (columns, width) = (grid.columns as usize, grid.columns as usize + 1);
+        let mut sums = vec![0u32; width * (grid.rows as usize + 1)];
+        for (row, of_row) in tiles.chunks(columns).enumerate() {
+            let mut own = 0;
+            for (column, tile) in of_row.iter().enumerate() {
+                own += u32::from(*tile);
+                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + own;
+            }
+        }
+        Self { tiles, sums, width }
+    }
+
+    /// Whether any of a block that is not empty is wanted.
+    #[inline]
+    fn has_any(&self, tiles: TileBox) -> bool {
+        let at = |row: usize, column: usize| self.sums[row * self.width + column];
+        let (left, right) = (usize::from(tiles.left), usize::from(tiles.right) + 1);
+        let (top, bottom) = (usize::from(tiles.top), usize::from(tiles.bottom) + 1);
+        at(bottom, right) + at(top, left) != at(top, right) + at(bottom, left)
     }
 }
 

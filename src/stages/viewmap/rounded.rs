@@ -9,7 +9,7 @@ use super::project::ImageSegment;
 use super::runs::{Run, runs};
 use super::teeth::Teeth;
 use super::visibility::Visibility;
-use super::witnesses::{Bare, Court, REACH_PX, Told};
+use super::witnesses::{Bare, Court, REACH_PX, Sought, Told};
 use crate::lines::{FeatureLines, Role};
 use crate::math::tolerance;
 use crate::mesh::Mesh;
@@ -56,18 +56,30 @@ fn of<T: Copy>(list: &[(u32, T)], segment: u32) -> impl Iterator<Item = T> + '_ 
     list[first..].iter().take_while(move |(s, _)| *s == segment).map(|(_, found)| *found)
 }
 
+/// The image of smooth contours, to be asked for.
+pub(super) struct Smooth {
+    runs: Vec<Run>,
+    sought: Sought,
+}
+
+impl Smooth {
+    pub fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &Limits) -> Self {
+        let runs = runs(lines, segments, tolerance::CUSP_PX * limits.px);
+        Self { sought: Sought::new(segments, &runs), runs }
+    }
+}
+
 /// What is seen of the image segments in `asked` is known in that order.
 pub(super) fn decide(
     mesh: &Mesh,
     view: &View,
-    lines: &FeatureLines,
+    Smooth { runs, sought }: Smooth,
     segments: &[ImageSegment],
     (seen, asked): (&Visibility, &[u32]),
     limits: &Limits,
     counting: bool,
 ) -> Rounded {
-    let runs = runs(lines, segments, tolerance::CUSP_PX * limits.px);
-    let court = Court::new(mesh, view, segments, &runs, limits);
+    let court = Court { mesh, view, segments, runs: &runs, sought, px: limits.px };
     let mut testimony = court.hear(seen, asked, counting);
     testimony.told.sort_by(|a, b| {
         a.run

@@ -10,6 +10,7 @@ use super::limits::Limits;
 use super::occlude::{Interval, Part, covered, hidden_interval};
 use super::occluders::{Occluder, Reach, Triangles};
 use super::project::ImageSegment;
+use super::slope::step;
 use crate::lines::NO_FACE;
 use crate::math::grouped::grouped;
 
@@ -163,9 +164,9 @@ impl Context<'_> {
         if !self.counting {
             for entry in entries.chosen {
                 let whole = all.whole(*entry, self.triangles);
-                let step =
-                    |q: f64| 2.0 * self.limits.step(q, &whole.slack, false, &self.triangles.view.frame);
-                cover::add(&whole.corners, grid, step, self.limits, |_| true, &mut cover);
+                let frame = &self.triangles.view.frame;
+                let step = step(&whole.corners, self.limits, &whole.slack, frame);
+                cover::add(&whole.corners, grid, step, self.limits, &mut cover);
             }
         }
         let mut fine: Vec<(u32, Item)> = Vec::with_capacity(items.len() * 2);

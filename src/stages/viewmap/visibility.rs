@@ -82,19 +82,20 @@ pub fn decide(
         return gather(segments, limits, &[], &[]);
     }
     let grid = grid_over(segments, tiles_across(mesh.triangles.len()));
-    let mut items = grouped(grid.len(), |put| {
-        for (i, s) in segments.iter().enumerate() {
-            grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));
-        }
-    });
-    let mut wanted: Vec<bool> = (0..grid.len()).map(|t| !items.of(t).is_empty()).collect();
-
     let triangles = Triangles { mesh, view, grid: &grid, limits };
-    let boxes = triangles.tile_boxes();
+    let in_tiles = || {
+        grouped(grid.len(), |put| {
+            for (i, s) in segments.iter().enumerate() {
+                grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));
+            }
+        })
+    };
+    let (mut items, boxes) = rayon::join(in_tiles, || triangles.tile_boxes());
+    let mut wanted: Vec<bool> = (0..grid.len()).map(|t| !items.of(t).is_empty()).collect();
     let mut covers = Covers::none(&grid);
     let mut buried: Vec<Item> = Vec::new();
     if !counting {
-        covers = Covers::find(&triangles, &wanted);
+        covers = Covers::find(&triangles);
         for at in bury(segments, &items, &covers, &mut wanted).into_iter().flatten() {
             let item = items.at_mut(at as usize);
             buried.push(*item);

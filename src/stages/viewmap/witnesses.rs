@@ -12,7 +12,6 @@ use rayon::prelude::*;
 use super::graph::{SeenContour, ViewVertexKind};
 use super::grid::Grid;
 use super::layers::Layer;
-use super::limits::Limits;
 use super::occlude::Interval;
 use super::project::ImageSegment;
 use super::runs::Run;
@@ -84,10 +83,30 @@ pub(super) struct Court<'a> {
     pub view: &'a View,
     pub segments: &'a [ImageSegment],
     pub runs: &'a [Run],
+    pub sought: Sought,
+    pub px: f64,
+}
+
+/// The pieces of curves, to be found by place.
+pub(super) struct Sought {
     grid: Grid,
-    /// Run and index in it of the pieces of curves in each tile.
+    /// Run and index in it of those in each tile.
     pieces: Grouped<(u32, u32)>,
-    px: f64,
+}
+
+impl Sought {
+    pub fn new(segments: &[ImageSegment], runs: &[Run]) -> Self {
+        let grid = grid_over(segments, GRID);
+        let pieces = grouped(grid.len(), |put| {
+            for (r, run) in runs.iter().enumerate() {
+                for (k, id) in run.segments.iter().enumerate() {
+                    let segment = &segments[*id as usize];
+                    grid.walk(segment.a, segment.b, |tile, _, _| put(tile, (r as u32, k as u32)));
+                }
+            }
+        });
+        Self { grid, pieces }
+    }
 }
 
 /// A place on a run.
@@ -98,26 +117,7 @@ pub(super) struct Place {
     pub at: f64,
 }
 
-impl<'a> Court<'a> {
-    pub fn new(
-        mesh: &'a Mesh,
-        view: &'a View,
-        segments: &'a [ImageSegment],
-        runs: &'a [Run],
-        limits: &Limits,
-    ) -> Self {
-        let grid = grid_over(segments, GRID);
-        let pieces = grouped(grid.len(), |put| {
-            for (r, run) in runs.iter().enumerate() {
-                for (k, id) in run.segments.iter().enumerate() {
-                    let segment = &segments[*id as usize];
-                    grid.walk(segment.a, segment.b, |tile, _, _| put(tile, (r as u32, k as u32)));
-                }
-            }
-        });
-        Self { mesh, view, segments, runs, grid, pieces, px: limits.px }
-    }
-
+impl Court<'_> {
     /// Asks all witnesses; hidden pieces are told only if `hidden` has them counted.
     pub fn hear(&self, seen: &Visibility, asked: &[u32], hidden: bool) -> Testimony {
         let heard: Vec<Testimony> = asked
@@ -290,9 +290,9 @@ impl<'a> Court<'a> {
     /// Calls `visit(squared distance, run, index in it, place along it)` for the nearest points of
     /// all pieces of curves within a distance.
     fn each_near(&self, p: DVec3, reach: f64, mut visit: impl FnMut(f64, u32, usize, f64)) {
-        let tiles = self.grid.tile_box(p - reach, p + reach);
-        for (tile, _) in self.grid.tiles_of(tiles) {
-            for (r, k) in self.pieces.of(tile) {
+        let Sought { grid, pieces } = &self.sought;
+        for (tile, _) in grid.tiles_of(grid.tile_box(p - reach, p + reach)) {
+            for (r, k) in pieces.of(tile) {
                 let run = &self.runs[*r as usize];
                 let segment = &self.segments[run.segments[*k as usize] as usize];
                 let (a, along) = (segment.a.truncate(), (segment.b - segment.a).truncate());
