@@ -264,7 +264,7 @@ mod tests {
     /// A ball of many faces with dents, and a wavy sheet through it, in one view.
     fn scene() -> (Mesh, View) {
         let mut soup = Soup::default();
-        let n = 40u32;
+        let n = 24u32;
         let mut surface = |point: &dyn Fn(f64, f64) -> DVec3, closed: bool| {
             let first = soup.positions.len() as u32;
             for i in 0..=n {
@@ -303,7 +303,7 @@ mod tests {
     fn squares_are_filled_as_far_as_told() {
         let (mesh, view) = scene();
         let limits = Limits::new(&view.frame);
-        for across in [20, 64, 150] {
+        for across in [20, 64, 100] {
             let grid = Grid::new(DVec2::ZERO, DVec2::splat(200.0), across);
             let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
             let expanses = Expanses::new(&triangles, grid.cell);
