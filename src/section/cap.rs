@@ -36,6 +36,8 @@ pub(super) struct Opened {
     pub cut: Clipped,
     /// Its volume, world.
     pub volume: f64,
+    /// What rounding leaves of its coordinates, world.
+    pub reach: f64,
 }
 
 impl Opened {
@@ -93,7 +95,7 @@ pub(super) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
 
 /// The cut faces of solids that may overlap, one entry each; vertices where outlines cross are added to their shapes.
 pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
-    let mut outlines = Outlines::default();
+    let mut outlines = Outlines::new(solids.iter().map(|own| own.reach).fold(0.0, f64::max));
     let mut vertices: Vec<FxHashMap<u32, u32>> = vec![FxHashMap::default(); solids.len()];
     let mut open: Vec<Vec<[u32; 2]>> = Vec::with_capacity(solids.len());
     for (number, solid) in solids.iter().enumerate() {

@@ -84,13 +84,14 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let stays = uncut.iter().any(|glob| glob.matches(&part.name));
         let Some(shape) = scene.geometry_of(part) else { continue };
         let place = part.world_from_part;
-        let (behind, before) = clip::reaches(shape, &place, plane);
+        let reach = clip::rounding(shape, &place);
+        let (behind, before) = clip::reaches(shape, &place, plane, reach);
         *keep = behind || !before;
         if behind && before && !stays {
-            let cut = clipped(shape, &place, plane);
+            let cut = clipped(shape, &place, (plane, reach));
             unclosed += cap::closed(&cut).1;
             numbers.push(number);
-            opened.push(Opened { cut, volume: volume(shape, &place) });
+            opened.push(Opened { cut, volume: volume(shape, &place), reach });
         }
     }
     let made = capped(&mut opened, plane);
@@ -164,8 +165,8 @@ fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
 }
 
 /// What is left of a shape; where its outlines do not close, vertices that nearly meet are joined as the mesh does it.
-fn clipped(shape: &Geometry, place: &DAffine3, plane: &Plane) -> Clipped {
-    let cut = clip::clip(shape, place, plane, None);
+fn clipped(shape: &Geometry, place: &DAffine3, (plane, rounding): (&Plane, f64)) -> Clipped {
+    let cut = clip::clip(shape, place, (plane, rounding), None);
     let (_, unclosed) = cap::closed(&cut);
     if unclosed == 0 {
         return cut;
@@ -186,7 +187,7 @@ fn clipped(shape: &Geometry, place: &DAffine3, plane: &Plane) -> Clipped {
     }
     let reaches = vec![reach; used.len()];
     let Some(joined) = weld::near(&world, &used, &reaches) else { return cut };
-    let again = clip::clip(shape, place, plane, Some(&joined));
+    let again = clip::clip(shape, place, (plane, rounding), Some(&joined));
     let (_, still) = cap::closed(&again);
     if still < unclosed { again } else { cut }
 }

@@ -39,7 +39,10 @@ pub(super) struct Outlines {
     points: Vec<DVec2>,
     /// Where each is in the world.
     places: Vec<DVec3>,
-    known: FxHashMap<[u64; 2], u32>,
+    /// Points by the field of a grid that they are in.
+    known: FxHashMap<[i64; 2], Vec<u32>>,
+    /// Points so near are one, and lie on an edge.
+    reach: f64,
     pub edges: Vec<Edge>,
 }
 
@@ -47,15 +50,26 @@ pub(super) struct Outlines {
 const ROUNDS: usize = 8;
 
 impl Outlines {
+    /// None yet; points so near are one: what rounding leaves of the coordinates.
+    pub fn new(reach: f64) -> Self {
+        Self { reach: reach.max(f64::MIN_POSITIVE), ..Self::default() }
+    }
+
     /// The number of a point.
     pub fn point(&mut self, p: DVec2, place: DVec3) -> u32 {
-        let p = p + DVec2::ZERO;
-        let (points, places) = (&mut self.points, &mut self.places);
-        *self.known.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
-            points.push(p);
-            places.push(place);
-            points.len() as u32 - 1
-        })
+        let field = (p / (2.0 * self.reach)).to_array().map(|x| x.floor() as i64);
+        for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
+            let near = self.known.get(&[field[0].saturating_add(i), field[1].saturating_add(j)]);
+            let is_it = |v: &u32| self.at(*v).distance_squared(p) <= self.reach * self.reach;
+            if let Some(known) = near.into_iter().flatten().copied().find(is_it) {
+                return known;
+            }
+        }
+        let number = self.points.len() as u32;
+        self.points.push(p);
+        self.places.push(place);
+        self.known.entry(field).or_default().push(number);
+        number
     }
 
     pub fn at(&self, v: u32) -> DVec2 {
@@ -125,29 +139,37 @@ impl Outlines {
         }
     }
 
-    /// Cuts edges at the points that lie on them, exactly.
+    /// Cuts edges at the points that lie on them.
     fn part_at_points(&mut self) {
         let mut order: Vec<u32> = (0..self.points.len() as u32).collect();
         order.sort_by(|a, b| self.at(*a).x.total_cmp(&self.at(*b).x));
         for k in 0..self.edges.len() {
             let ends = self.edges[k].ends;
             let [a, b] = ends.map(|v| self.at(v));
-            let (low, high) = (a.min(b), a.max(b));
+            let way = b - a;
+            let (low, high) = (a.min(b) - self.reach, a.max(b) + self.reach);
             let first = order.partition_point(|v| self.at(*v).x < low.x);
             let near = order[first..].iter().copied().take_while(|v| self.at(*v).x <= high.x);
             let is_between = |v: &u32| {
                 let p = self.at(*v);
-                !ends.contains(v) && p.y >= low.y && p.y <= high.y && self.side(ends, *v) == 0.0
+                let share = (p - a).dot(way) / way.length_squared();
+                !ends.contains(v)
+                    && (low.y..=high.y).contains(&p.y)
+                    && (0.0..=1.0).contains(&share)
+                    && (self.side(ends, *v) == 0.0
+                        || (p - a).perp_dot(way).abs() <= self.reach * way.length())
             };
             let mut on: Vec<u32> = near.filter(is_between).collect();
-            on.sort_by(|p, q| (self.at(*p) - a).dot(b - a).total_cmp(&(self.at(*q) - a).dot(b - a)));
+            on.sort_by(|p, q| (self.at(*p) - a).dot(way).total_cmp(&(self.at(*q) - a).dot(way)));
             self.divide(k, on);
         }
+        self.edges.retain(|edge| edge.ends[0] != edge.ends[1]);
     }
 
     /// The plane between the outlines, which then consist of sides of its triangles.
     pub fn triangulated(&mut self, plane: &Plane) -> Option<Faces> {
         for round in 0..ROUNDS {
+            self.part_at_points();
             let corners = self.points.iter().map(|p| Corner(Point2::new(p.x, p.y))).collect();
             let sorted = |edge: &Edge| {
                 let [a, b] = edge.ends;
@@ -159,7 +181,6 @@ impl Outlines {
             let mut crossing = Vec::new();
             let faces = Faces::try_bulk_load_cdt(corners, ends, |edge| crossing.push(edge)).ok()?;
             if crossing.is_empty() || round + 1 == ROUNDS {
-                self.part_at_points();
                 return Some(faces);
             }
             crossing.sort_unstable();

@@ -137,7 +137,7 @@ impl Plan {
         let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
         let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
         let sight = Sight::new(&name, camera, self.middle, points);
-        self.views.push(Placed { sight, stands, margin });
+        self.views.push(Placed::new(sight, stands, margin));
         self.set_of.push(set);
     }
 
@@ -251,7 +251,7 @@ impl Plan {
             Some(told) => Stands::At(read_scale(told, source)?),
         };
         self.circled.push(Circled { label, of, shown: self.views.len(), at, radius });
-        self.views.push(Placed { sight, stands, margin: 0.0 });
+        self.views.push(Placed::new(sight, stands, 0.0));
         self.set_of.push(self.set_of[of]);
         Ok(())
     }
