@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use ligne::math::function::{atan2, cos, sin};
 
 use crate::glb::{Assembly, Node};
@@ -79,59 +79,97 @@ fn bearing([bore, inner, outer, outside]: [f64; 4], width: f64, balls: u32) -> S
     together([ring(bore, inner, 0.0, width), ring(outer, outside, 0.0, width)].into_iter().chain(balls))
 }
 
+/// Circles evenly round the middle.
+fn holes(count: u32, on: f64, radius: f64) -> Vec<Vec<DVec2>> {
+    let middle = |k: u32| polar(DVec2::ZERO, on, TAU * f64::from(k) / f64::from(count));
+    (0..count).map(|k| circle(middle(k), radius, 24)).collect()
+}
+
+/// A solid about z under construction, of rings that lie across it.
+#[derive(Default)]
+struct Turning(Solid);
+
+impl Turning {
+    fn ring(&mut self, outline: &[DVec2], z: f64) -> Vec<u32> {
+        self.0.ring(outline.iter().map(|p| p.extend(z)))
+    }
+
+    /// Rings about z, each a (radius, z), joined by walls that look outwards on the way up and inwards on the way down.
+    fn walls(&mut self, profile: &[(f64, f64)]) -> [Vec<u32>; 2] {
+        let rings: Vec<Vec<u32>> =
+            profile.iter().map(|(radius, z)| self.ring(&circle(DVec2::ZERO, *radius, ROUND), *z)).collect();
+        rings.windows(2).for_each(|pair| self.0.band(&pair[0], &pair[1]));
+        [rings[0].clone(), rings[rings.len() - 1].clone()]
+    }
+
+    /// The walls of holes from one height to another, and their rims there.
+    fn drill(&mut self, holes: &[Vec<DVec2>], [low, high]: [f64; 2]) -> [Vec<Vec<u32>>; 2] {
+        let mut rims = [Vec::new(), Vec::new()];
+        for hole in holes {
+            let (below, above) = (self.ring(hole, low), self.ring(hole, high));
+            self.0.band(&above, &below);
+            rims[0].push(below);
+            rims[1].push(above);
+        }
+        rims
+    }
+
+    /// A face across z with holes, that looks up or down.
+    fn face(&mut self, outer: &[u32], holes: &[Vec<u32>], looks_up: bool) {
+        let mut outer = outer.to_vec();
+        if !looks_up {
+            outer.reverse();
+        }
+        let holes: Vec<&[u32]> = holes.iter().map(Vec::as_slice).collect();
+        self.0.plate(&outer, &holes);
+    }
+}
+
 fn housing() -> Solid {
-    let holes = |count: u32, radius: f64, own: f64| -> Vec<Vec<DVec2>> {
-        (0..count)
-            .map(|k| circle(polar(DVec2::ZERO, radius, TAU * f64::from(k) / f64::from(count)), own, 24))
-            .collect()
-    };
-    let mut bores = holes(8, SCREWS, 2.5);
-    bores.push(circle(DVec2::ZERO, 54.2, ROUND));
-    let flange = along_x(prism(&circle(DVec2::ZERO, 72.0, ROUND), &bores, 0.0, 8.0));
-    let body = shaft_turned(&[
-        (54.2, 8.0),
-        (66.0, 8.0),
-        (66.0, 40.0),
-        (60.0, 47.0),
-        (46.0, 50.0),
-        (46.0, 58.0),
-        (31.0, 58.0),
-        (31.0, 40.0),
-        (54.2, 40.0),
-    ]);
-    let mut bores = holes(6, CAP_SCREWS, 2.5);
-    bores.push(circle(DVec2::ZERO, 31.0, ROUND));
-    let end = along_x(prism(&circle(DVec2::ZERO, 46.0, ROUND), &bores, 58.0, 66.0));
+    let mut case = Turning::default();
+    let [front, flange] = case.walls(&[(72.0, 0.0), (72.0, 8.0)]);
+    let [body, end] = case.walls(&[(63.0, 8.0), (63.0, 40.0), (58.0, 47.0), (46.0, 50.0), (46.0, 66.0)]);
+    let [bore, shoulder] = case.walls(&[(31.0, 66.0), (31.0, 40.0)]);
+    let [deep, mouth] = case.walls(&[(54.2, 40.0), (54.2, 0.0)]);
+    let [mut in_front, mut behind] = case.drill(&holes(8, SCREWS, 2.5), [0.0, 8.0]);
+    let [bottoms, mut in_end] = case.drill(&holes(6, CAP_SCREWS, 2.5), [57.0, 66.0]);
+    bottoms.iter().for_each(|bottom| case.face(bottom, &[], true));
+    in_front.push(mouth);
+    case.face(&front, &in_front, false);
+    behind.push(body);
+    case.face(&flange, &behind, true);
+    in_end.push(bore);
+    case.face(&end, &in_end, true);
+    case.face(&deep, &[shoulder], false);
     // Feet under a saddle; in (y, z), with thickness along x.
     let mut outline = vec![at(-75.0, -84.0), at(75.0, -84.0), at(75.0, -74.0)];
-    outline.extend(arc(DVec2::ZERO, 62.0, -PI * 0.22, -PI * 0.78, 24));
+    outline.extend(arc(DVec2::ZERO, 59.0, -PI * 0.22, -PI * 0.78, 24));
     outline.push(at(-75.0, -74.0));
-    let upright = glam::DAffine3::from_mat3(glam::DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X));
+    let upright = DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X));
     let foot = |low: f64, high: f64| prism(&outline, &[], low, high).moved(upright);
-    together([flange, body, end, foot(10.0, 18.0), foot(32.0, 40.0)])
+    together([along_x(case.0), foot(11.0, 19.0), foot(30.0, 38.0)])
 }
 
 fn input_cover() -> Solid {
-    let mut bores: Vec<Vec<DVec2>> =
-        (0..8).map(|k| circle(polar(DVec2::ZERO, SCREWS, TAU * f64::from(k) / 8.0), 2.8, 24)).collect();
-    bores.push(circle(DVec2::ZERO, 26.0, ROUND));
-    let plate = along_x(prism(&circle(DVec2::ZERO, 72.0, ROUND), &bores, -8.0, 0.0));
-    let boss = shaft_turned(&[
-        (12.0, -22.0),
-        (26.0, -22.0),
-        (26.0, 0.0),
-        (17.5, 0.0),
-        (17.5, -12.0),
-        (14.0, -12.0),
-        (14.0, -15.0),
-        (12.0, -15.0),
-    ]);
-    together([plate, boss])
+    let mut cover = Turning::default();
+    let [back, front] = cover.walls(&[(72.0, -8.0), (72.0, 0.0)]);
+    let [end, boss] = cover.walls(&[(26.0, -22.0), (26.0, -8.0)]);
+    let [pocket, seat] = cover.walls(&[(17.5, 0.0), (17.5, -12.0)]);
+    let [groove, step] = cover.walls(&[(14.0, -12.0), (14.0, -15.0)]);
+    let [bore, mouth] = cover.walls(&[(12.0, -15.0), (12.0, -22.0)]);
+    let [mut behind, mut in_front] = cover.drill(&holes(8, SCREWS, 2.8), [-8.0, 0.0]);
+    in_front.push(pocket);
+    cover.face(&front, &in_front, true);
+    behind.push(boss);
+    cover.face(&back, &behind, false);
+    cover.face(&end, &[mouth], false);
+    cover.face(&seat, &[groove], true);
+    cover.face(&step, &[bore], true);
+    along_x(cover.0)
 }
 
 fn output_cover() -> Solid {
-    let mut bores: Vec<Vec<DVec2>> =
-        (0..6).map(|k| circle(polar(DVec2::ZERO, CAP_SCREWS, TAU * f64::from(k) / 6.0), 2.8, 24)).collect();
+    let mut bores = holes(6, CAP_SCREWS, 2.8);
     bores.push(circle(DVec2::ZERO, 22.0, ROUND));
     along_x(prism(&circle(DVec2::ZERO, 46.0, ROUND), &bores, 66.0, 73.0))
 }
@@ -147,8 +185,8 @@ fn input_shaft() -> Solid {
         (10.5, -1.0),
         (10.5, 5.0),
         (10.0, 5.0),
-        (10.0, 32.0),
-        (6.0, 32.0),
+        (10.0, 31.0),
+        (6.0, 31.0),
         (6.0, 42.0),
         (0.0, 42.0),
     ]);

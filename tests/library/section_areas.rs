@@ -185,8 +185,9 @@ fn cut_faces_of_assemblies_are_exact() {
     }
 }
 
-/// How far ends of lines may lie beside their part, px.
+/// How far ends of lines may lie outside material, and in that of another part, px: what is narrower belongs to its neighbour.
 const NEAR: f64 = 0.15;
+const NEAR_OTHERS: f64 = 0.5;
 
 #[test]
 fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
@@ -228,9 +229,20 @@ fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
                         slice.at(place(near)).map(|part| scene.parts[part].name.as_str())
                     };
                     // Ends lie on borders, which regions have within a fraction of a px.
-                    let near = [(0.0, 0.0), (NEAR, 0.0), (-NEAR, 0.0), (0.0, NEAR), (0.0, -NEAR)];
-                    let is_own = near.iter().any(|(dx, dy)| owner(*dx, *dy) == Some(part));
-                    assert!(is_own, "{name} at {at:?}, {share}: {:?}, not {part}", owner(0.0, 0.0));
+                    let is_near = |far: f64| {
+                        let around = (0..16).map(|k| f64::from(k) * std::f64::consts::TAU / 16.0);
+                        around.into_iter().any(|turn| {
+                            owner(
+                                far * ligne::math::function::cos(turn),
+                                far * ligne::math::function::sin(turn),
+                            ) == Some(part)
+                        })
+                    };
+                    let found = owner(0.0, 0.0);
+                    let most = if found.is_none() { NEAR } else { NEAR_OTHERS };
+                    let steps = (1..=8).map(|k| most * f64::from(k) / 8.0);
+                    let is_own = found == Some(part) || steps.into_iter().any(is_near);
+                    assert!(is_own, "{name} at {at:?}, {share}: {found:?}, not {part}");
                 }
                 lines += 1;
             }

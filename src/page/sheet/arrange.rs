@@ -38,12 +38,14 @@ pub(super) struct Placed {
     pub margin: f64,
     /// Room that it needs beyond that on the left, above, on the right and below, mm.
     pub around: [f64; 4],
+    /// The place that it has with all that, on the page.
+    place: Rect,
 }
 
 impl Placed {
     /// A view that needs no room but its own.
     pub fn new(sight: Sight, stands: Stands, margin: f64) -> Self {
-        Self { sight, stands, margin, around: [0.0; 4] }
+        Self { sight, stands, margin, around: [0.0; 4], place: Rect::ZERO }
     }
 }
 
@@ -54,6 +56,8 @@ pub(super) enum Stands {
     Beside(NamedView),
     /// Anywhere, at the scale of the sheet, or at a smaller one.
     Alone,
+    /// Anywhere, at the scale of the sheet, or as large as it may be there: nobody measures in it.
+    Pictorial,
     /// Anywhere, as large as it may be there.
     Free,
     /// Anywhere, at a scale so many times that of the sheet.
@@ -114,8 +118,25 @@ pub(super) fn arrange(
         }
     }
     let (_, scale, order) = best?;
+    let free = room.clone();
     try_scale(views, (&mut room, space), (method, scale, unit_mm), order)?;
+    settle(views, &free, order);
     Some(scale)
+}
+
+/// Moves views that stand alone to the middle of the room that others leave around them.
+fn settle(views: &mut [Placed], free: &Room, order: &[usize]) {
+    for k in order {
+        let mut room = free.clone();
+        let others = views.iter().enumerate().filter(|(other, _)| other != k);
+        others.for_each(|(_, placed)| room.take(placed.place));
+        let own = views[*k].place;
+        if let Some(around) = room.around(own) {
+            let shift = around.center() - own.center();
+            views[*k].place = own + shift;
+            views[*k].sight.corner += shift;
+        }
+    }
 }
 
 /// The orders in which views may be put in places; that in which they are told first, and no others where there are many.
@@ -194,12 +215,14 @@ fn try_scale(
             let titled = if sight.title.is_some() { TITLE } else { 0.0 };
             let own = sight.rect().inflate(BETWEEN / 2.0, BETWEEN / 2.0);
             let [left, above, right, below] = views[*k].around;
-            taken.push(Rect {
+            let place = Rect {
                 x0: own.x0 - left,
                 y0: own.y0 - titled - above,
                 x1: own.x1 + right,
                 y1: own.y1 + below,
-            });
+            };
+            views[*k].place = place;
+            taken.push(place);
         }
         // They stand in the upper left corner; what lies in the angle between them is free.
         if !taken.iter().all(|rect| room.has(*rect)) {
@@ -215,7 +238,7 @@ fn try_scale(
             Stands::Enlarged(times) => vec![scale * times],
             Stands::At(scale) => vec![scale],
             Stands::Alone => smaller(scale, from),
-            // Nobody measures in it.
+            Stands::Pictorial => (0..FREE_STEPS).map(|k| scale * FREE_STEP.powi(k)).collect(),
             Stands::Free => (0..FREE_STEPS).map(|k| scale * LARGEST * FREE_STEP.powi(k)).collect(),
         };
         let margin = placed.margin + AROUND;
@@ -227,6 +250,7 @@ fn try_scale(
                 .map(|place| (scale, place))
         });
         let (scale, place) = found?;
+        placed.place = place;
         placed.sight.unit = scale * unit_mm;
         placed.sight.corner = Point::new(place.x0 + margin + left, place.y0 + margin + title + above);
     }

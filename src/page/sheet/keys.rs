@@ -47,8 +47,8 @@ pub struct SheetPage {
     pub detail: Vec<DetailKeys>,
     /// The model taken apart.
     pub exploded: Option<ExplodedKeys>,
-    /// Whether there is a parts list. Default: no.
-    pub parts_list: bool,
+    /// Whether there is a parts list from the names of parts, or the file (CSV or TOML) with its rows. Default: no.
+    pub parts_list: Option<Spanned<ListKeys>>,
     /// The view that has the balloons of the parts list. Default: exploded if there is such a view, else iso.
     pub balloons: Option<Spanned<String>>,
     /// What views tell by themselves: `none`, `overall`, or `auto`: also the diameters of whole cylinders that are seen along their axes,
@@ -60,6 +60,16 @@ pub struct SheetPage {
     pub dimension: Vec<Spanned<DimensionKeys>>,
     /// Notes.
     pub notes: Vec<String>,
+}
+
+/// Where a parts list comes from.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum ListKeys {
+    /// From the names of parts, or none.
+    Named(bool),
+    /// From a file.
+    File(String),
 }
 
 /// A view of the model cut open.

@@ -13,6 +13,7 @@ pub mod frame;
 mod ink;
 pub mod keys;
 pub mod list;
+mod list_file;
 mod measures;
 pub mod method;
 mod notes;
@@ -43,6 +44,7 @@ use crate::render::Prepared;
 use crate::text::Font;
 use arrange::arrange;
 use ink::Ink;
+use keys::ListKeys;
 use measures::Measures;
 use plan::{Plan, Set, read_scale};
 
@@ -57,7 +59,16 @@ impl SheetPage {
     #[must_use]
     pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
         let style = self.style.as_ref().and_then(|style| figure::look::file(style, source));
-        self.model.files(source).chain(style).collect()
+        let list = match self.parts_list.as_ref().map(toml::Spanned::get_ref) {
+            Some(ListKeys::File(path)) => Some(source.beside(path)),
+            _ => None,
+        };
+        self.model.files(source).chain(style).chain(list).collect()
+    }
+
+    /// Whether it has a parts list.
+    pub(super) fn has_parts_list(&self) -> bool {
+        self.parts_list.as_ref().is_some_and(|list| *list.get_ref() != ListKeys::Named(false))
     }
 
     /// Its size as it lies.
@@ -90,7 +101,7 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
         }
     };
     let mut plan = Plan::new(sheet, source)?;
-    let items = if sheet.parts_list { list::items(&plan.sets[0].scene) } else { Vec::new() };
+    let (items, unlisted) = items(sheet, &plan, source)?;
     let space = frame::space(size);
     let title = block::place(space);
     let (columns, rows, high) = notes::list_size(items.len(), space.height() * 0.3);
@@ -148,6 +159,7 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     };
 
     let (mut drawn, mut warnings) = views(&plan)?;
+    warnings.extend(unlisted);
     let mut ink = Ink::new(&font, "frame");
     frame::draw(size, &mut ink)?;
     drawn.insert(0, whole("frame", ink, size));
@@ -164,12 +176,12 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
         let sight = &plan.views[view].sight;
         let anchors = balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, &items);
         for (item, anchor) in items.iter().zip(&anchors) {
-            if anchor.is_none() {
+            if anchor.is_none() && !item.parts.is_empty() {
                 warnings.push(format!("nothing is seen of item '{}' in the view with balloons", item.name));
             }
         }
         let mut ink = Ink::new(&font, "balloon");
-        notes::balloons(sight.rect(), &anchors, &mut ink)?;
+        notes::balloons(sight.rect(), &items, &anchors, &mut ink)?;
         drawn.push(whole("balloons", ink, size));
     }
     annotate(sheet, &plan, scale, (&asked, &mut written), source)?;
@@ -178,6 +190,23 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
         Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
     let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
     Ok(Composed { composition: Composition::new(name, page, drawn), warnings })
+}
+
+/// The items of the parts list, and warnings about parts that are in none.
+fn items(sheet: &SheetPage, plan: &Plan, source: &Source) -> Result<(Vec<list::Item>, Vec<String>), Error> {
+    if !sheet.has_parts_list() {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let scene = &plan.sets[0].scene;
+    let own = list::items(scene);
+    let Some((told, ListKeys::File(path))) = sheet.parts_list.as_ref().map(|told| (told, told.get_ref()))
+    else {
+        return Ok((own, Vec::new()));
+    };
+    let path = source.existing(&toml::Spanned::new(told.span(), path.clone()), "parts list")?;
+    let (items, left) = list_file::read(&path, scene, &own)?;
+    let warning = |name: String| format!("part '{name}' is in no row of the parts list");
+    Ok((items, left.into_iter().map(warning).collect()))
 }
 
 /// The views, each as an item; details are cut to their circles.

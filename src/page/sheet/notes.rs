@@ -3,7 +3,7 @@
 use kurbo::{Circle, Point, Rect, Vec2};
 
 use super::arrange::Stands;
-use super::balloons::{leaders, slots};
+use super::balloons::{RADIUS, leaders, slots};
 use super::ink::{CHAIN, Ink, NARROW, Stand, WIDE, way};
 use super::list::Item;
 use super::plan::{Circled, CutLine, Plan};
@@ -20,7 +20,8 @@ const SMALL: f64 = 2.5;
 pub(super) fn titles(plan: &Plan, scale: f64, ink: &mut Ink) -> Result<(), Error> {
     for (k, placed) in plan.views.iter().enumerate() {
         let own = placed.sight.unit / plan.unit_mm;
-        let other = placed.stands != Stands::Free && (own / scale - 1.0).abs() > 1e-9;
+        let other =
+            !matches!(placed.stands, Stands::Free | Stands::Pictorial) && (own / scale - 1.0).abs() > 1e-9;
         let scale = other.then(|| scales::written(own));
         let words = match (&placed.sight.title, scale) {
             (Some(title), Some(scale)) => format!("{title} ({scale})"),
@@ -91,8 +92,12 @@ pub(super) fn circle_of(shown: &Sight) -> Circle {
 }
 
 /// Balloons round a view, with the number of each item that has an anchor.
-pub(super) fn balloons(rect: Rect, anchors: &[Option<Point>], ink: &mut Ink) -> Result<(), Error> {
-    const RADIUS: f64 = 4.0;
+pub(super) fn balloons(
+    rect: Rect,
+    items: &[Item],
+    anchors: &[Option<Point>],
+    ink: &mut Ink,
+) -> Result<(), Error> {
     let seen: Vec<(usize, Point)> =
         anchors.iter().enumerate().filter_map(|(k, anchor)| anchor.map(|anchor| (k, anchor))).collect();
     let points: Vec<Point> = seen.iter().map(|(_, anchor)| *anchor).collect();
@@ -107,7 +112,7 @@ pub(super) fn balloons(rect: Rect, anchors: &[Option<Point>], ink: &mut Ink) -> 
         ink.fill(kurbo::Shape::to_path(&Circle::new(*anchor, 0.5), 1e-3));
         ink.circle(centre, RADIUS, NARROW);
         let at = centre + Vec2::new(0.0, LETTERS / 2.0);
-        ink.word(&(item + 1).to_string(), at, LETTERS, Stand::Middle, 2.0 * RADIUS - 1.5)?;
+        ink.word(&items[*item].number, at, LETTERS, Stand::Middle, 2.0 * RADIUS - 1.5)?;
     }
     Ok(())
 }
@@ -132,11 +137,18 @@ pub(super) fn list(
     ink: &mut Ink,
 ) -> Result<(), Error> {
     let width = place.width() / columns as f64;
-    let material = if columns < 3 { width * 0.28 } else { 0.0 };
-    let ends = [0.0, 9.0, 18.0, width - material, width];
+    let remarked = items.iter().any(|item| !item.remark.is_empty());
+    let [material, remark] = match (columns, remarked) {
+        (1 | 2, false) => [0.28, 0.0],
+        (1 | 2, true) => [0.22, 0.22],
+        (_, false) => [0.0, 0.0],
+        (_, true) => [0.0, 0.3],
+    }
+    .map(|share| share * width);
+    let ends = [0.0, 9.0, 18.0, width - material - remark, width - remark, width];
     for (k, column) in items.chunks(rows.max(1)).enumerate() {
         let left = place.x0 + k as f64 * width;
-        let mut row = |words: [&str; 4], top: f64, high: f64| -> Result<(), Error> {
+        let mut row = |words: [&str; 5], top: f64, high: f64| -> Result<(), Error> {
             for (n, words) in words.into_iter().enumerate() {
                 let cell = Rect::new(left + ends[n], top, left + ends[n + 1], top + ROW);
                 if cell.width() > 0.0 {
@@ -147,10 +159,14 @@ pub(super) fn list(
             }
             Ok(())
         };
-        row(["Item", "Qty", "Name", "Material"], place.y1 - ROW, 1.8)?;
+        row(["Item", "Qty", "Name", "Material", "Remark"], place.y1 - ROW, 1.8)?;
         for (n, item) in column.iter().enumerate() {
-            let (number, count) = ((k * rows + n + 1).to_string(), item.parts.len().to_string());
-            row([&number, &count, &item.name, &item.material], place.y1 - ROW * (n + 2) as f64, SMALL)?;
+            let count = item.count.to_string();
+            row(
+                [&item.number, &count, &item.name, &item.material, &item.remark],
+                place.y1 - ROW * (n + 2) as f64,
+                SMALL,
+            )?;
         }
     }
     ink.rect(place, WIDE);

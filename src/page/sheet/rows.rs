@@ -73,7 +73,7 @@ impl Told {
 }
 
 /// The row of each length, those of each side from 0 on outwards: shorter ones are nearer to the view, so that no line that leads to a
-/// longer one crosses them, and in one row nothing overlaps.
+/// longer one around them crosses them, and in one row nothing overlaps.
 #[must_use]
 pub fn rows(lengths: &[Told]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..lengths.len()).collect();
