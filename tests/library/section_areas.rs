@@ -185,9 +185,8 @@ fn cut_faces_of_assemblies_are_exact() {
     }
 }
 
-/// How far ends of lines may lie outside material, and in that of another part, px: what is narrower belongs to its neighbour.
-const NEAR: f64 = 0.15;
-const NEAR_OTHERS: f64 = 0.5;
+/// How far lines may lie beside their part, px: what is narrower belongs to its neighbour.
+const NEAR: f64 = 0.5;
 
 #[test]
 fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
@@ -196,6 +195,7 @@ fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
         let plane = beside(1e-4);
         let slice = slice(&scene, &plane);
         let camera = Camera::named(NamedView::Front, scene.up).fit(&scene);
+        let camera = Camera { width: 2.0 * camera.width, height: 2.0 * camera.height, ..camera };
         let section = cut(scene.clone(), &plane, &[]);
         let style = hatched(&Style::preset("technical").expect("a style"), &section);
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
@@ -239,8 +239,7 @@ fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
                         })
                     };
                     let found = owner(0.0, 0.0);
-                    let most = if found.is_none() { NEAR } else { NEAR_OTHERS };
-                    let steps = (1..=8).map(|k| most * f64::from(k) / 8.0);
+                    let steps = (1..=8).map(|k| NEAR * f64::from(k) / 8.0);
                     let is_own = found == Some(part) || steps.into_iter().any(is_near);
                     assert!(is_own, "{name} at {at:?}, {share}: {found:?}, not {part}");
                 }
