@@ -308,7 +308,7 @@ fn drawn(scene: &Scene, style: &Style) -> Vec<(f64, [[i64; 2]; 2])> {
             }
         }
     }
-    found.sort_by(|a, b| a.1.cmp(&b.1));
+    found.sort_by_key(|a| a.1);
     found
 }
 

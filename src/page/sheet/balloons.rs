@@ -75,7 +75,7 @@ fn clear(anchors: &[Point], slots: &[Point], of: &mut [usize]) {
     let faults = |of: &[usize], k: usize| -> usize {
         (0..of.len()).filter(|other| *other != k).map(|other| between(of, k, other)).sum()
     };
-    let long = |of: &[usize], k: usize| (anchors[k] - slots[of[k]]).hypot();
+    let long = |of: &[usize], k: usize| (anchors[k] - slots[of[k]]).hypot2().sqrt();
     loop {
         // The change that leaves fewest, of those the one by which leaders grow least.
         let mut best: Option<(usize, f64, usize, usize)> = None;
@@ -118,7 +118,7 @@ fn clear(anchors: &[Point], slots: &[Point], of: &mut [usize]) {
 pub fn runs_through([a, b]: [Point; 2], centre: Point) -> bool {
     let way = b - a;
     let share = ((centre - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (a + way * share - centre).hypot() < RADIUS + CLEAR
+    (a + way * share - centre).hypot2().sqrt() < RADIUS + CLEAR
 }
 
 /// Whether two segments have a point in common, exactly.

@@ -133,7 +133,7 @@ impl Measures {
                 .iter()
                 .filter(|round| round.hollow && round.pitch.is_none())
                 .flat_map(|round| round.centres.iter().map(|at| sight.page(*at)))
-                .filter(|at| outer.iter().all(|other| (*other - *at).hypot() > SAME))
+                .filter(|at| outer.iter().all(|other| (*other - *at).hypot2() > SAME * SAME))
                 .collect();
             for side in [Side::Below, Side::Left] {
                 let across = side.is_across();
@@ -291,7 +291,8 @@ fn led_place(led: &Led, rect: Rect, wide: f64, taken: &[Rect], lines: &[[Point; 
                 [[(other.x0, other.y0), (other.x1, other.y1)], [(other.x0, other.y1), (other.x1, other.y0)]];
             sides.iter().any(|side| cross([place.tip, place.knee], side.map(Point::from)))
         };
-        !(within.width() > 0.0 && within.height() > 0.0)
+        let is_outside = within.width() <= 0.0 || within.height() <= 0.0;
+        is_outside
             && !taken.iter().any(|other| meets(other) || through(other))
             && !lines.iter().any(|line| cross(*line, [place.tip, place.knee]))
     };

@@ -121,7 +121,7 @@ fn of_cylinder(
         let along = away.dot(cylinder.axis);
         let aside = (away - cylinder.axis * along).length() - cylinder.radius;
         let beyond = (along - along.clamp(cylinder.ends[0], cylinder.ends[1])).abs();
-        aside.hypot(beyond)
+        aside * aside + beyond * beyond
     };
     let seen = found.iter().filter(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
     let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
