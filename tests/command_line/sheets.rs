@@ -49,10 +49,10 @@ fn wrong_planes_and_axes_are_refused() {
 fn turns_round_a_model_show_it_cut_open_or_taken_apart() {
     let folder = Folder::with_cubes("section-turn");
     folder.ligne("animate cubes.obj cut-%d.svg --turntable 2 --section z --view front").done();
-    let svg = folder.text("cut-1.svg");
+    let svg = folder.text("cut-0.svg");
     assert!(svg.contains("<path class=\"pattern\" data-part=\"base\""), "{svg}");
     folder.ligne("animate cubes.obj apart-%d.svg --turntable 2 --explode y:20 --view front").done();
-    assert!(folder.text("apart-1.svg").contains("data-part=\"trail\""));
+    assert!(folder.text("apart-0.svg").contains("data-part=\"trail\""));
 }
 
 #[test]
