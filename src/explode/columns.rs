@@ -18,6 +18,8 @@ pub(super) struct Columns {
     size: [i64; 2],
     /// Where the axis meets the surface over each field, rising.
     crossings: Vec<Vec<f64>>,
+    /// Whether there is nothing on a field, but on others of its row and column to both sides.
+    within: Vec<bool>,
     /// Fields with anything on them.
     pub count: usize,
     /// Least and greatest place along the axis.
@@ -49,6 +51,7 @@ impl Columns {
             first,
             size,
             crossings: vec![Vec::new(); (size[0] * size[1]) as usize],
+            within: Vec::new(),
             count: 0,
             low: low[2],
             high: high[2],
@@ -82,7 +85,48 @@ impl Columns {
             column.sort_by(f64::total_cmp);
             made.count += usize::from(!column.is_empty());
         }
+        made.within = made.surrounded();
         made
+    }
+
+    /// For each field whether it is empty and stands between others.
+    fn surrounded(&self) -> Vec<bool> {
+        let [columns, rows] = self.size.map(|size| size as usize);
+        let mut sides = vec![0_u8; columns * rows];
+        let mut pass = |fields: &mut dyn Iterator<Item = usize>, bit: u8| {
+            let mut met = false;
+            for field in fields {
+                met |= !self.crossings[field].is_empty();
+                sides[field] |= if met { bit } else { 0 };
+            }
+        };
+        for row in 0..rows {
+            let at = |column: usize| row * columns + column;
+            pass(&mut (0..columns).map(at), 1);
+            pass(&mut (0..columns).rev().map(at), 2);
+        }
+        for column in 0..columns {
+            let at = |row: usize| row * columns + column;
+            pass(&mut (0..rows).map(at), 4);
+            pass(&mut (0..rows).rev().map(at), 8);
+        }
+        sides.iter().zip(&self.crossings).map(|(sides, column)| *sides == 15 && column.is_empty()).collect()
+    }
+
+    /// On how many of its fields another one goes round it.
+    pub fn lies_within(&self, other: &Self) -> usize {
+        let mut count = 0;
+        for j in 0..self.size[1] {
+            for i in 0..self.size[0] {
+                if self.crossings[(j * self.size[0] + i) as usize].is_empty() {
+                    continue;
+                }
+                let (x, y) = (i + self.first[0] - other.first[0], j + self.first[1] - other.first[1]);
+                let is_in = (0..other.size[0]).contains(&x) && (0..other.size[1]).contains(&y);
+                count += usize::from(is_in && other.within[(y * other.size[0] + x) as usize]);
+            }
+        }
+        count
     }
 
     fn column(&self, i: i64, j: i64) -> &[f64] {
@@ -127,6 +171,7 @@ impl Columns {
             first,
             size,
             crossings: Vec::with_capacity((size[0] * size[1]) as usize),
+            within: Vec::new(),
             count: 0,
             low: self.low.min(other.low),
             high: self.high.max(other.high),
@@ -139,6 +184,7 @@ impl Columns {
                 made.crossings.push(column);
             }
         }
+        made.within = made.surrounded();
         made
     }
 }

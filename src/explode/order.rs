@@ -24,7 +24,10 @@ fn standing(a: &Columns, b: &Columns, touch: f64) -> Standing {
     let [both, above, below] = a.meets(b, touch);
     let graze = (GRAZE * a.count.min(b.count) as f64).floor() as usize;
     if both <= graze {
-        return Standing::Beside;
+        // A bearing in its bore is hidden as long as it stays there.
+        let [small, large] = if a.count <= b.count { [a, b] } else { [b, a] };
+        let is_within = small.count > 0 && small.lies_within(large) + graze >= small.count;
+        return if is_within { Standing::Free } else { Standing::Beside };
     }
     // Where the other is in the way above, this one cannot go up, nor the other down.
     match (above > graze, below > graze) {
@@ -74,19 +77,35 @@ pub(super) fn offsets(columns: &[Columns], groups: &[Vec<usize>], touch: f64, ga
     // Which others stand under each one.
     let mut under: Vec<Vec<usize>> = vec![Vec::new(); count];
     let mut piece: Vec<usize> = (0..count).collect();
+    let mut above = Above::new(count);
+    let mut free: Vec<[usize; 2]> = Vec::new();
     for a in 0..count {
         for b in 0..a {
-            let above = match standing(&bodies[a], &bodies[b], touch) {
+            let [upper, lower] = match standing(&bodies[a], &bodies[b], touch) {
                 Standing::Beside => continue,
-                Standing::Above => true,
-                Standing::Below => false,
-                Standing::Free | Standing::Held => middle(a) >= middle(b),
+                Standing::Above => [a, b],
+                Standing::Below => [b, a],
+                Standing::Free | Standing::Held => {
+                    free.push(if middle(a) >= middle(b) { [a, b] } else { [b, a] });
+                    continue;
+                }
             };
-            let (upper, lower) = if above { (a, b) } else { (b, a) };
+            above.add(upper, lower);
             under[upper].push(lower);
-            let (from, to) = (piece[a].max(piece[b]), piece[a].min(piece[b]));
-            piece.iter_mut().filter(|p| **p == from).for_each(|p| *p = to);
         }
+    }
+    // Those that can go both ways go by the nearer end, unless others between them say otherwise; the clearest ones are asked first.
+    let far = |[upper, lower]: &[usize; 2]| middle(*upper) - middle(*lower);
+    free.sort_by(|a, b| far(b).total_cmp(&far(a)).then(a.cmp(b)));
+    for [upper, lower] in free {
+        let turned = above.has(lower, upper) && !above.has(upper, lower);
+        let [upper, lower] = if turned { [lower, upper] } else { [upper, lower] };
+        above.add(upper, lower);
+        under[upper].push(lower);
+    }
+    for (upper, lower) in (0..count).flat_map(|k| under[k].iter().map(move |lower| (k, *lower))) {
+        let (from, to) = (piece[upper].max(piece[lower]), piece[upper].min(piece[lower]));
+        piece.iter_mut().filter(|p| **p == from).for_each(|p| *p = to);
     }
     let mut offsets: Vec<Option<f64>> = vec![None; count];
     for _ in 0..count {
@@ -112,4 +131,33 @@ pub(super) fn offsets(columns: &[Columns], groups: &[Vec<usize>], touch: f64, ga
         together.iter().for_each(|k| offsets[*k] -= stays);
     }
     offsets
+}
+
+/// What stands above what, by itself or by way of others.
+struct Above {
+    /// For each body a bit for each one that it stands above.
+    rows: Vec<Vec<u64>>,
+}
+
+impl Above {
+    fn new(count: usize) -> Self {
+        Self { rows: vec![vec![0; count.div_ceil(64)]; count] }
+    }
+
+    fn has(&self, upper: usize, lower: usize) -> bool {
+        self.rows[upper][lower / 64] >> (lower % 64) & 1 == 1
+    }
+
+    fn add(&mut self, upper: usize, lower: usize) {
+        if self.has(upper, lower) {
+            return;
+        }
+        let mut below = self.rows[lower].clone();
+        below[lower / 64] |= 1 << (lower % 64);
+        for k in 0..self.rows.len() {
+            if k == upper || self.has(k, upper) {
+                self.rows[k].iter_mut().zip(&below).for_each(|(own, more)| *own |= more);
+            }
+        }
+    }
 }

@@ -83,7 +83,8 @@ impl Flat {
             flat.geometry.resize(count, number as u32);
             if !geometry.edge_marks.is_empty() {
                 flat.marked.resize(first, [false; 3]);
-                let is_line = |mark: EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Contour);
+                let is_line =
+                    |mark: EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Contour | EdgeMark::Cut);
                 flat.marked
                     .extend(geometry.edge_marks.iter().take(count - first).map(|marks| marks.map(is_line)));
             }

@@ -12,6 +12,9 @@ pub const WELD_OF_PART: f64 = 1e-8;
 /// one and a half units in the last place of an `f32`.
 pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 
+/// What moving a model leaves of its coordinates in double precision, as a share of the largest: a few units in the last place.
+pub const ROUNDING: f64 = 1e-15;
+
 /// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;

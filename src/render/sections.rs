@@ -1,6 +1,6 @@
 //! [`hatched`], [`trailed`]: styles that also hatch the faces along which a scene is cut open, and draw trails of parts.
 
-use crate::drawing::Length;
+use crate::drawing::{Length, Unit};
 use crate::explode::TRAIL;
 use crate::hatch::{Pattern, PatternKind};
 use crate::lines::LineKind;
@@ -44,7 +44,8 @@ const KINDS: [(f64, f64); 8] = [
     (120.0, 1.0),
 ];
 
-/// The style with thin lines at 45 degrees on the cut faces of a section, at other angles or distances on neighbouring parts. A pattern
+/// The style with thin lines at 45 degrees on the cut faces of a section, at other angles or distances on neighbouring parts, and with
+/// outlines of these faces as wide as the widest lines of the style. A pattern
 /// that the style itself has for the material of such faces (`cut 1`, `cut 2` and so on) is left as it is.
 ///
 /// Source: ISO 128-50:2001, Basic conventions for representing areas on cuts and sections, 4 and 6.
@@ -85,5 +86,16 @@ pub fn hatched(style: &Style, section: &Section) -> Style {
             ..Pattern::default()
         });
     }
+    // Their outlines are as wide as any line of the style.
+    let always = |rule: &&Rule| {
+        rule.when.part.is_none() && rule.when.material.is_none() && rule.when.hidden != Some(true)
+    };
+    let widths = style.stroke.rules.iter().filter(always).filter_map(|rule| rule.pen.width);
+    let mm = |width: &Length| width.in_unit(Unit::Mm);
+    let width = widths.max_by(|a, b| mm(a).total_cmp(&mm(b)));
+    let width = width.filter(|width| mm(width) > mm(&style.stroke.pen.width));
+    let material = Some(Glob::new("cut *"));
+    let when = Condition { material, hidden: Some(false), ..Condition::default() };
+    style.stroke.rules.push(Rule { when, pen: PenChange { width, ..PenChange::default() } });
     style
 }

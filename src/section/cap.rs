@@ -1,44 +1,69 @@
-//! [`cap`]: the faces that close a shape where a plane has cut it open.
+//! [`caps`]: the faces that close solids where a plane has cut them open.
 //!
-//! The open edges are triangulated in the plane (Delaunay, under constraints); between them each patch is material or not by the number
-//! of times that the edges go round it, so that holes stay open, and shells that overlap are one. Edges that cross get a vertex there.
+//! Between the outlines of all of them the plane is triangulated; a triangle is within a solid or not by the number of times that its
+//! outlines go round it, so that holes stay open, and shells of one solid that overlap are one. Of a triangle within several solids the
+//! smallest one has it: a bolt in a plate, a pipe in a block, where no hole was made for them.
+
+use std::cmp::Ordering;
 
 use glam::DVec2;
-use robust::{Coord, orient2d};
 use rustc_hash::FxHashMap;
-use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
+use spade::Triangulation as _;
 
 use super::clip::Clipped;
+use super::outlines::{Edge, Faces, Outlines};
 use super::plane::Plane;
+use super::seam::{Seam, Seams, bits};
 use crate::mesh::EdgeMark;
 
-/// Cut faces of a shape.
+/// Cut faces of a solid.
 #[derive(Debug, Default)]
 pub(super) struct Cap {
-    /// Vertices of the shape, counter-clockwise seen from the front.
+    /// Vertices of the solid's shape, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// What their sides are: hard where they border on the surface.
+    /// What their sides are.
     pub marks: Vec<[EdgeMark; 3]>,
     /// Their area, in units of the world squared.
     pub area: f64,
     /// Least and greatest place along the axes of the plane.
     pub bounds: Option<[DVec2; 2]>,
-    /// Outlines that do not close, and are left open.
-    pub unclosed: u64,
+    /// What became of the open edges.
+    pub seams: Seams,
 }
 
-#[derive(Clone, Copy)]
-struct Corner(Point2<f64>);
+/// A solid that was cut open.
+pub(super) struct Opened {
+    pub cut: Clipped,
+    /// Its volume, world.
+    pub volume: f64,
+    /// What rounding leaves of its coordinates, world.
+    pub reach: f64,
+}
 
-impl HasPosition for Corner {
-    type Scalar = f64;
+impl Opened {
+    /// The box around what lies in the plane, along its axes.
+    pub fn bounds(&self, plane: &Plane) -> Option<[DVec2; 2]> {
+        let place = |node: &u32| plane.flat(self.cut.geometry.positions[*node as usize]);
+        let of = |p: DVec2| [p, p];
+        let nodes = self.cut.nodes.iter().map(|node| of(place(node)));
+        nodes.reduce(|[low, high], [p, q]| [low.min(p), high.max(q)])
+    }
 
-    fn position(&self) -> Point2<f64> {
-        self.0
+    /// Which of two solids has what lies in both.
+    fn precedence(&self, other: &Self, plane: &Plane) -> Ordering {
+        // Rounded, so that the order of triangles does not matter.
+        let by_volume = (self.volume as f32).total_cmp(&(other.volume as f32));
+        let corners = |of: &Self| of.bounds(plane).unwrap_or_default();
+        let (own, its) = (corners(self), corners(other));
+        let number = |bounds: [DVec2; 2]| bounds.map(|p| p.to_array());
+        let by_place = number(own)
+            .as_flattened()
+            .iter()
+            .zip(number(its).as_flattened())
+            .fold(Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b)));
+        by_volume.then(by_place)
     }
 }
-
-type Faces = ConstrainedDelaunayTriangulation<Corner>;
 
 /// The edges that run in closed ways, and the number of connected outlines that do not.
 pub(super) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
@@ -68,170 +93,104 @@ pub(super) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
     (cut.open.iter().filter(closes).copied().collect(), unclosed)
 }
 
-/// The cut faces of a shape; vertices where edges cross are added to it.
-pub(super) fn cap(cut: &mut Clipped, plane: &Plane) -> Cap {
-    let (open, unclosed) = closed(cut);
-    let mut made = Cap { unclosed, ..Cap::default() };
-    // Nodes at one place of the plane are one point.
-    let mut outlines = Outlines::default();
-    let mut vertices: Vec<u32> = Vec::new();
-    let mut point = |node: u32| {
-        let vertex = cut.nodes[node as usize];
-        let point = outlines.point(plane.flat(cut.geometry.positions[vertex as usize]));
-        if point as usize == vertices.len() {
-            vertices.push(vertex);
+/// The cut faces of solids that may overlap, one entry each; vertices where outlines cross are added to their shapes.
+pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
+    let mut outlines = Outlines::new(solids.iter().map(|own| own.reach).fold(0.0, f64::max));
+    let mut vertices: Vec<FxHashMap<u32, u32>> = vec![FxHashMap::default(); solids.len()];
+    let mut open: Vec<Vec<[u32; 2]>> = Vec::with_capacity(solids.len());
+    for (number, solid) in solids.iter().enumerate() {
+        let (cut, own) = (&solid.cut, &mut vertices[number]);
+        let mut point = |node: u32| {
+            let vertex = cut.nodes[node as usize];
+            let place = cut.geometry.positions[vertex as usize];
+            // Nodes at one place of the plane are one point.
+            let point = outlines.point(plane.flat(place), place);
+            own.entry(point).or_insert(vertex);
+            point
+        };
+        let (edges, _) = closed(cut);
+        // The new faces run the other way along the edges.
+        let ends: Vec<_> = edges.iter().map(|([a, b], times)| ([point(*b), point(*a)], *times)).collect();
+        for (of, (ends, times)) in ends.into_iter().enumerate().filter(|(_, ([a, b], _))| a != b) {
+            outlines.edges.push(Edge { ends, times, solid: number as u32, of: of as u32 });
         }
-        point
-    };
-    // The new faces run the other way along the edges.
-    let edges: Vec<([u32; 2], i32)> = open
-        .iter()
-        .map(|([a, b], times)| ([point(*b), point(*a)], *times))
-        .filter(|([a, b], _)| a != b)
-        .collect();
-    outlines.edges = edges;
-    let Some(faces) = triangulated(&mut outlines) else { return made };
-    for p in outlines.points.iter().skip(vertices.len()) {
-        vertices.push(cut.geometry.positions.len() as u32);
-        cut.geometry.positions.push(plane.raised(*p));
-        if !cut.geometry.colours.is_empty() {
-            cut.geometry.colours.push([1.0; 4]);
-        }
+        open.push(edges.iter().map(|(ends, _)| ends.map(|node| cut.nodes[node as usize])).collect());
     }
-    let inside = material(&faces, &outlines);
-    for face in faces.inner_faces().filter(|face| inside[face.fix().index()]) {
-        let mark = |beyond: usize| if inside[beyond] { EdgeMark::Hidden } else { EdgeMark::Hard };
-        made.marks.push(face.adjacent_edges().map(|edge| mark(edge.rev().face().fix().index())));
-        made.triangles.push(face.vertices().map(|corner| vertices[corner.fix().index()]));
-        let [a, b, c] = face.positions().map(|p| DVec2::new(p.x, p.y));
-        made.area += (b - a).perp_dot(c - a) / 2.0;
-        let [low, high] = made.bounds.unwrap_or([a, a]);
-        made.bounds = Some([low.min(a).min(b).min(c), high.max(a).max(b).max(c)]);
+    let mut made: Vec<Cap> = solids.iter().map(|_| Cap::default()).collect();
+    let Some(faces) = outlines.triangulated(plane) else { return made };
+    let mut ranked: Vec<usize> = (0..solids.len()).collect();
+    ranked.sort_by(|a, b| solids[*a].precedence(solids[*b], plane).then(a.cmp(b)));
+    let mut rank = vec![0; solids.len()];
+    ranked.iter().enumerate().for_each(|(k, solid)| rank[*solid] = k);
+    let owner = owners(&faces, &outlines, &rank);
+
+    let mut vertex = |solid: usize, point: u32| {
+        *vertices[solid].entry(point).or_insert_with(|| {
+            let geometry = &mut solids[solid].cut.geometry;
+            geometry.positions.push(outlines.place(point));
+            if !geometry.colours.is_empty() {
+                geometry.colours.resize(geometry.positions.len(), [1.0; 4]);
+            }
+            geometry.positions.len() as u32 - 1
+        })
+    };
+    for face in faces.inner_faces() {
+        let Some(solid) = owner[face.fix().index()] else { continue };
+        let own = &mut made[solid as usize];
+        let is_own = |beyond: usize| owner[beyond] == Some(solid);
+        let mark = |beyond: usize| if is_own(beyond) { EdgeMark::Hidden } else { EdgeMark::Cut };
+        own.marks.push(face.adjacent_edges().map(|edge| mark(edge.rev().face().fix().index())));
+        let corners = face.vertices().map(|corner| corner.fix().index() as u32);
+        own.triangles.push(corners.map(|corner| vertex(solid as usize, corner)));
+        let [a, b, c] = corners.map(|corner| outlines.at(corner));
+        own.area += (b - a).perp_dot(c - a) / 2.0;
+        let [low, high] = own.bounds.unwrap_or([a, a]);
+        own.bounds = Some([low.min(a).min(b).min(c), high.max(a).max(b).max(c)]);
+    }
+    // What became of each open edge: along it faces of its solid end, or those of another one have taken their place.
+    let corners: Vec<_> = faces.fixed_vertices().collect();
+    let mut pieces: Vec<&Edge> = outlines.edges.iter().collect();
+    pieces.sort_by_key(|edge| (edge.solid, edge.of));
+    for own in pieces.chunk_by(|a, b| (a.solid, a.of) == (b.solid, b.of)) {
+        let (solid, of) = (own[0].solid, own[0].of as usize);
+        let place = |point: u32| outlines.place(point);
+        let [from, to] =
+            open[solid as usize][of].map(|v| solids[solid as usize].cut.geometry.positions[v as usize]);
+        let along = |point: u32| (place(point) - from).dot(to - from);
+        // Outlines run against the open edge.
+        let mut own: Vec<[u32; 2]> = own.iter().map(|edge| [edge.ends[1], edge.ends[0]]).collect();
+        own.sort_by(|a, b| along(a[0]).total_cmp(&along(b[0])));
+        let mark = |[a, b]: &[u32; 2]| {
+            let Some(edge) = faces.get_edge_from_neighbors(corners[*a as usize], corners[*b as usize]) else {
+                return EdgeMark::Unmarked;
+            };
+            let is_own = |face: usize| owner[face] == Some(solid);
+            let [left, right] = [edge.face().fix().index(), edge.rev().face().fix().index()];
+            if is_own(left) == is_own(right) { EdgeMark::Covered } else { EdgeMark::Unmarked }
+        };
+        let seam = Seam {
+            marks: own.iter().map(mark).collect(),
+            through: own.iter().skip(1).map(|[a, _]| place(*a)).collect(),
+        };
+        if seam.marks.as_slice() != [EdgeMark::Unmarked] {
+            made[solid as usize].seams.insert([bits(from), bits(to)], seam);
+        }
     }
     made
 }
 
-/// The closed ways along which a shape was cut, in the plane.
-#[derive(Default)]
-struct Outlines {
-    points: Vec<DVec2>,
-    known: FxHashMap<[u64; 2], u32>,
-    /// Ends, and how many faces there are along the edge.
-    edges: Vec<([u32; 2], i32)>,
-}
-
-impl Outlines {
-    fn point(&mut self, p: DVec2) -> u32 {
-        let p = p + DVec2::ZERO;
-        let points = &mut self.points;
-        *self.known.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
-            points.push(p);
-            points.len() as u32 - 1
-        })
+/// For each face the solid that has it: of those whose outlines go round it the one of the least rank.
+fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<u32>> {
+    let mut along: FxHashMap<[u32; 2], Vec<(u32, i32)>> = FxHashMap::default();
+    for edge in &outlines.edges {
+        let [a, b] = edge.ends;
+        let times = if a < b { edge.times } else { -edge.times };
+        add(along.entry([a.min(b), a.max(b)]).or_default(), edge.solid, times);
     }
-
-    fn at(&self, v: u32) -> DVec2 {
-        self.points[v as usize]
-    }
-
-    /// On which side of the way from `a` to `b` a point lies, exactly: positive on its left.
-    fn side(&self, [a, b]: [u32; 2], p: u32) -> f64 {
-        let [a, b, p] = [a, b, p].map(|v| self.at(v)).map(|p| Coord { x: p.x, y: p.y });
-        orient2d(a, b, p)
-    }
-
-    /// Whether two edges cross between their ends.
-    fn cross(&self, one: [u32; 2], other: [u32; 2]) -> bool {
-        let apart = |edge, [p, q]: [u32; 2]| {
-            let (p, q) = (self.side(edge, p), self.side(edge, q));
-            p > 0.0 && q < 0.0 || p < 0.0 && q > 0.0
-        };
-        apart(one, other) && apart(other, one)
-    }
-
-    /// Cuts an edge and all that cross it where they do.
-    fn part(&mut self, [a, b]: [u32; 2]) {
-        let is_it = |ends: [u32; 2]| ends == [a, b] || ends == [b, a];
-        let mut cuts: Vec<(f64, u32)> = Vec::new();
-        for k in 0..self.edges.len() {
-            let (ends, times) = self.edges[k];
-            if is_it(ends) || !self.cross([a, b], ends) {
-                continue;
-            }
-            let ([p, q], [c, d]) = ([a, b].map(|v| self.at(v)), ends.map(|v| self.at(v)));
-            let share = (c - p).perp_dot(d - c) / (q - p).perp_dot(d - c);
-            let cut = self.point(p + (q - p) * share);
-            cuts.push((share, cut));
-            self.edges[k] = ([ends[0], cut], times);
-            self.edges.push(([cut, ends[1]], times));
-        }
-        cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for k in 0..self.edges.len() {
-            let (ends, times) = self.edges[k];
-            if !is_it(ends) {
-                continue;
-            }
-            let mut way: Vec<u32> = cuts.iter().map(|(_, cut)| *cut).collect();
-            if ends == [b, a] {
-                way.reverse();
-            }
-            let mut from = ends[0];
-            for (n, cut) in way.into_iter().chain([ends[1]]).enumerate() {
-                if n == 0 {
-                    self.edges[k] = ([from, cut], times)
-                } else {
-                    self.edges.push(([from, cut], times))
-                }
-                from = cut;
-            }
-        }
-        self.edges.retain(|([a, b], _)| a != b);
-    }
-}
-
-/// Cutting edges where they cross moves them a little, so that others may cross; seldom once, hardly ever twice.
-const ROUNDS: usize = 8;
-
-fn triangulated(outlines: &mut Outlines) -> Option<Faces> {
-    for round in 0..ROUNDS {
-        let corners = outlines.points.iter().map(|p| Corner(Point2::new(p.x, p.y))).collect();
-        let mut ends: Vec<[usize; 2]> =
-            outlines.edges.iter().map(|([a, b], _)| [*a.min(b) as usize, *a.max(b) as usize]).collect();
-        ends.sort_unstable();
-        ends.dedup();
-        let mut crossing = Vec::new();
-        let faces = Faces::try_bulk_load_cdt(corners, ends, |edge| crossing.push(edge)).ok()?;
-        if crossing.is_empty() || round + 1 == ROUNDS {
-            return Some(faces);
-        }
-        crossing.sort_unstable();
-        for [a, b] in crossing {
-            outlines.part([a as u32, b as u32]);
-        }
-    }
-    None
-}
-
-/// For each face whether it is material: whether the outlines go round it.
-fn material(faces: &Faces, outlines: &Outlines) -> Vec<bool> {
-    let mut along: FxHashMap<[u32; 2], i32> = FxHashMap::default();
-    for ([a, b], times) in &outlines.edges {
-        *along.entry([*a.min(b), *a.max(b)]).or_default() += if a < b { *times } else { -times };
-    }
-    // An edge that other corners lie on is known by none of its pieces.
-    let longer = |piece: [u32; 2]| -> i32 {
-        let covers = |ends: [u32; 2]| {
-            let way = outlines.at(ends[1]) - outlines.at(ends[0]);
-            let share = |v: u32| (outlines.at(v) - outlines.at(ends[0])).dot(way) / way.length_squared();
-            let is_on = |v: u32| outlines.side(ends, v) == 0.0 && (0.0..=1.0).contains(&share(v));
-            piece.into_iter().all(is_on).then(|| if share(piece[0]) < share(piece[1]) { 1 } else { -1 })
-        };
-        outlines.edges.iter().filter_map(|(ends, times)| Some(covers(*ends)? * times)).sum()
-    };
-    let mut turns: Vec<Option<i32>> = vec![None; faces.num_all_faces()];
+    let mut turns: Vec<Option<Vec<(u32, i32)>>> = vec![None; faces.num_all_faces()];
     let outer = faces.outer_face();
-    turns[outer.fix().index()] = Some(0);
-    let mut waiting: Vec<_> = faces.convex_hull().map(|edge| (edge, 0)).collect();
+    turns[outer.fix().index()] = Some(Vec::new());
+    let mut waiting: Vec<_> = faces.convex_hull().map(|edge| (edge, Vec::new())).collect();
     // The left side of an edge is gone round as often more than its right side as there are faces along it.
     while let Some((edge, own)) = waiting.pop() {
         let beyond = edge.rev();
@@ -240,16 +199,29 @@ fn material(faces: &Faces, outlines: &Outlines) -> Vec<bool> {
             continue;
         }
         let [from, to] = [beyond.from(), beyond.to()].map(|corner| corner.fix().index() as u32);
-        let times = if beyond.is_constraint_edge() {
-            let [low, high] = [from.min(to), from.max(to)];
-            let times = along.get(&[low, high]).copied().unwrap_or_else(|| longer([low, high]));
-            if from < to { times } else { -times }
-        } else {
-            0
-        };
-        let found = own + times;
+        let mut found = own;
+        for (solid, times) in along.get(&[from.min(to), from.max(to)]).into_iter().flatten() {
+            add(&mut found, *solid, if from < to { *times } else { -times });
+        }
+        waiting.extend(next.adjacent_edges().map(|edge| (edge, found.clone())));
         turns[next.fix().index()] = Some(found);
-        waiting.extend(next.adjacent_edges().map(|edge| (edge, found)));
     }
-    turns.into_iter().map(|turns| turns.unwrap_or_default() != 0).collect()
+    let first = |turns: Vec<(u32, i32)>| {
+        let within = turns.into_iter().filter(|(_, times)| *times != 0).map(|(solid, _)| solid);
+        within.min_by_key(|solid| rank[*solid as usize])
+    };
+    turns.into_iter().map(|turns| turns.and_then(first)).collect()
+}
+
+/// Adds to the number that stands for a solid.
+fn add(to: &mut Vec<(u32, i32)>, solid: u32, times: i32) {
+    match to.iter().position(|(known, _)| *known == solid) {
+        None => to.push((solid, times)),
+        Some(k) => {
+            to[k].1 += times;
+            if to[k].1 == 0 {
+                to.swap_remove(k);
+            }
+        }
+    }
 }

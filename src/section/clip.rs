@@ -1,6 +1,6 @@
 //! [`clip`]: the part of a shape that lies behind a plane, and the edges along which it was cut open.
 //!
-//! Vertices that lie on the plane count as behind it where a face leads down from them; of faces that lie in the plane those are kept
+//! Vertices that lie on the plane, as near as their coordinates tell, count as behind it where a face leads down from them; of faces that lie in the plane those are kept
 //! whose outside is in front. Edges meet because they share vertices: those at one place count as one, and an edge is cut once for
 //! all faces at it.
 
@@ -8,6 +8,7 @@ use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::plane::Plane;
+use crate::math::tolerance;
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
 
@@ -23,11 +24,11 @@ pub(super) struct Clipped {
 }
 
 /// On which sides of a plane a shape has vertices that triangles or wires use.
-pub(super) fn reaches(geometry: &Geometry, place: &DAffine3, plane: &Plane) -> (bool, bool) {
+pub(super) fn reaches(geometry: &Geometry, place: &DAffine3, plane: &Plane, reach: f64) -> (bool, bool) {
     let (mut behind, mut before) = (false, false);
     for corner in geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened()) {
         let Some(p) = geometry.positions.get(*corner as usize) else { continue };
-        match plane.side(place.transform_point3(*p)) {
+        match side(plane, place.transform_point3(*p), reach) {
             1.. => before = true,
             0 => {}
             _ => behind = true,
@@ -39,6 +40,18 @@ pub(super) fn reaches(geometry: &Geometry, place: &DAffine3, plane: &Plane) -> (
     (behind, before)
 }
 
+/// On which side of a plane a point lies; 0 where it lies so near that rounding may have moved it.
+fn side(plane: &Plane, p: DVec3, reach: f64) -> i8 {
+    if plane.distance(p).abs() <= reach { 0 } else { plane.side(p) }
+}
+
+/// What rounding leaves of the coordinates of a shape, world.
+pub(super) fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
+    let size = |p: &DVec3| place.transform_point3(*p).abs().max_element();
+    let largest = geometry.positions.iter().map(size).filter(|size| size.is_finite()).fold(0.0, f64::max);
+    largest * if geometry.single_precision { tolerance::WELD_OF_F32_COORDINATE } else { tolerance::ROUNDING }
+}
+
 /// A corner of a clipped triangle: one of its own, or on the side behind that.
 #[derive(Clone, Copy)]
 enum Corner {
@@ -47,9 +60,14 @@ enum Corner {
 }
 
 /// The part of a shape behind a plane, in the world; vertices that `joined` names alike count as one.
-pub(super) fn clip(shape: &Geometry, place: &DAffine3, plane: &Plane, joined: Option<&[u32]>) -> Clipped {
+pub(super) fn clip(
+    shape: &Geometry,
+    place: &DAffine3,
+    (plane, reach): (&Plane, f64),
+    joined: Option<&[u32]>,
+) -> Clipped {
     let turned = place.matrix3.determinant() < 0.0;
-    let mut made = Clipper::new(shape, place, plane, joined);
+    let mut made = Clipper::new(shape, place, (plane, reach), joined);
     for triangle in 0..shape.triangles.len() {
         made.triangle(triangle, turned);
     }
@@ -72,12 +90,17 @@ struct Clipper<'a> {
 }
 
 impl<'a> Clipper<'a> {
-    fn new(shape: &'a Geometry, place: &DAffine3, plane: &'a Plane, joined: Option<&[u32]>) -> Self {
+    fn new(
+        shape: &'a Geometry,
+        place: &DAffine3,
+        (plane, reach): (&'a Plane, f64),
+        joined: Option<&[u32]>,
+    ) -> Self {
         let world: Vec<DVec3> =
             shape.positions.iter().map(|p| place.transform_point3(*p) + DVec3::ZERO).collect();
         let one = joined.map_or_else(|| by_place(&world), <[u32]>::to_vec);
         let positions: Vec<DVec3> = one.iter().map(|v| world[*v as usize]).collect();
-        let sides = positions.iter().map(|p| plane.side(*p)).collect();
+        let sides = positions.iter().map(|p| side(plane, *p, reach)).collect();
         let turn = place.matrix3.inverse().transpose();
         let normal = |&[x, y, z]: &[f32; 3]| {
             let normal = turn * DVec3::new(x.into(), y.into(), z.into());

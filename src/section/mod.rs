@@ -17,7 +17,9 @@
 mod cap;
 mod clip;
 mod differing;
+mod outlines;
 pub mod plane;
+mod seam;
 pub mod told;
 
 use glam::{DAffine3, DVec2};
@@ -27,8 +29,9 @@ pub use told::CutPlane;
 
 use crate::math::glob::Glob;
 use crate::math::tolerance;
-use crate::mesh::{EdgeMark, weld};
+use crate::mesh::{EdgeMark, Groups, weld};
 use crate::scene::{Alpha, Geometry, Material, Part, Scene};
+use cap::{Cap, Opened};
 use clip::Clipped;
 
 /// A scene that is cut open.
@@ -64,62 +67,106 @@ pub fn material_name(kind: usize) -> String {
 /// Cuts a scene along a plane, and leaves what lies behind it.
 ///
 /// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
-/// the part. They cover what the part's outlines in the plane go round, by number of turns. Outlines that do not close, where a surface
-/// is open, are left open and counted in the warnings of the scene. Of parts whose name fits `uncut` nothing is cut off where the plane goes through them.
+/// the part. They cover what the part's outlines in the plane go round, by number of turns; what lies within several parts has the one of
+/// the least volume. Outlines that do not close, where a surface is open, are left open and counted in the warnings of the scene. Of parts
+/// whose name fits `uncut` nothing is cut off where the plane goes through them.
 #[must_use]
 pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     let mut keep = vec![true; scene.parts.len()];
-    let mut caps = Vec::new();
-    let mut unclosed = 0;
     // What has no material looks like the one after the last, which is another one when there are more.
     let plain = scene.materials.len() as u32;
     scene.materials.push(Material::default());
+    let mut numbers = Vec::new();
+    let mut opened: Vec<Opened> = Vec::new();
+    let mut unclosed = 0;
     for (number, keep) in keep.iter_mut().enumerate() {
         let part = &scene.parts[number];
         let stays = uncut.iter().any(|glob| glob.matches(&part.name));
         let Some(shape) = scene.geometry_of(part) else { continue };
         let place = part.world_from_part;
-        let (behind, before) = clip::reaches(shape, &place, plane);
-        if !before {
-            continue;
-        }
-        if !behind {
-            *keep = false;
-            continue;
-        }
-        if stays {
-            continue;
-        }
-        let mut left = clipped(shape, &place, plane);
-        let faces = cap::cap(&mut left, plane);
-        unclosed += faces.unclosed;
-        *keep = !(left.geometry.triangles.is_empty() && left.geometry.wires.is_empty());
-        let looks = shape.material_of(0).unwrap_or(plain);
-        let Part { geometry, world_from_part, .. } = &mut scene.parts[number];
-        (*geometry, *world_from_part) = (scene.geometries.len(), DAffine3::IDENTITY);
-        if let Some(bounds) = faces.bounds {
-            let material = scene.materials.len() as u32;
-            scene.materials.push(cut_material(scene.materials.get(looks as usize)));
-            let own = close(&mut left.geometry, &faces, material, looks);
-            scene.geometries.push(own);
-            caps.push(CutFaces { part: number, material, area: faces.area, bounds, kind: 0 });
-        } else {
-            scene.geometries.push(left.geometry);
+        let reach = clip::rounding(shape, &place);
+        let (behind, before) = clip::reaches(shape, &place, plane, reach);
+        *keep = behind || !before;
+        if behind && before && !stays {
+            let cut = clipped(shape, &place, (plane, reach));
+            unclosed += cap::closed(&cut).1;
+            numbers.push(number);
+            opened.push(Opened { cut, volume: volume(shape, &place), reach });
         }
     }
-    differing::number(&mut caps);
+    let made = capped(&mut opened, plane);
+    let mut faces_of = Vec::new();
+    for ((number, Opened { cut: Clipped { mut geometry, .. }, .. }), cap) in
+        numbers.into_iter().zip(opened).zip(made)
+    {
+        keep[number] = !(geometry.triangles.is_empty() && geometry.wires.is_empty());
+        let part = &scene.parts[number];
+        let looks = scene.geometry_of(part).and_then(|shape| shape.material_of(0)).unwrap_or(plain);
+        let count = geometry.triangles.len();
+        seam::sew(&mut geometry, count, &cap.seams);
+        if let Some(bounds) = cap.bounds {
+            let material = scene.materials.len() as u32;
+            scene.materials.push(cut_material(scene.materials.get(looks as usize)));
+            close(&mut geometry, &cap, material, looks);
+            faces_of.push(CutFaces { part: number, material, area: cap.area, bounds, kind: 0 });
+        }
+        let Part { geometry: of, world_from_part, .. } = &mut scene.parts[number];
+        (*of, *world_from_part) = (scene.geometries.len(), DAffine3::IDENTITY);
+        scene.geometries.push(geometry);
+    }
+    differing::number(&mut faces_of);
     let names: Vec<usize> = scene.retain_parts(&keep);
-    for faces in &mut caps {
+    for faces in &mut faces_of {
         faces.part = names[faces.part];
         scene.materials[faces.material as usize].name = material_name(faces.kind);
     }
     scene.warnings.count("outlines of cut surfaces that do not close, and are left open", unclosed);
-    Section { scene, faces: caps }
+    Section { scene, faces: faces_of }
+}
+
+/// The volume that a shape encloses, world.
+fn volume(shape: &Geometry, place: &DAffine3) -> f64 {
+    let corner = |v: u32| shape.positions.get(v as usize).copied().unwrap_or_default();
+    let from = shape.triangles.first().map(|t| corner(t[0])).unwrap_or_default();
+    let of = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| corner(v) - from);
+        a.dot(b.cross(c))
+    };
+    (shape.triangles.iter().map(of).sum::<f64>() / 6.0 * place.matrix3.determinant()).abs()
+}
+
+/// The cut faces of solids, one entry each: those whose places in the plane may overlap are closed together.
+fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
+    let bounds: Vec<_> = opened.iter().map(|own| own.bounds(plane)).collect();
+    let groups = Groups::new(opened.len(), |join| {
+        for (a, own) in bounds.iter().enumerate() {
+            for (b, other) in bounds[..a].iter().enumerate() {
+                let (Some([low, high]), Some([from, to])) = (own, other) else { continue };
+                if low.cmple(*to).all() && from.cmple(*high).all() {
+                    join(a as u32, b as u32);
+                }
+            }
+        }
+    });
+    let mut made: Vec<Cap> = opened.iter().map(|_| Cap::default()).collect();
+    for first in 0..opened.len() as u32 {
+        let is_in = |k: usize| groups.of(k as u32) == groups.of(first);
+        if (0..first as usize).any(is_in) {
+            continue;
+        }
+        let together: Vec<usize> = (0..opened.len()).filter(|k| is_in(*k)).collect();
+        let mut solids: Vec<&mut Opened> =
+            opened.iter_mut().enumerate().filter(|(k, _)| is_in(*k)).map(|(_, own)| own).collect();
+        for (k, cap) in together.into_iter().zip(cap::caps(&mut solids, plane)) {
+            made[k] = cap;
+        }
+    }
+    made
 }
 
 /// What is left of a shape; where its outlines do not close, vertices that nearly meet are joined as the mesh does it.
-fn clipped(shape: &Geometry, place: &DAffine3, plane: &Plane) -> Clipped {
-    let cut = clip::clip(shape, place, plane, None);
+fn clipped(shape: &Geometry, place: &DAffine3, (plane, rounding): (&Plane, f64)) -> Clipped {
+    let cut = clip::clip(shape, place, (plane, rounding), None);
     let (_, unclosed) = cap::closed(&cut);
     if unclosed == 0 {
         return cut;
@@ -140,7 +187,7 @@ fn clipped(shape: &Geometry, place: &DAffine3, plane: &Plane) -> Clipped {
     }
     let reaches = vec![reach; used.len()];
     let Some(joined) = weld::near(&world, &used, &reaches) else { return cut };
-    let again = clip::clip(shape, place, plane, Some(&joined));
+    let again = clip::clip(shape, place, (plane, rounding), Some(&joined));
     let (_, still) = cap::closed(&again);
     if still < unclosed { again } else { cut }
 }
@@ -161,8 +208,7 @@ fn cut_material(of: Option<&Material>) -> Material {
 }
 
 /// Adds the cut faces to what is left of a shape.
-fn close(left: &mut Geometry, faces: &cap::Cap, material: u32, looks: u32) -> Geometry {
-    let mut shape = std::mem::take(left);
+fn close(shape: &mut Geometry, faces: &Cap, material: u32, looks: u32) {
     let before = shape.triangles.len();
     if shape.triangle_material.is_empty() {
         shape.triangle_material.resize(before, looks);
@@ -177,5 +223,4 @@ fn close(left: &mut Geometry, faces: &cap::Cap, material: u32, looks: u32) -> Ge
     }
     shape.edge_marks.resize(before, [EdgeMark::Unmarked; 3]);
     shape.edge_marks.extend(&faces.marks);
-    shape
 }

@@ -41,7 +41,18 @@ fn wrong_planes_and_axes_are_refused() {
     folder.ligne("draw cubes.obj a.svg --section x=99").refused("beside the model");
     folder.ligne("draw cubes.obj a.svg --uncut knob").refused("--section");
     folder.ligne("draw cubes.obj a.svg --explode w").refused("x, y, z or auto");
-    folder.ligne("animate cubes.obj a.gif --turntable 3 --section x").refused("neither cut open");
+    folder.ligne("animate cubes.obj a.gif --section x").refused("neither cut open");
+    folder.ligne("animate cubes.obj a.gif --turntable 3 --explode z --faces 20").refused("levels of detail");
+}
+
+#[test]
+fn turns_round_a_model_show_it_cut_open_or_taken_apart() {
+    let folder = Folder::with_cubes("section-turn");
+    folder.ligne("animate cubes.obj cut-%d.svg --turntable 2 --section z --view front").done();
+    let svg = folder.text("cut-0.svg");
+    assert!(svg.contains("<path class=\"pattern\" data-part=\"base\""), "{svg}");
+    folder.ligne("animate cubes.obj apart-%d.svg --turntable 2 --explode y:20 --view front").done();
+    assert!(folder.text("apart-0.svg").contains("data-part=\"trail\""));
 }
 
 #[test]

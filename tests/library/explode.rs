@@ -91,6 +91,21 @@ fn parts_come_off_on_the_side_that_is_free() {
 }
 
 #[test]
+fn what_stands_in_a_bore_comes_out_of_it() {
+    let scene = assembly(&[
+        ("bearing", block([-1.0, -1.0, 2.0], [1.0, 1.0, 3.0])),
+        ("case", frame(1.0, 3.0, 0.0, 4.0)),
+        ("bush", block([-1.0, -1.0, 0.5], [1.0, 1.0, 1.0])),
+        ("post", block([4.0, -1.0, 0.0], [5.0, 1.0, 4.0])),
+    ]);
+    let ways = explode(&scene, &along(DVec3::Z, 1.0));
+    let apart = boxes(&moved(scene.clone(), &ways));
+    // The one nearer to an end leaves by that; what stands beside stays.
+    assert!(apart[0][0].z > apart[1][1].z && apart[2][1].z < apart[1][0].z, "{ways:?}");
+    assert_eq!([ways.offsets[1], ways.offsets[3]], [DVec3::ZERO; 2]);
+}
+
+#[test]
 fn a_bolt_comes_out_by_its_head_though_its_hole_is_missing() {
     let mut bolt = block([-0.5, -0.5, -2.0], [0.5, 0.5, 1.0]);
     bolt.add(block([-1.0, -1.0, 1.0], [1.0, 1.0, 1.5]));

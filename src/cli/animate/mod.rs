@@ -10,6 +10,7 @@ mod stage;
 mod total;
 mod video;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 pub(super) use args::AnimateArgs;
@@ -23,10 +24,13 @@ use super::framing_args::Frame;
 use super::output::{Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
+use super::viewpoint::viewpoint;
 use super::{lod, number, pipeline, print, say, wonder};
 use crate::error::Error;
 use crate::pose::Rigged;
-use crate::render::Stopwatch;
+use crate::render::{Stopwatch, hatched, trailed};
+use crate::scene::framing::world_points;
+use crate::style::Style;
 
 /// How contours are drawn where time counts: along the edges of the faces that are left.
 const HURRIED: &str = "lines.contours=mesh";
@@ -55,9 +59,17 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
             .remedy("say with --from and --to which are drawn, or draw one moment with ligne draw"));
     }
     if request.section.is_asked() {
-        return Err(Error::new("frames are neither cut open nor taken apart")
-            .at("--section, --explode")
-            .remedy("draw one moment with ligne draw"));
+        let goes_round = args.turntable.is_some() || args.path.is_some();
+        if !goes_round || !request.animation.is_empty() {
+            return Err(Error::new("what moves is neither cut open nor taken apart")
+                .at("--section, --explode")
+                .remedy("go round it with --turntable 36, or draw one moment with ligne draw"));
+        }
+        if args.budget.is_some() || args.levels.is_some() || request.faces.is_some() {
+            return Err(Error::new("levels of detail are of the whole model")
+                .at("--section, --explode")
+                .remedy("leave out --faces, --budget and --levels"));
+        }
     }
     let levels = args.levels.as_ref().filter(|_| args.budget.is_some());
     for file in args.report.iter().filter(|path| !is_stdout(path)).chain(levels) {
@@ -89,7 +101,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let hurried = args.budget.is_some() || args.levels.is_some();
     let sets: Vec<String> =
         hurried.then(|| HURRIED.to_owned()).into_iter().chain(request.sets.iter().cloned()).collect();
-    let style = pipeline::load_style(&request.style, &sets, request.background)?;
+    let mut style = pipeline::load_style(&request.style, &sets, request.background)?;
     if hurried && style.motion.fade > 0 {
         return Err(Error::new("strokes fade by what the frames around have, and these have other faces")
             .at("motion.fade")
@@ -109,8 +121,11 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
         rigged.scene.up = up;
     }
     let notes = wonder::unmatched(&rigged.scene, &request.only, &request.hide);
-    let whole = (request.frame == Frame::All).then(|| rigged.clone());
+    let mut whole = (request.frame == Frame::All).then(|| rigged.clone());
     pipeline::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
+    if request.section.is_asked() {
+        open_up(request, &mut rigged, &mut whole, &mut style)?;
+    }
     let plan = Plan::new(args, request, whole.as_ref().unwrap_or(&rigged))?;
     let timeline = plan.course.timeline;
     let mut total = Total { fps: timeline.fps(), ..Total::default() };
@@ -155,6 +170,31 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
         write_report(path, &total)?;
     }
     Ok(total)
+}
+
+/// Cuts the model open and takes it apart, once for all frames; the frame stays that of the whole where it is cut.
+fn open_up(
+    request: &DrawRequest,
+    rigged: &mut Rigged,
+    whole: &mut Option<Rigged>,
+    style: &mut Style,
+) -> Result<(), Error> {
+    let mut scene = std::mem::take(&mut rigged.scene);
+    if request.section.section.is_some() {
+        let points = world_points(&scene);
+        let eye = viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*points)))?;
+        let [_, _, forward] = eye.camera.axes();
+        whole.get_or_insert_with(|| Rigged::from(scene.clone()));
+        if let Some(section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
+            *style = hatched(style, &section);
+        }
+    }
+    if request.section.take_apart(&mut scene) {
+        *whole = None;
+        *style = trailed(style);
+    }
+    *rigged = Rigged::from(scene);
+    Ok(())
 }
 
 fn write_report(path: &Path, total: &Total) -> Result<(), Error> {

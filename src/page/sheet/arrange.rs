@@ -8,6 +8,7 @@ use super::method::Method;
 use super::pack::Room;
 use super::scales::SERIES;
 use super::sight::Sight;
+use crate::math::function::ln;
 use crate::scene::NamedView;
 
 /// Room between views in a row, and around those that stand alone, mm.
@@ -18,9 +19,9 @@ const AROUND: f64 = 7.0;
 const BESIDE: f64 = 9.0;
 
 /// Views without a scale are up to so many times as large as the others, and are made smaller by this factor until they fit.
-const LARGEST: f64 = 2.0;
+const LARGEST: f64 = 4.0;
 const FREE_STEP: f64 = 0.94;
-const FREE_STEPS: i32 = 60;
+const FREE_STEPS: i32 = 72;
 
 /// Height of a title above a view.
 pub(super) const TITLE: f64 = 8.0;
@@ -35,6 +36,17 @@ pub(super) struct Placed {
     pub stands: Stands,
     /// Room that it needs on all sides, mm.
     pub margin: f64,
+    /// Room that it needs beyond that on the left, above, on the right and below, mm.
+    pub around: [f64; 4],
+    /// The place that it has with all that, on the page.
+    place: Rect,
+}
+
+impl Placed {
+    /// A view that needs no room but its own.
+    pub fn new(sight: Sight, stands: Stands, margin: f64) -> Self {
+        Self { sight, stands, margin, around: [0.0; 4], place: Rect::ZERO }
+    }
 }
 
 /// Where a view may stand.
@@ -44,6 +56,8 @@ pub(super) enum Stands {
     Beside(NamedView),
     /// Anywhere, at the scale of the sheet, or at a smaller one.
     Alone,
+    /// Anywhere, at the scale of the sheet, or as large as it may be there: nobody measures in it.
+    Pictorial,
     /// Anywhere, as large as it may be there.
     Free,
     /// Anywhere, at a scale so many times that of the sheet.
@@ -70,7 +84,8 @@ fn field(view: NamedView, method: Method) -> [i32; 2] {
     }
 }
 
-/// Puts all views in a space, of which some is taken; `unit_mm` is what a unit of the model is. Gives the scale.
+/// Puts all views in a space, of which some is taken; `unit_mm` is what a unit of the model is. Gives the scale: of the two largest at which
+/// everything fits the one at which views together are larger.
 pub(super) fn arrange(
     views: &mut [Placed],
     (space, taken): (Rect, &[Rect]),
@@ -79,18 +94,74 @@ pub(super) fn arrange(
     let mut room = Room::new(space);
     taken.iter().for_each(|taken| room.take(*taken));
     let told = told.map(|scale| vec![scale]);
-    told.as_deref().unwrap_or(&SERIES).iter().copied().find(|scale| {
-        let mut room = room.clone();
-        try_scale(views, (&mut room, space), method, *scale, unit_mm).is_some()
-    })
+    let alone: Vec<usize> =
+        (0..views.len()).filter(|k| !matches!(views[*k].stands, Stands::Beside(_))).collect();
+    let orders = orders(&alone);
+    let mut best: Option<(f64, f64, &Vec<usize>)> = None;
+    let mut fitting = 0;
+    for scale in told.as_deref().unwrap_or(&SERIES) {
+        let mut fits = false;
+        for order in &orders {
+            let mut room = room.clone();
+            if try_scale(views, (&mut room, space), (method, *scale, unit_mm), order).is_none() {
+                continue;
+            }
+            fits = true;
+            let size: f64 = views.iter().map(|placed| ln(placed.sight.unit)).sum();
+            if best.is_none_or(|(known, ..)| size > known + 1e-9) {
+                best = Some((size, *scale, order));
+            }
+        }
+        fitting += usize::from(fits);
+        if fitting == 2 {
+            break;
+        }
+    }
+    let (_, scale, order) = best?;
+    let free = room.clone();
+    try_scale(views, (&mut room, space), (method, scale, unit_mm), order)?;
+    settle(views, &free, order);
+    Some(scale)
+}
+
+/// Moves views that stand alone to the middle of the room that others leave around them.
+fn settle(views: &mut [Placed], free: &Room, order: &[usize]) {
+    for k in order {
+        let mut room = free.clone();
+        let others = views.iter().enumerate().filter(|(other, _)| other != k);
+        others.for_each(|(_, placed)| room.take(placed.place));
+        let own = views[*k].place;
+        if let Some(around) = room.around(own) {
+            let shift = around.center() - own.center();
+            views[*k].place = own + shift;
+            views[*k].sight.corner += shift;
+        }
+    }
+}
+
+/// The orders in which views may be put in places; that in which they are told first, and no others where there are many.
+fn orders(views: &[usize]) -> Vec<Vec<usize>> {
+    const MOST: usize = 5;
+    let Some((first, rest)) = views.split_first().filter(|_| views.len() <= MOST) else {
+        return vec![views.to_vec()];
+    };
+    let mut all = Vec::new();
+    for order in orders(rest) {
+        for at in 0..=order.len() {
+            let mut order = order.clone();
+            order.insert(at, *first);
+            all.push(order);
+        }
+    }
+    all.sort();
+    all
 }
 
 fn try_scale(
     views: &mut [Placed],
     (room, space): (&mut Room, Rect),
-    method: Method,
-    scale: f64,
-    unit_mm: f64,
+    (method, scale, unit_mm): (Method, f64, f64),
+    order: &[usize],
 ) -> Option<()> {
     let unit = scale * unit_mm;
     let group = |views: &[Placed]| -> Vec<(usize, [i32; 2])> {
@@ -107,7 +178,12 @@ fn try_scale(
             let own = beside.iter().filter(|(_, field)| field[line] == at);
             own.fold(None, |reach: Option<[f64; 2]>, (k, _)| {
                 let (low, high) = (views[*k].sight.low * unit, views[*k].sight.high * unit);
-                let [before, after] = if line == 0 { [-low.x, high.x] } else { [high.y, -low.y] };
+                let around = views[*k].around;
+                let [before, after] = if line == 0 {
+                    [around[0] - low.x, high.x + around[2]]
+                } else {
+                    [around[1] + high.y, around[3] - low.y]
+                };
                 let [b, a] = reach.unwrap_or([f64::NEG_INFINITY; 2]);
                 Some([b.max(before), a.max(after)])
             })
@@ -138,7 +214,15 @@ fn try_scale(
             );
             let titled = if sight.title.is_some() { TITLE } else { 0.0 };
             let own = sight.rect().inflate(BETWEEN / 2.0, BETWEEN / 2.0);
-            taken.push(Rect { y0: own.y0 - titled, ..own });
+            let [left, above, right, below] = views[*k].around;
+            let place = Rect {
+                x0: own.x0 - left,
+                y0: own.y0 - titled - above,
+                x1: own.x1 + right,
+                y1: own.y1 + below,
+            };
+            views[*k].place = place;
+            taken.push(place);
         }
         // They stand in the upper left corner; what lies in the angle between them is free.
         if !taken.iter().all(|rect| room.has(*rect)) {
@@ -146,25 +230,29 @@ fn try_scale(
         }
         taken.into_iter().for_each(|rect| room.take(rect));
     }
-    for placed in views.iter_mut() {
+    for k in order {
+        let placed = &mut views[*k];
         let from = SERIES.iter().position(|own| *own <= scale * (1.0 + 1e-9)).unwrap_or_default();
         let scales: Vec<f64> = match placed.stands {
             Stands::Beside(_) => continue,
             Stands::Enlarged(times) => vec![scale * times],
             Stands::At(scale) => vec![scale],
             Stands::Alone => smaller(scale, from),
-            // Nobody measures in it.
+            Stands::Pictorial => (0..FREE_STEPS).map(|k| scale * FREE_STEP.powi(k)).collect(),
             Stands::Free => (0..FREE_STEPS).map(|k| scale * LARGEST * FREE_STEP.powi(k)).collect(),
         };
         let margin = placed.margin + AROUND;
+        let [left, above, right, below] = placed.around;
         let title = if placed.sight.title.is_some() { TITLE } else { 0.0 };
         let found = scales.into_iter().find_map(|scale| {
             let [w, h] = placed.sight.size(scale * unit_mm);
-            room.put(w + 2.0 * margin, h + 2.0 * margin + title).map(|place| (scale, place))
+            room.put(w + 2.0 * margin + left + right, h + 2.0 * margin + title + above + below)
+                .map(|place| (scale, place))
         });
         let (scale, place) = found?;
+        placed.place = place;
         placed.sight.unit = scale * unit_mm;
-        placed.sight.corner = Point::new(place.x0 + margin, place.y0 + margin + title);
+        placed.sight.corner = Point::new(place.x0 + margin + left, place.y0 + margin + title + above);
     }
     Some(())
 }

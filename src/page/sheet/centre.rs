@@ -6,9 +6,10 @@ use kurbo::{Point, Vec2};
 use super::arrange::Stands;
 use super::ink::{CHAIN, Ink, NARROW, way};
 use super::plan::Plan;
+use super::rounds::whole;
 use super::sight::Sight;
 use crate::mesh::Mesh;
-use crate::shape::{Cylinder, cylinders};
+use crate::shape::Cylinder;
 
 /// How far lines reach beyond the cylinder, mm.
 const BEYOND: f64 = 2.5;
@@ -20,13 +21,10 @@ const UNBROKEN: f64 = 9.0;
 /// Lines nearer than this are one, mm.
 const SAME: f64 = 0.05;
 
-/// So much of a turn is a whole cylinder, radians.
-const WHOLE: f64 = 5.8;
-
 /// Draws them in all views from the sides and in all sections.
 pub(super) fn centre_lines(plan: &Plan, ink: &mut Ink) {
     let mesh = Mesh::build(plan.sets[0].scene.to_soup());
-    let found: Vec<Cylinder> = cylinders(&mesh).into_iter().filter(|cylinder| cylinder.arc > WHOLE).collect();
+    let found: Vec<Cylinder> = whole(&mesh);
     for placed in &plan.views {
         let is_side = matches!(placed.stands, Stands::Beside(_)) || placed.sight.name.starts_with("section");
         if is_side {

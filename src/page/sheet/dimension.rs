@@ -6,8 +6,8 @@ use super::ink::{Ink, NARROW};
 use crate::error::Error;
 
 /// Height of values, length of arrows, how far lines go on beyond the dimension line, mm.
-const HIGH: f64 = 3.5;
-const ARROW: f64 = 3.0;
+pub(super) const HIGH: f64 = 3.5;
+pub(super) const ARROW: f64 = 3.0;
 const BEYOND: f64 = 2.0;
 
 /// Between the shape and the line that leads from it.

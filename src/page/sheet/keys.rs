@@ -1,10 +1,13 @@
 //! [`SheetPage`]: the keys of a technical sheet.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::block::TitleKeys;
 use super::method::Method;
+use super::rows::Side;
 use crate::page::figure::Models;
 use crate::page::size::Size;
 
@@ -44,14 +47,29 @@ pub struct SheetPage {
     pub detail: Vec<DetailKeys>,
     /// The model taken apart.
     pub exploded: Option<ExplodedKeys>,
-    /// Whether there is a parts list. Default: no.
-    pub parts_list: bool,
+    /// Whether there is a parts list from the names of parts, or the file (CSV or TOML) with its rows. Default: no.
+    pub parts_list: Option<Spanned<ListKeys>>,
     /// The view that has the balloons of the parts list. Default: exploded if there is such a view, else iso.
     pub balloons: Option<Spanned<String>>,
-    /// Lengths in views.
-    pub dimension: Vec<DimensionKeys>,
+    /// What views tell by themselves: `none`, `overall`, or `auto`: also the diameters of whole cylinders that are seen along their axes,
+    /// and where holes are. Default: overall.
+    pub dimensions: Option<Spanned<String>>,
+    /// Points that dimensions name, in units of the model.
+    pub points: BTreeMap<String, [f64; 3]>,
+    /// Lengths and diameters in views.
+    pub dimension: Vec<Spanned<DimensionKeys>>,
     /// Notes.
     pub notes: Vec<String>,
+}
+
+/// Where a parts list comes from.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum ListKeys {
+    /// From the names of parts, or none.
+    Named(bool),
+    /// From a file.
+    File(String),
 }
 
 /// A view of the model cut open.
@@ -95,25 +113,39 @@ pub struct ExplodedKeys {
     pub view: Option<Spanned<String>>,
 }
 
-/// A length in a view.
+/// A length or a diameter in a view.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DimensionKeys {
     /// The view it is in. Default: front.
     pub of: Option<Spanned<String>>,
-    /// From this point of the model, in its units.
-    pub from: [f64; 3],
-    /// To this point.
-    pub to: [f64; 3],
-    /// Which length: `horizontal`, `vertical` or `aligned`. Default: aligned.
+    /// From here.
+    pub from: Option<Spanned<PlaceKeys>>,
+    /// To there.
+    pub to: Option<Spanned<PlaceKeys>>,
+    /// Where the cylinder is whose diameter or radius is told: the one whose surface is nearest.
+    pub at: Option<Spanned<PlaceKeys>>,
+    /// Which length: `horizontal`, `vertical` or `aligned`; or `diameter` or `radius` of a cylinder. Default: aligned.
     pub measure: Option<Measure>,
-    /// How far beside the points its line is, mm, to the right or below if above 0. Default: 10.
+    /// How far beside the points its line is, mm, to the right or below if above 0. Default: in a row with others, on `side`.
     pub offset: Option<f64>,
+    /// The side of the view it stands on: `left`, `right`, `above` or `below`. Default: below, or left where it is vertical.
+    pub side: Option<Side>,
     /// What it says in place of the length.
     pub text: Option<String>,
 }
 
-/// Which length between two points is told.
+/// A place on the model: a point in its units, or the name of one, or of a side of a part: `housing.left`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum PlaceKeys {
+    /// A point.
+    Point([f64; 3]),
+    /// A point of `[page.points]`; or `left`, `right`, `top`, `bottom` or `centre` of what is seen, or of parts whose name stands before it.
+    Named(String),
+}
+
+/// What is told of a model in a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Measure {
@@ -124,4 +156,8 @@ pub enum Measure {
     /// From point to point, as it is in the view.
     #[default]
     Aligned,
+    /// How thick a cylinder is.
+    Diameter,
+    /// Half of that.
+    Radius,
 }

@@ -7,10 +7,16 @@ use crate::scene::Scene;
 /// An item of a parts list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Item {
+    /// Its number.
+    pub number: String,
+    /// How many there are.
+    pub count: usize,
     /// What it is called.
     pub name: String,
     /// What its parts are made of, by the name of the material of the first of them.
     pub material: String,
+    /// What else there is to say.
+    pub remark: String,
     /// Its parts, indices into [`Scene::parts`].
     pub parts: Vec<usize>,
 }
@@ -34,7 +40,14 @@ pub fn items(scene: &Scene) -> Vec<Item> {
             let material = scene.geometry_of(part).and_then(|shape| shape.material_of(0));
             let material = material.and_then(|material| scene.materials.get(material as usize));
             let material = material.map(|material| material.name.clone()).unwrap_or_default();
-            items.push(Item { name: part.name.clone(), material, parts: Vec::new() });
+            items.push(Item {
+                number: (items.len() + 1).to_string(),
+                count: 0,
+                name: part.name.clone(),
+                material,
+                remark: String::new(),
+                parts: Vec::new(),
+            });
             items.len() - 1
         });
         of_shape.insert(shape, item);
@@ -42,6 +55,7 @@ pub fn items(scene: &Scene) -> Vec<Item> {
         items[item].parts.push(number);
     }
     for item in &mut items {
+        item.count = item.parts.len();
         if item.parts.len() > 1 {
             item.name = common(item.parts.iter().map(|part| &*scene.parts[*part].name));
         }

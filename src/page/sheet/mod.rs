@@ -13,17 +13,21 @@ pub mod frame;
 mod ink;
 pub mod keys;
 pub mod list;
+mod list_file;
+mod measures;
 pub mod method;
 mod notes;
 mod pack;
+mod places;
 mod plan;
+mod rounds;
+pub mod rows;
 mod scales;
 mod sight;
 
 use std::path::PathBuf;
 
 use kurbo::{Affine, Rect, Shape};
-use toml::Spanned;
 
 pub use block::TitleKeys;
 pub use keys::SheetPage;
@@ -40,6 +44,8 @@ use crate::render::Prepared;
 use crate::text::Font;
 use arrange::arrange;
 use ink::Ink;
+use keys::ListKeys;
+use measures::Measures;
 use plan::{Plan, Set, read_scale};
 
 /// Between the frame and what is drawn, mm.
@@ -53,7 +59,16 @@ impl SheetPage {
     #[must_use]
     pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
         let style = self.style.as_ref().and_then(|style| figure::look::file(style, source));
-        self.model.files(source).chain(style).collect()
+        let list = match self.parts_list.as_ref().map(toml::Spanned::get_ref) {
+            Some(ListKeys::File(path)) => Some(source.beside(path)),
+            _ => None,
+        };
+        self.model.files(source).chain(style).chain(list).collect()
+    }
+
+    /// Whether it has a parts list.
+    pub(super) fn has_parts_list(&self) -> bool {
+        self.parts_list.as_ref().is_some_and(|list| *list.get_ref() != ListKeys::Named(false))
     }
 
     /// Its size as it lies.
@@ -86,7 +101,7 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
         }
     };
     let mut plan = Plan::new(sheet, source)?;
-    let items = if sheet.parts_list { list::items(&plan.sets[0].scene) } else { Vec::new() };
+    let (items, unlisted) = items(sheet, &plan, source)?;
     let space = frame::space(size);
     let title = block::place(space);
     let (columns, rows, high) = notes::list_size(items.len(), space.height() * 0.3);
@@ -113,7 +128,27 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     let taken: Vec<Rect> = taken.iter().map(|rect| rect.inflate(INSET, INSET)).collect();
     let told = sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
     let inner = space.inflate(-INSET, -INSET);
-    let scale = arrange(&mut plan.views, (inner, &taken), (sheet.projection, plan.unit_mm, told));
+    let asked = Asked::of(sheet, source)?;
+    let mut scale = None;
+    for _ in 0..ROUNDS {
+        scale = arrange(&mut plan.views, (inner, &taken), (sheet.projection, plan.unit_mm, told));
+        if scale.is_none() {
+            break;
+        }
+        // What stands beside views needs room, which is known once they have their size.
+        let measures = asked.measures(sheet, &plan, &mut Ink::new(&font, "note"), source)?;
+        let room = measures.room(&plan, &written)?;
+        let mut fits = true;
+        for (placed, room) in plan.views.iter_mut().zip(room) {
+            for (own, needed) in placed.around.iter_mut().zip(room) {
+                fits &= needed <= *own + 1e-9;
+                *own = own.max(needed);
+            }
+        }
+        if fits {
+            break;
+        }
+    }
     let Some(scale) = scale else {
         let message = "the views do not fit on this sheet";
         let remedy = "choose a larger size, fewer views or another scale";
@@ -124,6 +159,7 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     };
 
     let (mut drawn, mut warnings) = views(&plan)?;
+    warnings.extend(unlisted);
     let mut ink = Ink::new(&font, "frame");
     frame::draw(size, &mut ink)?;
     drawn.insert(0, whole("frame", ink, size));
@@ -140,20 +176,37 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
         let sight = &plan.views[view].sight;
         let anchors = balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, &items);
         for (item, anchor) in items.iter().zip(&anchors) {
-            if anchor.is_none() {
+            if anchor.is_none() && !item.parts.is_empty() {
                 warnings.push(format!("nothing is seen of item '{}' in the view with balloons", item.name));
             }
         }
         let mut ink = Ink::new(&font, "balloon");
-        notes::balloons(sight.rect(), &anchors, &mut ink)?;
+        notes::balloons(sight.rect(), &items, &anchors, &mut ink)?;
         drawn.push(whole("balloons", ink, size));
     }
-    annotate(sheet, &plan, scale, &mut written, source)?;
+    annotate(sheet, &plan, scale, (&asked, &mut written), source)?;
     drawn.push(whole("notes", written, size));
     let page =
         Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
     let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
     Ok(Composed { composition: Composition::new(name, page, drawn), warnings })
+}
+
+/// The items of the parts list, and warnings about parts that are in none.
+fn items(sheet: &SheetPage, plan: &Plan, source: &Source) -> Result<(Vec<list::Item>, Vec<String>), Error> {
+    if !sheet.has_parts_list() {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let scene = &plan.sets[0].scene;
+    let own = list::items(scene);
+    let Some((told, ListKeys::File(path))) = sheet.parts_list.as_ref().map(|told| (told, told.get_ref()))
+    else {
+        return Ok((own, Vec::new()));
+    };
+    let path = source.existing(&toml::Spanned::new(told.span(), path.clone()), "parts list")?;
+    let (items, left) = list_file::read(&path, scene, &own)?;
+    let warning = |name: String| format!("part '{name}' is in no row of the parts list");
+    Ok((items, left.into_iter().map(warning).collect()))
 }
 
 /// The views, each as an item; details are cut to their circles.
@@ -183,8 +236,55 @@ fn views(plan: &Plan) -> Result<(Vec<Item>, Vec<String>), Error> {
     Ok((drawn.into_iter().map(|(_, item)| item).collect(), warnings))
 }
 
+/// Room for dimensions changes the scale, and that again the room; hardly ever more than twice.
+const ROUNDS: usize = 5;
+
+/// What views are to tell by themselves.
+struct Asked {
+    overall: bool,
+    auto: bool,
+}
+
+impl Asked {
+    fn of(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
+        let dimensions = match &sheet.dimensions {
+            None => "overall",
+            Some(told) => match &**told.get_ref() {
+                known @ ("none" | "overall" | "auto") => known,
+                _ => return Err(source.unknown(told, "set of dimensions", &["none", "overall", "auto"])),
+            },
+        };
+        let overall = sheet.overall.unwrap_or(dimensions != "none");
+        Ok(Self { overall, auto: dimensions == "auto" })
+    }
+
+    fn measures(
+        &self,
+        sheet: &SheetPage,
+        plan: &Plan,
+        ink: &mut Ink,
+        source: &Source,
+    ) -> Result<Measures, Error> {
+        let mut measures = Measures::default();
+        if self.overall {
+            measures.add_overall(plan, ink)?;
+        }
+        if self.auto {
+            measures.add_rounds(plan, &rounds::rounds(plan), ink)?;
+        }
+        places::add_told(sheet, plan, &mut measures, ink, source)?;
+        Ok(measures)
+    }
+}
+
 /// All that is written beside views.
-fn annotate(sheet: &SheetPage, plan: &Plan, scale: f64, ink: &mut Ink, source: &Source) -> Result<(), Error> {
+fn annotate(
+    sheet: &SheetPage,
+    plan: &Plan,
+    scale: f64,
+    (asked, ink): (&Asked, &mut Ink),
+    source: &Source,
+) -> Result<(), Error> {
     notes::titles(plan, scale, ink)?;
     for cut in &plan.cuts {
         notes::cutting_plane(plan, cut, ink)?;
@@ -193,20 +293,10 @@ fn annotate(sheet: &SheetPage, plan: &Plan, scale: f64, ink: &mut Ink, source: &
         notes::circled(plan, circled, ink)?;
     }
     let is_single = plan.sets[0].scene.parts.len() == 1;
-    if sheet.centre_lines.unwrap_or(is_single) {
+    if sheet.centre_lines.unwrap_or(is_single || asked.auto) {
         centre::centre_lines(plan, ink);
     }
-    if sheet.overall.unwrap_or(true) {
-        notes::overall(plan, ink)?;
-    }
-    for keys in &sheet.dimension {
-        let view = match &keys.of {
-            Some(name) => plan.view(name, source)?,
-            None => plan.view(&Spanned::new(0..0, "front".to_owned()), source)?,
-        };
-        notes::told(plan, view, keys, ink)?;
-    }
-    Ok(())
+    asked.measures(sheet, plan, ink, source)?.draw(plan, ink)
 }
 
 /// What lies on the sheet as a whole.

@@ -1,19 +1,15 @@
 //! What is written beside the views: titles, cutting planes, circles of details, dimensions, balloons, the parts list.
 
-use glam::DVec3;
 use kurbo::{Circle, Point, Rect, Vec2};
 
 use super::arrange::Stands;
-use super::balloons::{leaders, slots};
-use super::dimension::{dimension, value};
+use super::balloons::{RADIUS, leaders, slots};
 use super::ink::{CHAIN, Ink, NARROW, Stand, WIDE, way};
-use super::keys::{DimensionKeys, Measure};
 use super::list::Item;
 use super::plan::{Circled, CutLine, Plan};
 use super::scales;
 use super::sight::Sight;
 use crate::error::Error;
-use crate::scene::framing::world_points;
 
 /// Height of letters that name views, and of others, mm.
 const TITLES: f64 = 5.0;
@@ -24,7 +20,8 @@ const SMALL: f64 = 2.5;
 pub(super) fn titles(plan: &Plan, scale: f64, ink: &mut Ink) -> Result<(), Error> {
     for (k, placed) in plan.views.iter().enumerate() {
         let own = placed.sight.unit / plan.unit_mm;
-        let other = placed.stands != Stands::Free && (own / scale - 1.0).abs() > 1e-9;
+        let other =
+            !matches!(placed.stands, Stands::Free | Stands::Pictorial) && (own / scale - 1.0).abs() > 1e-9;
         let scale = other.then(|| scales::written(own));
         let words = match (&placed.sight.title, scale) {
             (Some(title), Some(scale)) => format!("{title} ({scale})"),
@@ -41,7 +38,7 @@ pub(super) fn titles(plan: &Plan, scale: f64, ink: &mut Ink) -> Result<(), Error
 }
 
 /// The view in which the line of a cutting plane is drawn: the first one in which it is seen edge-on.
-fn crossed(plan: &Plan, cut: &CutLine) -> Option<usize> {
+pub(super) fn crossed(plan: &Plan, cut: &CutLine) -> Option<usize> {
     let edge_on = |sight: &Sight| cut.plane.normal().dot(sight.axes()[2]).abs() < 1e-9;
     plan.views.iter().position(|placed| edge_on(&placed.sight) && placed.sight.title.is_none())
 }
@@ -94,87 +91,13 @@ pub(super) fn circle_of(shown: &Sight) -> Circle {
     Circle::new(shown.rect().center(), shown.rect().width() / 2.0)
 }
 
-/// The length, the height and the depth of the whole: below and on the left of the first view, and on a view from another side.
-pub(super) fn overall(plan: &Plan, ink: &mut Ink) -> Result<(), Error> {
-    let points = world_points(&plan.sets[0].scene);
-    let mut told: Vec<DVec3> = Vec::new();
-    let is_side = |k: &usize| matches!(plan.views[*k].stands, Stands::Beside(_));
-    let mut sides: Vec<usize> = (0..plan.views.len()).filter(is_side).collect();
-    // Lines of cutting planes stand in the way.
-    let crossed: Vec<usize> = plan.cuts.iter().filter_map(|cut| crossed(plan, cut)).collect();
-    sides.sort_by_key(|k| crossed.contains(k));
-    for view in sides {
-        let sight = &plan.views[view].sight;
-        let aside = if crossed.contains(&view) { 19.0 } else { 9.0 };
-        let [right, up, _] = sight.axes();
-        let rect = sight.rect();
-        for (axis, along) in [(right, Vec2::new(1.0, 0.0)), (up, Vec2::new(0.0, 1.0))] {
-            if told.iter().any(|known| known.dot(axis).abs() > 1.0 - 1e-9) {
-                continue;
-            }
-            told.push(axis);
-            // From the outermost points that are nearest to the line.
-            let is_across = along.x == 1.0;
-            let key = |p: &DVec3| {
-                let page = sight.page(*p);
-                if is_across { (page.x, -page.y) } else { (page.y, page.x) }
-            };
-            let order = |a: &DVec3, b: &DVec3| {
-                let ((a, c), (b, d)) = (key(a), key(b));
-                a.total_cmp(&b).then(c.total_cmp(&d))
-            };
-            let last = |a: &DVec3, b: &DVec3| {
-                let ((a, c), (b, d)) = (key(a), key(b));
-                a.total_cmp(&b).then(d.total_cmp(&c))
-            };
-            let (Some(from), Some(to)) =
-                (points.iter().copied().min_by(order), points.iter().copied().max_by(last))
-            else {
-                continue;
-            };
-            let through = if is_across {
-                Point::new(rect.x0, rect.y1 + aside)
-            } else {
-                Point::new(rect.x0 - aside, rect.y0)
-            };
-            let text = value((to - from).dot(axis).abs() * plan.unit_mm);
-            dimension([sight.page(from), sight.page(to)], along, through, &text, ink)?;
-        }
-    }
-    Ok(())
-}
-
-/// A length that was asked for.
-pub(super) fn told(plan: &Plan, view: usize, keys: &DimensionKeys, ink: &mut Ink) -> Result<(), Error> {
-    let sight = &plan.views[view].sight;
-    let ends = [keys.from, keys.to].map(|p| sight.page(DVec3::from_array(p)));
-    let along = match keys.measure.unwrap_or_default() {
-        Measure::Horizontal => Vec2::new(1.0, 0.0),
-        Measure::Vertical => Vec2::new(0.0, 1.0),
-        Measure::Aligned => ends[1] - ends[0],
-    };
-    let far = along.hypot2().sqrt();
-    if far.is_nan() || far <= 0.0 {
-        return Ok(());
-    }
-    let along = along / far;
-    let offset = keys.offset.unwrap_or(10.0);
-    let mut side = Vec2::new(-along.y, along.x);
-    // Below or to the right.
-    if side.y < -1e-9 || side.y.abs() <= 1e-9 && side.x < 0.0 {
-        side = -side;
-    }
-    let outer = ends.map(|p| p.to_vec2().dot(side));
-    let reach = if offset > 0.0 { outer[0].max(outer[1]) } else { outer[0].min(outer[1]) };
-    let through = ends[0] + side * (reach - outer[0] + offset);
-    let length = (ends[1] - ends[0]).dot(along).abs() / sight.unit * plan.unit_mm;
-    let text = keys.text.clone().unwrap_or_else(|| value(length));
-    dimension(ends, along, through, &text, ink)
-}
-
 /// Balloons round a view, with the number of each item that has an anchor.
-pub(super) fn balloons(rect: Rect, anchors: &[Option<Point>], ink: &mut Ink) -> Result<(), Error> {
-    const RADIUS: f64 = 4.0;
+pub(super) fn balloons(
+    rect: Rect,
+    items: &[Item],
+    anchors: &[Option<Point>],
+    ink: &mut Ink,
+) -> Result<(), Error> {
     let seen: Vec<(usize, Point)> =
         anchors.iter().enumerate().filter_map(|(k, anchor)| anchor.map(|anchor| (k, anchor))).collect();
     let points: Vec<Point> = seen.iter().map(|(_, anchor)| *anchor).collect();
@@ -189,7 +112,7 @@ pub(super) fn balloons(rect: Rect, anchors: &[Option<Point>], ink: &mut Ink) -> 
         ink.fill(kurbo::Shape::to_path(&Circle::new(*anchor, 0.5), 1e-3));
         ink.circle(centre, RADIUS, NARROW);
         let at = centre + Vec2::new(0.0, LETTERS / 2.0);
-        ink.word(&(item + 1).to_string(), at, LETTERS, Stand::Middle, 2.0 * RADIUS - 1.5)?;
+        ink.word(&items[*item].number, at, LETTERS, Stand::Middle, 2.0 * RADIUS - 1.5)?;
     }
     Ok(())
 }
@@ -214,11 +137,18 @@ pub(super) fn list(
     ink: &mut Ink,
 ) -> Result<(), Error> {
     let width = place.width() / columns as f64;
-    let material = if columns < 3 { width * 0.28 } else { 0.0 };
-    let ends = [0.0, 9.0, 18.0, width - material, width];
+    let remarked = items.iter().any(|item| !item.remark.is_empty());
+    let [material, remark] = match (columns, remarked) {
+        (1 | 2, false) => [0.28, 0.0],
+        (1 | 2, true) => [0.22, 0.22],
+        (_, false) => [0.0, 0.0],
+        (_, true) => [0.0, 0.3],
+    }
+    .map(|share| share * width);
+    let ends = [0.0, 9.0, 18.0, width - material - remark, width - remark, width];
     for (k, column) in items.chunks(rows.max(1)).enumerate() {
         let left = place.x0 + k as f64 * width;
-        let mut row = |words: [&str; 4], top: f64, high: f64| -> Result<(), Error> {
+        let mut row = |words: [&str; 5], top: f64, high: f64| -> Result<(), Error> {
             for (n, words) in words.into_iter().enumerate() {
                 let cell = Rect::new(left + ends[n], top, left + ends[n + 1], top + ROW);
                 if cell.width() > 0.0 {
@@ -229,10 +159,14 @@ pub(super) fn list(
             }
             Ok(())
         };
-        row(["Item", "Qty", "Name", "Material"], place.y1 - ROW, 1.8)?;
+        row(["Item", "Qty", "Name", "Material", "Remark"], place.y1 - ROW, 1.8)?;
         for (n, item) in column.iter().enumerate() {
-            let (number, count) = ((k * rows + n + 1).to_string(), item.parts.len().to_string());
-            row([&number, &count, &item.name, &item.material], place.y1 - ROW * (n + 2) as f64, SMALL)?;
+            let count = item.count.to_string();
+            row(
+                [&item.number, &count, &item.name, &item.material, &item.remark],
+                place.y1 - ROW * (n + 2) as f64,
+                SMALL,
+            )?;
         }
     }
     ink.rect(place, WIDE);

@@ -32,6 +32,16 @@ impl Room {
             .any(|own| own.x0 <= rect.x0 && own.y0 <= rect.y0 && own.x1 >= rect.x1 && own.y1 >= rect.y1)
     }
 
+    /// The largest free place that a rectangle lies in.
+    pub fn around(&self, rect: Rect) -> Option<Rect> {
+        const SLACK: f64 = 1e-6;
+        let holds = |own: &&Rect| {
+            let own = own.inflate(SLACK, SLACK);
+            own.x0 <= rect.x0 && own.y0 <= rect.y0 && own.x1 >= rect.x1 && own.y1 >= rect.y1
+        };
+        self.free.iter().filter(holds).copied().max_by(|a, b| a.area().total_cmp(&b.area()))
+    }
+
     /// Takes a rectangle away.
     pub fn take(&mut self, taken: Rect) {
         let mut left = Vec::new();

@@ -103,7 +103,7 @@ impl Plan {
         let views = sheet.views.clone().unwrap_or_else(|| ["front", "top", "left", "iso"].map(names).into());
         let views = views.iter().map(|name| named(name, source)).collect::<Result<Vec<_>, _>>()?;
         for view in &views {
-            let stands = if SIDES.contains(view) { Stands::Beside(*view) } else { Stands::Alone };
+            let stands = if SIDES.contains(view) { Stands::Beside(*view) } else { Stands::Pictorial };
             let camera = Camera::named(*view, scene.up);
             plan.add(view.name(), camera, &points, (0, stands, 0.0));
         }
@@ -113,7 +113,7 @@ impl Plan {
             let scene = plan.sets[0].scene.clone();
             plan.sets.push(Set { scene, style: pictorial.clone() });
             for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
-                if *set == 0 && placed.stands == Stands::Alone {
+                if *set == 0 && placed.stands == Stands::Pictorial {
                     *set = plan.sets.len() - 1;
                 }
             }
@@ -137,7 +137,7 @@ impl Plan {
         let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
         let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
         let sight = Sight::new(&name, camera, self.middle, points);
-        self.views.push(Placed { sight, stands, margin });
+        self.views.push(Placed::new(sight, stands, margin));
         self.set_of.push(set);
     }
 
@@ -215,7 +215,7 @@ impl Plan {
     }
 
     fn choose_balloons(&mut self, sheet: &SheetPage, source: &Source) -> Result<(), Error> {
-        if !sheet.parts_list {
+        if !sheet.has_parts_list() {
             return Ok(());
         }
         let find = |name: &str| self.views.iter().position(|view| view.sight.name == name);
@@ -251,7 +251,7 @@ impl Plan {
             Some(told) => Stands::At(read_scale(told, source)?),
         };
         self.circled.push(Circled { label, of, shown: self.views.len(), at, radius });
-        self.views.push(Placed { sight, stands, margin: 0.0 });
+        self.views.push(Placed::new(sight, stands, 0.0));
         self.set_of.push(self.set_of[of]);
         Ok(())
     }

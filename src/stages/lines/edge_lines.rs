@@ -107,8 +107,42 @@ impl<'a> Finder<'a> {
         (b - a).cross(c - a).dot(way) < 0.0
     }
 
-    #[inline]
     fn classify(&self, edge: usize) -> Option<FeatureSegment> {
+        if self.mesh.edge_marks.is_empty() {
+            self.classify_by_shape(edge)
+        } else {
+            self.classify_marked(edge)
+        }
+    }
+
+    /// Where a section is cut, lines belong to the cut face, and there are none of what lies within another part.
+    fn classify_marked(&self, edge: usize) -> Option<FeatureSegment> {
+        let faces = match self.mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, .. } => faces.to_vec(),
+            EdgeFaces::One(face) => vec![face],
+            EdgeFaces::Many(faces) => faces.to_vec(),
+        };
+        let said = |face: u32| mark(self.mesh, edge, [face; 2]);
+        let is_covered = faces.iter().any(|face| said(*face) == EdgeMark::Covered);
+        let cut: Vec<u32> = faces
+            .into_iter()
+            .filter(|face| said(*face) == EdgeMark::Cut && !self.degenerate(*face))
+            .collect();
+        let Some(first) = cut.first().copied() else {
+            return if is_covered { None } else { self.classify_by_shape(edge) };
+        };
+        let crease = || {
+            let hosts = [first, cut.get(1).copied().unwrap_or(NO_FACE)];
+            self.wants(LineKind::Crease).then(|| self.segment(edge, LineKind::Crease, first, hosts))
+        };
+        let owner = self.owner(&cut) as usize;
+        let (part, material) = (self.mesh.face_part[owner], self.mesh.face_material[owner]);
+        let found = self.classify_by_shape(edge).or_else(crease)?;
+        Some(FeatureSegment { part, material, strength: 180.0, ..found })
+    }
+
+    #[inline]
+    fn classify_by_shape(&self, edge: usize) -> Option<FeatureSegment> {
         match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces: [first, second], same_way } => {
                 if self.all_real && !same_way && self.is_nothing(edge, first, second) {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{MaterialId, PaintId, PartId};
 
-/// What a file says about one side of a triangle (EXT_mesh_primitive_edge_visibility).
+/// What a file (EXT_mesh_primitive_edge_visibility) or a section says about one side of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(u8)]
 pub enum EdgeMark {
@@ -17,6 +17,10 @@ pub enum EdgeMark {
     Contour = 2,
     /// Always a crease.
     Hard = 3,
+    /// No line of any kind, also where the surface ends: what lies along a plane of section within another part.
+    Covered = 4,
+    /// Always a crease, which belongs to this triangle: where a face ends along which a section is cut.
+    Cut = 5,
 }
 
 /// A line of the model that belongs to no face: OBJ `l`, glTF line primitives.

@@ -9,27 +9,10 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+pub use super::cylinder::Cylinder;
+use super::rims::rims;
 use crate::math::function::atan2;
 use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh, PartId};
-
-/// A cylinder that a mesh stands for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cylinder {
-    /// The part it belongs to.
-    pub part: PartId,
-    /// A point of its axis, world.
-    pub point: DVec3,
-    /// The direction of its axis, of unit length.
-    pub axis: DVec3,
-    /// Its radius, world units.
-    pub radius: f64,
-    /// Where it begins and ends along the axis from the point.
-    pub ends: [f64; 2],
-    /// How much of a whole turn there is of it, radians.
-    pub arc: f64,
-    /// Whether its inside is outside the material: a hole.
-    pub hollow: bool,
-}
 
 /// Faces that turn less than this lie in one strip; strips that turn more than the second are not of one cylinder (cosines of 0.06 and
 /// 50 degrees).
@@ -128,6 +111,8 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     let pairs: Vec<Pair> =
         edges.iter().flat_map(|edge| pairs_at(mesh, *edge, &at_edge[edge], &strips)).collect();
     let mut found = grouped(mesh, &pairs, &strips, &part_of);
+    let rims = rims(mesh, &normals, &facets, &found);
+    found.extend(rims);
     found.sort_by(|a, b| a.part.index().cmp(&b.part.index()).then(b.radius.total_cmp(&a.radius)));
     found
 }

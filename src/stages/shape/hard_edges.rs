@@ -133,8 +133,8 @@ impl HardEdges {
             let bit = 1 << (edge % 64);
             match mark(mesh, edge, dihedral.faces) {
                 EdgeMark::Unmarked => {}
-                EdgeMark::Hard => self.bits[edge / 64] |= bit,
-                EdgeMark::Hidden | EdgeMark::Contour => self.bits[edge / 64] &= !bit,
+                EdgeMark::Hard | EdgeMark::Cut => self.bits[edge / 64] |= bit,
+                EdgeMark::Hidden | EdgeMark::Contour | EdgeMark::Covered => self.bits[edge / 64] &= !bit,
             }
         }
         self.count = count(&self.bits);

@@ -1,0 +1,173 @@
+//! [`add_told`]: the lengths and diameters that a page file asks for, between points, and sides and middles of parts.
+
+use glam::DVec3;
+use kurbo::{Point, Vec2};
+use toml::Spanned;
+
+use super::dimension::{dimension, value};
+use super::ink::Ink;
+use super::keys::{DimensionKeys, Measure, PlaceKeys, SheetPage};
+use super::measures::{Led, Measures};
+use super::plan::Plan;
+use super::rows::Side;
+use super::sight::Sight;
+use crate::error::Error;
+use crate::math::glob::Glob;
+use crate::mesh::Mesh;
+use crate::page::source::Source;
+use crate::scene::Scene;
+use crate::shape::{Cylinder, cylinders};
+
+/// What names of places end with.
+const ENDS: [&str; 5] = ["left", "right", "top", "bottom", "centre"];
+
+/// Adds what is asked for; draws what has a place of its own.
+pub(super) fn add_told(
+    sheet: &SheetPage,
+    plan: &Plan,
+    measures: &mut Measures,
+    ink: &mut Ink,
+    source: &Source,
+) -> Result<(), Error> {
+    let mut found: Option<Vec<Cylinder>> = None;
+    for keys in &sheet.dimension {
+        let (span, keys) = (keys.span(), keys.get_ref());
+        let view = match &keys.of {
+            Some(name) => plan.view(name, source)?,
+            None => plan.view(&Spanned::new(span.clone(), "front".to_owned()), source)?,
+        };
+        let sight = &plan.views[view].sight;
+        let scene = &plan.sets[0].scene;
+        let place = |told: &Option<Spanned<PlaceKeys>>, key: &str| match told {
+            Some(told) => point(told, sheet, scene, sight, source),
+            None => Err(source.fault(
+                &span,
+                &format!("this dimension has no `{key}`"),
+                "write a point such as [0, 0, 0]",
+            )),
+        };
+        let measure = keys.measure.unwrap_or_default();
+        if matches!(measure, Measure::Diameter | Measure::Radius) {
+            let at = place(&keys.at, "at")?;
+            let own = found.get_or_insert_with(|| cylinders(&Mesh::build(scene.to_soup())));
+            let led = of_cylinder(own, at, (measure, keys), (plan, sight));
+            let told = keys.at.as_ref().map_or(span, Spanned::span);
+            let remedy = "name a point on a cylinder that is seen along its axis in this view";
+            let led = led.ok_or_else(|| source.fault(&told, "there is no cylinder in this view", remedy))?;
+            measures.led.push((view, led));
+            continue;
+        }
+        let (from, to) = (place(&keys.from, "from")?, place(&keys.to, "to")?);
+        length([from, to].map(|p| sight.page(p)), measure, keys, (plan, view), measures, ink)?;
+    }
+    Ok(())
+}
+
+/// The place on the model that is told.
+fn point(
+    told: &Spanned<PlaceKeys>,
+    sheet: &SheetPage,
+    scene: &Scene,
+    sight: &Sight,
+    source: &Source,
+) -> Result<DVec3, Error> {
+    let name = match told.get_ref() {
+        PlaceKeys::Point(p) => return Ok(DVec3::from_array(*p)),
+        PlaceKeys::Named(name) => name,
+    };
+    if let Some(p) = sheet.points.get(name) {
+        return Ok(DVec3::from_array(*p));
+    }
+    let (part, end) = name.rsplit_once('.').unwrap_or(("*", name));
+    if !ENDS.contains(&end) {
+        let known: Vec<&str> = sheet.points.keys().map(String::as_str).chain(ENDS).collect();
+        return Err(source.unknown(&Spanned::new(told.span(), name.clone()), "place", &known));
+    }
+    let glob = Glob::new(part);
+    let mut points = Vec::new();
+    for part in scene.parts.iter().filter(|part| glob.matches(&part.name)) {
+        let Some(shape) = scene.geometry_of(part) else { continue };
+        let used = shape.triangles.as_flattened().iter().filter_map(|v| shape.positions.get(*v as usize));
+        points.extend(used.map(|p| part.world_from_part.transform_point3(*p)));
+    }
+    if points.is_empty() {
+        let message = format!("there is no part `{part}`");
+        return Err(source.fault(&told.span(), &message, "`ligne info MODEL` lists them; * is any text"));
+    }
+    let [right, up, _] = sight.axes();
+    let (low, high) =
+        points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
+    let outermost = |way: DVec3| points.iter().copied().max_by(|a, b| a.dot(way).total_cmp(&b.dot(way)));
+    let found = match end {
+        "left" => outermost(-right),
+        "right" => outermost(right),
+        "top" => outermost(up),
+        "bottom" => outermost(-up),
+        _ => Some((low + high) / 2.0),
+    };
+    Ok(found.unwrap_or_default())
+}
+
+/// The cylinder, seen along its axis, whose surface is nearest to a point.
+fn of_cylinder(
+    found: &[Cylinder],
+    at: DVec3,
+    (measure, keys): (Measure, &DimensionKeys),
+    (plan, sight): (&Plan, &Sight),
+) -> Option<Led> {
+    let forward = sight.axes()[2];
+    let beside = |cylinder: &Cylinder| {
+        let away = at - cylinder.point;
+        let along = away.dot(cylinder.axis);
+        let aside = (away - cylinder.axis * along).length() - cylinder.radius;
+        let beyond = (along - along.clamp(cylinder.ends[0], cylinder.ends[1])).abs();
+        aside * aside + beyond * beyond
+    };
+    let seen = found.iter().filter(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
+    let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
+    let is_radius = measure == Measure::Radius;
+    let (sign, length) = if is_radius { ("R", nearest.radius) } else { ("⌀", 2.0 * nearest.radius) };
+    let text = keys.text.clone().unwrap_or_else(|| format!("{sign}{}", value(length * plan.unit_mm)));
+    let (centre, radius) = (sight.page(nearest.point), nearest.radius * sight.unit);
+    Some(Led { centre, radius, text, pitch: None })
+}
+
+/// Adds a length, or draws it where it is told how far beside the points.
+fn length(
+    ends: [Point; 2],
+    measure: Measure,
+    keys: &DimensionKeys,
+    (plan, view): (&Plan, usize),
+    measures: &mut Measures,
+    ink: &mut Ink,
+) -> Result<(), Error> {
+    let sight = &plan.views[view].sight;
+    let along = match measure {
+        Measure::Horizontal => Vec2::new(1.0, 0.0),
+        Measure::Vertical => Vec2::new(0.0, 1.0),
+        _ => ends[1] - ends[0],
+    };
+    let far = along.hypot2().sqrt();
+    if far.is_nan() || far <= 0.0 {
+        return Ok(());
+    }
+    let along = along / far;
+    let length = (ends[1] - ends[0]).dot(along).abs() / sight.unit * plan.unit_mm;
+    let text = keys.text.clone().unwrap_or_else(|| value(length));
+    let across = along.y.abs() < 1e-9;
+    if keys.offset.is_none() && (across || along.x.abs() < 1e-9) {
+        let side = keys.side.filter(|side| side.is_across() == across);
+        let side = side.unwrap_or(if across { Side::Below } else { Side::Left });
+        return measures.add(view, ends, side, text, ink);
+    }
+    let offset = keys.offset.unwrap_or(10.0);
+    let mut out = Vec2::new(-along.y, along.x);
+    // Below or to the right.
+    if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 {
+        out = -out;
+    }
+    let outer = ends.map(|p| p.to_vec2().dot(out));
+    let reach = if offset > 0.0 { outer[0].max(outer[1]) } else { outer[0].min(outer[1]) };
+    let through = ends[0] + out * (reach - outer[0] + offset);
+    dimension(ends, along, through, &text, ink)
+}
