@@ -365,7 +365,7 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
                     |k: usize| balloons[k].1.iter().map(Shape::bounding_box).reduce(|a, b| a.union(b));
                 let own = words_of(k).unwrap();
                 if let Some(before) = k.checked_sub(1).and_then(words_of) {
-                    assert!(own.y1 > before.center().y, "read before the one it follows: {place}");
+                    assert!(own.y1 > before.y0, "above, and read before the one it follows: {place}");
                 }
                 // The tip of a tail is the first point that two of its sides share; on the way through it lies a head.
                 let tip = outline.elements().iter().find_map(|element| match element {
@@ -473,6 +473,25 @@ fn balloons_stand_near_and_above_what_speaks_and_off_it() {
     assert!(words.y1 < figure.y0 && balloon.y1 < figure.y0, "{balloon:?} is not above {figure:?}");
     assert!(figure.y0 - balloon.y1 < 3.0, "the tail ends {} mm from the head", figure.y0 - balloon.y1);
     assert!(figure.y0 - words.y1 < 7.0 * 3.0, "the balloon is far: {words:?}, {figure:?}");
+    let _ = fs::remove_dir_all(folder);
+}
+
+#[test]
+fn tails_leave_their_balloons_where_the_speaker_fills_the_panel() {
+    let folder = folder("large");
+    fs::write(folder.join("person.obj"), person()).unwrap();
+    for kind in ["thought", "speech", "shout"] {
+        let text = format!(
+            "[page]\nkind = 'comic'\nsize = [100, 100]\nmargin = 5\nstyle = 'ink'\nlettering = {{ size = 3 }}\n[[page.panel]]\n\
+             model = {{ file = 'person.obj', only = ['body'] }}\ncamera = {{ azimuth = 10, zoom = 1.3 }}\n\
+             balloon = [{{ kind = '{kind}', text = 'Extraordinarily complicated considerations of bears', tail = 'body' }}]\n"
+        );
+        let page = PageFile::from_text(&text, folder.join("page.toml")).unwrap().compose().unwrap().remove(0);
+        let (outline, words) = balloons(items(&page.composition, "-letters").next().unwrap()).remove(0);
+        let words = words.iter().map(Shape::bounding_box).reduce(|a, b| a.union(b)).unwrap();
+        let inside = flat(&outline).into_iter().flatten().filter(|p| words.contains(*p)).count();
+        assert_eq!(inside, 0, "{kind}: the tail is over the words");
+    }
     let _ = fs::remove_dir_all(folder);
 }
 

@@ -2,8 +2,8 @@
 
 use kurbo::Rect;
 
-use super::candidate::Tail;
-use super::{Room, Wish};
+use super::room::{Room, Wish};
+use super::tail::Tail;
 use crate::page::layout::Reading;
 
 /// A tail so long costs nothing, ems.

@@ -5,64 +5,19 @@
 
 mod candidate;
 mod cost;
+pub mod room;
+mod tail;
 
-use kurbo::{Point, Rect};
+use kurbo::Rect;
 
-use super::figure::Cover;
-use super::layout::{Polygon, Reading};
+use super::layout::Reading;
 use candidate::{Candidate, candidates};
+use tail::is_clear;
+
+pub use room::{Placed, Room, Wish};
 
 /// Pairs of places looked at, at most, in the search for the best choice.
 const MOST_LOOKS: usize = 400_000;
-
-/// A balloon that wants a place.
-#[derive(Debug, Clone)]
-pub struct Wish {
-    /// The shapes that it may have, the best first; of each a polygon around it, its middle at 0, 0.
-    pub hulls: Vec<Polygon>,
-    /// What its tail points at, and towards which point of it.
-    pub target: Option<(Polygon, Point)>,
-    /// The em of its letters.
-    pub em: f64,
-    /// How long its tail is at least.
-    pub tail: f64,
-    /// Half the width of its tail where it begins.
-    pub foot: f64,
-    /// Where it is told to be.
-    pub at: Option<Point>,
-    /// Whether it stands in the corner where reading begins, or near to it.
-    pub cornered: bool,
-}
-
-/// Where balloons may be.
-#[derive(Debug, Clone)]
-pub struct Room {
-    /// Within this.
-    pub outline: Polygon,
-    /// On none of these; tails may reach them.
-    pub kept: Vec<Polygon>,
-    /// On none of these, and with no tail over them.
-    pub obstacles: Vec<Polygon>,
-    /// What of the panel models cover; balloons stay on what is free if they can.
-    pub cover: Option<Cover>,
-    /// From one to the other, at least.
-    pub gap: f64,
-    /// In which direction they are read.
-    pub reading: Reading,
-}
-
-/// A balloon in its place.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Placed {
-    /// Which of its shapes it has.
-    pub shape: usize,
-    /// Its middle.
-    pub middle: Point,
-    /// Where its tail ends.
-    pub tip: Option<Point>,
-    /// Around it.
-    pub hull: Polygon,
-}
 
 /// Places for all balloons, in their order.
 ///
@@ -125,11 +80,6 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether a tail keeps off a polygon.
-fn is_clear(tail: Option<&Polygon>, other: &Polygon) -> bool {
-    tail.is_none_or(|tail| !tail.meets(other, 0.0))
-}
-
 /// Whether a balloon may be where it is beside one before it.
 fn goes_with(own: &Candidate, before: &Candidate, told: bool, room: &Room) -> bool {
     let is_read = told || is_read_after(own.bounds, before.bounds, room.reading);
@@ -150,11 +100,11 @@ fn is_read_after(own: Rect, before: Rect, reading: Reading) -> bool {
         Reading::Ltr => own.x0 >= before.center().x,
         Reading::Rtl => own.x1 <= before.center().x,
     };
-    // What is below, but on the side that is read earlier, is below all of it but a little.
+    // What is on the side that is read earlier is below all of it.
     let below = match reading {
         Reading::Ltr => own.center().x >= before.x0,
         Reading::Rtl => own.center().x <= before.x1,
     };
-    let under = own.y0 >= before.center().y + if below { 0.0 } else { 0.3 * before.height() };
+    let under = own.y0 >= before.center().y + if below { 0.0 } else { 0.5 * before.height() };
     under || (beside && own.center().y >= before.center().y - 0.15 * before.height())
 }
