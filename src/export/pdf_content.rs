@@ -157,7 +157,11 @@ impl<'a> Writer<'a> {
         self.clipped(mark.path.elements(), |writer| {
             writer.choose((255, true));
             let mut before = Affine::IDENTITY;
-            for (plate, ink) in flat.iter().enumerate() {
+            // Solid plates first: viewers that show no overprint then show the dots of the others as well.
+            let is_solid = |ink: &f64| is_flat && tone(*ink) == Tone::Solid;
+            let solids = flat.iter().enumerate().filter(|(_, ink)| is_solid(ink));
+            let rest = flat.iter().enumerate().filter(|(_, ink)| !is_solid(ink));
+            for (plate, ink) in solids.chain(rest) {
                 if is_flat && tone(*ink) == Tone::None {
                     continue;
                 }
@@ -178,8 +182,7 @@ impl<'a> Writer<'a> {
                             .unwrap_or(0.0)
                     }
                 };
-                let laid =
-                    if is_flat && tone(*ink) == Tone::Solid { None } else { screen_dots(&outline, share) };
+                let laid = if is_solid(ink) { None } else { screen_dots(&outline, share) };
                 let change = before.inverse() * lattice;
                 before = lattice;
                 writer.out.extend_from_slice(format!("{} cm\n", matrix(change, " ")).as_bytes());

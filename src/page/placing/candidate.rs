@@ -59,7 +59,7 @@ fn middles(wish: &Wish, hull: &Polygon, room: &Room) -> Vec<Point> {
     }
     let (bounds, own) = (room.outline.bounds(), hull.bounds());
     let free = Vec2::new(bounds.width() - own.width(), bounds.height() - own.height());
-    if !(free.x >= 0.0 && free.y >= 0.0) {
+    if free.x < 0.0 || free.y < 0.0 || !free.is_finite() {
         return Vec::new();
     }
     let from = Point::new(bounds.x0 - own.x0, bounds.y0 - own.y0);

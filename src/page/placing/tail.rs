@@ -15,6 +15,9 @@ const OF_LONGER: f64 = 0.4;
 /// So far, in ems, a figure may reach before what the tail points at for the tail to end short of it.
 const BEFORE: f64 = 4.0;
 
+/// From the tip of a tail to the figure that it ends short of, in ems: the squares of a cover are coarse, and lines have a width.
+const SHORT_OF_FIGURE: f64 = 0.45;
+
 /// Steps to the em in which a tail is followed.
 const STEPS: f64 = 6.0;
 
@@ -50,7 +53,7 @@ pub(super) fn tail(
     // From within a large part the tail leads to the point itself.
     let reach = if target.holds(middle) { length } else { enters } - room.gap * SHORT_OF;
     let least = leaves + wish.tail;
-    if !(reach >= least) {
+    if reach.is_nan() || reach < least {
         return None;
     }
     let is_figure = |at: f64| room.cover.as_ref().is_some_and(|cover| cover.is_figure(middle + way * at));
@@ -60,7 +63,7 @@ pub(super) fn tail(
         end -= step;
     }
     // Where the figure begins no later, the tail leads over it.
-    end = if is_figure(end) { reach } else { (end - step).max(least) };
+    end = if is_figure(end) { reach } else { (end - SHORT_OF_FIGURE * wish.em).max(least) };
     let long = leaves + LONG * wish.em;
     if end > long {
         end = long + OF_LONGER * (end - long);
