@@ -1,4 +1,4 @@
-//! A page for presses: two views and a balloon of letters, written with several inks and standards.
+//! Pages for presses: two views and a balloon of letters, and the comic page of the examples, written with several inks and standards.
 //!
 //! `cargo run --example print -- FOLDER [PROFILE.icc]`: the ICC profile of a press is needed for four inks and for PDF/X-4.
 
@@ -9,9 +9,10 @@ use ligne::drawing::{
     Boxes, Cap, Composition, Drawing, Item, Join, Layer, LayerKind, Mark, Page, Paint, Provenance,
     StrokePaint, Unit,
 };
-use ligne::export::{Inks, PdfOptions, Standard, to_pdf};
+use ligne::export::{Inks, PdfOptions, PngOptions, Resolution, Standard, SvgOptions, to_pdf};
 use ligne::kurbo::{Affine, Ellipse, Point, Rect, Shape};
 use ligne::math::colour::Colour;
+use ligne::page::PageFile;
 use ligne::text::{Block, Font, Setting};
 use ligne::{Camera, Error, Scene, Style, render};
 
@@ -25,14 +26,28 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         page("A page", "Stop! The gears are loose again, and nobody has told the engineer.")?,
         page("Another", "Phew…")?,
     ];
-    let write = |name: &str, options: &PdfOptions| -> Result<(), Box<dyn std::error::Error>> {
-        std::fs::write(folder.join(name), to_pdf(&pages, options)?)?;
-        Ok(())
-    };
+    let save =
+        |name: &str, pages: &[Composition], options: &PdfOptions| -> Result<(), Box<dyn std::error::Error>> {
+            std::fs::write(folder.join(name), to_pdf(pages, options)?)?;
+            Ok(())
+        };
+    let write = |name: &str, options: &PdfOptions| save(name, &pages, options);
+    let composed = PageFile::open("examples/pages/comic.toml")?.compose()?;
+    let comic: Vec<Composition> = composed.into_iter().map(|page| page.composition).collect();
+    for page in &comic {
+        std::fs::write(folder.join("comic.svg"), page.to_svg(&SvgOptions::default()))?;
+        std::fs::write(
+            folder.join("comic.png"),
+            page.to_png(&PngOptions::of_resolution(Resolution::Dpi(96.0)))?,
+        )?;
+    }
     let plain = PdfOptions::default();
     write("screen.pdf", &plain)?;
-    write("archive.pdf", &plain.clone().with_standard(Standard::A2b))?;
+    let archive = plain.clone().with_standard(Standard::A2b);
+    write("archive.pdf", &archive)?;
+    save("comic-archive.pdf", &comic, &archive)?;
     let black = plain.clone().with_inks(Inks::K).with_marks();
+    save("comic-k.pdf", &comic, &black)?;
     write("k.pdf", &black)?;
     write("spot.pdf", &black.clone().with_spot(RED, "PANTONE 185 C"))?;
     write("outlined.pdf", &black.clone().outlined())?;
@@ -42,6 +57,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let four = plain.with_inks(Inks::Cmyk(profile)).with_ink_limit(240.0).with_marks();
         write("x4.pdf", &four.clone().with_standard(Standard::X4).with_spot(RED, "PANTONE 185 C"))?;
         write("cmyk.pdf", &four)?;
+        let sound = Colour::rgb(232, 65, 47);
+        let press = four.clone().with_standard(Standard::X4).with_spot(sound, "PANTONE 185 C");
+        save("comic-x4.pdf", &comic, &press)?;
+        save("comic-dots.pdf", &comic, &four.clone().with_screen(60.0, 45.0))?;
         write("cmyk-dots.pdf", &four.with_screen(45.0, 45.0))?;
     }
     Ok(())

@@ -64,6 +64,21 @@ fn screen(text: &str) -> Result<Screen, String> {
 }
 
 impl PrintArgs {
+    /// What was asked for, and what a page file asks for beside it, with the inks of both. What was typed counts.
+    #[cfg(feature = "page")]
+    pub(super) fn beside(&self, ink: Option<&str>, file: &crate::page::Print) -> (Self, Option<String>) {
+        let mut all = self.clone();
+        let inks = ink.map(str::to_owned).or_else(|| file.ink.clone());
+        all.icc = all.icc.or_else(|| file.icc.clone());
+        if inks.as_deref().is_some_and(|inks| inks.eq_ignore_ascii_case("cmyk")) {
+            all.ink_limit = all.ink_limit.or(file.ink_limit);
+        }
+        let is_free = |colour: Colour| !self.spots.iter().any(|spot| spot.colour == colour);
+        let spots = file.spots.iter().filter(|spot| is_free(spot.colour));
+        all.spots.extend(spots.map(|spot| Spot { colour: spot.colour, name: spot.name.trim().to_owned() }));
+        (all, inks)
+    }
+
     /// What was asked for with those inks; none if nothing was.
     ///
     /// # Errors
@@ -88,7 +103,7 @@ impl PrintArgs {
                 let profile = profile.ok_or_else(|| {
                     Error::new("without the profile of the press nobody knows how much of each ink to print")
                         .at("--ink cmyk")
-                        .remedy("give --icc FILE, or --ink k for black alone")
+                        .remedy("give --icc FILE (icc in a page file), or --ink k for black alone")
                 })?;
                 options.inks = Inks::Cmyk(profile);
             }

@@ -157,7 +157,11 @@ impl<'a> Writer<'a> {
         self.clipped(mark.path.elements(), |writer| {
             writer.choose((255, true));
             let mut before = Affine::IDENTITY;
-            for (plate, ink) in flat.iter().enumerate() {
+            // Solid plates first: viewers that show no overprint then show the dots of the others as well.
+            let is_solid = |ink: &f64| is_flat && tone(*ink) == Tone::Solid;
+            let solids = flat.iter().enumerate().filter(|(_, ink)| is_solid(ink));
+            let rest = flat.iter().enumerate().filter(|(_, ink)| !is_solid(ink));
+            for (plate, ink) in solids.chain(rest) {
                 if is_flat && tone(*ink) == Tone::None {
                     continue;
                 }
@@ -178,8 +182,7 @@ impl<'a> Writer<'a> {
                             .unwrap_or(0.0)
                     }
                 };
-                let laid =
-                    if is_flat && tone(*ink) == Tone::Solid { None } else { screen_dots(&outline, share) };
+                let laid = if is_solid(ink) { None } else { screen_dots(&outline, share) };
                 let change = before.inverse() * lattice;
                 before = lattice;
                 writer.out.extend_from_slice(format!("{} cm\n", matrix(change, " ")).as_bytes());
@@ -198,17 +201,20 @@ impl<'a> Writer<'a> {
         true
     }
 
-    /// Lays dots of an ink: points of a round pen.
+    /// Lays dots of an ink: neighbours in a row are one line of a round pen, whose dashes are points one apart.
     fn lay(&mut self, dots: &BTreeMap<u8, Vec<(i32, i32)>>, solid: [f64; 4]) {
         solid.into_iter().for_each(|ink| self.value(Decimals::new(CHANNEL_DECIMALS), ink));
         self.operator(b"K");
-        self.operator(b"1 J [] 0 d");
+        self.operator(b"1 J [0 1] 0 d");
         for (size, places) in dots {
             self.value(Decimals::new(4), diameter(share_of(*size)));
             self.operator(b"w");
             for places in places.chunks(DOTS_OF_PATH) {
-                for (x, y) in places {
-                    self.out.extend_from_slice(format!("{x} {y} m {x} {y} l\n").as_bytes());
+                for run in places.chunk_by(|a, b| b.1 == a.1 && b.0 == a.0 + 1) {
+                    let ([(x, y), ..], [.., (end, _)]) = (run, run) else { continue };
+                    // Half a step more, so that the last point is within.
+                    let end = f64::from(*end) + 0.5;
+                    self.out.extend_from_slice(format!("{x} {y} m {end} {y} l\n").as_bytes());
                 }
                 self.operator(b"S");
             }

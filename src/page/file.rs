@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use super::comic::{self, ComicPage};
 use super::composed::Composed;
+use super::print::Print;
 use super::sheet::{self, SheetPage};
 use super::source::Source;
 use crate::error::Error;
@@ -85,6 +86,20 @@ impl PageFile {
         files.sort();
         files.dedup();
         files
+    }
+
+    /// The inks that the pages ask for.
+    ///
+    /// # Errors
+    /// At a key that is not what it should be, or that says another thing than a page before.
+    pub fn print(&self) -> Result<Print, Error> {
+        let mut print = Print::default();
+        for (source, kind) in &self.pages {
+            if let Kind::Comic(page) = kind {
+                print.add(&page.print(), source)?;
+            }
+        }
+        Ok(print)
     }
 
     /// Draws all pages, in their order.

@@ -16,10 +16,12 @@ pub mod file;
 pub mod layout;
 pub mod length;
 pub mod placing;
+pub mod print;
 pub mod sheet;
 pub mod size;
 pub mod source;
 
 pub use composed::Composed;
 pub use file::PageFile;
+pub use print::Print;
 pub use source::Source;

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use crate::error::Error;
 
+/// Of longer lines a part is shown, characters.
+const LONGEST: usize = 120;
+
 /// An error of a file's text: at its line, with the line and a caret.
 pub(crate) fn in_sheet(text: &str, error: &toml::de::Error) -> Error {
     let (message, advice) = explain(error.message());
@@ -16,6 +19,7 @@ pub(crate) fn in_sheet(text: &str, error: &toml::de::Error) -> Error {
 /// An error about a place in a file's text: at its line, with the line and a caret.
 pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Option<&str>) -> Error {
     let (number, column, line, width) = locate(text, span);
+    let (column, line, width) = excerpt(column, line, width);
     let gutter = number.to_string();
     let blank = " ".repeat(gutter.len());
     let picture = format!(" {gutter} | {line}\n {blank} | {}{}", " ".repeat(column), "^".repeat(width));
@@ -128,6 +132,19 @@ fn locate(text: &str, span: &Range<usize>) -> (usize, usize, String, usize) {
     (number, column, line.replace('\t', " "), marked.chars().count().max(1))
 }
 
+/// Of a line that is too long to be shown what is around the place, with the place in it.
+fn excerpt(column: usize, line: String, width: usize) -> (usize, String, usize) {
+    if line.chars().count() <= LONGEST {
+        return (column, line, width);
+    }
+    let from = column.saturating_sub(LONGEST / 3);
+    let shown: String = line.chars().skip(from).take(LONGEST).collect();
+    let [before, after] =
+        [from > 0, line.chars().count() > from + LONGEST].map(|cut| if cut { "…" } else { "" });
+    let column = column - from + before.chars().count();
+    (column, format!("{before}{shown}{after}"), width.min(LONGEST + 1 - column.min(LONGEST)))
+}
+
 /// The nearest boundary of characters at or before a byte.
 fn floor(text: &str, byte: usize) -> usize {
     (0..=byte.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
@@ -170,6 +187,17 @@ mod tests {
         assert_eq!(nearest("colour", &["width", "colour"]), Some("colour"));
         assert_eq!(nearest("fills", &["lines", "chain", "pen"]), None);
         assert_eq!(nearest("x", &[]), None);
+    }
+
+    #[test]
+    fn of_long_lines_a_part_is_shown() {
+        let line = format!("{}x{}", "a".repeat(500), "b".repeat(500));
+        let told = at_span(&line, &(500..501), "wrong", None).remedy.unwrap();
+        let lines: Vec<&str> = told.lines().collect();
+        let at = |line: &str, c: char| line.chars().position(|other| other == c);
+        assert!(lines[1].chars().count() < 140 && at(lines[1], 'x') == at(lines[2], '^'), "{told}");
+        let told = at_span(&line, &(10..900), "wrong", None).remedy.unwrap();
+        assert!(told.lines().all(|line| line.chars().count() < 140), "{told}");
     }
 
     #[test]

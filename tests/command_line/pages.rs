@@ -122,3 +122,23 @@ fn pages_are_compared_panel_by_panel_and_kept_under_test() {
     folder.write("cases/page.toml", "page-file = '../page.toml'\nview = 'iso'\n");
     folder.ligne("test cases").ends(2).says("a page is told by its page file alone");
 }
+
+#[test]
+fn page_files_name_their_inks_and_what_is_typed_counts() {
+    let folder = with_page("page-inks");
+    let sound = "sound = [{ text = 'Bang', fill = '#e4002b' }]\n";
+    let inks = "ink = 'k'\nspot = { name = 'PANTONE 185 C', colour = '#e4002b' }\n";
+    folder.write(
+        "inks.toml",
+        &format!("[page]\nkind = 'comic'\nbackground = '#334455'\n{inks}[[page.panel]]\n{sound}"),
+    );
+    folder.ligne("page inks.toml k.pdf --outlined --quiet").done();
+    let bytes = |name: &str| String::from_utf8_lossy(&folder.read(name)).into_owned();
+    assert!(bytes("k.pdf").contains("/Separation /PANTONE#20185#20C"));
+    folder.ligne("page inks.toml typed.pdf --outlined --quiet --ink screen --spot #e4002b=Red").done();
+    let typed = bytes("typed.pdf");
+    assert!(typed.contains("/Separation /Red") && !typed.contains("PANTONE"));
+    folder.ligne("page inks.toml cmyk.pdf --ink cmyk").refused("icc in a page file");
+    folder.ligne("page inks.toml plain.svg --quiet").done();
+    assert!(folder.text("plain.svg").contains("#e4002b"));
+}

@@ -331,7 +331,7 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
     let folder = folder("talking");
     fs::write(folder.join("person.obj"), person()).unwrap();
     let mut chance = Chance(4);
-    let (mut told, mut tails) = (0, 0);
+    let (mut told, mut tails, mut pointing) = (0, 0, 0);
     for number in 0..50 {
         let (text, count) = talking_page(&mut chance);
         let file = PageFile::from_text(&text, folder.join("page.toml")).unwrap();
@@ -361,6 +361,25 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
                     flat(outline).iter().flatten().all(|p| frame.contains(*p)),
                     "out of its panel: {place}"
                 );
+                let words_of =
+                    |k: usize| balloons[k].1.iter().map(Shape::bounding_box).reduce(|a, b| a.union(b));
+                let own = words_of(k).unwrap();
+                if let Some(before) = k.checked_sub(1).and_then(words_of) {
+                    assert!(own.y1 > before.y0, "above, and read before the one it follows: {place}");
+                }
+                // The tip of a tail is the first point that two of its sides share; on the way through it lies a head.
+                let tip = outline.elements().iter().find_map(|element| match element {
+                    kurbo::PathEl::QuadTo(_, tip) => Some(*tip),
+                    _ => None,
+                });
+                if let Some(tip) = tip {
+                    let way = (tip - own.center()).normalize();
+                    let points = (0..400).map(|step| tip + way * (f64::from(step) * 0.5));
+                    let heads: Vec<Rect> = heads.iter().map(|head| head.bounding_box().inset(2.0)).collect();
+                    let found = points.into_iter().any(|p| heads.iter().any(|head| head.contains(p)));
+                    assert!(found, "a tail points at no head: {place}");
+                    pointing += 1;
+                }
             }
             found += balloons.len();
         }
@@ -368,7 +387,7 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
         told += count;
         tails += text.matches("tail = ").count();
     }
-    assert!(told > 200 && tails > 100, "{told} balloons, {tails} tails");
+    assert!(told > 200 && tails > 100 && pointing > 60, "{told} balloons, {tails} tails, {pointing} seen");
     let _ = fs::remove_dir_all(folder);
 }
 
@@ -404,6 +423,25 @@ fn what_is_wrong_is_told_with_its_place() {
             "no model in this panel",
         ),
         (&format!("{panel}balloon = [{{ text = '' }}]\n"), "line 4", "says nothing"),
+        (&format!("{panel}balloon = [{{ text = '{}' }}]\n", "w".repeat(40_000)), "line 4", "too long"),
+        (&format!("{panel}balloon = [{{ text = 'a', at = [nan, 0] }}]\n"), "line 4", "far from the panel"),
+        (&format!("{panel}sound = [{{ text = 'a', at = [0, inf] }}]\n"), "line 4", "far from the panel"),
+        (&format!("{panel}sound = [{{ text = 'a', arc = nan }}]\n"), "line 4", "do not turn so far"),
+        (&format!("{panel}sound = [{{ text = 'a', rotate = 1e9 }}]\n"), "line 4", "do not turn so far"),
+        (&format!("{panel}sound = [{{ text = 'a', stretch = inf }}]\n"), "line 4", "not stretched so"),
+        (&format!("{panel}name = ''\n"), "line 4", "has no name"),
+        ("[page]\nkind = 'comic'\ngutter = inf\n", "line 3", "no gutter"),
+        ("[page]\nkind = 'comic'\nsize = [nan, 90]\n", "line 3", "fits on no page"),
+        (
+            &format!("[page]\nkind = 'comic'\nlayout = '{}1'\n", "1 | ".repeat(10_000)),
+            "line 3",
+            "more than 10000 panels",
+        ),
+        (
+            &format!("[page]\nkind = 'comic'\nlayout = '{}'\n", "1 [".repeat(90)),
+            "line 3",
+            "more than 32 deep",
+        ),
         (&format!("[page]\nkind = 'comic'\nsize = [60, 60]\n{narrow}"), "line 5", "no room"),
         (
             "[page]\nkind = 'comic'\nlettering = { font = 'comik' }\n[[page.panel]]\n",
@@ -414,6 +452,96 @@ fn what_is_wrong_is_told_with_its_place() {
         let told = refused(text);
         assert!(told.starts_with("pages/a.toml: "), "{told}");
         assert!(told.contains(line) && told.contains(message) && told.contains('^'), "{text}: {told}");
+    }
+}
+
+#[test]
+fn balloons_stand_near_and_above_what_speaks_and_off_it() {
+    let folder = folder("near");
+    fs::write(folder.join("person.obj"), person()).unwrap();
+    let text = "[page]\nkind = 'comic'\nsize = [100, 100]\nmargin = 5\nstyle = 'ink'\nlettering = { size = 3 }\n[[page.panel]]\n\
+                model = 'person.obj'\ncamera = { azimuth = 0, elevation = 0, zoom = 0.6, shift = [0, 0.25] }\n\
+                balloon = [{ text = 'We must never build', tail = 'head' }]\n";
+    let page = PageFile::from_text(text, folder.join("page.toml")).unwrap().compose().unwrap().remove(0);
+    let letters = items(&page.composition, "-letters").next().unwrap();
+    let (outline, words) = balloons(letters).remove(0);
+    let panel = page.composition.items.iter().find(|item| item.name == "panel-1").unwrap();
+    let figure =
+        marks(panel).map(|mark| (panel.place * mark.path.clone()).bounding_box()).reduce(|a, b| a.union(b));
+    let (figure, balloon) = (figure.unwrap(), outline.bounding_box());
+    let words = words.iter().map(Shape::bounding_box).reduce(|a, b| a.union(b)).unwrap();
+    assert!(words.y1 < figure.y0 && balloon.y1 < figure.y0, "{balloon:?} is not above {figure:?}");
+    assert!(figure.y0 - balloon.y1 < 3.0, "the tail ends {} mm from the head", figure.y0 - balloon.y1);
+    assert!(figure.y0 - words.y1 < 7.0 * 3.0, "the balloon is far: {words:?}, {figure:?}");
+    let _ = fs::remove_dir_all(folder);
+}
+
+#[test]
+fn tails_leave_their_balloons_where_the_speaker_fills_the_panel() {
+    let folder = folder("large");
+    fs::write(folder.join("person.obj"), person()).unwrap();
+    for kind in ["thought", "speech", "shout"] {
+        let text = format!(
+            "[page]\nkind = 'comic'\nsize = [100, 100]\nmargin = 5\nstyle = 'ink'\nlettering = {{ size = 3 }}\n[[page.panel]]\n\
+             model = {{ file = 'person.obj', only = ['body'] }}\ncamera = {{ azimuth = 10, zoom = 1.3 }}\n\
+             balloon = [{{ kind = '{kind}', text = 'Extraordinarily complicated considerations of bears', tail = 'body' }}]\n"
+        );
+        let page = PageFile::from_text(&text, folder.join("page.toml")).unwrap().compose().unwrap().remove(0);
+        let (outline, words) = balloons(items(&page.composition, "-letters").next().unwrap()).remove(0);
+        let words = words.iter().map(Shape::bounding_box).reduce(|a, b| a.union(b)).unwrap();
+        let inside = flat(&outline).into_iter().flatten().filter(|p| words.contains(*p)).count();
+        assert_eq!(inside, 0, "{kind}: the tail is over the words");
+    }
+    let _ = fs::remove_dir_all(folder);
+}
+
+#[test]
+fn models_take_the_colours_of_the_page() {
+    let folder = folder("colours");
+    fs::write(folder.join("person.obj"), person()).unwrap();
+    let page = |colour: &str| {
+        let text = format!(
+            "[page]\nkind = 'comic'\nstyle = 'toon'\n[[page.panel]]\nmodel = {{ file = 'person.obj', colour = {colour} }}\n"
+        );
+        PageFile::from_text(&text, folder.join("page.toml")).and_then(|file| file.compose())
+    };
+    let drawn = page("{ '*' = 'blue', 'h*' = 'red' }").unwrap().remove(0).composition;
+    let panel = drawn.items.iter().find(|item| item.name == "panel-1").unwrap();
+    let mut seen = std::collections::BTreeSet::new();
+    for mark in marks(panel) {
+        if let (Paint::Fill(colour), Some(part)) = (&mark.paint, &mark.provenance.part) {
+            let wanted = if part.as_ref() == "head" { colour.r > colour.b } else { colour.b > colour.r };
+            if mark.provenance.material.is_some() {
+                assert!(wanted, "{part}: {colour:?}");
+                seen.insert(part.to_string());
+            }
+        }
+    }
+    assert_eq!(seen.len(), 2, "{seen:?}");
+    let told = page("{ hed = 'red' }").unwrap_err().to_string();
+    assert!(told.contains("line 5") && told.contains("did you mean `head`?") && told.contains('^'), "{told}");
+    assert!(page("'redd'").unwrap_err().to_string().contains("this is no colour"));
+    let _ = fs::remove_dir_all(folder);
+}
+
+#[test]
+fn pages_of_a_file_agree_on_their_inks() {
+    let print = |text: &str| PageFile::from_text(text, "pages/a.toml").and_then(|file| file.print());
+    let one = "[[page]]\nkind = 'comic'\nink = 'K'\nspot = { name = 'PANTONE 185 C', colour = 'red' }\n";
+    let found = print(&format!("{one}[[page]]\nkind = 'comic'\n")).unwrap();
+    assert_eq!((found.ink.as_deref(), found.spots[0].name.as_str()), (Some("k"), "PANTONE 185 C"));
+    for (rest, message) in [
+        ("ink = 'cmyk'\n", "an earlier page says another thing"),
+        ("ink = 'cymk'\n", "did you mean `cmyk`?"),
+        ("ink_limit = nan\n", "no limit of inks"),
+        ("ink = 'k'\nink_limit = 300\n", "only four inks have a limit"),
+        ("icc = 'none.icc'\n", "there is no ICC profile"),
+        ("spot = [{ name = 'Other', colour = '#f00' }]\n", "printed with `PANTONE 185 C` already"),
+        ("spot = [{ name = ' ', colour = 'blue' }]\n", "has a name"),
+        ("spot = 'PANTONE 185 C'\n", "this is no ink"),
+    ] {
+        let told = print(&format!("{one}[[page]]\nkind = 'comic'\n{rest}")).unwrap_err().to_string();
+        assert!(told.contains(message) && told.contains("line ") && told.contains('^'), "{rest}: {told}");
     }
 }
 

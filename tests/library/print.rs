@@ -219,11 +219,22 @@ fn fills_are_dots_of_solid_ink_on_one_lattice() {
     let grey = Paint::Fill(Colour::rgb(128, 128, 128));
     let options = k().with_screen(25.4, 0.0);
     let (content, rest) = written(vec![mark("M0.5 0.5H20.5V10.5H0.5Z", grey.clone())], &options);
-    let dots: Vec<&str> =
+    // Lines of points one apart, of which the last is half a step before the end.
+    let points = |line: &str| -> Vec<(i64, i64)> {
+        let numbers: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
+        let [from, y, to, _] = numbers[..] else { panic!("{line}") };
+        (from as i64..=(to - 0.5) as i64).map(|x| (x, y as i64)).collect()
+    };
+    let lines: Vec<&str> =
         content.lines().filter(|line| line.contains(" m ") && line.ends_with(" l")).collect();
-    // 200 dots have their middles inside, and others reach in.
-    assert!((200..290).contains(&dots.len()), "{} dots", dots.len());
-    assert!(dots.contains(&"3 5 m 3 5 l") && !dots.contains(&"3 15 m 3 15 l"));
+    let mut dots: Vec<(i64, i64)> = lines.iter().flat_map(|line| points(line)).collect();
+    let laid = dots.len();
+    dots.sort_unstable();
+    dots.dedup();
+    assert!(lines.len() < 16 && content.contains("1 J [0 1] 0 d"), "{lines:?}");
+    // 200 dots have their middles inside, and others reach in; none is laid twice.
+    assert!((200..290).contains(&dots.len()) && laid == dots.len(), "{laid} dots");
+    assert!(dots.contains(&(3, 5)) && dots.contains(&(20, 1)) && !dots.contains(&(3, 15)));
     assert!(content.contains("0 0 0 0 k\n.5 .5 m") && content.contains("0 0 0 1 K"), "{content}");
     // A dot that covers 127/255 of a square.
     let width = (4.0 * (127.0 / 255.0) / std::f64::consts::PI).sqrt();

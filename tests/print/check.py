@@ -4,8 +4,8 @@
     cargo run --example print -- FOLDER PROFILE.icc
     tests/print/check.py FOLDER
 
-needs qpdf, pdfinfo and pdffonts (poppler-utils), gs (Ghostscript), and pikepdf and Pillow of Python; verapdf is asked where it is there.
-What is missing is said, and makes the check fail; verapdf alone may be missing.
+needs qpdf, pdfinfo and pdffonts (poppler-utils), gs (Ghostscript), and pikepdf and Pillow of Python; verapdf and Inkscape are asked where
+they are there. What is missing is said, and makes the check fail; these two alone may be missing.
 """
 
 import shutil
@@ -72,21 +72,21 @@ def check_fonts(file):
         fault(f"{file.name}: its words read {words!r}")
 
 
-def plates(file):
+def plates(file, resolution=900):
     """The plates of the first page within the trimmed page: which share of each is inked, 0 to 1."""
     from PIL import Image
 
     shares = {}
     with tempfile.TemporaryDirectory() as folder:
         status, text = said(
-            "gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", "-sDEVICE=tiffsep", "-r900", "-dLastPage=1",
+            "gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", "-sDEVICE=tiffsep", f"-r{resolution}", "-dLastPage=1",
             f"-sOutputFile={folder}/p%d.tif", str(file),
         )
         if status or "rror" in text:
             fault(f"{file.name}: Ghostscript says {text}")
         for path in sorted(Path(folder).glob("p1(*).tif")):
             image = Image.open(path).convert("L")
-            edge = 9 / 25.4 * 900 + 4
+            edge = 9 / 25.4 * resolution + 4
             image = image.crop((edge, edge, image.width - edge, image.height - edge))
             inked = sum(count * (255 - value) for value, count in enumerate(image.histogram()))
             shares[path.name[3:-5]] = inked / 255 / (image.width * image.height)
@@ -166,6 +166,77 @@ def limit_of(file):
     return 100 * most
 
 
+def check_comic(folder):
+    """The comic page: a page of 168.28 x 260.35 mm with 3 mm of bleed; marks reach 8 mm out and have 1 mm around them."""
+    import pikepdf
+
+    shares = {}
+    for name in ("comic-archive.pdf", "comic-k.pdf", "comic-x4.pdf", "comic-dots.pdf"):
+        file = folder / name
+        check_syntax(file)
+        edge = 3 if "archive" in name else 9
+        _, text = said("pdfinfo", "-box", str(file))
+        trim = next(line for line in text.splitlines() if line.startswith("TrimBox"))
+        low = edge * MM
+        wanted = [low, low, low + 168.28 * MM, low + 260.35 * MM]
+        near([float(number) for number in trim.split()[1:]], wanted, f"{name} TrimBox")
+        _, text = said("pdffonts", str(file))
+        for line in text.splitlines()[2:]:
+            if line.split()[-5:-2] != ["yes", "yes", "yes"]:
+                fault(f"{name}: not embedded, or no part, or without words: {line}")
+        _, words = said("pdftotext", str(file), "-")
+        if "BREAKFAST." not in words:
+            fault(f"{name}: its words read {words!r}")
+        pdf = pikepdf.open(file)
+        layers = [str(entry.Name) for entry in pdf.Root.OCProperties.OCGs]
+        missing = {f"panel-{k}" for k in range(1, 7)} | {"panel-5-break", "panel-6-letters"}
+        if missing - set(layers):
+            fault(f"{name}: no layers {sorted(missing - set(layers))}")
+        megabytes = file.stat().st_size / 1e6
+        print(f"  {name}: {megabytes:.2f} MB")
+        if megabytes > 10:
+            fault(f"{name}: more than 10 MB")
+        if "archive" not in name:
+            shares[name] = plates(file, 300)
+            inks = (f"{plate} {100 * share:.2f} %" for plate, share in shares[name].items())
+            print(f"  {name}:", ", ".join(inks))
+    if any(shares["comic-k.pdf"][plate] for plate in PLATES[:3]) or not shares["comic-k.pdf"]["Black"]:
+        fault(f"comic-k.pdf: {shares['comic-k.pdf']}")
+    if not shares["comic-x4.pdf"].get("PANTONE 185 C"):
+        fault(f"comic-x4.pdf: no ink of its own: {shares['comic-x4.pdf']}")
+    most = limit_of(folder / "comic-x4.pdf")
+    if most > 240.01:
+        fault(f"comic-x4.pdf: {most} % ink, more than 240 %")
+
+
+def check_inkscape(folder):
+    """The comic page as Inkscape sees it: its layers by name, and the same picture."""
+    from xml.etree import ElementTree
+
+    from PIL import Image, ImageChops
+
+    label = "{http://www.inkscape.org/namespaces/inkscape}label"
+    mode = "{http://www.inkscape.org/namespaces/inkscape}groupmode"
+    groups = ElementTree.parse(folder / "comic.svg").getroot().iter("{http://www.w3.org/2000/svg}g")
+    ids = {group.get("id") for group in groups if group.get(mode) == "layer" and group.get(label)}
+    status, text = said("inkscape", str(folder / "comic.svg"), "--query-all")
+    seen = {line.split(",")[0] for line in text.splitlines()}
+    if status or len(ids) < 20 or ids - seen:
+        fault(f"comic.svg: Inkscape does not see {sorted(ids - seen)} of {len(ids)} layers")
+    with tempfile.TemporaryDirectory() as made:
+        said("inkscape", str(folder / "comic.svg"), "--export-type=png", f"--export-filename={made}/a.png", "--export-dpi=96")
+        theirs = Image.open(f"{made}/a.png").convert("RGB")
+    ours = Image.open(folder / "comic.png").convert("RGB")
+    if theirs.size != ours.size:
+        fault(f"comic.svg: {theirs.size} pixels in Inkscape, not {ours.size}")
+        return
+    apart = ImageChops.difference(ours, theirs).convert("L").histogram()
+    share = sum(apart[64:]) / sum(apart)
+    print(f"  comic.svg: {len(ids)} layers in Inkscape, {100 * share:.3f} % of the pixels differ")
+    if share > 0.001:
+        fault(f"comic.svg: {100 * share:.2f} % of the pixels differ in Inkscape")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -183,8 +254,9 @@ def main():
     files = sorted(folder.glob("*.pdf"))
     wanted = {"screen.pdf", "archive.pdf", "k.pdf", "spot.pdf", "outlined.pdf", "x4-k.pdf", "x4.pdf", "cmyk.pdf"}
     wanted |= {"dots.pdf", "cmyk-dots.pdf"}
-    if not wanted <= {file.name for file in files}:
-        sys.exit(f"{folder} lacks {sorted(wanted - {file.name for file in files})}; see the head of this file")
+    comic = {"comic-archive.pdf", "comic-k.pdf", "comic-x4.pdf", "comic-dots.pdf"}
+    if not wanted | comic <= {file.name for file in files}:
+        sys.exit(f"{folder} lacks {sorted((wanted | comic) - {file.name for file in files})}; see the head of this file")
     files = [file for file in files if file.name in wanted]
     found = {}
     for file in files:
@@ -205,13 +277,19 @@ def main():
         print(f"  {name}: at most {most:.0f} % ink")
         if most > 240.01:
             fault(f"{name}: {most} % ink, more than 240 %")
-    if shutil.which("verapdf"):
-        status, text = said("verapdf", "--flavour", "2b", "--format", "text", str(folder / "archive.pdf"))
+    check_comic(folder)
+    if shutil.which("inkscape"):
+        check_inkscape(folder)
+    else:
+        print("  inkscape is missing: what it sees of comic.svg was not asked")
+    for name in ("archive.pdf", "comic-archive.pdf"):
+        if not shutil.which("verapdf"):
+            print(f"  verapdf is missing: that {name} is PDF/A-2b was not asked")
+            continue
+        status, text = said("verapdf", "--flavour", "2b", "--format", "text", str(folder / name))
         print(" ", text.strip())
         if status or "PASS" not in text:
-            fault("archive.pdf is no PDF/A-2b")
-    else:
-        print("  verapdf is missing: that archive.pdf is PDF/A-2b was not asked")
+            fault(f"{name} is no PDF/A-2b")
     print(f"{len(files)} files, {len(faults)} faults")
     sys.exit(bool(faults))
 

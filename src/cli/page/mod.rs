@@ -18,7 +18,7 @@ use crate::error::Error;
 #[cfg(feature = "pdf")]
 use crate::export::to_pdf;
 use crate::export::{DxfOptions, DxfVersion, PngOptions, Resolution, SvgOptions, gzip};
-use crate::page::{Composed, PageFile};
+use crate::page::{Composed, PageFile, Print};
 use crate::render::Stopwatch;
 
 /// What was typed.
@@ -175,6 +175,7 @@ fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
             .remedy("number them, such as page-%d.svg, or write .pdf"));
     }
     progress.step("drawing");
+    let inks = file.print()?;
     let composed = file.compose()?;
     drop(progress);
     tell_warnings(args, &composed)?;
@@ -182,7 +183,7 @@ fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
     let mut staging = Staging::default();
     let mut told = Vec::new();
     for target in targets {
-        for (name, bytes, count) in encoded(target, &compositions, args)? {
+        for (name, bytes, count) in encoded(target, &compositions, (args, &inks))? {
             match &name {
                 Some(path) => {
                     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
@@ -237,7 +238,7 @@ fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
 type Encoded = (Option<PathBuf>, Vec<u8>, usize);
 
 /// The files of an output.
-fn encoded(target: &Target, pages: &[Composition], args: &PageArgs) -> Result<Vec<Encoded>, Error> {
+fn encoded(target: &Target, pages: &[Composition], args: (&PageArgs, &Print)) -> Result<Vec<Encoded>, Error> {
     let in_file = |path: &Path, error: Error| match error.file {
         None => error.in_file(path),
         Some(_) => error,
@@ -259,7 +260,13 @@ fn encoded(target: &Target, pages: &[Composition], args: &PageArgs) -> Result<Ve
     }
 }
 
-fn encode(pages: &[Composition], format: Format, args: &PageArgs) -> Result<Vec<u8>, Error> {
+fn encode(
+    pages: &[Composition],
+    format: Format,
+    (args, file): (&PageArgs, &Print),
+) -> Result<Vec<u8>, Error> {
+    #[cfg(not(feature = "pdf"))]
+    let _ = file;
     let Some(page) = pages.first() else { return Ok(Vec::new()) };
     let svg = || page.to_svg(&SvgOptions { precision: args.precision, ..SvgOptions::default() });
     match format {
@@ -269,7 +276,10 @@ fn encode(pages: &[Composition], format: Format, args: &PageArgs) -> Result<Vec<
             page.to_png(&PngOptions { resolution: args.dpi.map_or(Resolution::Natural, Resolution::Dpi) })
         }
         #[cfg(feature = "pdf")]
-        Format::Pdf => to_pdf(pages, &args.print.options(args.ink.as_deref())?.unwrap_or_default()),
+        Format::Pdf => {
+            let (print, ink) = args.print.beside(args.ink.as_deref(), file);
+            to_pdf(pages, &print.options(ink.as_deref())?.unwrap_or_default())
+        }
         Format::Dxf => Ok(page.flattened().to_dxf(&DxfOptions::default().with_version(args.dxf))),
     }
 }

@@ -10,6 +10,7 @@ use crate::page::figure::look::file;
 use crate::page::figure::{Aim, Models};
 use crate::page::layout::Reading;
 use crate::page::length::Mm;
+use crate::page::print::{PrintKeys, Spots};
 use crate::page::size::Size;
 use crate::page::source::Source;
 
@@ -47,6 +48,14 @@ pub struct ComicPage {
     pub style: Spanned<String>,
     /// Changes to it, `KEY=VALUE` each.
     pub set: Vec<Spanned<String>>,
+    /// Inks of PDF: `screen`, `k` or `cmyk`. Default: screen.
+    pub ink: Option<Spanned<String>>,
+    /// The ICC profile of the press.
+    pub icc: Option<Spanned<String>>,
+    /// All inks of a place together, percent of one.
+    pub ink_limit: Option<Spanned<f64>>,
+    /// A colour that is printed with an ink of its own, or several.
+    pub spot: Option<Spanned<Spots>>,
     /// How letters are set.
     pub lettering: LetteringKeys,
     /// The panels, in reading order.
@@ -75,7 +84,7 @@ impl From<ReadingKey> for Reading {
 
 /// What is between panels.
 #[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "this is no gutter; write one length, or [between columns, between rows]")]
 pub enum Gutter {
     /// Everywhere.
     All(Mm),
@@ -186,15 +195,15 @@ pub struct SoundKeys {
     pub text: Spanned<String>,
     /// Where its middle is, in shares of the panel. Default: 0.5, 0.75.
     #[serde(default = "low")]
-    pub at: [f64; 2],
+    pub at: Spanned<[f64; 2]>,
     /// Height of its capitals. Default: 12 mm.
     pub size: Option<Spanned<Mm>>,
     /// Degrees by which it is turned, to the right if above 0. Default: 0.
-    #[serde(default)]
-    pub rotate: f64,
+    #[serde(default = "none")]
+    pub rotate: Spanned<f64>,
     /// Degrees of the arc it is bent along, up in its middle if above 0. Default: 0.
-    #[serde(default)]
-    pub arc: f64,
+    #[serde(default = "none")]
+    pub arc: Spanned<f64>,
     /// How much wider than high letters are drawn. Default: 1.
     pub stretch: Option<Spanned<f64>>,
     /// Colour of its letters. Default: white.
@@ -207,8 +216,12 @@ pub struct SoundKeys {
     pub font: Option<Spanned<String>>,
 }
 
-fn low() -> [f64; 2] {
-    [0.5, 0.75]
+fn low() -> Spanned<[f64; 2]> {
+    told([0.5, 0.75])
+}
+
+fn none() -> Spanned<f64> {
+    told(0.0)
 }
 
 fn told<T>(value: T) -> Spanned<T> {
@@ -233,6 +246,10 @@ impl Default for ComicPage {
             hand: told(Mm(0.0)),
             style: told("comic".to_owned()),
             set: Vec::new(),
+            ink: None,
+            icc: None,
+            ink_limit: None,
+            spot: None,
             lettering: LetteringKeys::default(),
             panel: Vec::new(),
         }
@@ -254,10 +271,18 @@ impl Default for LetteringKeys {
 }
 
 impl ComicPage {
+    /// What it tells of its inks.
+    #[must_use]
+    pub fn print(&self) -> PrintKeys {
+        let Self { ink, icc, ink_limit, spot, .. } = self.clone();
+        PrintKeys { ink, icc, ink_limit, spot }
+    }
+
     /// The files it is made from.
     #[must_use]
     pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = file(&self.style, source).into_iter().collect();
+        files.extend(self.icc.as_ref().map(|icc| source.beside(icc.get_ref())));
         for panel in self.panel.iter().map(Spanned::get_ref) {
             files.extend(panel.model.files(source));
             files.extend(panel.style.as_ref().and_then(|style| file(style, source)));

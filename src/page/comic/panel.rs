@@ -14,7 +14,7 @@ use crate::page::figure::{self, Cover, Place, aim, is_named};
 use crate::page::length::Mm;
 use crate::page::source::Source;
 use crate::render;
-use crate::scene::{Camera, Projection, Scene};
+use crate::scene::{Camera, Part, Projection, Scene};
 use crate::style::Style;
 
 /// How far beyond its panel, in shares of the shorter side, a figure may break.
@@ -44,9 +44,15 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Which of the panel models cover.
-    pub fn cover(&self) -> Cover {
-        Cover::of(&self.scene, &self.camera, self.place.to_point())
+    /// Which of the panel models cover; the figures are the models of those parts, or all of them if no model has a name.
+    pub fn cover(&self, parts: &[&str]) -> Cover {
+        let models: Vec<&str> =
+            parts.iter().filter_map(|part| part.split_once('/')).map(|(model, _)| model).collect();
+        let is_figure = |part: &Part| {
+            let own = part.name.split_once('/').map(|(model, _)| model);
+            models.is_empty() || own.is_some_and(|own| models.contains(&own))
+        };
+        Cover::of(&self.scene, &self.camera, self.place.to_point(), &is_figure)
     }
 
     /// Where parts are on the page.

@@ -141,6 +141,10 @@ pub(super) fn shapes<'a>(
         shapes.push(Shape { name: name(Some(keys), number), keys: Some(keys), outline });
     }
     for (number, shape) in shapes.iter().enumerate() {
+        let named = shape.keys.and_then(|keys| keys.get_ref().name.as_ref());
+        if let Some(named) = named.filter(|named| named.get_ref().trim().is_empty()) {
+            return Err(source.fault(&named.span(), "this panel has no name", "write one, or leave it out"));
+        }
         if let Some(named) = shape.keys.and_then(|keys| keys.get_ref().name.as_ref())
             && shapes.iter().take(number).any(|other| other.name == shape.name)
         {

@@ -1,32 +1,39 @@
-//! [`Cover`]: which of a frame models cover, in coarse squares, to weigh places by.
+//! [`Cover`]: which of a frame models cover, and which of them are figures, in coarse squares, to weigh places by.
 
 use glam::DVec3;
 use kurbo::{Point, Rect, Vec2};
 
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Part, Scene};
 use crate::view::Frame;
 
 /// Squares across and down a frame.
 const SQUARES: usize = 48;
+
+/// What a square weighs that a figure covers, and one that all else does.
+const FIGURE: u32 = 3;
+const OTHER: u32 = 1;
 
 /// Which squares of a frame models cover.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cover {
     /// The frame.
     frame: Rect,
-    /// How many squares are covered above and to the left of each corner of one, row by row.
+    /// What each square weighs, row by row.
+    squares: Vec<u32>,
+    /// What the squares above and to the left of each corner of one weigh, row by row.
     sums: Vec<u32>,
 }
 
 impl Cover {
-    /// Of the frame of a camera, which is put at `corner`.
+    /// Of the frame of a camera, which is put at `corner`; `is_figure` tells parts that matter from those around them.
     #[must_use]
-    pub fn of(scene: &Scene, camera: &Camera, corner: Point) -> Self {
+    pub fn of(scene: &Scene, camera: &Camera, corner: Point, is_figure: &dyn Fn(&Part) -> bool) -> Self {
         let frame = Frame::new(camera, DVec3::ZERO);
-        let mut squares = vec![false; SQUARES * SQUARES];
+        let mut squares = vec![0; SQUARES * SQUARES];
         let scale = Vec2::new(SQUARES as f64 / camera.width, SQUARES as f64 / camera.height);
         for part in &scene.parts {
             let Some(geometry) = scene.geometry_of(part) else { continue };
+            let weight = if is_figure(part) { FIGURE } else { OTHER };
             let seen: Vec<Option<Point>> = geometry
                 .positions
                 .iter()
@@ -40,14 +47,26 @@ impl Cover {
             for corners in &geometry.triangles {
                 let [a, b, c] = corners.map(|corner| seen.get(corner as usize).copied().flatten());
                 if let (Some(a), Some(b), Some(c)) = (a, b, c) {
-                    mark(&mut squares, [a, b, c]);
+                    mark(&mut squares, [a, b, c], weight);
                 }
             }
         }
-        Self { frame: Rect::from_origin_size(corner, (camera.width, camera.height)), sums: sums(&squares) }
+        let frame = Rect::from_origin_size(corner, (camera.width, camera.height));
+        Self { frame, sums: sums(&squares), squares }
     }
 
-    /// The share of a box that is covered, in whole squares.
+    /// Whether a figure covers the square that holds a point.
+    #[must_use]
+    pub fn is_figure(&self, p: Point) -> bool {
+        let square = |at: f64, from: f64, length: f64| ((at - from) / length * SQUARES as f64).floor();
+        let x = square(p.x, self.frame.x0, self.frame.width());
+        let y = square(p.y, self.frame.y0, self.frame.height());
+        let side = 0.0..SQUARES as f64;
+        let is_within = side.contains(&x) && side.contains(&y);
+        is_within && self.squares.get(y as usize * SQUARES + x as usize) == Some(&FIGURE)
+    }
+
+    /// The share of a box that figures cover, in whole squares; other models count for a third.
     #[must_use]
     pub fn share(&self, of: Rect) -> f64 {
         let square = |at: f64, from: f64, length: f64| {
@@ -57,26 +76,26 @@ impl Cover {
         let [y0, y1] = [of.y0, of.y1].map(|y| square(y, self.frame.y0, self.frame.height()));
         let sum = |x: usize, y: usize| f64::from(self.sums.get(y * (SQUARES + 1) + x).copied().unwrap_or(0));
         let covered = sum(x1, y1) - sum(x0, y1) - sum(x1, y0) + sum(x0, y0);
-        covered / ((x1 - x0) * (y1 - y0)).max(1) as f64
+        covered / ((x1 - x0) * (y1 - y0)).max(1) as f64 / f64::from(FIGURE)
     }
 }
 
-/// How many squares are covered above and to the left of each corner.
-fn sums(squares: &[bool]) -> Vec<u32> {
+/// What the squares above and to the left of each corner weigh.
+fn sums(squares: &[u32]) -> Vec<u32> {
     let side = SQUARES + 1;
     let mut sums = vec![0; side * side];
     for y in 0..SQUARES {
         let mut row = 0;
         for x in 0..SQUARES {
-            row += u32::from(squares[y * SQUARES + x]);
+            row += squares[y * SQUARES + x];
             sums[(y + 1) * side + x + 1] = sums[y * side + x + 1] + row;
         }
     }
     sums
 }
 
-/// Marks the squares whose middle a triangle holds.
-fn mark(squares: &mut [bool], [a, b, c]: [Point; 3]) {
+/// Marks the squares whose middle a triangle holds; each weighs what the weightiest does.
+fn mark(squares: &mut [u32], [a, b, c]: [Point; 3], weight: u32) {
     let range = |values: [f64; 3]| {
         let low = values.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
         let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max).min(SQUARES as f64);
@@ -89,7 +108,7 @@ fn mark(squares: &mut [bool], [a, b, c]: [Point; 3]) {
             let sides = [side(a, b, p), side(b, c, p), side(c, a, p)];
             let within = sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0);
             if let Some(square) = squares.get_mut(y * SQUARES + x).filter(|_| within) {
-                *square = true;
+                *square = weight.max(*square);
             }
         }
     }
@@ -101,14 +120,17 @@ mod tests {
 
     #[test]
     fn what_is_covered_is_counted() {
-        let mut squares = vec![false; SQUARES * SQUARES];
+        let mut squares = vec![0; SQUARES * SQUARES];
         // The left half of the upper half.
         let half = SQUARES as f64 / 2.0;
-        mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, 0.0), Point::new(half, half)]);
-        mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, half), Point::new(0.0, half)]);
-        let cover = Cover { frame: Rect::new(10.0, 20.0, 110.0, 120.0), sums: sums(&squares) };
+        mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, 0.0), Point::new(half, half)], FIGURE);
+        mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, half), Point::new(0.0, half)], FIGURE);
+        let cover = Cover { frame: Rect::new(10.0, 20.0, 110.0, 120.0), sums: sums(&squares), squares };
         assert_eq!(cover.share(Rect::new(10.0, 20.0, 60.0, 70.0)), 1.0);
         assert_eq!(cover.share(Rect::new(10.0, 20.0, 110.0, 120.0)), 0.25);
         assert_eq!(cover.share(Rect::new(60.0, 70.0, 110.0, 120.0)), 0.0);
+        let is_figure =
+            [(15.0, 25.0), (59.0, 69.0), (61.0, 69.0), (0.0, 25.0)].map(|p| cover.is_figure(p.into()));
+        assert_eq!(is_figure, [true, true, false, false]);
     }
 }

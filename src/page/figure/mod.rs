@@ -4,6 +4,7 @@
 //! order: [`look::style`], [`models::staged`], [`aim::camera`], [`draw`], and [`places::places`].
 
 pub mod aim;
+pub mod colours;
 pub mod cover;
 pub mod look;
 pub mod models;

@@ -9,6 +9,7 @@ use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use super::colours::{self, Colours};
 use super::moved::{join, move_scene};
 use crate::error::Error;
 use crate::math::function::{cos, sin};
@@ -40,6 +41,8 @@ pub struct ModelKeys {
     pub time: Option<Spanned<f64>>,
     /// Which of its animations plays. Default: the only one.
     pub animation: Option<Spanned<String>>,
+    /// Its colour, or those of its parts by name, in place of its materials. Default: as in the file.
+    pub colour: Option<Spanned<Colours>>,
     /// Only parts with such names. Default: all.
     #[serde(default)]
     pub only: Vec<String>,
@@ -117,6 +120,7 @@ fn add(written: Spanned<Written>, models: &mut Vec<ModelKeys>) -> Result<(), Str
                 up: None,
                 time: None,
                 animation: None,
+                colour: None,
                 only: Vec::new(),
                 hide: Vec::new(),
             });
@@ -192,6 +196,9 @@ fn posed(
             let advice = format!("its parts are {}", names.join(", "));
             return Err(source.fault(&keys.file.span(), "no part is left of this model", &advice));
         }
+    }
+    if let Some(own) = &keys.colour {
+        colours::paint(&mut scene, own, source)?;
     }
     Ok(scene)
 }

@@ -20,6 +20,8 @@ const TAIL: f64 = 0.42;
 /// How far the tips of a burst and the bumps of a cloud reach beyond the ellipse of the text, in ems.
 const SPIKE: f64 = 1.1;
 const BUMP: f64 = 0.75;
+/// How much flatter captions are.
+const FLATTER: f64 = 0.75;
 /// Sides of the polygon around a balloon.
 const SIDES: usize = 24;
 /// Curves are off from what they stand for by at most this, mm.
@@ -57,7 +59,8 @@ impl Balloon {
         let pad = Vec2::new(PAD, PAD) * em;
         let (block, half) = match kind {
             BalloonKind::Caption => {
-                let (ellipse, _) = Block::in_ellipse(text, setting, aspect)?;
+                // Boxes hold more of their corners, and are read as lines: flatter than an ellipse.
+                let (ellipse, _) = Block::in_ellipse(text, setting, FLATTER * aspect * aspect)?;
                 // As wide as its longest line, and a hair more: widths are sums.
                 let block = Block::balanced(text, setting, ellipse.width * 1.001)?;
                 let half = Vec2::new(block.width, block.height) / 2.0 + pad;
@@ -82,9 +85,14 @@ impl Balloon {
         self.half + Vec2::new(beyond, beyond) * self.em
     }
 
+    /// The em of its letters.
+    pub fn em(&self) -> f64 {
+        self.em
+    }
+
     /// How long its tail is at least.
     pub fn shortest_tail(&self) -> f64 {
-        self.em * if self.kind == BalloonKind::Thought { 2.4 } else { 1.1 }
+        self.em * if self.kind == BalloonKind::Thought { 2.4 } else { 1.4 }
     }
 
     /// Half the width of its tail where it begins, with its line.

@@ -23,7 +23,7 @@ use target::Target;
 /// Sizes of letters, in shares of what is asked for, that are tried until all balloons find a place.
 const SIZES: [f64; 5] = [1.0, 0.92, 0.85, 0.78, 0.7];
 
-/// How much higher than wide the ellipses of balloons are, tried in turn.
+/// How much higher than wide the ellipses of balloons may be, the best first.
 const ASPECTS: [f64; 3] = [0.62, 0.9, 1.3];
 
 /// From a balloon to the line around its panel, to other balloons, and to faces, in ems.
@@ -31,6 +31,9 @@ const GAP: f64 = 0.45;
 
 /// More balloons in a panel are refused.
 const MOST_BALLOONS: usize = 50;
+
+/// More letters in a balloon are refused.
+const MOST_LETTERS: usize = 1000;
 
 /// How letters are set on a page.
 pub(super) struct Lettering<'a> {
@@ -103,12 +106,19 @@ impl<'a> Lettering<'a> {
         };
         let size = keys.size.as_ref().map_or(Ok(12.0), |size| above(size, self.source))?;
         let line = keys.line.as_ref().map_or(Ok(size / 10.0), |line| above(line, self.source))?;
+        within_panel(&keys.at, self.source)?;
+        for turn in [&keys.rotate, &keys.arc] {
+            if !(-360.0..=360.0).contains(turn.get_ref()) {
+                let advice = "write degrees from -360 to 360";
+                return Err(self.source.fault(&turn.span(), "letters do not turn so far", advice));
+            }
+        }
         let stretch = keys.stretch.as_ref().map_or(1.0, |stretch| *stretch.get_ref());
-        if let Some(key) = keys.stretch.as_ref().filter(|_| !(stretch.is_finite() && stretch > 0.0)) {
+        if let Some(key) = keys.stretch.as_ref().filter(|_| !(0.01..=100.0).contains(&stretch)) {
             return Err(self.source.fault(
                 &key.span(),
                 "letters are not stretched so",
-                "write a number above 0",
+                "write a number from 0.01 to 100",
             ));
         }
         let mut setting = Setting::new(font).with_capitals(size);
@@ -136,6 +146,15 @@ impl<'a> Lettering<'a> {
             let message = format!("these are more than {MOST_BALLOONS} balloons in one panel");
             return Err(self.source.fault(&extra.text.span(), &message, "part them among several panels"));
         }
+        for keys in &keys.balloon {
+            keys.at.as_ref().map_or(Ok(()), |at| within_panel(at, self.source))?;
+            let letters = keys.text.get_ref().chars().count();
+            if letters > MOST_LETTERS {
+                let message = format!("a text of {letters} letters is too long for a balloon");
+                let advice = format!("write at most {MOST_LETTERS}, or part it among several balloons");
+                return Err(self.source.fault(&keys.text.span(), &message, &advice));
+            }
+        }
         let told: Vec<Told> = keys
             .balloon
             .iter()
@@ -155,38 +174,36 @@ impl<'a> Lettering<'a> {
             kept.extend(places.into_iter().map(|place| within(place.hull)).filter(|hull| !hull.0.is_empty()));
         }
         kept.extend(told.iter().filter_map(|told| told.target.as_ref()?.face.clone()));
-        let cover = seen.map(Seen::cover);
+        let parts: Vec<&str> =
+            told.iter().filter_map(|told| Some(told.target.as_ref()?.part.as_str())).collect();
+        let cover = seen.map(|seen| seen.cover(&parts));
         let mut stuck = 0;
         for size in SIZES {
-            for aspect in ASPECTS {
-                let balloons = self.set(&told, size, aspect)?;
-                let gap = GAP * self.setting.em() * size;
-                let room = Room {
-                    outline: shape.outline.inset(gap).common(&Polygon::from(sheet.safe)),
-                    kept: kept.clone(),
-                    obstacles: obstacles.clone(),
-                    cover: cover.clone(),
-                    gap,
-                    reading: self.reading,
-                };
-                let wishes: Vec<Wish> = balloons
-                    .iter()
-                    .zip(&told)
-                    .map(|(balloon, told)| self.wish(balloon, told, shape))
-                    .collect();
-                match placing::place(&wishes, &room) {
-                    Ok(places) => {
-                        if size < 1.0 {
-                            let percent = (size * 100.0).round();
-                            warnings.push(format!(
-                                "{}: its letters are set at {percent} % of their size, so that all balloons find a place",
-                                shape.name
-                            ));
-                        }
-                        return Ok(self.painted(&balloons, &told, &places, warnings));
+            let balloons: Vec<Vec<Balloon>> =
+                told.iter().map(|told| self.set(told, size)).collect::<Result<_, _>>()?;
+            let gap = GAP * self.setting.em() * size;
+            let room = Room {
+                outline: shape.outline.inset(gap).common(&Polygon::from(sheet.safe)),
+                kept: kept.clone(),
+                obstacles: obstacles.clone(),
+                cover: cover.clone(),
+                gap,
+                reading: self.reading,
+            };
+            let wishes: Vec<Wish> =
+                balloons.iter().zip(&told).map(|(shapes, told)| wish(shapes, told, shape)).collect();
+            match placing::place(&wishes, &room) {
+                Ok(places) => {
+                    if size < 1.0 {
+                        let percent = (size * 100.0).round();
+                        warnings.push(format!(
+                            "{}: its letters are set at {percent} % of their size, so that all balloons find a place",
+                            shape.name
+                        ));
                     }
-                    Err(number) => stuck = stuck.max(number),
+                    return Ok(self.painted(&balloons, &told, &places, warnings));
                 }
+                Err(number) => stuck = stuck.max(number),
             }
         }
         let text = told.get(stuck).map_or(0..0, |told| told.keys.text.span());
@@ -231,49 +248,53 @@ impl<'a> Lettering<'a> {
         }
     }
 
-    /// The balloons with their texts set.
-    fn set(&self, told: &[Told], size: f64, aspect: f64) -> Result<Vec<Balloon>, Error> {
-        let set = |told: &Told| {
-            let Told { keys, .. } = told;
-            let own = keys.size.as_ref().map_or(Ok(self.setting.em()), |size| above(size, self.source))?;
-            let setting = self.setting.clone().with_em(own * size);
+    /// A balloon with its text set, in each shape that it may have.
+    fn set(&self, told: &Told, size: f64) -> Result<Vec<Balloon>, Error> {
+        let Told { keys, .. } = told;
+        let own = keys.size.as_ref().map_or(Ok(self.setting.em()), |size| above(size, self.source))?;
+        let setting = self.setting.clone().with_em(own * size);
+        let set = |aspect| {
             Balloon::new(keys.text.get_ref(), keys.kind, &setting, aspect)
                 .map_err(|error| self.source.about(&keys.text.span(), error))
         };
-        told.iter().map(set).collect()
-    }
-
-    fn wish(&self, balloon: &Balloon, told: &Told, shape: &Shape) -> Wish {
-        let bounds = shape.outline.bounds();
-        let at = told.keys.at.as_ref().map(|at| {
-            let [x, y] = *at.get_ref();
-            Point::new(bounds.x0 + x * bounds.width(), bounds.y0 + y * bounds.height())
-        });
-        Wish {
-            hull: balloon.hull(),
-            target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
-            at,
-            tail: balloon.shortest_tail(),
-            foot: balloon.foot(),
-            cornered: told.keys.kind == BalloonKind::Caption,
-        }
+        ASPECTS.into_iter().map(set).collect()
     }
 
     fn painted(
         &self,
-        balloons: &[Balloon],
+        balloons: &[Vec<Balloon>],
         told: &[Told],
         places: &[Placed],
         warnings: &mut Vec<String>,
     ) -> Vec<Mark> {
         let mut marks = Vec::new();
-        for ((balloon, told), place) in balloons.iter().zip(told).zip(places) {
+        for ((shapes, told), place) in balloons.iter().zip(told).zip(places) {
+            let Some(balloon) = shapes.get(place.shape) else { continue };
             let fill = told.keys.fill.unwrap_or(self.keys.fill);
             let ink = Ink { fill, colour: self.keys.colour, line: self.keys.line.get_ref().0 };
             marks.extend(balloon.marks(place.middle, place.tip, &ink));
             tell(balloon.block.fallbacks.iter().map(ToString::to_string).collect(), warnings);
         }
         marks
+    }
+}
+
+/// What a balloon asks of its place, which has one of those shapes.
+fn wish(shapes: &[Balloon], told: &Told, shape: &Shape) -> Wish {
+    let bounds = shape.outline.bounds();
+    let at = told.keys.at.as_ref().map(|at| {
+        let [x, y] = *at.get_ref();
+        Point::new(bounds.x0 + x * bounds.width(), bounds.y0 + y * bounds.height())
+    });
+    let of = |measure: fn(&Balloon) -> f64| shapes.first().map_or(0.0, measure);
+    Wish {
+        hulls: shapes.iter().map(Balloon::hull).collect(),
+        target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
+        at,
+        em: of(Balloon::em),
+        tail: of(Balloon::shortest_tail),
+        foot: of(Balloon::foot),
+        cornered: told.keys.kind == BalloonKind::Caption,
     }
 }
 
@@ -288,6 +309,15 @@ fn font(name: &Spanned<String>, source: &Source) -> Result<Font, Error> {
         return Err(source.unknown(name, "font", &known));
     }
     Font::named(name.get_ref()).map_err(|error| source.about(&name.span(), error))
+}
+
+/// Refuses a place that is far from its panel.
+fn within_panel(at: &Spanned<[f64; 2]>, source: &Source) -> Result<(), Error> {
+    if at.get_ref().iter().all(|share| (-0.5..=1.5).contains(share)) {
+        return Ok(());
+    }
+    let advice = "write shares of its width and height, such as [0.5, 0.2]";
+    Err(source.fault(&at.span(), "this place is far from the panel", advice))
 }
 
 /// A length above 0.

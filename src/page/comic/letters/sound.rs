@@ -26,10 +26,10 @@ pub(super) fn sound(
     }
     let block = Block::unbroken(text, setting)?;
     let corner = Point::new(-block.width / 2.0, -block.height / 2.0);
-    let arc = keys.arc.to_radians();
-    let [x, y] = keys.at;
+    let arc = keys.arc.get_ref().to_radians();
+    let [x, y] = *keys.at.get_ref();
     let middle = Point::new(panel.x0 + x * panel.width(), panel.y0 + y * panel.height());
-    let place = Affine::translate(middle.to_vec2()) * Affine::rotate(keys.rotate.to_radians());
+    let place = Affine::translate(middle.to_vec2()) * Affine::rotate(keys.rotate.get_ref().to_radians());
     let radius = block.width * stretch / arc;
     let bent = |p: Point| {
         let p = Point::new(p.x * stretch, p.y);

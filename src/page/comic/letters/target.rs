@@ -13,6 +13,8 @@ const LARGEST_FACE: f64 = 0.3;
 
 /// What a tail points at.
 pub(super) struct Target {
+    /// The name of the part.
+    pub part: String,
     /// The outline of the part on the page, within its panel.
     pub hull: Polygon,
     /// The point in it that the tail goes towards.
@@ -35,7 +37,7 @@ impl Target {
             FACES.iter().position(|face| part.contains(face)).unwrap_or(FACES.len())
         };
         let top = |hull: &Polygon| hull.bounds().y0;
-        let (_, hull) = seen.iter().min_by(|(a, one), (b, other)| {
+        let (place, hull) = seen.iter().min_by(|(a, one), (b, other)| {
             rank(&a.part).cmp(&rank(&b.part)).then(top(one).total_cmp(&top(other)))
         })?;
         let bounds = hull.bounds();
@@ -50,6 +52,6 @@ impl Target {
             }
         };
         let face = is_face.then(|| hull.clone());
-        Some(Self { hull, aim, face })
+        Some(Self { part: place.part.clone(), hull, aim, face })
     }
 }
