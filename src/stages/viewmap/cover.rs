@@ -132,7 +132,10 @@ pub(super) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limit
     }
     let (u, v) = (points[1] - points[0], points[2] - points[0]);
     let area = u.truncate().perp_dot(v.truncate());
-    if area.abs() <= limits.height * u.truncate().length().max(v.truncate().length()) {
+    let longest = u.truncate().length_squared().max(v.truncate().length_squared());
+    let longest = longest.max((v - u).truncate().length_squared());
+    // What fits into a triangle is nowhere wider than the triangle is high: most slivers hold no square.
+    if area * area <= longest * squares.cell.max(limits.height).powi(2) {
         return;
     }
     let sides = Sides::new(points);

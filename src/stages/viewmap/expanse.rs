@@ -21,6 +21,9 @@ use crate::view::View;
 const MEETS: f64 = 1e-4;
 /// An expanse that ends this near to a square, in sides of it, does not fill it for sure; more than twice as much.
 const ENDS: f64 = 1e-2;
+/// An expanse of faces that are larger than so many squares, on the mean, is left to its faces: each of them fills most of those that all
+/// fill.
+const LARGE_FACE: f64 = 16.0;
 /// The box of an expanse has no more squares than this for each of its faces, or its share of a picture.
 const SQUARES_OF_FACE: usize = 64;
 const SQUARES: usize = 4_000_000;
@@ -80,10 +83,10 @@ impl Expanses {
         Self { faces, ends }
     }
 
-    /// The numbers of those expanses, by root, that are as large as a square, and not too large for their faces; [`NONE`] for all other
-    /// faces.
+    /// The numbers of those expanses, by root, that are as large as a square, and not too large for their faces, nor their faces too
+    /// large; [`NONE`] for all other faces.
     fn large(view: &View, mesh: &Mesh, turns: &[i8], roots: &[u32], cell: f64) -> Vec<u32> {
-        let mut found: Vec<(u32, [f32; 4], u32)> = Vec::new();
+        let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
         let mut ids = vec![NONE; roots.len()];
         for face in (0..roots.len()).filter(|face| turns[*face] != 0) {
             let id = &mut ids[roots[face] as usize];
@@ -93,10 +96,13 @@ impl Expanses {
                     face as u32,
                     [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY],
                     0,
+                    0.0,
                 ));
             }
-            let (_, bounds, count) = &mut found[*id as usize];
+            let (_, bounds, count, area) = &mut found[*id as usize];
+            let [a, b, c] = mesh.triangles[face].map(|v| view.points[v as usize].truncate());
             *count += 1;
+            *area += (b - a).perp_dot(c - a).abs() / 2.0;
             for v in mesh.triangles[face] {
                 let p = view.points[v as usize];
                 let (x, y) = (p.x as f32, p.y as f32);
@@ -105,10 +111,12 @@ impl Expanses {
         }
         let share = SQUARES / found.len().max(1);
         let mut next = 0;
-        for (root, [left, top, right, bottom], count) in found {
+        for (root, [left, top, right, bottom], count, area) in found {
             let (width, height) = (f64::from(right - left) / cell, f64::from(bottom - top) / cell);
             let most = (SQUARES_OF_FACE * count as usize + share) as f64;
-            let is_wanted = width >= 1.0 && height >= 1.0 && (width + 2.0) * (height + 2.0) <= most;
+            let is_fine = area <= LARGE_FACE * cell * cell * f64::from(count);
+            let is_wanted =
+                is_fine && width >= 1.0 && height >= 1.0 && (width + 2.0) * (height + 2.0) <= most;
             ids[root as usize] = if is_wanted { next } else { NONE };
             next += u32::from(is_wanted);
         }
