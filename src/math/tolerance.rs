@@ -12,6 +12,14 @@ pub const WELD_OF_PART: f64 = 1e-8;
 /// one and a half units in the last place of an `f32`.
 pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 
+/// Open edges of a part that run along each other within this fraction of it are the two sides of a seam: a tenth of a
+/// pixel where the part is a thousand wide.
+pub const SEAM_OF_PART: f64 = 1e-4;
+
+/// A surface moves by no more than this fraction of its part where slivers are laid into it: a pixel where the part
+/// is a thousand wide.
+pub const SLIVER_OF_PART: f64 = 1e-3;
+
 /// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;

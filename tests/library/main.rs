@@ -52,6 +52,7 @@ mod print;
 mod properties;
 mod random_widths;
 mod regions;
+mod seams;
 mod sections;
 mod shadows;
 mod sheets;
