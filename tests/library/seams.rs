@@ -114,9 +114,9 @@ fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
         &perspective(DVec3::new(5.0, 1.0, 1.5), DVec3::ZERO, 40.0),
         &LineOptions::default(),
     );
-    let middle = drawn.view.frame.height / 2.0;
+    let middle = drawn.view.frame.width / 2.0;
     let across = drawn.visible_of(LineKind::Border);
-    assert!(!across.is_empty() && across.iter().flatten().all(|p| (p.y - middle).abs() > 100.0));
+    assert!(!across.is_empty() && across.iter().flatten().all(|p| (p.x - middle).abs() > 100.0));
 }
 
 #[test]
@@ -130,6 +130,32 @@ fn a_gap_that_is_meant_stays_open() {
     tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
     tile(&mut tiles, DVec3::new(-0.3, 1.001, 0.0), DVec3::X * 1.5, DVec3::Y);
     assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 8);
+}
+
+#[test]
+fn what_is_painted_apart_is_not_sewn() {
+    let mut tiles = Solid::default();
+    tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
+    tile(&mut tiles, DVec3::new(0.0, 1.0, 0.0), DVec3::X * 0.25, DVec3::Y);
+    tile(&mut tiles, DVec3::new(0.25, 1.0, 0.0), DVec3::X * 0.75, DVec3::Y);
+    for shift in [0.0, 0.25] {
+        // The second and the third tile have their colours from elsewhere in the picture.
+        let uv = |(k, p): (usize, &DVec3)| [p.x as f32, p.y as f32 + if k < 4 { 0.0 } else { shift }];
+        let mesh = Mesh::build(Soup {
+            positions: tiles.positions.clone(),
+            triangles: tiles.triangles.clone(),
+            uvs: tiles.positions.iter().enumerate().map(uv).collect(),
+            corner_uvs: tiles.triangles.clone(),
+            ..Soup::default()
+        });
+        assert_eq!(open_and_sharp(&mesh, 45.0)[0], if shift == 0.0 { 7 } else { 10 });
+        for (triangle, uvs) in mesh.triangles.iter().zip(&mesh.corner_uvs) {
+            for (v, uv) in triangle.iter().zip(uvs) {
+                let place = mesh.positions[*v as usize] + mesh.origin;
+                assert_eq!(mesh.uvs[*uv as usize][0], place.x as f32);
+            }
+        }
+    }
 }
 
 #[test]

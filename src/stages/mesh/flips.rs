@@ -166,7 +166,9 @@ impl Slivers<'_> {
         let half = ((1.0 + f64::from(fold)) / 2.0).max(0.0).sqrt();
         let off = long.cross(place(d) - place(c)).normalize_or_zero().dot(place(c) - place(a)).abs();
         let part = self.soup.triangle_part.get(sliver as usize).copied().unwrap_or_default();
-        if smoothest <= half || off > tolerance::SLIVER_OF_PART * self.extents.of(part).scale {
+        if smoothest <= half.max(f64::from(FOLD))
+            || off > tolerance::SLIVER_OF_PART * self.extents.of(part).scale
+        {
             return None;
         }
         let around = beside.iter().filter_map(|(face, _)| *face).collect();

@@ -7,7 +7,6 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::cuts::{Cut, CutFace, cut_faces};
 use super::soup::Soup;
@@ -31,6 +30,10 @@ const UNEVEN: f64 = 2.0;
 /// Curves of space leave their plane by this part of how far they stand off.
 const TWIST: f64 = 4.0;
 
+/// Texture coordinates and colours of both sides of a seam differ by no more than this: what is painted apart is meant to
+/// be seen apart.
+const PAINTED: f32 = 1e-3;
+
 /// A side of a face that no other face has.
 struct Open {
     /// Its corners, in the order of the face.
@@ -41,7 +44,12 @@ struct Open {
     along: DVec3,
     length: f64,
     normal: DVec3,
+    /// What its ends are painted with.
+    paint: [Painted; 2],
 }
+
+/// Texture coordinates and colour at a corner of a face.
+type Painted = (Option<[f32; 2]>, Option<[f32; 3]>);
 
 /// Cuts the faces of a soup along its seams; whether there were any.
 pub(super) fn sew(soup: &mut Soup, edges: &Edges, extents: &Extents) -> bool {
@@ -85,9 +93,32 @@ fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
         let side = soup.positions[ends[1] as usize] - soup.positions[ends[0] as usize];
         let part = soup.triangle_part.get(face as usize).copied().unwrap_or_default();
         let (along, normal) = (side.normalize_or_zero(), (q - p).cross(r - p).normalize_or_zero());
-        Some(Open { ends, face, part, along, length: side.length(), normal })
+        let paint = ends.map(|v| painted(soup, face, v));
+        Some(Open { ends, face, part, along, length: side.length(), normal, paint })
     };
     (0..edges.len()).filter_map(open).collect()
+}
+
+fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
+    let face = face as usize;
+    let Some(corner) = soup.triangles[face].iter().position(|v| *v == vertex) else { return (None, None) };
+    let uv = soup.corner_uvs.get(face).and_then(|ids| soup.uvs.get(ids[corner] as usize));
+    (uv.copied(), soup.corner_colours.get(face).map(|colours| colours[corner]))
+}
+
+impl Open {
+    /// Whether both ends and a corner of another face on the way between them are painted as one surface is.
+    fn goes_on(&self, t: f64, corner: Painted) -> bool {
+        fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
+            match (ends, corner) {
+                ([Some(a), Some(b)], Some(c)) => {
+                    (0..N).all(|k| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs() <= PAINTED)
+                }
+                ([a, b], c) => a.is_none() && b.is_none() && c.is_none(),
+            }
+        }
+        alike(t, self.paint.map(|p| p.0), corner.0) && alike(t, self.paint.map(|p| p.1), corner.1)
+    }
 }
 
 /// Open edges by their corners, and these by the cells of a grid.
@@ -99,7 +130,8 @@ struct Seams<'a> {
     at: Grouped<u32>,
     low: DVec3,
     cell: f64,
-    cells: FxHashMap<[u32; 3], Vec<u32>>,
+    /// Corners by what remains of the numbers of their cells: some cells share one list.
+    cells: Grouped<u32>,
 }
 
 impl<'a> Seams<'a> {
@@ -119,11 +151,14 @@ impl<'a> Seams<'a> {
         let mean = open.iter().map(|edge| edge.length).sum::<f64>() / open.len() as f64;
         // Where a few corners lie far apart there are no more cells than numbers for them.
         let cell = mean.max((high - low).max_element() / 1e6).max(f64::MIN_POSITIVE);
-        let mut seams = Self { soup, open, corners, at, low, cell, cells: FxHashMap::default() };
-        for number in 0..seams.corners.len() as u32 {
-            let key = seams.key(seams.place(number));
-            seams.cells.entry(key).or_default().push(number);
-        }
+        let mut seams = Self { soup, open, corners, at, low, cell, cells: Grouped::default() };
+        let lists = seams.corners.len().next_power_of_two();
+        let cells = grouped(lists, |put| {
+            for number in 0..seams.corners.len() as u32 {
+                put(list_of(seams.key(seams.place(number)), lists), number);
+            }
+        });
+        seams.cells = cells;
         seams
     }
 
@@ -160,7 +195,12 @@ impl<'a> Seams<'a> {
             let off = off.length();
             let clear = along > NEARER * off && own.length - along > NEARER * off;
             let is_own = own.ends.contains(&vertex) || third == Some(vertex);
-            if off <= reach && way_off.length() <= aside && clear && !is_own && self.is_of_seam(own, corner) {
+            if off <= reach
+                && way_off.length() <= aside
+                && clear
+                && !is_own
+                && self.is_of_seam(own, along / own.length, corner)
+            {
                 cuts.push((along / own.length, vertex));
             }
         });
@@ -170,12 +210,14 @@ impl<'a> Seams<'a> {
     }
 
     /// Whether an open edge with this corner lies along another one, as the other side of a seam does.
-    fn is_of_seam(&self, own: &Open, corner: u32) -> bool {
+    fn is_of_seam(&self, own: &Open, t: f64, corner: u32) -> bool {
+        let vertex = self.corners[corner as usize];
         self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
             other.face != own.face
                 && other.part == own.part
                 && other.along.dot(own.along) < -ALONG
                 && other.normal.dot(own.normal) > FOLDED
+                && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
         })
     }
 
@@ -205,10 +247,17 @@ impl<'a> Seams<'a> {
             for x in low[0]..=high[0] {
                 for y in low[1]..=high[1] {
                     for z in low[2]..=high[2] {
-                        self.cells.get(&[x, y, z]).into_iter().flatten().for_each(|corner| visit(*corner));
+                        let list = list_of([x, y, z], self.cells.count());
+                        self.cells.of(list).iter().for_each(|corner| visit(*corner));
                     }
                 }
             }
         }
     }
+}
+
+/// Which of so many lists, a power of two, holds the corners in a cell.
+fn list_of([x, y, z]: [u32; 3], lists: usize) -> usize {
+    let mixed = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77) ^ z.wrapping_mul(0xc2b2_ae3d);
+    (mixed ^ mixed >> 15) as usize & (lists - 1)
 }
