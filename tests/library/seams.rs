@@ -120,6 +120,22 @@ fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
 }
 
 #[test]
+fn corners_on_both_sides_of_a_seam_are_one() {
+    // As far apart as programs put them that turn each surface into triangles by itself.
+    let mut dice = Dice::new(11);
+    let mut two = tube(24, -1.0, 0.0);
+    two.add(
+        tube(24, 0.0, 1.0).moved(|p| if p.z == 0.0 { p * 1.00004 + DVec3::new(0.0, 2e-5, -3e-5) } else { p }),
+    );
+    two.add(tube(24, 1.0, 1.5).moved(|p| DVec3::new(p.x, p.y + 5e-5, p.z - 3e-5)));
+    assert_eq!(open_and_sharp(&mesh(&two), 45.0), [2 * 24, 0]);
+    // A strip that is narrower than that is no seam.
+    let narrow = tube(24, 0.0, 5e-5);
+    let turned = dice.direction();
+    assert_eq!(open_and_sharp(&mesh(&narrow.moved(|p| p + turned)), 45.0)[0], 2 * 24);
+}
+
+#[test]
 fn a_gap_that_is_meant_stays_open() {
     for gap in [0.01, 0.05] {
         let mut two = tube(24, -1.0, -gap);

@@ -46,6 +46,10 @@ impl Mesh {
             let renamed: Vec<u32> = keep.iter().map(of).collect();
             edges = edges.without(&renamed, &soup.triangles);
         }
+        if let Some(joined) = seams::joined(&soup, &edges, &extents) {
+            replace_vertices(&mut soup, &joined, &mut cleaning);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+        }
         if seams::sew(&mut soup, &edges, &extents) {
             edges = Edges::build(soup.positions.len(), &soup.triangles);
         }

@@ -51,6 +51,31 @@ struct Open {
 /// Texture coordinates and colour at a corner of a face.
 type Painted = (Option<[f32; 2]>, Option<[f32; 3]>);
 
+/// For each vertex of a soup the one that it becomes where corners on both sides of a seam are one corner all but for the
+/// precision of the program that made them; `None` if there are none.
+pub(super) fn joined(soup: &Soup, edges: &Edges, extents: &Extents) -> Option<Vec<u32>> {
+    let open = open_edges(soup, edges);
+    let seams = (open.len() > 1).then(|| Seams::new(soup, &open))?;
+    let mates: Vec<Option<u32>> = (0..seams.corners.len() as u32)
+        .into_par_iter()
+        .with_min_len(256)
+        .map(|corner| seams.mate(corner, edges, extents))
+        .collect();
+    let pairs = mates.iter().enumerate().filter_map(|(corner, mate)| {
+        let mate = (*mate)? as usize;
+        (corner < mate && mates[mate] == Some(corner as u32))
+            .then(|| [corner, mate].map(|k| seams.corners[k]))
+    });
+    let mut joined: Vec<u32> = Vec::new();
+    for [first, second] in pairs {
+        if joined.is_empty() {
+            joined = (0..soup.positions.len() as u32).collect();
+        }
+        joined[second as usize] = first;
+    }
+    (!joined.is_empty()).then_some(joined)
+}
+
 /// Cuts the faces of a soup along its seams; whether there were any.
 pub(super) fn sew(soup: &mut Soup, edges: &Edges, extents: &Extents) -> bool {
     let open = open_edges(soup, edges);
@@ -107,6 +132,15 @@ fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
 }
 
 impl Open {
+    /// Whether another open edge may be the other side of a seam: it runs against this one, and the surface does not
+    /// fold back there.
+    fn faces_across(&self, other: &Self) -> bool {
+        other.face != self.face
+            && other.part == self.part
+            && other.along.dot(self.along) < -ALONG
+            && other.normal.dot(self.normal) > FOLDED
+    }
+
     /// Whether both ends and a corner of another face on the way between them are painted as one surface is.
     fn goes_on(&self, t: f64, corner: Painted) -> bool {
         fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
@@ -170,6 +204,31 @@ impl<'a> Seams<'a> {
         self.soup.positions[self.corners[corner as usize] as usize]
     }
 
+    /// The corner nearest to one, if it is no farther than the sides of seams are apart and both are corners of one.
+    fn mate(&self, corner: u32, edges: &Edges, extents: &Extents) -> Option<u32> {
+        let own = self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]);
+        let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
+        let (reach, place) = (tolerance::SEAM_OF_PART * scale, self.place(corner));
+        let mut nearest: Option<(f64, u32)> = None;
+        self.near(place, DVec3::ZERO, reach, |other| {
+            let apart = self.place(other).distance(place);
+            let is_nearer = nearest.is_none_or(|(least, at)| (apart, other) < (least, at));
+            if other != corner && apart <= reach && is_nearer {
+                nearest = Some((apart, other));
+            }
+        });
+        let (_, other) = nearest?;
+        let [p, q] = [corner, other].map(|k| self.corners[k as usize]);
+        // Across a narrow strip there is an edge.
+        let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
+        let meets = |a: &Open, b: &Open| {
+            let end = usize::from(a.ends[1] == p);
+            b.ends[1 - end] == q && a.faces_across(b) && a.goes_on(end as f64, b.paint[1 - end])
+        };
+        let others = || self.at.of(other as usize).iter().map(|k| &self.open[*k as usize]);
+        (!is_strip && own.into_iter().any(|a| others().any(|b| meets(a, b)))).then_some(other)
+    }
+
     /// The corners that cut an open edge, in order along it.
     fn cuts(&self, edge: usize, least: f64) -> Vec<Cut> {
         let own = &self.open[edge];
@@ -213,11 +272,7 @@ impl<'a> Seams<'a> {
     fn is_of_seam(&self, own: &Open, t: f64, corner: u32) -> bool {
         let vertex = self.corners[corner as usize];
         self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
-            other.face != own.face
-                && other.part == own.part
-                && other.along.dot(own.along) < -ALONG
-                && other.normal.dot(own.normal) > FOLDED
-                && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
+            own.faces_across(other) && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
         })
     }
 
