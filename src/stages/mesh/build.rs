@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clean::{one_of_doubles, retain_faces};
+use super::cuts::cut_faces;
 use super::face_normals::face_normals;
 use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, flips, order, seams, weld};
 
@@ -46,11 +47,14 @@ impl Mesh {
             let renamed: Vec<u32> = keep.iter().map(of).collect();
             edges = edges.without(&renamed, &soup.triangles);
         }
-        if let Some(joined) = seams::joined(&soup, &edges, &extents) {
-            replace_vertices(&mut soup, &joined, &mut cleaning);
+        let mut seams = seams::find(&soup, &edges, &extents, true);
+        if !seams.joined.is_empty() {
+            replace_vertices(&mut soup, &seams.joined, &mut cleaning);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
+            seams = seams::find(&soup, &edges, &extents, false);
         }
-        if seams::sew(&mut soup, &edges, &extents) {
+        if !seams.cuts.is_empty() {
+            cut_faces(&mut soup, &seams.cuts);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
         }
 

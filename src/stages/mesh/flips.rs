@@ -11,6 +11,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
+use super::edge_flips::EdgeFlip;
 use super::face_normals::face_normals;
 use super::soup::Soup;
 use super::{EdgeFaces, Edges, Extents};
@@ -30,25 +31,22 @@ const GRAIN: usize = 1 << 14;
 
 /// A sliver and the face beyond its long side, and what their corners are when they meet along the other diagonal.
 struct Flip {
-    faces: [u32; 2],
+    edges: EdgeFlip,
     /// Of each new face the old one, first or second, and the corner there, that each of its corners comes from.
     corners: [[(usize, usize); 3]; 2],
     /// The faces beside both.
     around: Vec<u32>,
-    /// The new edge, smaller vertex first.
-    edge: [u32; 2],
 }
 
-/// Lays the slivers of a soup into their surfaces; whether there were any. Edges and normals stay those of the soup.
+/// Lays the slivers of a soup into their surfaces; edges and normals stay those of the soup.
 pub(super) fn lay_slivers(
     soup: &mut Soup,
     edges: &mut Edges,
     normals: &mut Vec<[f32; 3]>,
     extents: &Extents,
-) -> bool {
+) {
     // What a file says of its edges it says of its own triangles.
     let rounds = if soup.edge_marks.is_empty() { ROUNDS } else { 0 };
-    let mut any = false;
     for _ in 0..rounds {
         let slivers = Slivers { soup, edges, normals, extents };
         let found: Vec<Flip> = (0..edges.len())
@@ -59,32 +57,37 @@ pub(super) fn lay_slivers(
         // Each was found with what is around it as it is.
         let mut touched: FxHashSet<u32> = FxHashSet::default();
         let mut made: FxHashSet<[u32; 2]> = FxHashSet::default();
-        for flip in &found {
-            let own = || flip.faces.iter().chain(&flip.around);
-            if !own().any(|face| touched.contains(face)) && made.insert(flip.edge) {
+        let mut done: Vec<EdgeFlip> = Vec::new();
+        for flip in found {
+            let own = || flip.edges.faces.iter().chain(&flip.around);
+            if !own().any(|face| touched.contains(face)) && made.insert(flip.edges.made) {
                 touched.extend(own().copied());
-                turn(soup, flip);
+                turn(soup, &flip);
+                done.push(flip.edges);
             }
         }
-        if made.is_empty() {
+        if done.is_empty() {
             break;
         }
-        any = true;
-        *edges = Edges::build(soup.positions.len(), &soup.triangles);
-        let part = |face: usize| soup.triangle_part.get(face).copied().unwrap_or_default();
-        *normals = face_normals(&soup.positions, &soup.triangles, |face| extents.of(part(face)).scale);
+        edges.flip(&done);
+        for face in done.iter().flat_map(|flip| flip.faces) {
+            let part = soup.triangle_part.get(face as usize).copied().unwrap_or_default();
+            let new =
+                face_normals(&soup.positions, &[soup.triangles[face as usize]], |_| extents.of(part).scale);
+            normals[face as usize] = new[0];
+        }
     }
-    any
 }
 
 /// Gives two faces their new corners, with all that these have.
 fn turn(soup: &mut Soup, flip: &Flip) {
     fn take<T: Copy>(list: &mut [[T; 3]], flip: &Flip) {
-        let [Some(first), Some(second)] = flip.faces.map(|face| list.get(face as usize).copied()) else {
+        let [Some(first), Some(second)] = flip.edges.faces.map(|face| list.get(face as usize).copied())
+        else {
             return;
         };
         let old = [first, second];
-        for (face, corners) in flip.faces.iter().zip(&flip.corners) {
+        for (face, corners) in flip.edges.faces.iter().zip(&flip.corners) {
             list[*face as usize] = corners.map(|(which, corner)| old[which][corner]);
         }
     }
@@ -149,6 +152,9 @@ impl Slivers<'_> {
             let own = if [p, q].contains(&d) { beyond } else { sliver };
             (across(p, q, own), new)
         });
+        if beside.iter().any(|(face, _)| face.is_some_and(|face| faces.contains(&face))) {
+            return None;
+        }
         // To the face beyond and back again.
         let back = [beside[0].0, beside[3].0].into_iter().flatten().map(|face| self.turn(sliver, face));
         let fold = self.turn(sliver, beyond).max(back.fold(1.0, f32::min));
@@ -172,7 +178,9 @@ impl Slivers<'_> {
             return None;
         }
         let around = beside.iter().filter_map(|(face, _)| *face).collect();
-        Some(Flip { faces, corners, around, edge: made })
+        let edge = |p, q| [corner(p).min(corner(q)), corner(p).max(corner(q))];
+        let moved = [(edge(a, d), beyond, sliver), (edge(b, c), sliver, beyond)];
+        Some(Flip { edges: EdgeFlip { gone: [lo, hi], made, faces, moved }, corners, around })
     }
 
     /// Height of a face above one of its sides.

@@ -4,6 +4,7 @@ pub mod build;
 pub mod clean;
 mod cuts;
 pub mod dihedral;
+mod edge_flips;
 pub mod edge_set;
 mod edge_splice;
 pub mod edges;

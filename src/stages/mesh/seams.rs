@@ -8,7 +8,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::cuts::{Cut, CutFace, cut_faces};
+use super::cuts::{Cut, CutFace};
 use super::soup::Soup;
 use super::{EdgeFaces, Edges, Extents, PartId};
 use crate::math::grouped::{Grouped, grouped};
@@ -51,61 +51,26 @@ struct Open {
 /// Texture coordinates and colour at a corner of a face.
 type Painted = (Option<[f32; 2]>, Option<[f32; 3]>);
 
-/// For each vertex of a soup the one that it becomes where corners on both sides of a seam are one corner all but for the
-/// precision of the program that made them; `None` if there are none.
-pub(super) fn joined(soup: &Soup, edges: &Edges, extents: &Extents) -> Option<Vec<u32>> {
-    let open = open_edges(soup, edges);
-    let seams = (open.len() > 1).then(|| Seams::new(soup, &open))?;
-    let mates: Vec<Option<u32>> = (0..seams.corners.len() as u32)
-        .into_par_iter()
-        .with_min_len(256)
-        .map(|corner| seams.mate(corner, edges, extents))
-        .collect();
-    let pairs = mates.iter().enumerate().filter_map(|(corner, mate)| {
-        let mate = (*mate)? as usize;
-        (corner < mate && mates[mate] == Some(corner as u32))
-            .then(|| [corner, mate].map(|k| seams.corners[k]))
-    });
-    let mut joined: Vec<u32> = Vec::new();
-    for [first, second] in pairs {
-        if joined.is_empty() {
-            joined = (0..soup.positions.len() as u32).collect();
-        }
-        joined[second as usize] = first;
-    }
-    (!joined.is_empty()).then_some(joined)
+/// What makes the sides of seams meet.
+#[derive(Default)]
+pub(super) struct Found {
+    /// For each vertex the one that it becomes, where corners on both sides are one all but for the precision of the
+    /// program that made them; empty if there are none.
+    pub joined: Vec<u32>,
+    /// Faces that are cut; none as long as corners are to be joined.
+    pub cuts: Vec<CutFace>,
 }
 
-/// Cuts the faces of a soup along its seams; whether there were any.
-pub(super) fn sew(soup: &mut Soup, edges: &Edges, extents: &Extents) -> bool {
+/// Finds the seams of a soup; with `corners` corners to be joined first.
+pub(super) fn find(soup: &Soup, edges: &Edges, extents: &Extents, corners: bool) -> Found {
     let open = open_edges(soup, edges);
     if open.len() < 2 {
-        return false;
+        return Found::default();
     }
     let seams = Seams::new(soup, &open);
-    let cuts: Vec<Vec<Cut>> = (0..open.len())
-        .into_par_iter()
-        .with_min_len(256)
-        .map(|edge| seams.cuts(edge, tolerance::SEAM_OF_PART * extents.of(open[edge].part).scale))
-        .collect();
-    let mut faces: Vec<CutFace> = Vec::new();
-    for (edge, cuts) in open.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
-        let mut sides: [Vec<Cut>; 3] = Default::default();
-        if let Some(side) = soup.triangles[edge.face as usize].iter().position(|v| *v == edge.ends[0]) {
-            sides[side] = cuts;
-            faces.push((edge.face, sides));
-        }
-    }
-    faces.sort_by_key(|(face, _)| *face);
-    faces.dedup_by(|more, first| {
-        let same = more.0 == first.0;
-        if same {
-            first.1.iter_mut().zip(&mut more.1).for_each(|(own, more)| own.append(more));
-        }
-        same
-    });
-    cut_faces(soup, &faces);
-    !faces.is_empty()
+    let joined = if corners { seams.joined(edges, extents) } else { Vec::new() };
+    let cuts = if joined.is_empty() { seams.all_cuts(extents) } else { Vec::new() };
+    Found { joined, cuts }
 }
 
 fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
@@ -121,7 +86,7 @@ fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
         let paint = ends.map(|v| painted(soup, face, v));
         Some(Open { ends, face, part, along, length: side.length(), normal, paint })
     };
-    (0..edges.len()).filter_map(open).collect()
+    (0..edges.len()).into_par_iter().with_min_len(1 << 14).filter_map(open).collect()
 }
 
 fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
@@ -160,6 +125,8 @@ struct Seams<'a> {
     soup: &'a Soup,
     open: &'a [Open],
     corners: Vec<u32>,
+    /// The number of each vertex among the corners.
+    numbers: Vec<u32>,
     /// The open edges at each corner.
     at: Grouped<u32>,
     low: DVec3,
@@ -173,10 +140,11 @@ impl<'a> Seams<'a> {
         let mut corners: Vec<u32> = open.iter().flat_map(|edge| edge.ends).collect();
         corners.sort_unstable();
         corners.dedup();
-        let number = |v: u32| corners.binary_search(&v).unwrap_or_default();
+        let mut numbers = vec![u32::MAX; soup.positions.len()];
+        (0..).zip(&corners).for_each(|(number, v)| numbers[*v as usize] = number);
         let at = grouped(corners.len(), |put| {
             for (k, edge) in (0..).zip(open) {
-                edge.ends.iter().for_each(|v| put(number(*v), k));
+                edge.ends.iter().for_each(|v| put(numbers[*v as usize] as usize, k));
             }
         });
         let place = |v: &u32| soup.positions[*v as usize];
@@ -185,7 +153,7 @@ impl<'a> Seams<'a> {
         let mean = open.iter().map(|edge| edge.length).sum::<f64>() / open.len() as f64;
         // Where a few corners lie far apart there are no more cells than numbers for them.
         let cell = mean.max((high - low).max_element() / 1e6).max(f64::MIN_POSITIVE);
-        let mut seams = Self { soup, open, corners, at, low, cell, cells: Grouped::default() };
+        let mut seams = Self { soup, open, corners, numbers, at, low, cell, cells: Grouped::default() };
         let lists = seams.corners.len().next_power_of_two();
         let cells = grouped(lists, |put| {
             for number in 0..seams.corners.len() as u32 {
@@ -202,6 +170,55 @@ impl<'a> Seams<'a> {
 
     fn place(&self, corner: u32) -> DVec3 {
         self.soup.positions[self.corners[corner as usize] as usize]
+    }
+
+    /// For each vertex the one that it becomes; empty if none changes.
+    fn joined(&self, edges: &Edges, extents: &Extents) -> Vec<u32> {
+        let mates: Vec<Option<u32>> = (0..self.corners.len() as u32)
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|corner| self.mate(corner, edges, extents))
+            .collect();
+        let mut joined: Vec<u32> = Vec::new();
+        for (corner, mate) in (0..).zip(&mates) {
+            let Some(mate) = mate.filter(|mate| corner < *mate && mates[*mate as usize] == Some(corner))
+            else {
+                continue;
+            };
+            if joined.is_empty() {
+                joined = (0..self.soup.positions.len() as u32).collect();
+            }
+            joined[self.corners[mate as usize] as usize] = self.corners[corner as usize];
+        }
+        joined
+    }
+
+    /// All that is cut, by faces in their order.
+    fn all_cuts(&self, extents: &Extents) -> Vec<CutFace> {
+        let cuts: Vec<Vec<Cut>> = (0..self.open.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|edge| self.cuts(edge, tolerance::SEAM_OF_PART * extents.of(self.open[edge].part).scale))
+            .collect();
+        let mut faces: Vec<CutFace> = Vec::new();
+        for (edge, cuts) in self.open.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
+            let mut sides: [Vec<Cut>; 3] = Default::default();
+            if let Some(side) =
+                self.soup.triangles[edge.face as usize].iter().position(|v| *v == edge.ends[0])
+            {
+                sides[side] = cuts;
+                faces.push((edge.face, sides));
+            }
+        }
+        faces.sort_by_key(|(face, _)| *face);
+        faces.dedup_by(|more, first| {
+            let same = more.0 == first.0;
+            if same {
+                first.1.iter_mut().zip(&mut more.1).for_each(|(own, more)| own.append(more));
+            }
+            same
+        });
+        faces
     }
 
     /// The corner nearest to one, if it is no farther than the sides of seams are apart and both are corners of one.
@@ -280,7 +297,7 @@ impl<'a> Seams<'a> {
     /// the end where it turns less, since at the end of a curve there is another corner.
     fn sagitta(&self, own: &Open) -> DVec3 {
         let at = |end: usize| {
-            let corner = self.corners.binary_search(&own.ends[end]).unwrap_or_default();
+            let corner = self.numbers[own.ends[end] as usize] as usize;
             let goes_on = |other: &&Open| other.ends[1 - end] == own.ends[end] && other.part == own.part;
             let others = self.at.of(corner).iter().map(|k| &self.open[*k as usize]).filter(goes_on);
             others.map(|other| other.along).max_by(|a, b| a.dot(own.along).total_cmp(&b.dot(own.along)))
