@@ -16,10 +16,6 @@ pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 /// pixel where the part is a thousand wide.
 pub const SEAM_OF_PART: f64 = 1e-4;
 
-/// A surface moves by no more than this fraction of its part where slivers are laid into it: a pixel where the part
-/// is a thousand wide.
-pub const SLIVER_OF_PART: f64 = 1e-3;
-
 /// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;

@@ -1,7 +1,6 @@
-//! Seams between surfaces that were each turned into triangles by itself are no lines, nor are slivers that stand up from
-//! their surface; gaps and steps that are meant stay.
+//! Seams between surfaces that were each turned into triangles by itself are no lines; gaps and steps that are meant stay.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use crate::support::dice::Dice;
 use crate::support::pipeline::{exact, orthographic, perspective, scene, stages};
@@ -187,39 +186,6 @@ fn surfaces_of_different_parts_are_not_sewn() {
         &exact(),
     );
     assert_eq!(drawn.mesh.triangles.len(), 4);
-}
-
-/// A wall that is bent about the z axis, of which one face is parted into a sliver beside its diagonal and two others.
-fn wall_with_sliver(out: f64, aside: f64) -> Solid {
-    let at = |k: u32, z: f64| {
-        let turn = PI * f64::from(k) / 24.0;
-        DVec3::new(cos(turn), sin(turn), z)
-    };
-    let mut solid = Solid::default();
-    for k in 0..24 {
-        let positions = vec![at(k, -0.5), at(k + 1, -0.5), at(k + 1, 0.5), at(k, 0.5)];
-        let diagonal = (positions[0] + positions[2]) / 2.0;
-        let outward = DVec3::new(diagonal.x, diagonal.y, 0.0).normalize();
-        let toward = (positions[1] - diagonal).normalize();
-        solid.add(if k == 9 {
-            let apex = diagonal + outward * out + toward * aside;
-            Solid {
-                positions: positions.into_iter().chain([apex]).collect(),
-                triangles: vec![[0, 4, 2], [0, 1, 4], [4, 1, 2], [0, 2, 3]],
-            }
-        } else {
-            Solid { positions, triangles: vec![[0, 1, 2], [0, 2, 3]] }
-        });
-    }
-    solid
-}
-
-#[test]
-fn slivers_are_laid_into_their_surface() {
-    for (out, aside) in [(1e-3, 3e-4), (-1e-3, 3e-4), (4e-4, 1e-4), (1e-3, -3e-5)] {
-        let open = 2 * 24 + 2;
-        assert_eq!(open_and_sharp(&mesh(&wall_with_sliver(out, aside)), 20.0), [open, 0], "{out} {aside}");
-    }
 }
 
 #[test]

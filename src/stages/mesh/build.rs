@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
-use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, flips, order, seams, weld};
+use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
 
 impl Mesh {
     /// Builds the mesh of a flattened scene.
@@ -60,8 +60,7 @@ impl Mesh {
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
         let scale = |face: usize| extents.of(soup.triangle_part[face]).scale;
-        let mut face_normals = face_normals(&soup.positions, &soup.triangles, scale);
-        flips::lay_slivers(&mut soup, &mut edges, &mut face_normals, &extents);
+        let face_normals = face_normals(&soup.positions, &soup.triangles, scale);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
