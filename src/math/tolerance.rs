@@ -15,6 +15,10 @@ pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 /// What moving a model leaves of its coordinates in double precision, as a share of the largest: a few units in the last place.
 pub const ROUNDING: f64 = 1e-15;
 
+/// Open edges of a part that run along each other within this fraction of it are the two sides of a seam: a tenth of a
+/// pixel where the part is a thousand wide.
+pub const SEAM_OF_PART: f64 = 1e-4;
+
 /// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;

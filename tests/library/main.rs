@@ -52,6 +52,7 @@ mod print;
 mod properties;
 mod random_widths;
 mod regions;
+mod seams;
 mod section_areas;
 mod sections;
 mod shadows;

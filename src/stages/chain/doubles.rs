@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use kurbo::{Point, Vec2};
+use rustc_hash::FxHashMap;
 
 use super::line::Line;
 use super::raw::{Degrees, Raw};
@@ -11,6 +12,7 @@ use crate::lines::LineKind;
 use crate::math::grouped::{Grouped, grouped};
 use crate::math::plane::{distance2, length};
 use crate::shape::Origin;
+use crate::viewmap::ViewVertexId;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
 const PARALLEL_COSINE: f64 = 0.82;
@@ -21,7 +23,7 @@ const COVERED: f64 = 0.8;
 /// Length, in distances, over which the direction of a jagged line is taken.
 const WINDOW: f64 = 4.0;
 
-/// A line shorter than this many distances is a flake, and doubles another at this much more
+/// A line shorter than this many distances, or one of a rim that is, is a flake, and doubles another at this much more
 /// than the distance.
 const FLAKE: f64 = 21.0;
 const FLAKE_DISTANCE: f64 = 4.0;
@@ -71,6 +73,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
         lengths.push(raw.length());
     }
     let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
+    let rims = Rims::of(raws, &lengths);
     suspects.sort_by(|a, b| lengths[*a as usize].total_cmp(&lengths[*b as usize]).then(a.cmp(b)));
     // Of doubles, which of their sides run by themselves.
     let mut gone: Vec<Option<Vec<bool>>> = vec![None; raws.len()];
@@ -78,7 +81,8 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
         let own = &pieces[spans[i as usize]..spans[i as usize + 1]];
         let total = lengths[i as usize];
         // The shorter, the more likely a flake; but a gap in the outline is worse.
-        let flake = total < FLAKE * distance && raws[i as usize].silhouette_part() < OUTLINE;
+        let whole = rims.length(&raws[i as usize], total);
+        let flake = whole < FLAKE * distance && raws[i as usize].silhouette_part() < OUTLINE;
         let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
         let allowed = (1.0 - COVERED) * total;
         let mut bare = 0.0;
@@ -125,6 +129,30 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
         kept.extend(parts);
     }
     *raws = kept;
+}
+
+/// The lengths of lines that begin and end in the same two places, such as the near and the far side of the rim of a
+/// hole: together they are as long as the rim.
+struct Rims(FxHashMap<[ViewVertexId; 2], f64>);
+
+impl Rims {
+    fn of(raws: &[Raw], lengths: &[f64]) -> Self {
+        let mut rims = FxHashMap::default();
+        for (raw, length) in raws.iter().zip(lengths).filter(|(raw, _)| !raw.class.hidden && !raw.is_ring()) {
+            *rims.entry(Self::key(raw)).or_insert(0.0) += length;
+        }
+        Self(rims)
+    }
+
+    fn key(raw: &Raw) -> [ViewVertexId; 2] {
+        let [a, b] = raw.ends;
+        [a.min(b), a.max(b)]
+    }
+
+    /// The length of the rim of which a line is a side; its own if it is none.
+    fn length(&self, raw: &Raw, own: f64) -> f64 {
+        if raw.is_ring() { own } else { self.0.get(&Self::key(raw)).copied().unwrap_or(own) }
+    }
 }
 
 /// What of a double is drawn: runs of sides that are alone and long, or that are outline for more than a distance.

@@ -4,15 +4,16 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clean::{one_of_doubles, retain_faces};
-use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, weld};
-use crate::math::tolerance;
+use super::cuts::cut_faces;
+use super::face_normals::face_normals;
+use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
 
 impl Mesh {
     /// Builds the mesh of a flattened scene.
     ///
     /// Vertices at the same place are joined (see [`weld`]), faces with repeated corners and
-    /// faces that stand twice in one part are dropped, everything is counted in
-    /// [`Mesh::cleaning`]. However the soup numbers its vertices, whatever the order of its faces
+    /// faces that stand twice in one part are dropped, open edges that lie along each other are sewn (see
+    /// [`seams`]), everything is counted in [`Mesh::cleaning`]. However the soup numbers its vertices, whatever the order of its faces
     /// and whichever corner they begin with, the mesh is the same; only parts and materials keep
     /// their order.
     #[must_use]
@@ -45,6 +46,16 @@ impl Mesh {
             let of = |keep: &bool| if *keep { left.next() } else { None }.unwrap_or(u32::MAX);
             let renamed: Vec<u32> = keep.iter().map(of).collect();
             edges = edges.without(&renamed, &soup.triangles);
+        }
+        let mut seams = seams::find(&soup, &edges, &extents, true);
+        if !seams.joined.is_empty() {
+            replace_vertices(&mut soup, &seams.joined, &mut cleaning);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+            seams = seams::find(&soup, &edges, &extents, false);
+        }
+        if !seams.cuts.is_empty() {
+            cut_faces(&mut soup, &seams.cuts);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
         }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
@@ -123,27 +134,6 @@ fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, 
     vertices.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
     vertices.dedup_by_key(|(vertex, _)| *vertex);
     vertices.into_iter().unzip()
-}
-
-/// Unit normals; zero where the triangle is lower than rounding, by the scale of its part.
-pub(crate) fn face_normals(
-    positions: &[DVec3],
-    triangles: &[[u32; 3]],
-    scale: impl Fn(usize) -> f64 + Sync,
-) -> Vec<[f32; 3]> {
-    let normal = |(face, t): (usize, &[u32; 3])| {
-        let [a, b, c] = t.map(|v| positions[v as usize]);
-        let (u, v, w) = (b - a, c - a, c - b);
-        let cross = u.cross(v);
-        let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
-        let area = cross.length();
-        if area <= tolerance::DEGENERATE_HEIGHT_OF_PART * scale(face) * longest {
-            [0.0; 3]
-        } else {
-            (cross / area).as_vec3().to_array()
-        }
-    };
-    triangles.par_iter().enumerate().with_min_len(1 << 12).map(normal).collect()
 }
 
 #[cfg(test)]

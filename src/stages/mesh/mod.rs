@@ -2,16 +2,19 @@
 
 pub mod build;
 pub mod clean;
+mod cuts;
 pub mod dihedral;
 pub mod edge_set;
 mod edge_splice;
 pub mod edges;
 pub mod extents;
+pub(crate) mod face_normals;
 pub(crate) mod groups;
 pub mod ids;
 pub mod needle;
 mod order;
 pub mod posed;
+mod seams;
 mod shares;
 mod sheets;
 pub mod solid;

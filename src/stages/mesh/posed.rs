@@ -9,7 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::build::face_normals;
+use super::face_normals::face_normals;
 use super::{Extents, Mesh, Soup};
 
 /// Vertices that are one at rest are one in a pose if they are no farther apart than this part of all: what rounding of joints does.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::SmoothNormals;
-use crate::mesh::build::face_normals;
+use crate::mesh::face_normals::face_normals;
 use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, PaintId, PartId};
 
 /// Texture coordinates and colours of new corners are rounded to this part.

@@ -1,0 +1,335 @@
+//! Seams: open edges that lie along each other are cut at each other's corners, so that the surface goes on
+//! across them.
+//!
+//! CAD programs turn each surface into triangles by itself, and what voxels or solids are merged into has corners in the
+//! middle of sides: there two open edges lie along each other and share no corner. A line drawn there would be one
+//! of the mesh and not of the thing. Nothing moves: faces get more corners, no more places.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::cuts::{Cut, CutFace};
+use super::soup::Soup;
+use super::{EdgeFaces, Edges, Extents, PartId};
+use crate::math::grouped::{Grouped, grouped};
+use crate::math::tolerance;
+
+/// Open edges of one seam run against each other but for an angle of this cosine (45 degrees); a curve that
+/// turns by more at a corner has a corner there.
+const ALONG: f64 = 0.7;
+
+/// Faces on both sides of a seam turn by less than the angle of this cosine (120 degrees).
+const FOLDED: f64 = -0.5;
+
+/// A corner stays this many times nearer to the side that it cuts than the face is high, and than to the ends of the side.
+const NEARER: f64 = 2.0;
+
+/// Chords of a curve differ in length: each may stand off by this many times what it would if all were alike.
+const UNEVEN: f64 = 2.0;
+
+/// Curves of space leave their plane by this part of how far they stand off.
+const TWIST: f64 = 4.0;
+
+/// Texture coordinates and colours of both sides of a seam differ by no more than this: what is painted apart is meant to
+/// be seen apart.
+const PAINTED: f32 = 1e-3;
+
+/// A side of a face that no other face has.
+struct Open {
+    /// Its corners, in the order of the face.
+    ends: [u32; 2],
+    face: u32,
+    part: PartId,
+    /// From the first to the second.
+    along: DVec3,
+    length: f64,
+    normal: DVec3,
+    /// What its ends are painted with.
+    paint: [Painted; 2],
+}
+
+/// Texture coordinates and colour at a corner of a face.
+type Painted = (Option<[f32; 2]>, Option<[f32; 3]>);
+
+/// What makes the sides of seams meet.
+#[derive(Default)]
+pub(super) struct Found {
+    /// For each vertex the one that it becomes, where corners on both sides are one all but for the precision of the
+    /// program that made them; empty if there are none.
+    pub joined: Vec<u32>,
+    /// Faces that are cut; none as long as corners are to be joined.
+    pub cuts: Vec<CutFace>,
+}
+
+/// Finds the seams of a soup; with `corners` corners to be joined first.
+pub(super) fn find(soup: &Soup, edges: &Edges, extents: &Extents, corners: bool) -> Found {
+    let open = open_edges(soup, edges);
+    if open.len() < 2 {
+        return Found::default();
+    }
+    let seams = Seams::new(soup, &open);
+    let joined = if corners { seams.joined(edges, extents) } else { Vec::new() };
+    let cuts = if joined.is_empty() { seams.all_cuts(extents) } else { Vec::new() };
+    Found { joined, cuts }
+}
+
+fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
+    let open = |edge: usize| {
+        let EdgeFaces::One(face) = edges.faces(edge) else { return None };
+        let [a, b, c] = soup.triangles[face as usize];
+        let [lo, hi] = edges.vertices[edge];
+        let ends = [[a, b], [b, c], [c, a]].into_iter().find(|[p, q]| [*p.min(q), *p.max(q)] == [lo, hi])?;
+        let [p, q, r] = [a, b, c].map(|v| soup.positions[v as usize]);
+        let side = soup.positions[ends[1] as usize] - soup.positions[ends[0] as usize];
+        let part = soup.triangle_part.get(face as usize).copied().unwrap_or_default();
+        let (along, normal) = (side.normalize_or_zero(), (q - p).cross(r - p).normalize_or_zero());
+        let paint = ends.map(|v| painted(soup, face, v));
+        Some(Open { ends, face, part, along, length: side.length(), normal, paint })
+    };
+    (0..edges.len()).into_par_iter().with_min_len(1 << 14).filter_map(open).collect()
+}
+
+fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
+    let face = face as usize;
+    let Some(corner) = soup.triangles[face].iter().position(|v| *v == vertex) else { return (None, None) };
+    let uv = soup.corner_uvs.get(face).and_then(|ids| soup.uvs.get(ids[corner] as usize));
+    (uv.copied(), soup.corner_colours.get(face).map(|colours| colours[corner]))
+}
+
+impl Open {
+    /// Whether another open edge may be the other side of a seam: it runs against this one, and the surface does not
+    /// fold back there.
+    fn faces_across(&self, other: &Self) -> bool {
+        other.face != self.face
+            && other.part == self.part
+            && other.along.dot(self.along) < -ALONG
+            && other.normal.dot(self.normal) > FOLDED
+    }
+
+    /// Whether both ends and a corner of another face on the way between them are painted as one surface is.
+    fn goes_on(&self, t: f64, corner: Painted) -> bool {
+        fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
+            match (ends, corner) {
+                ([Some(a), Some(b)], Some(c)) => {
+                    (0..N).all(|k| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs() <= PAINTED)
+                }
+                ([a, b], c) => a.is_none() && b.is_none() && c.is_none(),
+            }
+        }
+        alike(t, self.paint.map(|p| p.0), corner.0) && alike(t, self.paint.map(|p| p.1), corner.1)
+    }
+}
+
+/// Open edges by their corners, and these by the cells of a grid.
+struct Seams<'a> {
+    soup: &'a Soup,
+    open: &'a [Open],
+    corners: Vec<u32>,
+    /// The number of each vertex among the corners.
+    numbers: Vec<u32>,
+    /// The open edges at each corner.
+    at: Grouped<u32>,
+    low: DVec3,
+    cell: f64,
+    /// Corners by what remains of the numbers of their cells: some cells share one list.
+    cells: Grouped<u32>,
+}
+
+impl<'a> Seams<'a> {
+    fn new(soup: &'a Soup, open: &'a [Open]) -> Self {
+        let mut corners: Vec<u32> = open.iter().flat_map(|edge| edge.ends).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        let mut numbers = vec![u32::MAX; soup.positions.len()];
+        (0..).zip(&corners).for_each(|(number, v)| numbers[*v as usize] = number);
+        let at = grouped(corners.len(), |put| {
+            for (k, edge) in (0..).zip(open) {
+                edge.ends.iter().for_each(|v| put(numbers[*v as usize] as usize, k));
+            }
+        });
+        let place = |v: &u32| soup.positions[*v as usize];
+        let low = corners.iter().map(place).fold(DVec3::INFINITY, DVec3::min);
+        let high = corners.iter().map(place).fold(DVec3::NEG_INFINITY, DVec3::max);
+        let mean = open.iter().map(|edge| edge.length).sum::<f64>() / open.len() as f64;
+        // Where a few corners lie far apart there are no more cells than numbers for them.
+        let cell = mean.max((high - low).max_element() / 1e6).max(f64::MIN_POSITIVE);
+        let mut seams = Self { soup, open, corners, numbers, at, low, cell, cells: Grouped::default() };
+        let lists = seams.corners.len().next_power_of_two();
+        let cells = grouped(lists, |put| {
+            for number in 0..seams.corners.len() as u32 {
+                put(list_of(seams.key(seams.place(number)), lists), number);
+            }
+        });
+        seams.cells = cells;
+        seams
+    }
+
+    fn key(&self, p: DVec3) -> [u32; 3] {
+        ((p - self.low) / self.cell).to_array().map(|c| c.max(0.0) as u32)
+    }
+
+    fn place(&self, corner: u32) -> DVec3 {
+        self.soup.positions[self.corners[corner as usize] as usize]
+    }
+
+    /// For each vertex the one that it becomes; empty if none changes.
+    fn joined(&self, edges: &Edges, extents: &Extents) -> Vec<u32> {
+        let mates: Vec<Option<u32>> = (0..self.corners.len() as u32)
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|corner| self.mate(corner, edges, extents))
+            .collect();
+        let mut joined: Vec<u32> = Vec::new();
+        for (corner, mate) in (0..).zip(&mates) {
+            let Some(mate) = mate.filter(|mate| corner < *mate && mates[*mate as usize] == Some(corner))
+            else {
+                continue;
+            };
+            if joined.is_empty() {
+                joined = (0..self.soup.positions.len() as u32).collect();
+            }
+            joined[self.corners[mate as usize] as usize] = self.corners[corner as usize];
+        }
+        joined
+    }
+
+    /// All that is cut, by faces in their order.
+    fn all_cuts(&self, extents: &Extents) -> Vec<CutFace> {
+        let cuts: Vec<Vec<Cut>> = (0..self.open.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|edge| self.cuts(edge, tolerance::SEAM_OF_PART * extents.of(self.open[edge].part).scale))
+            .collect();
+        let mut faces: Vec<CutFace> = Vec::new();
+        for (edge, cuts) in self.open.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
+            let mut sides: [Vec<Cut>; 3] = Default::default();
+            if let Some(side) =
+                self.soup.triangles[edge.face as usize].iter().position(|v| *v == edge.ends[0])
+            {
+                sides[side] = cuts;
+                faces.push((edge.face, sides));
+            }
+        }
+        faces.sort_by_key(|(face, _)| *face);
+        faces.dedup_by(|more, first| {
+            let same = more.0 == first.0;
+            if same {
+                first.1.iter_mut().zip(&mut more.1).for_each(|(own, more)| own.append(more));
+            }
+            same
+        });
+        faces
+    }
+
+    /// The corner nearest to one, if it is no farther than the sides of seams are apart and both are corners of one.
+    fn mate(&self, corner: u32, edges: &Edges, extents: &Extents) -> Option<u32> {
+        let own = self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]);
+        let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
+        let (reach, place) = (tolerance::SEAM_OF_PART * scale, self.place(corner));
+        let mut nearest: Option<(f64, u32)> = None;
+        self.near(place, DVec3::ZERO, reach, |other| {
+            let apart = self.place(other).distance(place);
+            let is_nearer = nearest.is_none_or(|(least, at)| (apart, other) < (least, at));
+            if other != corner && apart <= reach && is_nearer {
+                nearest = Some((apart, other));
+            }
+        });
+        let (_, other) = nearest?;
+        let [p, q] = [corner, other].map(|k| self.corners[k as usize]);
+        // Across a narrow strip there is an edge.
+        let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
+        let meets = |a: &Open, b: &Open| {
+            let end = usize::from(a.ends[1] == p);
+            b.ends[1 - end] == q && a.faces_across(b) && a.goes_on(end as f64, b.paint[1 - end])
+        };
+        let others = || self.at.of(other as usize).iter().map(|k| &self.open[*k as usize]);
+        (!is_strip && own.into_iter().any(|a| others().any(|b| meets(a, b)))).then_some(other)
+    }
+
+    /// The corners that cut an open edge, in order along it.
+    fn cuts(&self, edge: usize, least: f64) -> Vec<Cut> {
+        let own = &self.open[edge];
+        let third = self.soup.triangles[own.face as usize].into_iter().find(|v| !own.ends.contains(v));
+        let start = self.soup.positions[own.ends[0] as usize];
+        let height = third.map_or(0.0, |v| {
+            let way = self.soup.positions[v as usize] - start;
+            (way - own.along * way.dot(own.along)).length()
+        });
+        let sagitta = self.sagitta(own);
+        let reach = least.max(sagitta.length()).min(height / NEARER);
+        let aside = least.max(sagitta.length() / TWIST);
+        let mut cuts: Vec<Cut> = Vec::new();
+        if own.length == 0.0 || reach == 0.0 {
+            return cuts;
+        }
+        self.near(start, own.along * own.length, reach, |corner| {
+            let vertex = self.corners[corner as usize];
+            let way = self.place(corner) - start;
+            let along = way.dot(own.along);
+            let off = way - own.along * along;
+            let way_off = off - off.project_onto_normalized(sagitta.normalize_or_zero());
+            let off = off.length();
+            let clear = along > NEARER * off && own.length - along > NEARER * off;
+            let is_own = own.ends.contains(&vertex) || third == Some(vertex);
+            if off <= reach
+                && way_off.length() <= aside
+                && clear
+                && !is_own
+                && self.is_of_seam(own, along / own.length, corner)
+            {
+                cuts.push((along / own.length, vertex));
+            }
+        });
+        cuts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        cuts.dedup_by_key(|cut| cut.1);
+        cuts
+    }
+
+    /// Whether an open edge with this corner lies along another one, as the other side of a seam does.
+    fn is_of_seam(&self, own: &Open, t: f64, corner: u32) -> bool {
+        let vertex = self.corners[corner as usize];
+        self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
+            own.faces_across(other) && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
+        })
+    }
+
+    /// How far the curve, of which an open edge is a chord, may stand off, and which way: told by how it turns at
+    /// the end where it turns less, since at the end of a curve there is another corner.
+    fn sagitta(&self, own: &Open) -> DVec3 {
+        let at = |end: usize| {
+            let corner = self.numbers[own.ends[end] as usize] as usize;
+            let goes_on = |other: &&Open| other.ends[1 - end] == own.ends[end] && other.part == own.part;
+            let others = self.at.of(corner).iter().map(|k| &self.open[*k as usize]).filter(goes_on);
+            others.map(|other| other.along).max_by(|a, b| a.dot(own.along).total_cmp(&b.dot(own.along)))
+        };
+        let least =
+            [0, 1].into_iter().filter_map(at).max_by(|a, b| a.dot(own.along).total_cmp(&b.dot(own.along)));
+        let cosine = least.map_or(-1.0, |along| along.dot(own.along));
+        let Some(along) = least.filter(|_| cosine >= ALONG) else { return DVec3::ZERO };
+        let height = UNEVEN * own.length * ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt() / 4.0;
+        (along - own.along * cosine).normalize_or_zero() * height
+    }
+
+    /// Visits the corners near a line, some perhaps twice.
+    fn near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32)) {
+        let parts = ((way.length() / self.cell).ceil() as usize).clamp(1, 1 << 16);
+        for part in 0..parts {
+            let [a, b] = [part, part + 1].map(|k| start + way * (k as f64 / parts as f64));
+            let (low, high) = (self.key(a.min(b) - reach), self.key(a.max(b) + reach));
+            for x in low[0]..=high[0] {
+                for y in low[1]..=high[1] {
+                    for z in low[2]..=high[2] {
+                        let list = list_of([x, y, z], self.cells.count());
+                        self.cells.of(list).iter().for_each(|corner| visit(*corner));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Which of so many lists, a power of two, holds the corners in a cell.
+fn list_of([x, y, z]: [u32; 3], lists: usize) -> usize {
+    let mixed = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77) ^ z.wrapping_mul(0xc2b2_ae3d);
+    (mixed ^ mixed >> 15) as usize & (lists - 1)
+}

@@ -1,0 +1,199 @@
+//! Seams between surfaces that were each turned into triangles by itself are no lines; gaps and steps that are meant stay.
+
+use std::f64::consts::TAU;
+
+use crate::support::dice::Dice;
+use crate::support::pipeline::{exact, orthographic, perspective, scene, stages};
+use crate::support::solids::{Solid, cuboid};
+use glam::DVec3;
+use kurbo::Point;
+use ligne::math::function::{cos, sin};
+use ligne::stages::lines::{LineKind, LineOptions};
+use ligne::stages::mesh::{EdgeFaces, Mesh, Soup, Turns};
+
+fn mesh(solid: &Solid) -> Mesh {
+    Mesh::build(Soup {
+        positions: solid.positions.clone(),
+        triangles: solid.triangles.clone(),
+        ..Soup::default()
+    })
+}
+
+/// How many edges have one face, and how many turn by more than so many degrees.
+fn open_and_sharp(mesh: &Mesh, degrees: f64) -> [usize; 2] {
+    let turns = Turns::of(mesh);
+    let count = |holds: &dyn Fn(usize) -> bool| (0..mesh.edges.len()).filter(|edge| holds(*edge)).count();
+    [
+        count(&|edge| matches!(mesh.edges.faces(edge), EdgeFaces::One(_))),
+        count(&|edge| f64::from(turns.at(mesh, edge)) < cos(degrees.to_radians())),
+    ]
+}
+
+/// A rectangle with corners of its own.
+fn tile(solid: &mut Solid, corner: DVec3, u: DVec3, v: DVec3) {
+    solid.add(Solid {
+        positions: vec![corner, corner + u, corner + u + v, corner + v],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    });
+}
+
+/// A unit box of two tiles a side, that are parted somewhere else on each.
+fn box_of_tiles() -> Solid {
+    let mut solid = Solid::default();
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    let sides =
+        [(x, y, z), (y, z, x), (z, x, y), (y, x, DVec3::ZERO), (z, y, DVec3::ZERO), (x, z, DVec3::ZERO)];
+    for (k, (u, v, corner)) in sides.into_iter().enumerate() {
+        let part = 0.3 + 0.07 * k as f64;
+        tile(&mut solid, corner, u * part, v);
+        tile(&mut solid, corner + u * part, u * (1.0 - part), v);
+    }
+    solid
+}
+
+/// A tube about the z axis with its own number of sides.
+fn tube(around: u32, from: f64, to: f64) -> Solid {
+    let at = |k: u32, z: f64| {
+        let turn = TAU * f64::from(k) / f64::from(around);
+        DVec3::new(cos(turn), sin(turn), z)
+    };
+    let mut solid = Solid::default();
+    for k in 0..around {
+        let next = (k + 1) % around;
+        solid.add(Solid {
+            positions: vec![at(k, from), at(next, from), at(next, to), at(k, to)],
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+        });
+    }
+    solid
+}
+
+fn key(lines: &[[Point; 2]]) -> Vec<[i64; 2]> {
+    // The places where lines end, to a hundredth of a px.
+    let mut ends: Vec<[i64; 2]> =
+        lines.iter().flatten().map(|p| [p.x, p.y].map(|c| (c * 100.0).round() as i64)).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+#[test]
+fn a_box_of_tiles_is_drawn_as_a_box() {
+    let tiles = box_of_tiles();
+    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 0, "every edge has two faces");
+    let mut dice = Dice::new(5);
+    for k in 0..12 {
+        let way = dice.direction() * 6.0;
+        let middle = DVec3::splat(0.5);
+        let camera = if k % 2 == 0 {
+            perspective(middle + way, middle, 30.0)
+        } else {
+            orthographic(middle + way, middle, 2.5)
+        };
+        let length = |lines: &[[Point; 2]]| lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
+        let drawn = |solid: Solid| {
+            let drawn = stages(&scene([solid]), &camera, &exact());
+            assert!(drawn.visible_of(LineKind::Border).is_empty());
+            drawn.visible()
+        };
+        let (own, plain) = (drawn(tiles.clone()), drawn(cuboid(DVec3::ZERO, DVec3::ONE)));
+        assert!((length(&own) - length(&plain)).abs() < 1e-6, "{} and {}", length(&own), length(&plain));
+        assert!(key(&plain).iter().all(|end| key(&own).contains(end)));
+    }
+}
+
+#[test]
+fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
+    let mut two = tube(24, -1.0, 0.0);
+    two.add(tube(37, 0.0, 1.0));
+    // Only the far ends are open.
+    assert_eq!(open_and_sharp(&mesh(&two), 45.0), [24 + 37, 0]);
+    let drawn = stages(
+        &scene([two]),
+        &perspective(DVec3::new(5.0, 1.0, 1.5), DVec3::ZERO, 40.0),
+        &LineOptions::default(),
+    );
+    let middle = drawn.view.frame.width / 2.0;
+    let across = drawn.visible_of(LineKind::Border);
+    assert!(!across.is_empty() && across.iter().flatten().all(|p| (p.x - middle).abs() > 100.0));
+}
+
+#[test]
+fn corners_on_both_sides_of_a_seam_are_one() {
+    // As far apart as programs put them that turn each surface into triangles by itself.
+    let mut dice = Dice::new(11);
+    let mut two = tube(24, -1.0, 0.0);
+    two.add(
+        tube(24, 0.0, 1.0).moved(|p| if p.z == 0.0 { p * 1.00004 + DVec3::new(0.0, 2e-5, -3e-5) } else { p }),
+    );
+    two.add(tube(24, 1.0, 1.5).moved(|p| DVec3::new(p.x, p.y + 5e-5, p.z - 3e-5)));
+    assert_eq!(open_and_sharp(&mesh(&two), 45.0), [2 * 24, 0]);
+    // A strip that is narrower than that is no seam.
+    let narrow = tube(24, 0.0, 5e-5);
+    let turned = dice.direction();
+    assert_eq!(open_and_sharp(&mesh(&narrow.moved(|p| p + turned)), 45.0)[0], 2 * 24);
+}
+
+#[test]
+fn a_gap_that_is_meant_stays_open() {
+    for gap in [0.01, 0.05] {
+        let mut two = tube(24, -1.0, -gap);
+        two.add(tube(37, 0.0, 1.0));
+        assert_eq!(open_and_sharp(&mesh(&two), 45.0)[0], 2 * (24 + 37), "{gap}");
+    }
+    let mut tiles = Solid::default();
+    tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
+    tile(&mut tiles, DVec3::new(-0.3, 1.001, 0.0), DVec3::X * 1.5, DVec3::Y);
+    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 8);
+}
+
+#[test]
+fn what_is_painted_apart_is_not_sewn() {
+    let mut tiles = Solid::default();
+    tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
+    tile(&mut tiles, DVec3::new(0.0, 1.0, 0.0), DVec3::X * 0.25, DVec3::Y);
+    tile(&mut tiles, DVec3::new(0.25, 1.0, 0.0), DVec3::X * 0.75, DVec3::Y);
+    for shift in [0.0, 0.25] {
+        // The second and the third tile have their colours from elsewhere in the picture.
+        let uv = |(k, p): (usize, &DVec3)| [p.x as f32, p.y as f32 + if k < 4 { 0.0 } else { shift }];
+        let mesh = Mesh::build(Soup {
+            positions: tiles.positions.clone(),
+            triangles: tiles.triangles.clone(),
+            uvs: tiles.positions.iter().enumerate().map(uv).collect(),
+            corner_uvs: tiles.triangles.clone(),
+            ..Soup::default()
+        });
+        assert_eq!(open_and_sharp(&mesh, 45.0)[0], if shift == 0.0 { 7 } else { 10 });
+        for (triangle, uvs) in mesh.triangles.iter().zip(&mesh.corner_uvs) {
+            for (v, uv) in triangle.iter().zip(uvs) {
+                let place = mesh.positions[*v as usize] + mesh.origin;
+                assert_eq!(mesh.uvs[*uv as usize][0], place.x as f32);
+            }
+        }
+    }
+}
+
+#[test]
+fn surfaces_of_different_parts_are_not_sewn() {
+    let solid = |low: f64, high: f64| {
+        let mut solid = Solid::default();
+        tile(&mut solid, DVec3::new(low, low, 0.0), DVec3::X * (high - low), DVec3::Y);
+        solid
+    };
+    let drawn = stages(
+        &scene([solid(0.0, 1.0), solid(1.0, 3.0)]),
+        &orthographic(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 9.0),
+        &exact(),
+    );
+    assert_eq!(drawn.mesh.triangles.len(), 4);
+}
+
+#[test]
+fn steps_stay_steps_however_low() {
+    let mut plate = cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.2));
+    // A tile as high as half a pixel, on the plate and without a floor.
+    let mut tile = cuboid(DVec3::new(0.3, 0.3, 0.2), DVec3::new(0.7, 0.7, 0.2005));
+    tile.triangles.drain(0..2);
+    plate.add(tile);
+    assert_eq!(open_and_sharp(&mesh(&plate), 45.0)[1], 12 + 8);
+}
