@@ -4,20 +4,43 @@ use glam::{DVec2, DVec3};
 
 use super::grid::{Grid, TileBox};
 
-/// The three sides of a projected triangle as inward half planes: positive inside.
+/// The three sides of a projected triangle as inward half planes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sides {
-    normals: [DVec2; 3],
-    offsets: [f64; 3],
+pub(super) struct Sides([Side; 3]);
+
+/// An inward half plane n·x + d > 0, solved for x.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// -1 where x is to be greater, 1 where it is to be less, 0 where n has no x.
+    way: f64,
+    /// x at y = 0 and how it grows with y; or d and the y of n.
+    at: f64,
+    along: f64,
+    /// By how much x changes where a square that has its centre there is to be a length further inside, for each of its length.
+    aside: f64,
+}
+
+impl Side {
+    fn new(n: DVec2, d: f64) -> Self {
+        let aside = n.x.abs() + n.y.abs();
+        let solved = Self { way: -n.x.signum(), at: -d / n.x, along: -n.y / n.x, aside: aside / n.x };
+        if n.x != 0.0 && solved.at.is_finite() && solved.along.is_finite() {
+            solved
+        } else {
+            Self { way: 0.0, at: d, along: n.y, aside }
+        }
+    }
 }
 
 impl Sides {
     pub(super) fn new(points: &[DVec3; 3]) -> Self {
         let [a, b, c] = points.map(DVec3::truncate);
         let sign = (b - a).perp_dot(c - a).signum();
-        let normal = |p: DVec2, q: DVec2| (q - p).perp() * sign;
-        let normals = [normal(a, b), normal(b, c), normal(c, a)];
-        Self { normals, offsets: [-normals[0].dot(a), -normals[1].dot(b), -normals[2].dot(c)] }
+        let side = |p: DVec2, q: DVec2| {
+            let normal = (q - p).perp() * sign;
+            Side::new(normal, -normal.dot(p))
+        };
+        Self([side(a, b), side(b, c), side(c, a)])
     }
 
     /// The columns of a row of tiles whose squares lie wholly inside all sides (`reach` is minus
@@ -30,20 +53,21 @@ impl Sides {
         let corner = grid.corner(0, u32::from(row));
         let y = corner.y + grid.cell / 2.0;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        for (n, d) in self.normals.iter().zip(self.offsets) {
-            let rest = n.y * y + d + reach * (n.x.abs() + n.y.abs());
-            if n.x > 0.0 {
-                low = low.max(-rest / n.x);
-            } else if n.x < 0.0 {
-                high = high.min(-rest / n.x);
-            } else if rest < 0.0 {
+        for side in &self.0 {
+            let x = side.at + side.along * y - reach * side.aside;
+            if side.way < 0.0 {
+                low = low.max(x);
+            } else if side.way > 0.0 {
+                high = high.min(x);
+            } else if side.at + side.along * y + reach * side.aside < 0.0 {
                 return 0..0;
             }
         }
         // Rounding may not add a tile that is not filled, nor lose one that is met.
         let margin = if reach < 0.0 { 1e-6 } else { -1e-6 };
-        let first = ((low - corner.x) / grid.cell - 0.5 + margin).ceil().max(f64::from(tiles.left));
-        let last = ((high - corner.x) / grid.cell - 0.5 - margin).floor().min(f64::from(tiles.right));
+        let per_cell = 1.0 / grid.cell;
+        let first = ((low - corner.x) * per_cell - 0.5 + margin).ceil().max(f64::from(tiles.left));
+        let last = ((high - corner.x) * per_cell - 0.5 - margin).floor().min(f64::from(tiles.right));
         if first <= last { first as u32..last as u32 + 1 } else { 0..0 }
     }
 }
