@@ -331,7 +331,7 @@ mod tests {
                         let (u, v, w) = ((b - a).truncate(), (c - a).truncate(), p - a.truncate());
                         let (s, t) = (w.perp_dot(v) / u.perp_dot(v), u.perp_dot(w) / u.perp_dot(v));
                         (s >= 0.0 && t >= 0.0 && s + t <= 1.0)
-                            .then(|| a.z + s * (b.z - a.z) + t * (c.z - a.z))
+                            .then_some(a.z + s * (b.z - a.z) + t * (c.z - a.z))
                     };
                     let nearest =
                         mesh.triangles.iter().filter_map(nearness).fold(f64::NEG_INFINITY, f64::max);
