@@ -13,7 +13,7 @@ impl Mesh {
     ///
     /// Vertices at the same place are joined (see [`weld`]), faces with repeated corners and
     /// faces that stand twice in one part are dropped, open edges that lie along each other are sewn (see
-    /// [`seams`]), everything is counted in [`Mesh::cleaning`]. However the soup numbers its vertices, whatever the order of its faces
+    /// `seams`), everything is counted in [`Mesh::cleaning`]. However the soup numbers its vertices, whatever the order of its faces
     /// and whichever corner they begin with, the mesh is the same; only parts and materials keep
     /// their order.
     #[must_use]
