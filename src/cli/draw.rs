@@ -118,16 +118,27 @@ pub(super) fn draw_views(
     let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
+    let told = scene.warnings.lines().into_iter().chain(notes).collect();
+    let mut of_scene = OfScene { triangles: triangles(&scene), told, whole: None };
+    let mut kept = None;
+    let enclosed: Vec<_> = eyes.iter().map(|eye| wonder::enclosed(&scene, &eye.camera)).collect();
     watch.lap_ms();
+    // Hot-spots are found in the scene once more.
     let prepared = match eyes.as_slice() {
-        [eye] => Prepared::for_camera(&scene, &style, &eye.camera),
-        _ => Prepared::new(&scene, &style),
+        [eye] if !request.web.hotspots => Prepared::of_scene(scene, &style, &eye.camera),
+        eyes => {
+            let scene = &*of_scene.whole.insert(kept.insert(scene));
+            match eyes {
+                [eye] => Prepared::for_camera(scene, &style, &eye.camera),
+                _ => Prepared::new(scene, &style),
+            }
+        }
     };
     let preparing_ms = watch.lap_ms();
-    for (request, eye) in requests.iter().zip(eyes) {
+    for ((request, eye), enclosed) in requests.iter().zip(eyes).zip(enclosed) {
         let page = Page { background: style.background, ..eye.paper.page() };
-        let mut drawn =
-            draw_view(request, (eye, page), (&scene, &notes), (&style, &prepared), watch, progress)?;
+        let of_view = (eye, page, enclosed);
+        let mut drawn = draw_view(request, of_view, &of_scene, (&style, &prepared), watch, progress)?;
         drawn.report.stages_ms.load = load_ms;
         drawn.report.stages_ms.topology += preparing_ms;
         take(request, drawn)?;
@@ -135,29 +146,31 @@ pub(super) fn draw_views(
     Ok(())
 }
 
+/// What is told of a model, however it is seen.
+struct OfScene<'a> {
+    triangles: u64,
+    /// Its warnings, and what is strange about the call.
+    told: Vec<String>,
+    /// The model itself, where it is still needed.
+    whole: Option<&'a Scene>,
+}
+
 fn draw_view(
     request: &DrawRequest,
-    (Viewpoint { camera, paper, warning }, page): (Viewpoint, Page),
-    (scene, notes): (&Scene, &[String]),
+    (Viewpoint { camera, paper, warning }, page, enclosed): (Viewpoint, Page, Option<String>),
+    of_scene: &OfScene,
     (style, prepared): (&Style, &Prepared),
     watch: &mut Stopwatch,
     progress: &Progress,
 ) -> Result<Drawn, Error> {
     watch.lap_ms();
     let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
-    let bare = web::complete(request, &mut drawing, scene, &camera, style)?;
+    let bare = web::complete(request, &mut drawing, of_scene.whole, &camera, style)?;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
-    report.counts.triangles = triangles(scene);
+    report.counts.triangles = of_scene.triangles;
     report.counts.paths = paths(&drawing);
-    for warning in scene
-        .warnings
-        .lines()
-        .into_iter()
-        .chain(notes.iter().cloned())
-        .chain(warning)
-        .chain(bare.map(str::to_owned))
-        .chain(wonder::enclosed(scene, &camera))
-    {
+    let told = of_scene.told.iter().cloned();
+    for warning in told.chain(warning).chain(bare.map(str::to_owned)).chain(enclosed) {
         if !report.warnings.contains(&warning) {
             report.warnings.push(warning);
         }

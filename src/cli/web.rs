@@ -10,18 +10,18 @@ use crate::scene::{Camera, Scene};
 use crate::stroke::pen::Ink;
 use crate::style::Style;
 
-/// Adds to a drawing what was asked for; a warning where that is nothing.
+/// Adds to a drawing what was asked for; a warning where that is nothing. Hot-spots take the scene.
 pub(super) fn complete(
     request: &DrawRequest,
     drawing: &mut Drawing,
-    scene: &Scene,
+    scene: Option<&Scene>,
     camera: &Camera,
     style: &Style,
 ) -> Result<Option<&'static str>, Error> {
     if let Some(title) = &request.web.title {
         drawing.title.clone_from(title);
     }
-    if request.web.hotspots {
+    if let Some(scene) = scene.filter(|_| request.web.hotspots) {
         let page = drawing.page;
         drawing.hotspots = render::hotspots(scene, camera, page, style)?;
     }

@@ -7,14 +7,15 @@ use kurbo::{BezPath, Vec2};
 
 use super::anchors::Anchors;
 use super::at_rest::AtRest;
+use super::late_shadows::LateShadows;
 use crate::drawing::{Layer, Page, Provenance};
 use crate::field::occlusion::openness;
 use crate::field::tone_options::Scale;
 use crate::field::{ShadedNormals, Shading, ToneOptions};
 use crate::hatch::{Direction, HatchLayer, PatternFixed};
 use crate::lines::{
-    FeatureLines, LineKind, LineOptions, Lit, Source, Surface, Textures, isophotes, texture_borders,
-    tone_edges,
+    FeatureLines, LineKind, LineOptions, Lit, Source, Surface, Textures, in_sight, isophotes,
+    texture_borders, tone_edges,
 };
 use crate::math::colour::Colour;
 use crate::mesh::solid::solid_parts;
@@ -143,7 +144,7 @@ pub(super) struct Fills<'a> {
     paintable: &'a Paintable,
     view: &'a View,
     shading: Shading,
-    shadows: Shadows,
+    shadows: Arc<Shadows>,
     openness: Vec<f64>,
     /// Every set of lights that may be in shadow together.
     masks: Vec<u32>,
@@ -157,11 +158,12 @@ pub(super) struct Fills<'a> {
 }
 
 impl<'a> Fills<'a> {
-    /// `casting` is the mesh that casts shadows: that of the surface, but that some faces may hide nothing.
+    /// `casting` is the mesh that casts shadows: that of the surface, but that some faces may hide nothing. Where it is that of all
+    /// views, `late` keeps its shadows.
     #[expect(clippy::too_many_arguments, reason = "it is called once, and each is another thing")]
     pub fn new(
         surface: &'a Surface,
-        casting: &'a Mesh,
+        (casting, late): (&'a Mesh, Option<&LateShadows>),
         paintable: &'a Paintable,
         view: &'a View,
         scene: &Scene,
@@ -175,10 +177,15 @@ impl<'a> Fills<'a> {
         if style.hatch.enabled {
             shading = shading.with_bins(scene, &paints.list, &style.shade);
         }
-        let shadows = Shadows::new(casting, shading.casters());
+        let shadows = match late {
+            Some(late) => late.of(casting, shading.casters()),
+            None => Arc::new(Shadows::new(casting, shading.casters())),
+        };
         let dims = style.light.occlusion > 0.0;
         let nook = |at: DVec3| frame.side_at(frame.depth(at)) * NOOK_OF_FRAME;
-        let openness = if dims { openness(mesh, nook) } else { Vec::new() };
+        // Behind glass there is more in sight than what is in front.
+        let asked = || if std::ptr::eq(casting, mesh) { in_sight(mesh, view) } else { Vec::new() };
+        let openness = if dims { openness(mesh, &asked(), nook) } else { Vec::new() };
         Self {
             surface,
             casting,

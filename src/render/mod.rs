@@ -29,6 +29,7 @@ mod hatching;
 mod hidden;
 mod image;
 mod late_search;
+mod late_shadows;
 mod maps;
 mod motion;
 mod on_surface;
@@ -40,6 +41,7 @@ mod sections;
 pub mod stage;
 mod stages;
 mod under;
+mod welded;
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -57,11 +59,9 @@ use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
 use crate::error::Error;
 use crate::hatch::{self, Hatched};
 use crate::lines::{self, FeatureLines, Known, LineOptions, Surface, Textures};
-
 use crate::math::colour::Colour;
-use crate::mesh::Mesh;
 use crate::region::Ground;
-use crate::scene::{Camera, Scene, Warnings, cutout, paint::Paints};
+use crate::scene::{Camera, Scene, Warnings, paint::Paints};
 use crate::shape::Patches;
 use crate::stroke::{self, InkContext, Order, Parting};
 use crate::style::Style;
@@ -73,8 +73,10 @@ use fills::{Colours, Fills, Paintable};
 use glass::Behind;
 use hatching::Hatching;
 use late_search::LateSearch;
+use late_shadows::LateShadows;
 use motion::Trails;
 use stages::Made;
+use welded::Welded;
 
 /// Draws a scene on a page in px that is as large as the camera's frame.
 ///
@@ -120,17 +122,6 @@ pub fn render_reported(
     Ok((drawing, report))
 }
 
-/// The paints of what a style leaves of a scene, if it asks for any.
-fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
-    let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
-    let mut paints = needs_paints.then(|| Paints::of(left, &style.textures));
-    if fills::asks_artist(style) {
-        let pictures = &style.lines.artist_texture;
-        paints.iter_mut().for_each(|paints| paints.ink(left, pictures, style.textures.colours));
-    }
-    paints
-}
-
 /// A scene made ready for a style: what all its views share.
 ///
 /// ```no_run
@@ -162,6 +153,7 @@ pub struct Prepared<'a> {
     /// For views that need finer triangles it is made anew.
     paintable: Option<Paintable>,
     search: LateSearch,
+    shadows: LateShadows,
     /// Where lines are told to stay on the model.
     anchors: Option<Anchors>,
 }
@@ -170,27 +162,25 @@ impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        Self::with_patches(scene, style).0
+        Self::made(Welded::of(scene, style), style, None).0
     }
 
     /// Does so for one camera: the surface gets the finer triangles that it needs there at once and for good, which takes less
     /// memory than to have them beside those of the model.
     #[must_use]
     pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
-        Self::made(scene, style, Some(camera)).0
+        Self::made(Welded::of(scene, style), style, Some(camera)).0
     }
 
-    /// Does so, and tells the patches of its surface.
-    fn with_patches(scene: &'a Scene, style: &'a Style) -> (Self, Option<Patches>) {
-        Self::made(scene, style, None)
+    /// Does so for one camera with a scene that nobody else needs: its shapes go when the mesh is made of them, and are not held
+    /// beside it.
+    #[must_use]
+    pub fn of_scene(scene: Scene, style: &'a Style, camera: &Camera) -> Self {
+        Self::made(Welded::of_all(scene, style), style, Some(camera)).0
     }
 
-    fn made(scene: &'a Scene, style: &'a Style, only: Option<&Camera>) -> (Self, Option<Patches>) {
-        let left = glass::left(scene, style);
-        let mut paints = paints_of(&left, style);
-        let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
-        paints.iter_mut().for_each(|paints| paints.carry(&origins));
-        let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
+    fn made(welded: Welded<'a>, style: &'a Style, only: Option<&Camera>) -> (Self, Option<Patches>) {
+        let Welded { scene, warnings, paints, mesh } = welded;
         let sought = fills::sought(style);
         let (mut surface, mut patches) = Surface::with_patches(mesh, &sought);
         let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
@@ -198,16 +188,22 @@ impl<'a> Prepared<'a> {
             patches = None;
             surface = surface.finer_for(camera);
         }
-        let paintable = paints
-            .as_ref()
-            .filter(|_| fills::asks_surface(style))
-            .map(|paints| Paintable::new(&surface, paints));
-        let (paints, search) = (paints.map(Arc::new), LateSearch::default());
-        let anchors = None;
-        (
-            Self { scene, warnings, style, sought, paints, surface, counts, paintable, search, anchors },
-            patches,
-        )
+        let paintable = paints.as_ref().filter(|_| fills::asks_surface(style));
+        let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
+        let prepared = Self {
+            scene,
+            warnings,
+            style,
+            sought,
+            paints: paints.map(Arc::new),
+            surface,
+            counts,
+            paintable,
+            search: LateSearch::default(),
+            shadows: LateShadows::default(),
+            anchors: None,
+        };
+        (prepared, patches)
     }
 
     /// Draws a view as [`render_reported`] does; the report has only the times of what was done for
@@ -286,9 +282,12 @@ impl<'a> Prepared<'a> {
         let panes = glass::Panes::of(surface, scene, style);
         // What one sees through casts no shadow.
         let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
+        // Shadows on faces that this view has cut are its own.
+        let late = refined.is_none().then_some(&self.shadows);
         let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {
             let colours = Colours { paints, textures };
-            let fills = Fills::new(surface, casting, paintable, &view, scene, colours, style, &mut warnings);
+            let fills =
+                Fills::new(surface, (casting, late), paintable, &view, scene, colours, style, &mut warnings);
             let moved = self.anchors.as_ref().filter(|_| fills::lays_through(style));
             moved.into_iter().fold(fills, Fills::laid_at)
         });

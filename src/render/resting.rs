@@ -9,7 +9,9 @@ use std::sync::Arc;
 use super::anchors::Anchors;
 use super::fills::{self, Paintable};
 use super::late_search::LateSearch;
-use super::{Prepared, glass, paints_of};
+use super::late_shadows::LateShadows;
+use super::welded::{Welded, paints_of};
+use super::{Prepared, glass};
 use crate::mesh::Sources;
 use crate::scene::cutout::Cut;
 use crate::scene::{Part, Scene};
@@ -53,7 +55,7 @@ impl<'a> Resting<'a> {
     }
 
     fn without_anchors(scene: &'a Scene, style: &'a Style) -> Self {
-        let (still, patches) = Prepared::with_patches(scene, style);
+        let (still, patches) = Prepared::made(Welded::of(scene, style), style, None);
         let sources = Sources::of(&still.surface.mesh, &still.scene.to_soup());
         Self { scene, style, still, patches, sources }
     }
@@ -135,10 +137,21 @@ impl<'a> Resting<'a> {
         let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
         let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
         let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
-        let search = LateSearch::default();
+        let (search, shadows) = (LateSearch::default(), LateShadows::default());
         let counts = self.still.counts;
-        let anchors = None;
-        Some(Prepared { scene, warnings, style, sought, paints, surface, counts, paintable, search, anchors })
+        Some(Prepared {
+            scene,
+            warnings,
+            style,
+            sought,
+            paints,
+            surface,
+            counts,
+            paintable,
+            search,
+            shadows,
+            anchors: None,
+        })
     }
 }
 

@@ -48,6 +48,7 @@ mod picture_fills;
 mod pointers;
 mod poses;
 mod precedence;
+mod prepared;
 mod print;
 mod properties;
 mod random_widths;

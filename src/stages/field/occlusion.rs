@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::math::function::{cos, sin};
 use crate::math::tolerance;
 use crate::mesh::{FaceId, Mesh};
-use crate::trees::ray_tree::RayTree;
+use crate::trees::parallel_rays::{ParallelRays, Start};
 
 /// Directions over the whole sphere; a vertex looks into nearly half of them.
 const DIRECTIONS: usize = 256;
@@ -19,44 +19,54 @@ const DIRECTIONS: usize = 256;
 /// Below this cosine a direction counts for little, and its ray passes the most faces: left out.
 const LEAST_COSINE: f64 = 0.1;
 
-/// Vertices that one task works through.
-const TASK: usize = 1 << 8;
-
 /// How much of the sky each vertex of a mesh sees on the outer side of the surface, from 0 (none) to 1
 /// (all). Nothing farther from a place than `reach` says there (world units) counts; with infinity all does.
 ///
-/// Vertices without a normal see all.
+/// Vertices without a normal see all, and so do those with faces none of which is asked for: `asked` tells, with no entry all are.
 #[must_use]
-pub fn openness(mesh: &Mesh, reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
-    let tree = RayTree::new(mesh);
+pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
+    let rays = ParallelRays::new(mesh);
     let directions = directions();
-    let (normals, lifts) = normals(mesh);
-    let count = mesh.positions.len();
-    let tasks: Vec<Vec<f64>> = (0..count.div_ceil(TASK))
-        .into_par_iter()
-        .map(|task| {
-            let mut last = vec![None; directions.len()];
-            (task * TASK..((task + 1) * TASK).min(count))
-                .map(|v| {
-                    let (normal, reach) = (normals[v], reach(mesh.positions[v]));
-                    // From a little above the surface, faces around a hollow are in the way as well.
-                    let start = mesh.positions[v] + normal * lifts[v];
-                    let (mut seen, mut all) = (0.0, 0.0);
-                    for (direction, last) in directions.iter().zip(&mut last) {
-                        let cosine = direction.dot(normal);
-                        if cosine > LEAST_COSINE {
-                            all += cosine;
-                            if !tree.is_blocked_again(start, *direction, reach, last) {
-                                seen += cosine;
-                            }
-                        }
-                    }
-                    if all > 0.0 { seen / all } else { 1.0 }
-                })
-                .collect()
+    let (mut normals, lifts) = normals(mesh);
+    if !asked.is_empty() {
+        let mut is_asked = vec![false; normals.len()];
+        let faces = mesh.triangles.iter().zip(asked).filter(|(_, asked)| **asked);
+        faces.flat_map(|(face, _)| face).for_each(|v| is_asked[*v as usize] = true);
+        normals.iter_mut().zip(is_asked).filter(|(_, asked)| !asked).for_each(|(n, _)| *n = DVec3::ZERO);
+    }
+    // From a little above the surface, faces around a hollow are in the way as well.
+    let start = |v: usize| {
+        let at = mesh.positions[v];
+        Start { point: at + normals[v] * lifts[v], reach: reach(at) }
+    };
+    let starts: Vec<Start> = (0..mesh.positions.len()).into_par_iter().map(start).collect();
+    let blocked: Vec<Vec<u64>> = directions
+        .par_iter()
+        .map(|direction| {
+            let above = |v: &usize| direction.dot(normals[*v]) > LEAST_COSINE;
+            let looking: Vec<usize> = (0..starts.len()).filter(above).collect();
+            let of: Vec<Start> = looking.iter().map(|v| starts[*v]).collect();
+            let mut bits = vec![0u64; starts.len().div_ceil(64)];
+            for (v, blocked) in looking.iter().zip(rays.blocked(&of, *direction)) {
+                bits[v / 64] |= u64::from(blocked) << (v % 64);
+            }
+            bits
         })
         .collect();
-    tasks.concat()
+    let share = |v: usize| {
+        let (mut seen, mut all) = (0.0, 0.0);
+        for (direction, blocked) in directions.iter().zip(&blocked) {
+            let cosine = direction.dot(normals[v]);
+            if cosine > LEAST_COSINE {
+                all += cosine;
+                if blocked[v / 64] >> (v % 64) & 1 == 0 {
+                    seen += cosine;
+                }
+            }
+        }
+        if all > 0.0 { seen / all } else { 1.0 }
+    };
+    (0..starts.len()).into_par_iter().map(share).collect()
 }
 
 /// Directions spread evenly over the sphere.
@@ -140,16 +150,16 @@ mod tests {
         let mut soup = Soup::default();
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y * 2.0, 4);
         let alone = Mesh::build(soup.clone());
-        assert!(openness(&alone, everywhere).iter().all(|o| *o == 1.0));
+        assert!(openness(&alone, &[], everywhere).iter().all(|o| *o == 1.0));
         // A square of side 2 at height 1 covers a known part of the sky of the point below its middle:
         // the view factor of four rectangles with sides 1 and 1 at distance 1.
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 1.0), DVec3::Y * 2.0, DVec3::X * 2.0, 4);
         let mesh = Mesh::build(soup);
         let r = 0.5_f64.sqrt();
         let covered = 4.0 / std::f64::consts::TAU * 2.0 * r * crate::math::function::atan2(r, 1.0);
-        let found = at(&mesh, &openness(&mesh, everywhere), DVec3::ZERO);
+        let found = at(&mesh, &openness(&mesh, &[], everywhere), DVec3::ZERO);
         assert!((found - (1.0 - covered)).abs() < 0.03, "{found} {}", 1.0 - covered);
-        assert_eq!(at(&mesh, &openness(&mesh, |_| 0.9), DVec3::ZERO), 1.0);
+        assert_eq!(at(&mesh, &openness(&mesh, &[], |_| 0.9), DVec3::ZERO), 1.0);
     }
 
     #[test]
@@ -158,7 +168,7 @@ mod tests {
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::X * 20.0, DVec3::Y * 40.0, 8);
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::Y * 40.0, DVec3::Z * 20.0, 8);
         let mesh = Mesh::build(soup);
-        let found = openness(&mesh, everywhere);
+        let found = openness(&mesh, &[], everywhere);
         // In the corner the normal is halfway, and a wedge of a right angle is left: sin 45°.
         let corner = at(&mesh, &found, DVec3::ZERO);
         assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
@@ -179,8 +189,8 @@ mod tests {
             let positions = (0..8).map(corner).collect();
             Mesh::build(Soup { positions, triangles: turned.collect(), ..Soup::default() })
         };
-        assert!(openness(&build(false), everywhere).iter().all(|o| *o == 1.0));
-        assert!(openness(&build(true), everywhere).iter().all(|o| *o == 0.0));
-        assert!(openness(&Mesh::default(), everywhere).is_empty());
+        assert!(openness(&build(false), &[], everywhere).iter().all(|o| *o == 1.0));
+        assert!(openness(&build(true), &[], everywhere).iter().all(|o| *o == 0.0));
+        assert!(openness(&Mesh::default(), &[], everywhere).is_empty());
     }
 }

@@ -10,7 +10,7 @@ use crate::raster::{FaceBuffer, Screen};
 use crate::view::View;
 
 /// Whether something of each face may be seen.
-pub(super) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
+pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
     let screen = Screen::new(mesh, view);
     let buffer = FaceBuffer::new(&screen);
     // The pixels that an extent touches, and one more on each side.

@@ -137,29 +137,9 @@ impl RayTree {
     /// A face that holds the point itself may be met or not.
     #[must_use]
     pub fn is_blocked(&self, point: DVec3, direction: DVec3, reach: f64) -> bool {
-        let mut last = None;
-        self.is_blocked_again(point, direction, reach, &mut last)
-    }
-
-    /// Whether a ray is blocked, trying first what blocked the ray before, which is kept for the next: rays that are
-    /// near each other often meet the same face.
-    pub(crate) fn is_blocked_again(
-        &self,
-        point: DVec3,
-        direction: DVec3,
-        reach: f64,
-        last: &mut Option<u32>,
-    ) -> bool {
-        let meets = |rank: u32| meets(&self.triangles[rank as usize], point, direction, reach).is_some();
-        if last.is_some_and(meets) {
-            return true;
-        }
         let mut blocked = false;
         self.each_near(point, direction, reach, |rank| {
-            blocked = meets(rank);
-            if blocked {
-                *last = Some(rank);
-            }
+            blocked = meets(&self.triangles[rank as usize], point, direction, reach).is_some();
             !blocked
         });
         blocked
@@ -224,7 +204,7 @@ impl RayTree {
 ///
 /// Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
 #[inline]
-fn meets([a, b, c]: &[DVec3; 3], start: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
+pub(super) fn meets([a, b, c]: &[DVec3; 3], start: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
     let (u, v) = (*b - *a, *c - *a);
     let across = direction.cross(v);
     let volume = u.dot(across);

@@ -1,0 +1,49 @@
+//! [`Welded`]: the mesh of what a style leaves of a scene.
+
+use std::borrow::Cow;
+
+use super::{fills, glass, under};
+use crate::mesh::Mesh;
+use crate::scene::paint::Paints;
+use crate::scene::{Geometry, Scene, Warnings, cutout};
+use crate::style::Style;
+
+/// The paints of what a style leaves of a scene, if it asks for any.
+pub(super) fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
+    let needs_paints = fills::asks_surface(style) || under::asks_colours(style);
+    let mut paints = needs_paints.then(|| Paints::of(left, &style.textures));
+    if fills::asks_artist(style) {
+        let pictures = &style.lines.artist_texture;
+        paints.iter_mut().for_each(|paints| paints.ink(left, pictures, style.textures.colours));
+    }
+    paints
+}
+
+/// What a style leaves of a scene, and the mesh of it.
+pub(super) struct Welded<'a> {
+    pub scene: Cow<'a, Scene>,
+    pub warnings: Warnings,
+    pub paints: Option<Paints>,
+    pub mesh: Mesh,
+}
+
+impl<'a> Welded<'a> {
+    pub fn of(scene: &'a Scene, style: &Style) -> Self {
+        let left = glass::left(scene, style);
+        let mut paints = paints_of(&left, style);
+        let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
+        paints.iter_mut().for_each(|paints| paints.carry(&origins));
+        let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
+        Self { scene, warnings, paints, mesh }
+    }
+    /// Does so with a scene that nobody else needs: its shapes go when the mesh is made of them.
+    pub fn of_all(scene: Scene, style: &Style) -> Self {
+        let Welded { scene: left, warnings, paints, mesh } = Welded::of(&scene, style);
+        let mut left = match left {
+            Cow::Owned(left) => left,
+            Cow::Borrowed(_) => scene,
+        };
+        left.geometries.iter_mut().for_each(|geometry| *geometry = Geometry::default());
+        Self { scene: Cow::Owned(left), warnings, paints, mesh }
+    }
+}

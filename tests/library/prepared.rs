@@ -1,0 +1,62 @@
+//! What is made ready for several views, or for one alone, draws what each view draws by itself.
+
+use std::path::PathBuf;
+
+use ligne::drawing::{Drawing, Page, Unit};
+use ligne::render::Prepared;
+use ligne::{Camera, Scene, Style};
+
+fn model(name: &str) -> Scene {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name);
+    Scene::open(path).expect("a model of the examples")
+}
+
+fn view(scene: &Scene, turn: f64) -> Camera {
+    Camera::azimuth_elevation(turn, 30.0, scene.up).with_frame(240.0, 240.0).fit(scene)
+}
+
+fn draw(prepared: &Prepared, camera: &Camera) -> Drawing {
+    let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+    prepared.draw(camera, page, None).expect("a camera that can draw").0
+}
+
+/// A light that stays in the world casts the same shadows in every view; one of the camera does not.
+#[test]
+fn shadows_that_views_share_are_those_of_each_view() {
+    let castle = model("castle.obj");
+    let fixed = "light.sources=[{ kind = \"directional\", direction = [1, 2, 1] }]";
+    let moving = "light.sources=[{ kind = \"directional\", direction = [1, 2, 1], space = \"camera\" }]";
+    for light in [fixed, moving] {
+        // Without finer faces of round surfaces all views are of one mesh.
+        let sets = [light, "fills.cast_shadows=true", "lines.contours=mesh"].map(str::to_owned);
+        let style = Style::load("toon", &sets).expect("a style");
+        let shared = Prepared::new(&castle, &style);
+        let drawn = [0.0, 130.0, 250.0].map(|turn| {
+            let camera = view(&castle, turn);
+            let drawing = draw(&shared, &camera);
+            assert!(drawing == draw(&Prepared::new(&castle, &style), &camera), "{light} {turn}");
+            drawing
+        });
+        assert!(drawn[0] != drawn[1]);
+    }
+}
+
+/// A scene that is used up leaves the drawing of one that is kept, whatever its style asks of parts, materials and pictures.
+#[test]
+fn a_scene_that_is_used_up_is_drawn_as_one_that_is_kept() {
+    for (name, style, sets) in [
+        ("castle.obj", "ink", [].as_slice()),
+        ("castle.obj", "comic", &["fills.cast_shadows=true"]),
+        ("picnic.obj", "toon", &["fills.texture=image"]),
+        ("trellis.obj", "toon", &[]),
+        ("jar.obj", "technical", &[]),
+        ("jar.obj", "pencil", &[]),
+        ("bear.ply", "stipple", &[]),
+    ] {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let (scene, style) = (model(name), Style::load(style, &sets).expect("a style"));
+        let camera = view(&scene, 40.0);
+        let kept = draw(&Prepared::for_camera(&scene, &style, &camera), &camera);
+        assert!(draw(&Prepared::of_scene(scene, &style, &camera), &camera) == kept, "{name}");
+    }
+}
