@@ -15,7 +15,7 @@ const RADIUS_PX: f64 = 2.5;
 /// The square of the radius of one round of averaging over neighbours, in lengths of an edge.
 const ROUND: f64 = 0.8;
 /// No more rounds than this, however fine the mesh.
-const MOST_ROUNDS: usize = 12;
+const MOST_ROUNDS: u32 = 12;
 /// Only where a corner of a face has less than this is the field averaged: about 20 degrees of turn.
 const NEAR_ZERO: f64 = 0.35;
 
@@ -28,14 +28,17 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
     }
     let near = |corners: &[u32; 3]| corners.iter().any(|v| values[*v as usize].abs() < NEAR_ZERO);
     let rounds = |face: u32| rounds_of[mesh.face_part[face as usize].index()];
-    let mut faces: Vec<(usize, [u32; 3])> = (0..mesh.triangles.len() as u32)
+    let mut faces: Vec<(u32, [u32; 3])> = (0..mesh.triangles.len() as u32)
         .into_par_iter()
         .with_min_len(1 << 14)
         .filter_map(|face| Some((rounds(face), smooth.corners_of(face).filter(near)?)))
         .filter(|(rounds, _)| *rounds > 0)
         .collect();
     // Parts that need few rounds drop out early; the order within a part stays.
-    faces.sort_by_key(|(rounds, _)| std::cmp::Reverse(*rounds));
+    let order = |(rounds, _): &(u32, _)| std::cmp::Reverse(*rounds);
+    if !faces.is_sorted_by_key(order) {
+        faces.sort_by_key(order);
+    }
     let mut slots = vec![u32::MAX; values.len()];
     for v in faces.iter().flat_map(|(_, corners)| corners) {
         slots[*v as usize] = 0;
@@ -86,7 +89,7 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
 
 /// How often to average the values of each part: as many rounds as make up the radius, by the usual length of
 /// an edge of the part, at its middle.
-fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<usize> {
+fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<u32> {
     let mut count_of: Vec<usize> = Vec::new();
     for part in &mesh.face_part {
         if count_of.len() <= part.index() {
@@ -122,7 +125,7 @@ fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<usize> {
         let depth = frame.depth(extent.middle()).max(extent.scale * 1e-3);
         let edge = median.sqrt() / frame.px_at(depth);
         let rounds = RADIUS_PX * RADIUS_PX / (ROUND * edge * edge).max(f64::MIN_POSITIVE);
-        rounds.round().min(MOST_ROUNDS as f64) as usize
+        rounds.round().min(f64::from(MOST_ROUNDS)) as u32
     };
     faces_of.into_iter().enumerate().map(of_part).collect()
 }
