@@ -87,24 +87,29 @@ impl Edges {
                 suspects: r.suspects,
             };
         }
-        let mut all = Self::default();
         let total = ranges.iter().map(|r| r.vertices.len()).sum();
-        all.vertices.reserve_exact(total);
-        all.faces.reserve_exact(total);
-        for mut range in ranges {
-            let (edge, fan, entry) =
-                (all.vertices.len() as u32, all.fan_starts.len() as u32, all.fans.len() as u32);
-            if fan > 0 {
-                for faces in range.faces.iter_mut().filter(|f| f[0] == MANY) {
-                    faces[1] += fan;
-                }
-            }
-            all.vertices.append(&mut range.vertices);
-            all.faces.append(&mut range.faces);
-            all.fans.append(&mut range.fans);
+        let mut all = Self { vertices: vec![[0; 2]; total], faces: vec![[0; 2]; total], ..Self::default() };
+        let (mut vertices, mut faces) = (all.vertices.as_mut_slice(), all.faces.as_mut_slice());
+        let mut copies = Vec::with_capacity(ranges.len());
+        let mut edge = 0;
+        for range in ranges {
+            let (fan, entry) = (all.fan_starts.len() as u32, all.fans.len() as u32);
+            all.fans.extend(&range.fans);
             all.fan_starts.extend(range.fan_starts.iter().map(|s| s + entry));
             all.suspects.extend(range.suspects.iter().map(|e| e + edge));
+            edge += range.vertices.len() as u32;
+            let (own_vertices, own_faces);
+            (own_vertices, vertices) = vertices.split_at_mut(range.vertices.len());
+            (own_faces, faces) = faces.split_at_mut(range.faces.len());
+            copies.push((own_vertices, own_faces, range, fan));
         }
+        copies.into_par_iter().with_max_len(1).for_each(|(vertices, faces, range, fan)| {
+            vertices.copy_from_slice(&range.vertices);
+            faces.copy_from_slice(&range.faces);
+            if fan > 0 {
+                faces.iter_mut().filter(|f| f[0] == MANY).for_each(|f| f[1] += fan);
+            }
+        });
         all
     }
 

@@ -90,12 +90,14 @@ pub fn decide(
             }
         })
     };
-    let (mut items, boxes) = rayon::join(in_tiles, || triangles.tile_boxes());
+    let of_triangles = || {
+        let covers = if counting { Covers::none(&grid) } else { Covers::find(&triangles) };
+        (covers, triangles.tile_boxes())
+    };
+    let (mut items, (covers, boxes)) = rayon::join(in_tiles, of_triangles);
     let mut wanted: Vec<bool> = (0..grid.len()).map(|t| !items.of(t).is_empty()).collect();
-    let mut covers = Covers::none(&grid);
     let mut buried: Vec<Item> = Vec::new();
     if !counting {
-        covers = Covers::find(&triangles);
         for at in bury(segments, &items, &covers, &mut wanted).into_iter().flatten() {
             let item = items.at_mut(at as usize);
             buried.push(*item);
@@ -203,32 +205,34 @@ fn gather(
     }
     let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - WHOLE_SLACK).collect();
     let open = |segment: u32| !buried[segment as usize];
-    let hidden = grouped(segments.len(), |put| {
-        for item in wholes().filter(|item| open(item.segment)) {
-            put(item.segment as usize, whole(item.start, item.end));
-        }
-        for (segment, layer) in results.iter().flat_map(|r| &r.hidden).filter(|(s, _)| open(*s)) {
-            put(*segment as usize, *layer);
-        }
-    });
-    let backed = grouped(segments.len(), |put| {
-        for (segment, interval) in results.iter().flat_map(|r| &r.backed) {
-            put(*segment as usize, *interval);
-        }
-    });
-    Visibility {
-        tests: results.iter().map(|r| r.tests).sum(),
-        hidden: hidden.tidied(|segment, layers| join_layers(layers, shortest(segment))),
-        backed: backed.tidied(|segment, intervals| {
+    let hidden = || {
+        let hidden = grouped(segments.len(), |put| {
+            for item in wholes().filter(|item| open(item.segment)) {
+                put(item.segment as usize, whole(item.start, item.end));
+            }
+            for (segment, layer) in results.iter().flat_map(|r| &r.hidden).filter(|(s, _)| open(*s)) {
+                put(*segment as usize, *layer);
+            }
+        });
+        hidden.tidied(|segment, layers| join_layers(layers, shortest(segment)))
+    };
+    let backed = || {
+        let backed = grouped(segments.len(), |put| {
+            for (segment, interval) in results.iter().flat_map(|r| &r.backed) {
+                put(*segment as usize, *interval);
+            }
+        });
+        backed.tidied(|segment, intervals| {
             let mut joined = Vec::new();
             // Beside a corner the outer side may graze a face that only shares the vertex.
             let grazing = 4.0 * limits.beside / segments[segment].length().max(4.0 * limits.beside);
             sweep(intervals, grazing, false, &mut joined);
             intervals.clear();
             intervals.extend(joined.iter().map(|l| l.interval));
-        }),
-        buried,
-    }
+        })
+    };
+    let (hidden, backed) = rayon::join(hidden, backed);
+    Visibility { tests: results.iter().map(|r| r.tests).sum(), hidden, backed, buried }
 }
 
 /// Joins pieces of equal count that touch, and drops what is shorter than rounding.
