@@ -89,15 +89,10 @@ impl<'a> ParallelRays<'a> {
                 continue;
             }
             let of = |face: u32| self.mesh.triangles[face as usize].map(|v| corners[v as usize]);
-            // Made for the first ray that comes near.
-            let mut group = None;
-            for range in grid.rows(&around) {
+            let group = FaceGroup::new(faces, of, self.slack);
+            for range in grid.rows(&group.around) {
                 patience = patience.checked_sub(range.len())?;
                 for ray in &mut sorted[range] {
-                    if around.is_beside(ray) {
-                        continue;
-                    }
-                    let group = group.get_or_insert_with(|| FaceGroup::new(faces, of, self.slack));
                     let mut may_meet = if group.around.is_beside(ray) { 0 } else { group.may_meet(ray) };
                     while may_meet != 0 {
                         let face = FaceId(faces[may_meet.trailing_zeros() as usize]);

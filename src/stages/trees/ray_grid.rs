@@ -95,16 +95,19 @@ impl RayGrid {
     /// Whether something in a box may be in the way of a ray, as far as cells can tell.
     #[inline]
     pub fn may_meet(&self, around: &Around) -> bool {
-        let Around { low, high } = around;
-        self.lines(around)
-            .any(|cells| self.spans[cells].iter().any(|[from, to]| (*from <= high[2]) & (*to >= low[2])))
+        self.lines(around).any(|cells| self.may_meet_in(cells, around))
     }
 
-    /// Which rays begin in the cells that a box covers, row by row.
+    /// Which rays begin in the cells that a box covers, row by row, but for rows where it is in the way of none.
     #[inline]
     pub fn rows(&self, around: &Around) -> impl Iterator<Item = Range<usize>> {
-        let starts = &self.starts;
-        self.lines(around).map(|cells| starts[cells.start] as usize..starts[cells.end] as usize)
+        let lines = self.lines(around).filter(|cells| self.may_meet_in(cells.clone(), around));
+        lines.map(|cells| self.starts[cells.start] as usize..self.starts[cells.end] as usize)
+    }
+
+    #[inline]
+    fn may_meet_in(&self, cells: Range<usize>, Around { low, high }: &Around) -> bool {
+        self.spans[cells].iter().any(|[from, to]| (*from <= high[2]) & (*to >= low[2]))
     }
 
     /// The cells that a box covers, row by row.
