@@ -219,6 +219,9 @@ fn collect(index: u32, line: &Line, distance: f64, pieces: &mut Vec<LinePiece>) 
     }
 }
 
+/// Cells for each piece, at most.
+const CELLS_OF_PIECE: usize = 8;
+
 impl Buckets {
     fn new(pieces: &[LinePiece], cell: f64) -> Option<Self> {
         let ends = || pieces.iter().flat_map(|p| [p.a, p.b]);
@@ -228,13 +231,14 @@ impl Buckets {
             low = Point::new(low.x.min(p.x), low.y.min(p.y));
             high = Point::new(high.x.max(p.x), high.y.max(p.y));
         }
-        // Giant pages get larger cells rather than more than a million.
-        let cell = cell.max((high.x - low.x) / 1000.0).max((high.y - low.y) / 1000.0);
+        // Giant pages get larger cells rather than more than a million, and few pieces do with few.
+        let (width, height) = (high.x - low.x, high.y - low.y);
+        let of_piece = (width * height / (CELLS_OF_PIECE * pieces.len()) as f64).sqrt();
+        let cell = cell.max(width / 1000.0).max(height / 1000.0).max(of_piece);
         if !cell.is_finite() || cell <= 0.0 {
             return None;
         }
-        let columns = ((high.x - low.x) / cell) as usize + 1;
-        let rows = ((high.y - low.y) / cell) as usize + 1;
+        let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
         let mut buckets = Self { cell, corner: low, columns, rows, pieces: Grouped::default() };
         buckets.pieces = grouped(columns * rows, |put| {
             for (i, piece) in pieces.iter().enumerate() {
