@@ -59,7 +59,7 @@ fn drawn(solid: Solid, elevation_deg: f64, tidy: Option<f64>) -> f64 {
         style.chain.tidy = Length::px(tidy);
     }
     let drawing = render(&scene([solid]), &before(elevation_deg), &style).unwrap();
-    let is_inside = |p: Point| (150.0..850.0).contains(&p.x) && (400.0..600.0).contains(&p.y);
+    let is_inside = |p: Point| (100.0..900.0).contains(&p.x) && (400.0..600.0).contains(&p.y);
     let inside = |s: &[Point; 2]| s.iter().all(|p| is_inside(*p));
     let strokes: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).filter(inside).collect();
     length(&strokes)
@@ -80,6 +80,56 @@ fn a_step_wider_than_a_pen_is_drawn() {
         let wide = drawn(step(0.5), elevation_deg, None);
         assert!((wide - 500.0).abs() < 5.0, "{elevation_deg}: {wide}");
     }
+}
+
+/// The same with tips 28 apart, and the edge between them to and fro: a needle that is averted, one that faces the eye.
+fn step_to_and_fro() -> Solid {
+    let (up, needle) = (0.25, 0.04);
+    let foot = needle + 3.0_f64.sqrt() * up;
+    let positions = [
+        [-20.0, -20.0, 0.0],
+        [20.0, -20.0, 0.0],
+        [20.0, 20.0, 0.0],
+        [-20.0, 20.0, 0.0],
+        [-14.0, 0.0, 0.0],
+        [14.0, 0.0, 0.0],
+        [-10.0, 0.0, up],
+        [10.0, 0.0, up],
+        [-10.0, needle, up - needle / 3.0_f64.sqrt()],
+        [10.0, needle, up],
+        [-10.0, foot, 0.0],
+        [10.0, foot, 0.0],
+    ];
+    Solid {
+        positions: positions.map(DVec3::from_array).to_vec(),
+        triangles: vec![
+            [0, 1, 7],
+            [0, 7, 6],
+            [0, 6, 4],
+            [1, 5, 7],
+            [6, 7, 8],
+            [7, 9, 8],
+            [4, 6, 8],
+            [4, 8, 10],
+            [8, 9, 11],
+            [8, 11, 10],
+            [9, 5, 11],
+            [7, 5, 9],
+            [0, 4, 3],
+            [1, 2, 5],
+            [4, 10, 3],
+            [10, 11, 3],
+            [11, 2, 3],
+            [11, 5, 2],
+        ],
+    }
+}
+
+#[test]
+fn a_line_that_needles_lead_to_and_fro_is_drawn() {
+    let line = drawn(step_to_and_fro(), 20.0, None);
+    // Some of it is seen twice.
+    assert!(line > 695.0, "{line}");
 }
 
 #[test]
