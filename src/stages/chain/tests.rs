@@ -495,24 +495,3 @@ fn half_a_rim_is_no_noise() {
     };
     assert_eq!((creases(true), creases(false)), (1, 0));
 }
-
-#[test]
-fn the_rim_of_a_small_hole_by_an_outline_is_no_flake() {
-    // Each side of the rim is as short as a flake, both together are not.
-    let contours = |far_from_near: f64, y: f64| {
-        let near = vec![(50.0, y), (74.6, y)];
-        let far =
-            [(50.0, y), (62.0, y + 4.0), (74.6, y)].map(|(x, y)| (x + far_from_near, y + far_from_near));
-        let outline = vec![(0.0, 100.0), (200.0, 100.0)];
-        let lines = [
-            (outline, LineKind::Contour, true),
-            (near, LineKind::Contour, true),
-            (far.to_vec(), LineKind::Crease, true),
-        ];
-        let chains = linked(&map_of(&lines), &ChainOptions::default(), Unit::Px);
-        chains.iter().filter(|chain| chain.kind == LineKind::Contour).count()
-    };
-    assert_eq!(contours(0.0, 103.0), 2, "both sides of a rim end in the same two places");
-    assert_eq!(contours(2.0, 103.0), 1, "a flake beside the outline");
-    assert_eq!(contours(2.0, 130.0), 2, "the same line apart from it");
-}
