@@ -29,7 +29,7 @@ impl ShadedNormals {
             shaded.mend(mesh);
             return shaded;
         }
-        let all = SmoothNormals::new(mesh, |_| true, |edge| hard.is_hard(edge), |_| true);
+        let all = SmoothNormals::new(mesh, |_| true, |edge| hard.is_hard(edge));
         let mut shaded = Self { normals: all.normals, corners: all.corners };
         shaded.weigh_by_area(mesh);
         if !mesh.corner_normals.is_empty() {

@@ -154,12 +154,7 @@ pub struct Finer {
 /// The normals of the patches that are meant to be round, parted at folds as well: edges, ascending.
 pub(super) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> SmoothNormals {
     let parted = |edge: usize| parts(mesh, edge, patches) || folds.binary_search(&edge).is_ok();
-    SmoothNormals::new(
-        mesh,
-        |face| patches.rounded[face as usize],
-        parted,
-        |face| patches.figure[face as usize],
-    )
+    SmoothNormals::new(mesh, |face| patches.rounded[face as usize], parted)
 }
 
 /// Whether an edge parts two rounded surfaces: by its angle and what is around it, or where the file's

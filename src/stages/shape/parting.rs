@@ -3,16 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::file_normals::{chosen, file_cosines, file_normals};
+use super::file_normals::{chosen, file_normals};
 use super::normal_sum::{FaceWeights, NormalSum};
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
-use crate::mesh::{Dihedral, EdgeFaces, FaceId, Mesh};
-
-/// Faces that turn from each other by more than this cosine (40 degrees) at an edge that parts them have no normal in
-/// common there.
-const SHARP_COSINE: f32 = 0.766;
-/// Normals of a file that agree to this cosine (8 degrees) are one.
-const ONE_NORMAL_COSINE: f32 = 0.99;
+use crate::mesh::{FaceId, Mesh};
 
 /// A corner of a rounded face at a vertex where surfaces are parted.
 #[derive(Clone, Copy)]
@@ -25,7 +19,7 @@ struct Corner {
 
 /// Gives the fans around every vertex of a parting edge smooth vertices of their own: the first keeps
 /// the vertex's, the others are added.
-pub(super) fn part(mesh: &Mesh, smooth: &mut SmoothNormals, is_figure: impl Fn(u32) -> bool) {
+pub(super) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
     if smooth.parting.is_empty() {
         return;
     }
@@ -35,7 +29,6 @@ pub(super) fn part(mesh: &Mesh, smooth: &mut SmoothNormals, is_figure: impl Fn(u
     let mut is_parted = vec![false; mesh.positions.len()];
     cuts.iter().for_each(|[vertex, _]| is_parted[*vertex as usize] = true);
 
-    let averaged = averaged(mesh, smooth, is_figure);
     let mut corners = corners(mesh, smooth, &is_parted);
     let mut added = Added::default();
     corners.sort_unstable_by_key(|c| (c.vertex, c.face));
@@ -63,8 +56,7 @@ pub(super) fn part(mesh: &Mesh, smooth: &mut SmoothNormals, is_figure: impl Fn(u
             if before[fan] == fan {
                 let own: Vec<Corner> =
                     (fan..around.len()).filter(|k| first(&before, *k) == fan).map(|k| around[k]).collect();
-                let believed = !own.iter().any(|c| averaged.binary_search(&(c.vertex, c.face)).is_ok());
-                add(mesh, smooth, &mut added, (vertex, fan == 0), &own, believed);
+                add(mesh, smooth, &mut added, (vertex, fan == 0), &own);
             }
         }
     }
@@ -73,30 +65,6 @@ pub(super) fn part(mesh: &Mesh, smooth: &mut SmoothNormals, is_figure: impl Fn(u
     smooth.normals.append(&mut added.normals);
     smooth.vertices.reserve_exact(added.vertices.len());
     smooth.vertices.append(&mut added.vertices);
-}
-
-/// Vertices with faces at which the file's normal belongs to no surface, ascending: it is that of two faces at once which a
-/// sharp edge parts, as programs write it that know one normal a vertex. What bends by it there swells beside the edge.
-fn averaged(mesh: &Mesh, smooth: &SmoothNormals, is_figure: impl Fn(u32) -> bool) -> Vec<(u32, u32)> {
-    if mesh.corner_normals.is_empty() {
-        return Vec::new();
-    }
-    let mut found = Vec::new();
-    for edge in smooth.parting.iter() {
-        let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { continue };
-        if is_figure(faces[0]) || Dihedral::of(mesh, faces, same_way).cosine > SHARP_COSINE {
-            continue;
-        }
-        // At one end alone it is the end of a crease that the file knows.
-        if file_cosines(mesh, edge, faces)
-            .is_some_and(|ends| ends.iter().all(|cosine| *cosine > ONE_NORMAL_COSINE))
-        {
-            let ends = mesh.edges.vertices[edge];
-            found.extend(ends.into_iter().flat_map(|vertex| faces.map(|face| (vertex, face))));
-        }
-    }
-    found.sort_unstable();
-    found
 }
 
 /// The new smooth vertices, numbered behind those that are there.
@@ -145,7 +113,6 @@ fn add(
     added: &mut Added,
     (vertex, keeps): (u32, bool),
     fan: &[Corner],
-    believed: bool,
 ) {
     let (mut of_faces, mut of_file) = (NormalSum::default(), DVec3::ZERO);
     for corner in fan {
@@ -153,9 +120,7 @@ fn add(
         if let Some(weights) = FaceWeights::new(mesh.corners(FaceId(corner.face))) {
             of_faces.add(&weights, which);
         }
-        if believed {
-            of_file += file_normals(mesh, corner.face as usize)[which];
-        }
+        of_file += file_normals(mesh, corner.face as usize)[which];
     }
     let normal = chosen(of_faces.normal(), of_file);
     let id = if keeps { vertex } else { (smooth.vertices.len() + added.vertices.len()) as u32 };
@@ -175,45 +140,18 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    /// A cube of side 1, each face two triangles; the file gives each corner `normals`, or none.
-    fn cube(normals: impl Fn(DVec3) -> Option<DVec3>) -> Mesh {
-        let positions: Vec<DVec3> =
-            (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2))).collect();
-        let quads = [[0u32, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let triangles: Vec<[u32; 3]> =
-            quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
-        let normals: Vec<[f32; 3]> =
-            positions.iter().filter_map(|p| normals(*p)).map(|n| n.as_vec3().to_array()).collect();
-        let corner_normals = if normals.is_empty() { Vec::new() } else { triangles.clone() };
-        Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() })
-    }
-
-    fn is_diagonal(mesh: &Mesh, edge: usize) -> bool {
-        let [a, b] = mesh.edges.vertices[edge];
-        mesh.positions[a as usize].distance(mesh.positions[b as usize]) > 1.1
-    }
-
-    #[test]
-    fn a_normal_that_two_sides_of_a_sharp_edge_share_belongs_to_neither() {
-        let mesh = cube(|p| Some((p - 0.5).normalize()));
-        let farthest = |is_figure: bool| {
-            let smooth = SmoothNormals::new(&mesh, |_| true, |e| !is_diagonal(&mesh, e), |_| is_figure);
-            let turns = smooth.corners.iter().enumerate().flat_map(|(face, corners)| {
-                let own = glam::Vec3::from_array(mesh.face_normals[face]).as_dvec3();
-                corners.map(|corner| smooth.normals[corner as usize].distance(own))
-            });
-            turns.fold(0.0, f64::max)
-        };
-        assert!(farthest(false) < 1e-6);
-        // A figure is shaded round.
-        assert!(farthest(true) > 0.9);
-    }
-
     #[test]
     fn a_cube_with_hard_edges_has_a_normal_for_each_face_at_each_corner() {
-        let mesh = cube(|_| None);
-        let diagonal = |e: usize| is_diagonal(&mesh, e);
-        let smooth = SmoothNormals::new(&mesh, |_| true, |e| !diagonal(e), |_| false);
+        let positions =
+            (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)));
+        let quads = [[0u32, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        let mesh = Mesh::build(Soup { positions: positions.collect(), triangles, ..Soup::default() });
+        let diagonal = |e: usize| {
+            let [a, b] = mesh.edges.vertices[e];
+            mesh.positions[a as usize].distance(mesh.positions[b as usize]) > 1.1
+        };
+        let smooth = SmoothNormals::new(&mesh, |_| true, |e| !diagonal(e));
         assert_eq!(smooth.normals.len(), 24);
         for (face, corners) in smooth.corners.iter().enumerate() {
             let own = glam::Vec3::from_array(mesh.face_normals[face]).as_dvec3();
@@ -225,13 +163,13 @@ mod tests {
         // One hard edge in the middle of a surface parts no fan, but the surface does not run on
         // across it.
         let one = (0..mesh.edges.len()).find(|e| diagonal(*e)).expect("faces are cut along diagonals");
-        let dart = SmoothNormals::new(&mesh, |_| true, |e| e == one, |_| false);
+        let dart = SmoothNormals::new(&mesh, |_| true, |e| e == one);
         assert_eq!(dart.normals.len(), 8);
         assert!(dart.across(&mesh, one).is_none() && !dart.seamless);
         // With one face flat its corners have none, and its edges part.
         let below = |face: u32| mesh.face_normals[face as usize][2] < -0.5;
         let [outside, inside] = [true, false].map(|side| (0..12).find(|f| below(*f) == side).unwrap());
-        let flat = SmoothNormals::new(&mesh, |face| !below(face), |_| false, |_| false);
+        let flat = SmoothNormals::new(&mesh, |face| !below(face), |_| false);
         assert_eq!(flat.corners_of(outside), None);
         assert_eq!(flat.corners_of(inside), Some(mesh.triangles[inside as usize]));
         assert_eq!(flat.parting.iter().count(), 4);

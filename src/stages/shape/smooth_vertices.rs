@@ -25,14 +25,12 @@ impl SmoothNormals {
     }
 
     /// The normals of a mesh of which the faces with `is_rounded` belong to rounded surfaces, which
-    /// the edges with `is_hard` part. The file's own normals are taken where it has any, but at sharp edges over which it has
-    /// one for both sides, unless a face there `is_figure`: figures are shaded round.
+    /// the edges with `is_hard` part. The file's own normals are taken where it has any.
     #[must_use]
     pub fn new(
         mesh: &Mesh,
         is_rounded: impl Fn(u32) -> bool + Sync,
         is_hard: impl Fn(usize) -> bool + Sync,
-        is_figure: impl Fn(u32) -> bool,
     ) -> Self {
         let rounded: Vec<bool> = (0..mesh.triangles.len() as u32).map(&is_rounded).collect();
         if !rounded.contains(&true) {
@@ -61,7 +59,7 @@ impl SmoothNormals {
             parting,
             straight: EdgeSet::default(),
         };
-        parting::part(mesh, &mut smooth, is_figure);
+        parting::part(mesh, &mut smooth);
         smooth.straight = uneven(mesh, &smooth);
         smooth
     }
