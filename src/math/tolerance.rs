@@ -95,6 +95,11 @@ pub const SHORT_EDGE_PX: f64 = 2.5;
 /// A contour that turns back in the image for no longer than this (px) has no cusp there.
 pub const CUSP_PX: f64 = 1.0;
 
+/// The two contours of a fold that lie within this distance (px) of each other in the image, and whose feet are no farther
+/// apart in space than the base (px), are in one stroke of a pen.
+pub const NEEDLE_PX: f64 = 0.4;
+pub const NEEDLE_BASE_PX: f64 = 3.0;
+
 /// A threshold of lines inside below this counts as this; thresholds are pure numbers, measured by
 /// the size of features.
 pub const LEAST_THRESHOLD: f64 = 1e-9;

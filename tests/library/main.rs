@@ -39,6 +39,7 @@ mod lod;
 mod marked_edges;
 mod models;
 mod motion;
+mod needles;
 mod pages;
 mod painted_surfaces;
 mod paper;

@@ -302,3 +302,53 @@ impl LinePiece {
         (-slack..=side.hypot2() + slack).contains(&along)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::link::Class;
+    use crate::chain::sample::Sample;
+    use crate::mesh::{MaterialId, PartId};
+    use crate::viewmap::ViewMap;
+
+    fn contour(points: &[(f64, f64)], ends: [u32; 2]) -> Raw {
+        let mut line = Line::default();
+        points.iter().for_each(|p| line.push(Point::new(p.0, p.1), Sample::new(0.0, 1.0), true, false));
+        let class = Class {
+            kind: LineKind::Contour,
+            part: PartId(0),
+            material: MaterialId(0),
+            hidden: false,
+            silhouette: false,
+            both_seen: false,
+            origin: Origin::Scanned,
+        };
+        Raw {
+            line,
+            class,
+            invisibility: 0,
+            smooth: true,
+            ends: ends.map(ViewVertexId),
+            vertices: Vec::new(),
+            covered: [false; 2],
+            pronounced: 0.0,
+            segment: 0,
+        }
+    }
+
+    #[test]
+    fn the_rim_of_a_small_hole_by_an_outline_is_no_flake() {
+        // Each side of the rim is as short as a flake, both together are not.
+        let left = |far_ends: [u32; 2]| {
+            let outline = contour(&[(0.0, 0.0), (200.0, 0.0)], [0, 1]);
+            let near = contour(&[(50.0, 3.0), (65.0, 3.0)], [2, 3]);
+            let far = contour(&[(50.0, 3.0), (57.0, 7.0), (65.0, 3.0)], far_ends);
+            let mut raws = vec![outline, near, far];
+            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 1.2, &mut Bin::default());
+            raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
+        };
+        assert_eq!(left([3, 2]), [0, 2, 3], "both sides of a rim end in the same two places");
+        assert_eq!(left([4, 5]), [0, 4], "a flake beside the outline");
+    }
+}

@@ -98,6 +98,13 @@ impl Bin {
         }
     }
 
+    /// Takes a piece that became part of no line.
+    pub fn put_piece(&mut self, kind: LineKind, reason: Reason, ends: [Point; 2]) {
+        if let Some(kept) = &mut self.0 {
+            kept.push(Removed { points: ends.to_vec(), closed: false, kind, reason });
+        }
+    }
+
     /// All that was put into it.
     pub fn emptied(self) -> Vec<Removed> {
         self.0.unwrap_or_default()

@@ -16,7 +16,7 @@ use super::silhouette;
 use super::stitch::stitch;
 use crate::lines::HiddenLines;
 use crate::shape::Origin;
-use crate::viewmap::{Ahead, ViewMap};
+use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 
 /// Hidden gaps are bridged up to this part of the tidy length.
 const GAP: f64 = 0.6;
@@ -46,8 +46,10 @@ pub(super) fn tidied(
 ) -> Vec<Raw> {
     let mut classes: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of(e))).collect();
     if tidy > 0.0 {
+        leave_out_needles(map, &mut classes, bin);
         if map.edges.iter().any(|e| e.invisibility > 0) {
-            let sources: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of_source(e))).collect();
+            let is_left = |(e, class): (&ViewEdge, &Option<Class>)| class.map(|_| Class::of_source(e));
+            let sources: Vec<Option<Class>> = map.edges.iter().zip(&classes).map(is_left).collect();
             bridge(map, &routes(map, &sources, window), GAP * tidy, ahead, &mut classes);
         }
         for class in classes.iter_mut().flatten() {
@@ -85,4 +87,21 @@ pub(super) fn tidied(
         silhouette::cut(raw, SILHOUETTE * tidy, &mut parts);
     }
     parts
+}
+
+/// Takes the sides of folds that are thinner than a pen from the lines, but for what of them is outline.
+fn leave_out_needles(map: &ViewMap, classes: &mut [Option<Class>], bin: &mut Bin) {
+    if map.needles.is_empty() {
+        return;
+    }
+    for (edge, class) in map.edges.iter().zip(classes) {
+        // A gap in the outline is worse.
+        if !edge.silhouette && map.needles.binary_search(&edge.segment).is_ok() {
+            *class = None;
+            if edge.invisibility == 0 {
+                let ends = [edge.start, edge.end].map(|v| map.vertices[v.index()].position);
+                bin.put_piece(edge.kind, Reason::Double, ends);
+            }
+        }
+    }
 }

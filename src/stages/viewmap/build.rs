@@ -6,6 +6,7 @@ use super::doubles;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::layers::{self, Layer};
 use super::limits::Limits;
+use super::needles;
 use super::occlude::Interval;
 use super::project::{ImageSegment, project};
 use super::rounded::{self, Rounded, Smooth};
@@ -141,6 +142,7 @@ impl<'a> Asked<'a> {
         map.tests = told.seen.tests;
         map.contours = told.rounded.counts;
         map.seen_contours = told.rounded.seen.clone();
+        map.needles = needles::find(mesh, view, lines, &self.segments);
         doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
         map
     }

@@ -95,6 +95,8 @@ pub struct ViewMap {
     pub contours: ContourCounts,
     /// What is seen of the contours that rounded surfaces have as polyhedra, drawn or not.
     pub seen_contours: Vec<SeenContour>,
+    /// The feature segments that are sides of folds thinner than a pen, ascending: lines that tell nothing.
+    pub needles: Vec<u32>,
 }
 
 /// A piece of a contour of the polyhedron that nothing hides.

@@ -11,6 +11,7 @@ pub mod grid;
 pub mod image;
 pub mod layers;
 pub mod limits;
+mod needles;
 pub mod occlude;
 pub mod occluders;
 pub mod precedence;
