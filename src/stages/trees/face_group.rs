@@ -1,4 +1,6 @@
 //! [`FaceGroup`]: a few faces seen along parallel rays, all compared with a ray at once.
+//!
+//! Loops over the faces are written out, without closures over arrays: only so do compilers take several faces in one step.
 
 use super::ray_grid::{Around, GridRay};
 
@@ -17,8 +19,10 @@ pub(super) struct FaceGroup {
     corners: [[Lanes; 3]; 3],
     /// Normals, twice as long as the face is large.
     normals: [Lanes; 3],
-    /// By how much the sides, and the plane, of each face may be off, and the latter for each unit along the rays.
-    rooms: [Lanes; 5],
+    /// By how much the three sides of each face may be off.
+    side_rooms: [Lanes; 3],
+    /// By how much its plane may be off, and by how much more for each unit along the rays.
+    plane_rooms: [Lanes; 2],
     /// A bit for each face.
     all: u32,
     pub around: Around,
@@ -32,58 +36,83 @@ impl FaceGroup {
         for k in 0..WIDTH {
             // The last one stands in for those that are missing.
             let corners = corners(faces[k.min(faces.len() - 1)]);
-            for (of, corner) in of.iter_mut().zip(corners) {
-                for (of, x) in of.iter_mut().zip(corner) {
-                    of[k] = x;
+            for corner in 0..3 {
+                for axis in 0..3 {
+                    of[corner][axis][k] = corners[corner][axis];
                 }
             }
         }
-        let [a, b, c] = of;
-        let (mut normals, mut rooms) = ([[0.0; WIDTH]; 3], [[0.0; WIDTH]; 5]);
-        let bound = |axis: usize, pick: fn(f32, f32) -> f32| {
-            let of_face = |k: usize| pick(pick(a[axis][k], b[axis][k]), c[axis][k]);
-            (1..WIDTH).fold(of_face(0), |bound, k| pick(bound, of_face(k)))
-        };
-        let low = [0, 1, 2].map(|axis| bound(axis, |x, y| if x < y { x } else { y }) - slack);
-        let high = [0, 1, 2].map(|axis| bound(axis, |x, y| if x > y { x } else { y }) + slack);
-        let (width, wide) = (high[0] - low[0] + high[1] - low[1], SUMS * slack);
+        let around = around(&of, slack);
+        let (width, wide) = (around.high[0] - around.low[0] + around.high[1] - around.low[1], SUMS * slack);
+        let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = &of;
+        let (mut normals, mut side_rooms, mut plane_rooms) =
+            ([[0.0; WIDTH]; 3], [[0.0; WIDTH]; 3], [[0.0; WIDTH]; 2]);
         for k in 0..WIDTH {
-            let [u, v, w] = [(&a, &b), (&a, &c), (&b, &c)].map(|(p, q)| [0, 1, 2].map(|x| q[x][k] - p[x][k]));
-            let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-            for (normals, x) in normals.iter_mut().zip(normal) {
-                normals[k] = x;
-            }
-            for (room, side) in rooms.iter_mut().zip([u, w, v]) {
-                room[k] = (side[0].abs() + side[1].abs()) * wide;
-            }
+            let (ux, uy, uz) = (bx[k] - ax[k], by[k] - ay[k], bz[k] - az[k]);
+            let (vx, vy, vz) = (cx[k] - ax[k], cy[k] - ay[k], cz[k] - az[k]);
+            let (wx, wy) = (cx[k] - bx[k], cy[k] - by[k]);
+            let (nx, ny, nz) = (uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
+            normals[0][k] = nx;
+            normals[1][k] = ny;
+            normals[2][k] = nz;
+            side_rooms[0][k] = (ux.abs() + uy.abs()) * wide;
+            side_rooms[1][k] = (wx.abs() + wy.abs()) * wide;
+            side_rooms[2][k] = (vx.abs() + vy.abs()) * wide;
             // Corners are off, and so is the normal, by the length of the sides.
-            let sides = u.into_iter().chain(v).fold(0.0, |sum, x| sum + x.abs());
-            let length = normal[0].abs() + normal[1].abs() + normal[2].abs();
-            rooms[3][k] = (length + sides * width) * wide;
-            rooms[4][k] = sides * wide;
+            let sides = ux.abs() + uy.abs() + uz.abs() + vx.abs() + vy.abs() + vz.abs();
+            plane_rooms[0][k] = (nx.abs() + ny.abs() + nz.abs() + sides * width) * wide;
+            plane_rooms[1][k] = sides * wide;
         }
-        Self { corners: of, normals, rooms, all: (1 << faces.len()) - 1, around: Around { low, high } }
+        let all = (1 << faces.len()) - 1;
+        Self { corners: of, normals, side_rooms, plane_rooms, all, around }
     }
 
     /// Which faces a ray may meet, one bit each: those that it begins before, and that hold it, seen from either side.
     #[inline]
     pub fn may_meet(&self, ray: &GridRay) -> u32 {
         let ([x, y], z) = (ray.at, ray.from);
-        let ([a, b, c], [nx, ny, nz]) = (&self.corners, &self.normals);
-        let mut found = [0_u8; WIDTH];
+        let [[ax, ay, az], [bx, by, _], [cx, cy, _]] = &self.corners;
+        let ([nx, ny, nz], [r, s, t]) = (&self.normals, &self.side_rooms);
+        let [room, of_way] = &self.plane_rooms;
+        let mut found = [0_u32; WIDTH];
         for k in 0..WIDTH {
-            let side = |p: &[Lanes; 3], q: &[Lanes; 3]| {
-                (q[0][k] - p[0][k]) * (y - p[1][k]) - (q[1][k] - p[1][k]) * (x - p[0][k])
-            };
-            let sides = [side(a, b), side(b, c), side(c, a)];
-            let [r, s, t, room, of_way] = [0, 1, 2, 3, 4].map(|of| self.rooms[of][k]);
-            let room = room + of_way * (z - a[2][k]).abs();
-            let above = nx[k] * (x - a[0][k]) + ny[k] * (y - a[1][k]) + nz[k] * (z - a[2][k]);
+            let e = (bx[k] - ax[k]) * (y - ay[k]) - (by[k] - ay[k]) * (x - ax[k]);
+            let f = (cx[k] - bx[k]) * (y - by[k]) - (cy[k] - by[k]) * (x - bx[k]);
+            let g = (ax[k] - cx[k]) * (y - cy[k]) - (ay[k] - cy[k]) * (x - cx[k]);
+            let above = nx[k] * (x - ax[k]) + ny[k] * (y - ay[k]) + nz[k] * (z - az[k]);
+            let room = room[k] + of_way[k] * (z - az[k]).abs();
             // Along the normal a ray meets what is above it, against the normal what is below.
-            let along = (sides[0] >= -r) & (sides[1] >= -s) & (sides[2] >= -t) & (above <= room);
-            let against = (sides[0] <= r) & (sides[1] <= s) & (sides[2] <= t) & (above >= -room);
-            found[k] = u8::from(along | against);
+            let along = (e >= -r[k]) & (f >= -s[k]) & (g >= -t[k]) & (above <= room);
+            let against = (e <= r[k]) & (f <= s[k]) & (g <= t[k]) & (above >= -room);
+            found[k] = u32::from(along | against);
         }
-        found.iter().enumerate().fold(0, |bits, (k, found)| bits | u32::from(*found) << k) & self.all
+        let mut bits = 0;
+        for (k, found) in found.iter().enumerate() {
+            bits |= found << k;
+        }
+        bits & self.all
     }
+}
+
+/// The box around all faces.
+#[inline]
+fn around(corners: &[[Lanes; 3]; 3], slack: f32) -> Around {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    let [a, b, c] = corners;
+    for axis in 0..3 {
+        let (mut least, mut most) = ([0.0_f32; WIDTH], [0.0_f32; WIDTH]);
+        for k in 0..WIDTH {
+            let (p, q, r) = (a[axis][k], b[axis][k], c[axis][k]);
+            let (below, above) = if p < q { (p, q) } else { (q, p) };
+            least[k] = if below < r { below } else { r };
+            most[k] = if above > r { above } else { r };
+        }
+        for k in 0..WIDTH {
+            low[axis] = if least[k] < low[axis] { least[k] } else { low[axis] };
+            high[axis] = if most[k] > high[axis] { most[k] } else { high[axis] };
+        }
+        low[axis] -= slack;
+        high[axis] += slack;
+    }
+    Around { low, high }
 }

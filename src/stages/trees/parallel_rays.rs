@@ -7,7 +7,7 @@
 
 use std::sync::OnceLock;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::face_group::{FaceGroup, WIDTH};
 use super::ray_grid::{Around, RayGrid};
@@ -31,7 +31,7 @@ pub(crate) struct ParallelRays<'a> {
     /// The faces that have an area.
     faces: Vec<u32>,
     /// The middle of each group's box, and half its sides.
-    boxes: Vec<[[f32; 3]; 2]>,
+    boxes: Vec<[Vec3; 2]>,
     /// Wider than rounding of what is projected can be.
     slack: f32,
     tree: OnceLock<RayTree>,
@@ -48,7 +48,7 @@ impl<'a> ParallelRays<'a> {
             let corners = group.iter().flat_map(|face| mesh.corners(FaceId(*face)));
             let (low, high) = corners
                 .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
-            [(low + high) / 2.0, (high - low) / 2.0].map(|v| v.as_vec3().to_array())
+            [((low + high) / 2.0).as_vec3(), ((high - low) / 2.0).as_vec3()]
         });
         let boxes = boxes.collect();
         Self { mesh, faces, boxes, slack, tree: OnceLock::new() }
@@ -70,25 +70,21 @@ impl<'a> ParallelRays<'a> {
     /// Lets each group of faces ask the rays that it covers; none if it takes too long.
     fn sweep(&self, rays: &[Start], direction: DVec3, blocked: &mut [bool]) -> Option<()> {
         let (across, up) = direction.any_orthonormal_pair();
-        let axes = [across, up, direction];
-        let project = |p: DVec3| axes.map(|axis| p.dot(axis) as f32);
+        let project = |p: DVec3| [p.dot(across) as f32, p.dot(up) as f32, p.dot(direction) as f32];
         let (grid, mut sorted) = RayGrid::sort(rays.iter().map(|ray| (project(ray.point), ray.reach as f32)));
         let corners: Vec<[f32; 3]> = self.mesh.positions.iter().map(|p| project(*p)).collect();
-        let axes = axes.map(|axis| axis.as_vec3().to_array());
-        let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let axes = [across.as_vec3(), up.as_vec3(), direction.as_vec3()];
         let mut patience = PATIENCE * (rays.len() + self.faces.len());
         for (faces, [middle, half]) in self.faces.chunks(WIDTH).zip(&self.boxes) {
-            let middle = axes.map(|axis| dot(axis, *middle));
-            let half = axes.map(|axis| dot(axis.map(f32::abs), *half) + self.slack);
-            let around = Around {
-                low: [0, 1, 2].map(|k| middle[k] - half[k]),
-                high: [0, 1, 2].map(|k| middle[k] + half[k]),
-            };
+            let around = box_along(&axes, *middle, *half, self.slack);
             patience = patience.checked_sub(grid.cells(&around) / WIDTH)?;
             if !grid.may_meet(&around) {
                 continue;
             }
-            let of = |face: u32| self.mesh.triangles[face as usize].map(|v| corners[v as usize]);
+            let of = |face: u32| {
+                let [a, b, c] = self.mesh.triangles[face as usize];
+                [corners[a as usize], corners[b as usize], corners[c as usize]]
+            };
             let group = FaceGroup::new(faces, of, self.slack);
             for range in grid.rows(&group.around) {
                 patience = patience.checked_sub(range.len())?;
@@ -109,6 +105,18 @@ impl<'a> ParallelRays<'a> {
         }
         Some(())
     }
+}
+
+/// The box along some axes around one that is given by its middle and half its sides.
+#[inline]
+fn box_along(axes: &[Vec3; 3], middle: Vec3, half: Vec3, slack: f32) -> Around {
+    let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+    for axis in 0..3 {
+        let (at, reach) = (axes[axis].dot(middle), axes[axis].abs().dot(half) + slack);
+        low[axis] = at - reach;
+        high[axis] = at + reach;
+    }
+    Around { low, high }
 }
 
 #[cfg(test)]
