@@ -62,7 +62,7 @@ fn rows(name: &str, mesh: &Mesh) {
         .collect();
     for reach in [f64::INFINITY, mesh.extents.diagonal / 10.0] {
         let started = Instant::now();
-        let sky = openness(mesh, |_| reach);
+        let sky = openness(mesh, &[], |_| reach);
         let took = started.elapsed();
         let mean = sky.iter().sum::<f64>() / sky.len().max(1) as f64;
         let vertices = sky.len();
