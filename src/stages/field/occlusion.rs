@@ -12,6 +12,7 @@ use crate::math::function::{cos, sin};
 use crate::math::tolerance;
 use crate::mesh::{FaceId, Mesh};
 use crate::trees::parallel_rays::{ParallelRays, Start};
+use crate::trees::ray_tree::RayTree;
 
 /// Directions over the whole sphere; a vertex looks into nearly half of them.
 const DIRECTIONS: usize = 256;
@@ -22,7 +23,8 @@ const LEAST_COSINE: f64 = 0.1;
 /// How much of the sky each vertex of a mesh sees on the outer side of the surface, from 0 (none) to 1
 /// (all). Nothing farther from a place than `reach` says there (world units) counts; with infinity all does.
 ///
-/// Vertices without a normal see all, and so do those with faces none of which is asked for: `asked` tells, with no entry all are.
+/// Vertices without a normal see all, and so do those of whose faces none is asked for: `asked` tells of each face, and all are
+/// where it is empty.
 #[must_use]
 pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
     let rays = ParallelRays::new(mesh);
@@ -40,19 +42,23 @@ pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync
         Start { point: at + normals[v] * lifts[v], reach: reach(at) }
     };
     let starts: Vec<Start> = (0..mesh.positions.len()).into_par_iter().map(start).collect();
-    let blocked: Vec<Vec<u64>> = directions
-        .par_iter()
-        .map(|direction| {
-            let above = |v: &usize| direction.dot(normals[*v]) > LEAST_COSINE;
-            let looking: Vec<usize> = (0..starts.len()).filter(above).collect();
-            let of: Vec<Start> = looking.iter().map(|v| starts[*v]).collect();
-            let mut bits = vec![0u64; starts.len().div_ceil(64)];
-            for (v, blocked) in looking.iter().zip(rays.blocked(&of, *direction)) {
-                bits[v / 64] |= u64::from(blocked) << (v % 64);
-            }
-            bits
-        })
-        .collect();
+    let ask = |direction: DVec3, tree: Option<&RayTree>| {
+        let above = |v: &usize| direction.dot(normals[*v]) > LEAST_COSINE;
+        let looking: Vec<usize> = (0..starts.len()).filter(above).collect();
+        let of: Vec<Start> = looking.iter().map(|v| starts[*v]).collect();
+        let mut bits = vec![0u64; starts.len().div_ceil(64)];
+        for (v, blocked) in looking.iter().zip(rays.blocked(&of, direction, tree)?) {
+            bits[v / 64] |= u64::from(blocked) << (v % 64);
+        }
+        Some(bits)
+    };
+    let mut blocked: Vec<Option<Vec<u64>>> = directions.par_iter().map(|d| ask(*d, None)).collect();
+    if blocked.iter().any(Option::is_none) {
+        let tree = RayTree::new(mesh);
+        let left = blocked.par_iter_mut().zip(&directions).filter(|(blocked, _)| blocked.is_none());
+        left.for_each(|(blocked, direction)| *blocked = ask(*direction, Some(&tree)));
+    }
+    let blocked: Vec<Vec<u64>> = blocked.into_iter().flatten().collect();
     let share = |v: usize| {
         let (mut seen, mut all) = (0.0, 0.0);
         for (direction, blocked) in directions.iter().zip(&blocked) {
@@ -115,6 +121,7 @@ fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::noise::hash;
     use crate::mesh::Soup;
 
     /// A grid of squares over a parallelogram.
@@ -192,5 +199,24 @@ mod tests {
         assert!(openness(&build(false), &[], everywhere).iter().all(|o| *o == 1.0));
         assert!(openness(&build(true), &[], everywhere).iter().all(|o| *o == 0.0));
         assert!(openness(&Mesh::default(), &[], everywhere).is_empty());
+    }
+
+    #[test]
+    fn a_thicket_of_large_faces_is_as_open_on_any_number_of_threads() {
+        // So many of them over each other that rays go down a tree.
+        let part = |n: u32| hash(7, &[u64::from(n)]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
+        let point = |n: u32| DVec3::new(part(3 * n), part(3 * n + 1), part(3 * n + 2));
+        let count = 1500;
+        let positions = (0..3 * count).map(|k| point(k / 3) + 3.0 * point(k + 10_000)).collect();
+        let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+        let starts: Vec<Start> =
+            mesh.positions.iter().step_by(2).map(|p| Start { point: *p, reach: f64::INFINITY }).collect();
+        assert!(ParallelRays::new(&mesh).blocked(&starts, DVec3::Z, None).is_none());
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| openness(&mesh, &[], everywhere))
+        };
+        assert_eq!(on(1), on(4));
     }
 }

@@ -5,8 +5,6 @@
 //! tree for itself. What the grid proposes the exact test decides, that of [`RayTree`]. Where a grid would not do, as faces
 //! cover too many of the points, the rays that are left go through the tree.
 
-use std::sync::OnceLock;
-
 use glam::{DVec3, Vec3};
 
 use super::face_group::{FaceGroup, WIDTH};
@@ -34,7 +32,6 @@ pub(crate) struct ParallelRays<'a> {
     boxes: Vec<[Vec3; 2]>,
     /// Wider than rounding of what is projected can be.
     slack: f32,
-    tree: OnceLock<RayTree>,
 }
 
 impl<'a> ParallelRays<'a> {
@@ -51,20 +48,26 @@ impl<'a> ParallelRays<'a> {
             [((low + high) / 2.0).as_vec3(), ((high - low) / 2.0).as_vec3()]
         });
         let boxes = boxes.collect();
-        Self { mesh, faces, boxes, slack, tree: OnceLock::new() }
+        Self { mesh, faces, boxes, slack }
     }
 
     /// For each of some rays in a direction (of length 1) whether a face is nearer than its reach. A face that holds its start may
-    /// be met or not.
-    pub(crate) fn blocked(&self, rays: &[Start], direction: DVec3) -> Vec<bool> {
+    /// be met or not. Without a tree of the mesh there is no answer where it would take too long: whoever asks for many directions
+    /// side by side makes the tree before, as no task may wait for another that makes it.
+    pub(crate) fn blocked(
+        &self,
+        rays: &[Start],
+        direction: DVec3,
+        tree: Option<&RayTree>,
+    ) -> Option<Vec<bool>> {
         let mut blocked = vec![false; rays.len()];
         if self.sweep(rays, direction, &mut blocked).is_none() {
-            let tree = self.tree.get_or_init(|| RayTree::new(self.mesh));
+            let tree = tree?;
             for (blocked, ray) in blocked.iter_mut().zip(rays) {
                 *blocked = *blocked || tree.is_blocked(ray.point, direction, ray.reach);
             }
         }
-        blocked
+        Some(blocked)
     }
 
     /// Lets each group of faces ask the rays that it covers; none if it takes too long.
@@ -151,14 +154,14 @@ mod tests {
             [(600, 0.1, 800), (7, 0.5, 90), (300, 0.02, 800), (2500, 3.0, 1500), (3, 0.1, 1), (3, 0.1, 0)]
         {
             let mesh = mesh(count, size);
-            let parallel = ParallelRays::new(&mesh);
+            let (parallel, tree) = (ParallelRays::new(&mesh), RayTree::new(&mesh));
             let starts: Vec<Start> = (0..rays)
                 .map(|n| Start { point: point(n + 20_000), reach: [0.3, 9.0, f64::INFINITY][n as usize % 3] })
                 .collect();
             let mut met = 0;
             for n in 0..12 {
                 let direction = if n == 0 { DVec3::Z } else { point(n + 30_000).normalize() };
-                let found = parallel.blocked(&starts, direction);
+                let found = parallel.blocked(&starts, direction, Some(&tree)).expect("an answer");
                 for (ray, found) in starts.iter().zip(found) {
                     let wanted = (0..mesh.triangles.len() as u32).any(|face| {
                         meets(&mesh.corners(FaceId(face)), ray.point, direction, ray.reach).is_some()
@@ -168,8 +171,8 @@ mod tests {
                 }
             }
             assert!(rays < 90 || met > 10, "{met}");
-            let swept = parallel.sweep(&starts, DVec3::Z, &mut vec![false; starts.len()]).is_some();
-            assert_eq!(swept, size < 2.0, "{count} {size}");
+            let without = parallel.blocked(&starts, DVec3::Z, None).is_some();
+            assert_eq!(without, size < 2.0, "{count} {size}");
         }
     }
 
@@ -180,8 +183,8 @@ mod tests {
         for step in [DVec3::ZERO, DVec3::X * 0.01, DVec3::Z * 0.01] {
             let starts: Vec<Start> =
                 (0..50).map(|n| Start { point: step * f64::from(n), reach: 5.0 }).collect();
-            let found = parallel.blocked(&starts, DVec3::Z);
             let tree = RayTree::new(&mesh);
+            let found = parallel.blocked(&starts, DVec3::Z, Some(&tree)).expect("an answer");
             let wanted: Vec<bool> =
                 starts.iter().map(|ray| tree.is_blocked(ray.point, DVec3::Z, ray.reach)).collect();
             assert_eq!(found, wanted);
