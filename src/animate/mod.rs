@@ -87,7 +87,8 @@ impl<'a> Animator<'a> {
         Self { level: Some(level), ..Self::new(rigged, style) }
     }
 
-    /// The same, with all made ready that moments share, which else the first drawing does.
+    /// The same, with all made ready that moments share, which else the first drawing does. Whoever draws moments side by side
+    /// on the threads of a pool calls it before: one that makes it there might wait for another that waits for it.
     #[must_use]
     pub fn ready(self) -> Self {
         self.resting();

@@ -169,7 +169,7 @@ impl Stage<'_> {
             for frames in frames.chunk_by(|a, b| faces_of(*a) == faces_of(*b)) {
                 let faces = frames.first().and_then(|drawn| faces_of(*drawn)).unwrap_or(u64::MAX);
                 let level = level(faces)?;
-                let animator = Animator::at_level(self.rigged, &level, self.style);
+                let animator = Animator::at_level(self.rigged, &level, self.style).ready();
                 total.faces.extend(frames.iter().map(|_| faces));
                 self.at_once(&animator, frames, &make, &mut take, total)?;
             }
