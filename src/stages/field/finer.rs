@@ -50,15 +50,19 @@ pub fn cuts_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) ->
     refine::cuts(mesh, smooth, is_long, want)
 }
 
-/// Whether the field is surely too far from zero at both ends of an edge to vanish in between: told with no more than four
-/// roots, of almost all edges.
+/// Whether the field is surely too far from zero at both ends of an edge to vanish in between: told without a root or a
+/// quotient, of almost all edges.
 #[inline]
-fn surely_turned(eye: DVec3, ends: [DVec3; 2], normals: [DVec3; 2]) -> bool {
-    let to_eye = ends.map(|p| eye - p);
-    let [first, second] = [0, 1].map(|k| normals[k].dot(to_eye[k]));
-    let far = to_eye.map(DVec3::length);
-    // Unit vectors from two points to the eye differ by no more than the way between them, seen from the nearer one.
-    let sight = ends[0].distance(ends[1]) / far[0].min(far[1]);
-    let most = REACH_AND_ROUNDING * (normals[0].distance(normals[1]) + sight);
-    (first > 0.0) == (second > 0.0) && first.abs() > most * far[0] && second.abs() > most * far[1]
+fn surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2]) -> bool {
+    let (to_eye_a, to_eye_b) = (eye - a, eye - b);
+    let (facing_a, facing_b) = (normal_a.dot(to_eye_a), normal_b.dot(to_eye_b));
+    let (far_a, far_b) = (to_eye_a.length_squared(), to_eye_b.length_squared());
+    let nearer = far_a.min(far_b);
+    // Unit vectors from two points to the eye differ by no more than the way between them, seen from the nearer one; and the square
+    // of a sum is no more than 5/4 of that of the one and five times that of the other. All squared, and times the nearer way.
+    let most = 1.25 * normal_a.distance_squared(normal_b) * nearer + 5.0 * a.distance_squared(b);
+    let most = REACH_AND_ROUNDING * REACH_AND_ROUNDING * most;
+    (facing_a > 0.0) == (facing_b > 0.0)
+        && facing_a * facing_a * nearer > most * far_a
+        && facing_b * facing_b * nearer > most * far_b
 }

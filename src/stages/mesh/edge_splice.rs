@@ -1,11 +1,18 @@
 //! The edges of a mesh of which some faces were left out or cut into pieces: those of the whole, without what went, and
 //! those of the pieces, in the order that building them anew would give.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::edges::{MANY, NONE, SAME_WAY};
 use super::{EdgeFaces, Edges};
 
 /// No edge, no face.
 const GONE: u32 = u32::MAX;
+
+/// Edges that one task looks at.
+const CHUNK: usize = 1 << 14;
 
 impl Edges {
     /// The edges after faces were cut: `renamed` are the new numbers of the faces, `u32::MAX` for those that were cut; the
@@ -21,14 +28,41 @@ impl Edges {
         pieces: &[[u32; 3]],
     ) -> (Self, Vec<u32>) {
         let own = Self::build(vertex_count, pieces);
+        let place = |edge: usize| match self.vertices.get(edge) {
+            Some(_) if edge == 0 => 0,
+            Some(ends) => own.vertices.partition_point(|other| other < ends),
+            None => own.len(),
+        };
+        let spliced = |k: usize| {
+            let edges = k * CHUNK..((k + 1) * CHUNK).min(self.len());
+            self.spliced_part(edges.clone(), (&own, place(edges.start)..place(edges.end)), renamed, kept)
+        };
+        let (parts, mut ids): (Vec<Self>, Vec<Vec<u32>>) =
+            (0..self.len().div_ceil(CHUNK).max(1)).into_par_iter().map(spliced).unzip();
+        let mut before = 0;
+        for (part, ids) in parts.iter().zip(&mut ids) {
+            ids.iter_mut().filter(|id| **id != GONE).for_each(|id| *id += before);
+            before += part.len() as u32;
+        }
+        (Self::joined(parts), ids.concat())
+    }
+
+    /// Does so for some of the edges, and those of the pieces that stand before and among them. The ids begin with the first of these.
+    fn spliced_part(
+        &self,
+        edges: Range<usize>,
+        (own, among): (&Self, Range<usize>),
+        renamed: &[u32],
+        kept: u32,
+    ) -> (Self, Vec<u32>) {
         let mut all = Self::default();
-        all.vertices.reserve_exact(self.len() + own.len());
-        all.faces.reserve_exact(self.len() + own.len());
-        let mut ids = Vec::with_capacity(self.len());
-        let mut next = 0;
-        for (edge, ends) in self.vertices.iter().enumerate() {
+        all.vertices.reserve_exact(edges.len() + among.len());
+        all.faces.reserve_exact(edges.len() + among.len());
+        let mut ids = Vec::with_capacity(edges.len());
+        let mut next = among.start;
+        for (edge, ends) in edges.clone().zip(&self.vertices[edges]) {
             while own.vertices.get(next).is_some_and(|other| other < ends) {
-                all.add(&own, next, kept);
+                all.add(own, next, kept);
                 next += 1;
             }
             let [first, second] = self.faces[edge];
@@ -72,7 +106,7 @@ impl Edges {
             ids.push(all.len() as u32);
             all.push(*ends, &faces, same_way);
         }
-        (next..own.len()).for_each(|edge| all.add(&own, edge, kept));
+        (next..among.end).for_each(|edge| all.add(own, edge, kept));
         (all, ids)
     }
 

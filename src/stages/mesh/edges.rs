@@ -59,53 +59,41 @@ struct Side {
     face_way: u32,
 }
 
-/// The edges of one worker's range of vertices.
-#[derive(Default)]
-struct Range {
-    vertices: Vec<[u32; 2]>,
-    faces: Vec<[u32; 2]>,
-    fans: Vec<u32>,
-    fan_starts: Vec<u32>,
-    suspects: Vec<u32>,
-}
-
 impl Edges {
     /// Finds the edges of `triangles`, whose vertex ids are below `vertex_count`.
     #[must_use]
     pub fn build(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
         let workers = if triangles.len() < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
         let shares = shares(vertex_count, triangles, workers);
-        let mut ranges: Vec<Range> =
-            shares.par_iter().with_max_len(1).map(|share| edges_of_share(triangles, share)).collect();
-        if let [only] = ranges.as_mut_slice() {
-            let r = std::mem::take(only);
-            return Self {
-                vertices: r.vertices,
-                faces: r.faces,
-                fans: r.fans,
-                fan_starts: r.fan_starts,
-                suspects: r.suspects,
-            };
+        Self::joined(
+            shares.par_iter().with_max_len(1).map(|share| edges_of_share(triangles, share)).collect(),
+        )
+    }
+
+    /// The edges of several, one after the other.
+    pub(super) fn joined(mut parts: Vec<Self>) -> Self {
+        if let [only] = parts.as_mut_slice() {
+            return std::mem::take(only);
         }
-        let total = ranges.iter().map(|r| r.vertices.len()).sum();
+        let total = parts.iter().map(Self::len).sum();
         let mut all = Self { vertices: vec![[0; 2]; total], faces: vec![[0; 2]; total], ..Self::default() };
         let (mut vertices, mut faces) = (all.vertices.as_mut_slice(), all.faces.as_mut_slice());
-        let mut copies = Vec::with_capacity(ranges.len());
+        let mut copies = Vec::with_capacity(parts.len());
         let mut edge = 0;
-        for range in ranges {
+        for part in parts {
             let (fan, entry) = (all.fan_starts.len() as u32, all.fans.len() as u32);
-            all.fans.extend(&range.fans);
-            all.fan_starts.extend(range.fan_starts.iter().map(|s| s + entry));
-            all.suspects.extend(range.suspects.iter().map(|e| e + edge));
-            edge += range.vertices.len() as u32;
+            all.fans.extend(&part.fans);
+            all.fan_starts.extend(part.fan_starts.iter().map(|s| s + entry));
+            all.suspects.extend(part.suspects.iter().map(|e| e + edge));
+            edge += part.vertices.len() as u32;
             let (own_vertices, own_faces);
-            (own_vertices, vertices) = vertices.split_at_mut(range.vertices.len());
-            (own_faces, faces) = faces.split_at_mut(range.faces.len());
-            copies.push((own_vertices, own_faces, range, fan));
+            (own_vertices, vertices) = vertices.split_at_mut(part.vertices.len());
+            (own_faces, faces) = faces.split_at_mut(part.faces.len());
+            copies.push((own_vertices, own_faces, part, fan));
         }
-        copies.into_par_iter().with_max_len(1).for_each(|(vertices, faces, range, fan)| {
-            vertices.copy_from_slice(&range.vertices);
-            faces.copy_from_slice(&range.faces);
+        copies.into_par_iter().with_max_len(1).for_each(|(vertices, faces, part, fan)| {
+            vertices.copy_from_slice(&part.vertices);
+            faces.copy_from_slice(&part.faces);
             if fan > 0 {
                 faces.iter_mut().filter(|f| f[0] == MANY).for_each(|f| f[1] += fan);
             }
@@ -156,7 +144,7 @@ impl Edges {
     }
 }
 
-fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Range {
+fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Edges {
     let (first, span) = (share.vertices.start as u32, share.vertices.len());
     let mut starts = vec![0u32; span + 1];
     for &[a, b, c] in share.faces.iter().flat_map(|run| &triangles[run.clone()]) {
@@ -186,14 +174,14 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Range {
             }
         }
     }
-    let mut range = Range::default();
-    range.vertices.reserve_exact(sides.len() / 2 + span / 64 + 1);
-    range.faces.reserve_exact(sides.len() / 2 + span / 64 + 1);
+    let mut own = Edges::default();
+    own.vertices.reserve_exact(sides.len() / 2 + span / 64 + 1);
+    own.faces.reserve_exact(sides.len() / 2 + span / 64 + 1);
     for bucket in 0..span {
         let bucket_sides = &mut sides[starts[bucket] as usize..starts[bucket + 1] as usize];
-        range.push_bucket(first + bucket as u32, bucket_sides);
+        own.push_bucket(first + bucket as u32, bucket_sides);
     }
-    range
+    own
 }
 
 /// A stable sort: buckets hold about six sides, but a hub of a fan may hold thousands.
@@ -213,7 +201,7 @@ fn sort_by_other(sides: &mut [Side]) {
     }
 }
 
-impl Range {
+impl Edges {
     /// Adds the edges from `vertex` to its larger neighbours.
     fn push_bucket(&mut self, vertex: u32, sides: &mut [Side]) {
         sort_by_other(sides);

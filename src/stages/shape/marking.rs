@@ -48,13 +48,15 @@ pub(super) fn marks(
     want: &(impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync),
 ) -> Marks {
     let mark = |edge: usize| {
-        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
-        if smooth.straight.contains(edge) || !is_long(a, b) {
+        let [a, b] = mesh.edges.vertices[edge];
+        if !is_long(mesh.positions[a as usize], mesh.positions[b as usize]) || smooth.straight.contains(edge) {
             return None;
         }
         let ends = smooth.across(mesh, edge)?;
-        let positions = ends.map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
-        let wanted = want(positions, ends.map(|v| smooth.normals[v as usize]));
+        let [a, b] = ends;
+        let at = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
+        let normal = |v: u32| smooth.normals[v as usize];
+        let wanted = want([at(a), at(b)], [normal(a), normal(b)]);
         (wanted > 1.0).then_some(Marked { edge, ends, wanted })
     };
     let marked: Vec<Vec<Marked>> = (0..mesh.edges.len().div_ceil(CHUNK))

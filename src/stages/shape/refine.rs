@@ -123,6 +123,7 @@ impl<'a> Work<'a> {
         };
         let middles: Vec<Option<(DVec3, DVec3)>> =
             edges.par_iter().with_min_len(1 << 8).map(middle).collect();
+        self.middles.reserve(edges.len());
         for (ends, (position, normal)) in
             edges.iter().zip(middles).filter_map(|(ends, middle)| Some((*ends, middle?)))
         {
@@ -134,7 +135,9 @@ impl<'a> Work<'a> {
 
     /// Decides about the open sides of pieces that are not decided yet.
     fn decide(&mut self, pieces: &[Facet], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
-        let mut asked = Vec::new();
+        // A side is mostly that of two pieces.
+        self.middles.reserve(pieces.len() * 3 / 2);
+        let mut asked = Vec::with_capacity(pieces.len() * 3 / 2);
         for piece in pieces {
             for side in (0..3).filter(|side| piece.open[*side]) {
                 if let Entry::Vacant(vacant) = self.middles.entry(piece.side(side)) {
@@ -153,16 +156,14 @@ impl<'a> Work<'a> {
         cut.iter().for_each(|edge| faces.extend_from_slice(mesh.edges.faces(*edge as usize).list()));
         faces.par_sort_unstable();
         faces.dedup();
-        let mut open = Vec::with_capacity(faces.len());
-        for face in faces {
-            let Some(corners) = smooth.corners_of(face) else { continue };
-            let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
-            let mut piece = Facet { corners, open: [false; 3], marks, face };
+        let open_piece = |face: &u32| {
+            let marks = mesh.edge_marks.get(*face as usize).copied().unwrap_or_default();
+            let mut piece =
+                Facet { corners: smooth.corners_of(*face)?, open: [false; 3], marks, face: *face };
             piece.open = [0, 1, 2].map(|side| self.middles.contains_key(&piece.side(side)));
-            if piece.open.contains(&true) {
-                open.push(piece);
-            }
-        }
+            piece.open.contains(&true).then_some(piece)
+        };
+        let open: Vec<Facet> = faces.par_iter().with_min_len(CHUNK).filter_map(open_piece).collect();
         let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.face));
         (kept, open)
     }

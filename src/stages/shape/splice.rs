@@ -138,27 +138,22 @@ macro_rules! part {
 }
 
 /// The finer mesh. One that is given away is changed rather than copied.
-pub fn splice(mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cuts) -> Refined {
+pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cuts) -> Refined {
     let old = mesh.positions.len();
     let vertex = |v: u32| match smooth.vertices.get(v as usize) {
         Some(vertex) => *vertex,
         None => (old + v as usize - smooth.vertices.len()) as u32,
     };
     let triangles: Vec<[u32; 3]> = cuts.pieces.iter().map(|piece| piece.corners.map(vertex)).collect();
-    let (of_edges, (mut mesh, mut smooth)) = match (mesh, smooth) {
-        (Cow::Borrowed(mesh), Cow::Borrowed(smooth)) => rayon::join(
-            || OfEdges::new(mesh, smooth, &cuts, &triangles),
-            || of_faces(Cow::Borrowed(mesh), Cow::Borrowed(smooth), &cuts, &triangles),
-        ),
-        // One after the other, so that less is there at a time.
-        (mut mesh, smooth) => {
-            let of_edges = OfEdges::new(&mesh, &smooth, &cuts, &triangles);
-            if let Cow::Owned(mesh) = &mut mesh {
-                mesh.edges = Edges::default();
-            }
-            (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
-        }
+    let edges = match &mut mesh {
+        Cow::Borrowed(mesh) => Cow::Borrowed(&mesh.edges),
+        Cow::Owned(mesh) => Cow::Owned(std::mem::take(&mut mesh.edges)),
     };
+    let sets = [&smooth.straight, &smooth.parting].map(EdgeSet::clone);
+    let (of_edges, (mut mesh, mut smooth)) = rayon::join(
+        || OfEdges::new(&edges, sets, (&cuts, old), &triangles),
+        || of_faces(mesh, smooth, &cuts, &triangles),
+    );
     mesh.edges = of_edges.edges;
     (smooth.straight, smooth.parting) = (of_edges.straight, of_edges.parting);
     let Cuts { pieces, kept, .. } = &cuts;
@@ -176,12 +171,17 @@ struct OfEdges {
 }
 
 impl OfEdges {
-    fn new(mesh: &Mesh, smooth: &SmoothNormals, cuts: &Cuts, triangles: &[[u32; 3]]) -> Self {
+    fn new(
+        edges: &Edges,
+        [straight, parting]: [EdgeSet; 2],
+        (cuts, old): (&Cuts, usize),
+        triangles: &[[u32; 3]],
+    ) -> Self {
         let Cuts { kept, thin, .. } = cuts;
-        let vertices = mesh.positions.len() + cuts.positions.len();
-        let (edges, ids) = mesh.edges.spliced(&kept.renamed(), kept.count as u32, vertices, triangles);
-        let straight = smooth.straight.with(thin, mesh.edges.len()).carried(&ids, edges.len());
-        let parting = smooth.parting.carried(&ids, edges.len());
+        let (before, vertices) = (edges.len(), old + cuts.positions.len());
+        let (edges, ids) = edges.spliced(&kept.renamed(), kept.count as u32, vertices, triangles);
+        let straight = straight.with(thin, before).carried(&ids, edges.len());
+        let parting = parting.carried(&ids, edges.len());
         Self { edges, straight, parting, ids }
     }
 }
