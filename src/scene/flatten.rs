@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use glam::{DAffine3, DMat3, DVec3};
+use rayon::prelude::*;
 
 use super::coordinate::is_drawable;
 use super::{Geometry, Paints, Part, Scene};
@@ -206,13 +207,12 @@ fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_tria
     let count = soup.triangles.len();
     let is_identity = place.matrix3 == DMat3::IDENTITY;
     let turn = if is_identity { DMat3::IDENTITY } else { place.matrix3.inverse().transpose() };
-    let mut all_sound = true;
-    soup.normals.extend(from.normals.iter().map(|&[x, y, z]| {
+    soup.normals.par_extend(from.normals.par_iter().with_min_len(1 << 12).map(|&[x, y, z]| {
         let normal = DVec3::new(x.into(), y.into(), z.into());
         let normal = if is_identity { normal } else { turn * normal }.try_normalize();
-        all_sound &= normal.is_some();
         normal.map_or([0.0; 3], |n| [n.x as f32, n.y as f32, n.z as f32])
     }));
+    let all_sound = !soup.normals[first..].contains(&[0.0; 3]);
     append_optional(
         &mut soup.corner_normals,
         &from.corner_normals,

@@ -129,8 +129,9 @@ fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, 
         EdgeFaces::One(face) => Some((edges.vertices[e], extents.of(part(face)).weld)),
         _ => None,
     };
-    let ends = (0..edges.len()).filter_map(open);
-    let mut vertices: Vec<(u32, f64)> = ends.flat_map(|(ends, reach)| ends.map(|v| (v, reach))).collect();
+    let ends = (0..edges.len()).into_par_iter().with_min_len(1 << 14).filter_map(open);
+    let mut vertices: Vec<(u32, f64)> =
+        ends.flat_map_iter(|(ends, reach)| ends.map(|v| (v, reach))).collect();
     vertices.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
     vertices.dedup_by_key(|(vertex, _)| *vertex);
     vertices.into_iter().unzip()

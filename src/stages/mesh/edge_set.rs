@@ -34,6 +34,12 @@ impl EdgeSet {
         self.words.is_empty()
     }
 
+    /// The bits of its edges, 64 a word; none if it is empty.
+    #[must_use]
+    pub fn into_words(self) -> Vec<u64> {
+        self.words
+    }
+
     /// Its edges, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {

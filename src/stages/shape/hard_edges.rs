@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::crease_chains::{Chain, Folds, folds};
 use super::roughness::Roughness;
 use crate::mesh::dihedral::{Dihedral, mark};
+use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeMark, Mesh, Turns};
 
 /// The low threshold as a share of the high one: a crease goes on where it turns by more.
@@ -102,8 +103,9 @@ impl HardEdges {
 
     /// Those edges of a mesh of which it is said that they are hard.
     #[must_use]
-    pub fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool) -> Self {
-        Self::of_edges(mesh, (0..mesh.edges.len()).filter(|edge| is_hard(*edge)))
+    pub fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool + Sync) -> Self {
+        let bits = EdgeSet::collect(mesh.edges.len(), is_hard).into_words();
+        Self { count: count(&bits), bits }
     }
 
     /// These and more edges of a mesh.

@@ -8,7 +8,7 @@ use super::HardEdges;
 use super::file_normals::file_cosines;
 use super::free_forms::add_free_forms;
 use super::planes::{Planes, area};
-use super::rounded::{Make, Origin, Verdict, verdicts};
+use super::rounded::{Make, Origin, Pieces, Verdict, verdicts};
 use crate::math::function::cos;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, Turns};
@@ -47,9 +47,8 @@ impl Patches {
     /// face is meant to be round, and only the edges between are sought.
     #[must_use]
     pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
-        let turns = &Turns::of(mesh);
-        let planes = Planes::new(mesh, turns);
-        let verdicts = verdicts(mesh, turns, &planes, all);
+        let (turns, planes, verdicts) = judged(mesh, all);
+        let turns = &turns;
         let believed = verdicts.iter().map(|verdict| verdict.believed).collect();
         let makes: Vec<Make> = verdicts.iter().map(|verdict| verdict.make).collect();
         let hard = hard_edges(mesh, turns, &verdicts, crease_deg);
@@ -69,9 +68,24 @@ impl Patches {
 /// which connected piece each is of: empty if there is but one.
 #[must_use]
 pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u32>) {
-    let turns = &Turns::of(mesh);
-    let verdicts = verdicts(mesh, turns, &Planes::new(mesh, turns), false);
+    let (turns, _, verdicts) = judged(mesh, false);
+    let turns = &turns;
     (HardEdges::above_with(mesh, turns, crease_deg), origins_in(&verdicts), pieces_in(&verdicts))
+}
+
+/// How the surface turns, its flats, and what each face belongs to.
+fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Vec<Verdict>) {
+    // Pieces are followed from face to face, on one thread.
+    let (pieces, (turns, planes)) = rayon::join(
+        || Pieces::of(mesh),
+        || {
+            let turns = Turns::of(mesh);
+            let planes = Planes::new(mesh, &turns);
+            (turns, planes)
+        },
+    );
+    let verdicts = verdicts(mesh, &turns, (&planes, &pieces), all);
+    (turns, planes, verdicts)
 }
 
 fn origins_in(verdicts: &[Verdict]) -> Vec<Origin> {

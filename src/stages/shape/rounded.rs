@@ -129,30 +129,52 @@ impl Count {
     }
 }
 
+/// The connected pieces of a mesh, numbered in the order of their first faces.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pieces {
+    /// The piece of each face.
+    of_face: Vec<u32>,
+    /// The least face of each piece.
+    first: Vec<u32>,
+}
+
+impl Pieces {
+    /// Those of a mesh. Needs nothing but its edges, so that it can be done beside all else.
+    pub fn of(mesh: &Mesh) -> Self {
+        let groups = Groups::new(mesh.triangles.len(), |join| {
+            for edge in 0..mesh.edges.len() {
+                let list = mesh.edges.faces(edge);
+                for pair in list.list().windows(2) {
+                    join(pair[0], pair[1]);
+                }
+            }
+        });
+        // Numbered densely, so that counting needs no search.
+        let mut pieces = Self { of_face: vec![0; mesh.triangles.len()], first: Vec::new() };
+        for face in 0..mesh.triangles.len() as u32 {
+            let first = groups.of(face);
+            pieces.of_face[face as usize] = if first == face {
+                pieces.first.push(face);
+                pieces.first.len() as u32 - 1
+            } else {
+                pieces.of_face[first as usize]
+            };
+        }
+        pieces
+    }
+}
+
 /// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for
 /// statistics are judged together with those of their part and material.
-pub(super) fn verdicts(mesh: &Mesh, turns: &Turns, planes: &Planes, all: bool) -> Vec<Verdict> {
+pub(super) fn verdicts(
+    mesh: &Mesh,
+    turns: &Turns,
+    (planes, pieces): (&Planes, &Pieces),
+    all: bool,
+) -> Vec<Verdict> {
     let faces = mesh.triangles.len();
-    let pieces = Groups::new(faces, |join| {
-        for edge in 0..mesh.edges.len() {
-            let list = mesh.edges.faces(edge);
-            for pair in list.list().windows(2) {
-                join(pair[0], pair[1]);
-            }
-        }
-    });
-    // Numbered densely, so that counting needs no search.
-    let mut number = vec![0u32; faces];
-    let mut pieces_found = 0;
-    for face in 0..faces {
-        let first = pieces.of(face as u32) as usize;
-        if first == face {
-            number[face] = pieces_found;
-            pieces_found += 1;
-        }
-        number[face] = number[first];
-    }
-    let mut counts = vec![Count::default(); pieces_found as usize];
+    let Pieces { of_face: number, first } = pieces;
+    let mut counts = vec![Count::default(); first.len()];
     let of_faces = runs(faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
     let of_edges = runs(mesh.edges.len(), |edge| {
         let (face, count) = of_edge(mesh, turns, planes, edge)?;
@@ -161,26 +183,18 @@ pub(super) fn verdicts(mesh: &Mesh, turns: &Turns, planes: &Planes, all: bool) -
     for (piece, count) in of_faces.into_iter().chain(of_edges) {
         counts[piece as usize].add(&count);
     }
-    let is_small = |piece: u32| counts[piece as usize].edges < LEAST_EDGES;
-    let key = |face: usize| (mesh.face_part[face], mesh.face_material[face]);
+    let key = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
     let mut together: BTreeMap<_, Count> = BTreeMap::new();
-    for face in (0..faces).filter(|face| pieces.of(*face as u32) == *face as u32) {
-        if is_small(number[face]) {
-            together.entry(key(face)).or_default().add(&counts[number[face] as usize]);
-        }
+    for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges < LEAST_EDGES) {
+        together.entry(key(*face)).or_default().add(count);
     }
-    let verdicts: Vec<Verdict> = counts.iter().map(|count| count.verdict(all)).collect();
-    (0..faces)
-        .map(|face| {
-            let verdict = if is_small(number[face]) {
-                let first = pieces.of(face as u32) as usize;
-                together.get(&key(first)).map(|count| count.verdict(all)).unwrap_or_default()
-            } else {
-                verdicts[number[face] as usize]
-            };
-            Verdict { piece: number[face], ..verdict }
-        })
-        .collect()
+    let verdict = |(piece, (face, count)): (usize, (&u32, &Count))| {
+        let is_small = count.edges < LEAST_EDGES;
+        let judged = if is_small { together.get(&key(*face)).unwrap_or(count) } else { count };
+        Verdict { piece: piece as u32, ..judged.verdict(all) }
+    };
+    let verdicts: Vec<Verdict> = first.iter().zip(&counts).enumerate().map(verdict).collect();
+    number.par_iter().with_min_len(1 << 14).map(|piece| verdicts[*piece as usize]).collect()
 }
 
 /// What is counted of items in order, summed over runs of one piece: neighbours mostly are of one.

@@ -32,7 +32,8 @@ impl SmoothNormals {
         is_rounded: impl Fn(u32) -> bool + Sync,
         is_hard: impl Fn(usize) -> bool + Sync,
     ) -> Self {
-        let rounded: Vec<bool> = (0..mesh.triangles.len() as u32).map(&is_rounded).collect();
+        let faces = 0..mesh.triangles.len() as u32;
+        let rounded: Vec<bool> = faces.into_par_iter().with_min_len(1 << 14).map(&is_rounded).collect();
         if !rounded.contains(&true) {
             return Self::default();
         }
@@ -49,7 +50,7 @@ impl SmoothNormals {
             mesh.triangles.clone()
         } else {
             let of = |(t, rounded): (&[u32; 3], &bool)| if *rounded { *t } else { [NO_NORMAL; 3] };
-            mesh.triangles.iter().zip(&rounded).map(of).collect()
+            mesh.triangles.par_iter().zip(&rounded).with_min_len(1 << 14).map(of).collect()
         };
         let mut smooth = Self {
             normals: vertex_normals(mesh, |face| rounded[face]),
