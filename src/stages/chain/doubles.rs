@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use kurbo::{Point, Vec2};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::line::Line;
@@ -34,6 +35,9 @@ const OUTLINE: f64 = 0.25;
 /// What of a double runs by itself for more than so many distances is drawn, and all of it that is outline.
 const BARE: f64 = 10.0;
 
+/// Lines that one task looks at, at least.
+const MIN_LINES: usize = 8;
+
 /// Part of the distance by which lines beside each other may miss each other lengthwise.
 const ABREAST: f64 = 0.3;
 
@@ -56,33 +60,37 @@ struct Buckets {
 }
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within
-/// `distance`, shortest first, but for what of them runs by itself.
+/// `distance`, but for what of them runs by itself.
 pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance: f64, bin: &mut Bin) {
-    let mut suspects: Vec<u32> = (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize])).collect();
-    if suspects.is_empty() {
+    if !raws.iter().any(is_suspect) {
         return;
     }
-    let mut pieces: Vec<LinePiece> = Vec::new();
-    let mut spans: Vec<usize> = vec![0];
-    let mut lengths: Vec<f64> = Vec::with_capacity(raws.len());
-    for (i, raw) in raws.iter().enumerate() {
-        if !raw.class.hidden {
-            collect(i as u32, &raw.line, distance, &mut pieces);
-        }
-        spans.push(pieces.len());
-        lengths.push(raw.length());
-    }
+    let pieces_of = |(i, raw): (usize, &Raw)| {
+        let pieces = if raw.class.hidden { Vec::new() } else { collect(i as u32, &raw.line, distance) };
+        (pieces, raw.length())
+    };
+    let (found, lengths): (Vec<Vec<LinePiece>>, Vec<f64>) =
+        raws.par_iter().enumerate().with_min_len(MIN_LINES).map(pieces_of).unzip();
+    let mut ends = 0;
+    let end = |pieces: &Vec<LinePiece>| {
+        ends += pieces.len();
+        ends
+    };
+    let spans: Vec<usize> = std::iter::once(0).chain(found.iter().map(end)).collect();
+    let pieces = found.concat();
     let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
     let rims = Rims::of(raws, &lengths);
-    suspects.sort_by(|a, b| lengths[*a as usize].total_cmp(&lengths[*b as usize]).then(a.cmp(b)));
-    // Of doubles, which of their sides run by themselves.
-    let mut gone: Vec<Option<Vec<bool>>> = vec![None; raws.len()];
-    for i in suspects {
-        let own = &pieces[spans[i as usize]..spans[i as usize + 1]];
-        let total = lengths[i as usize];
+    // Which sides of a line run by themselves, if it is a double. Only longer lines make it one, so that it does not matter which of
+    // those are doubles themselves: of lines beside each other the longest is left.
+    let alone = |i: usize| -> Option<Vec<bool>> {
+        if !is_suspect(&raws[i]) {
+            return None;
+        }
+        let own = &pieces[spans[i]..spans[i + 1]];
+        let total = lengths[i];
         // The shorter, the more likely a flake; but a gap in the outline is worse.
-        let whole = rims.length(&raws[i as usize], total);
-        let flake = whole < FLAKE * distance && raws[i as usize].silhouette_part() < OUTLINE;
+        let whole = rims.length(&raws[i], total);
+        let flake = whole < FLAKE * distance && raws[i].silhouette_part() < OUTLINE;
         let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
         let allowed = (1.0 - COVERED) * total;
         let mut bare = 0.0;
@@ -93,25 +101,20 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
             let before = bare;
             for k in 0..parts as usize {
                 let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
-                if !buckets.beside(&pieces, point, piece.direction, distance, |other| {
-                    let other = other as usize;
-                    other != i as usize && gone[other].is_none() && lengths[other] > total
-                }) {
+                let is_longer = |other: u32| lengths[other as usize] > total;
+                if !buckets.beside(&pieces, point, piece.direction, distance, is_longer) {
                     bare += side / parts;
                 }
                 if bare > allowed {
-                    break;
+                    return None;
                 }
             }
             alone.push(bare > before);
-            if bare > allowed {
-                break;
-            }
         }
-        if total > 0.0 && bare <= allowed {
-            gone[i as usize] = Some(alone);
-        }
-    }
+        (total > 0.0).then_some(alone)
+    };
+    let gone: Vec<Option<Vec<bool>>> =
+        (0..raws.len()).into_par_iter().with_min_len(MIN_LINES).map(alone).collect();
     if gone.iter().all(Option::is_none) {
         return;
     }
@@ -200,9 +203,10 @@ fn is_suspect(raw: &Raw) -> bool {
 }
 
 /// The pieces of a line, with the direction each has over a few distances.
-fn collect(index: u32, line: &Line, distance: f64, pieces: &mut Vec<LinePiece>) {
+fn collect(index: u32, line: &Line, distance: f64) -> Vec<LinePiece> {
     let n = line.len();
     let sides = if line.closed { n } else { n - 1 };
+    let mut pieces = Vec::with_capacity(sides);
     let reach = WINDOW * distance / 2.0;
     for k in 0..sides {
         let (a, b) = (line.points[k], line.points[(k + 1) % n]);
@@ -217,6 +221,7 @@ fn collect(index: u32, line: &Line, distance: f64, pieces: &mut Vec<LinePiece>) 
         let direction = super::fit::unit(line.points[high % n] - line.points[low]);
         pieces.push(LinePiece { line: index, a, b, direction });
     }
+    pieces
 }
 
 /// Cells for each piece, at most.

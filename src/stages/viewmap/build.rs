@@ -1,6 +1,9 @@
 //! From decided segments to the [`ViewMap`]: nodes by identity, pieces between them.
 
+use std::borrow::Cow;
+
 use kurbo::Point;
+use rayon::prelude::*;
 
 use super::doubles;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
@@ -100,7 +103,12 @@ impl<'a> Asked<'a> {
     fn decide(&self, mesh: &Mesh) -> Told {
         let Self { view, lines, limits, segments, questions, .. } = self;
         let counting = self.hidden == HiddenPieces::All;
-        let asked: Vec<ImageSegment> = questions.iter().map(|i| segments[*i as usize]).collect();
+        // Where no contour is smooth all of them are asked.
+        let asked = if questions.len() == segments.len() {
+            Cow::Borrowed(segments)
+        } else {
+            Cow::Owned(questions.par_iter().map(|i| segments[*i as usize]).collect())
+        };
         let is_round = segments.iter().any(|s| s.role != Role::Line);
         let (seen, smooth) = rayon::join(
             || decide(mesh, view, &asked, limits, counting),
@@ -115,18 +123,29 @@ impl<'a> Asked<'a> {
     /// The map of what is seen; or of what is seen so, but not with another mesh before it.
     fn map(&self, told: &Told, but: Option<&Told>) -> ViewMap {
         let Self { mesh, view, lines, limits, .. } = self;
-        let mut builder = Builder::new(mesh, view, lines, self.hidden);
-        let (mut layers, mut beside): (Vec<Layer>, Vec<Interval>) = (Vec::new(), Vec::new());
-        let (mut others, mut unused) = (Vec::new(), Vec::new());
+        let (mut map, needles) = rayon::join(
+            || self.map_with_doubles(told, but),
+            || needles::find(mesh, view, lines, &self.segments),
+        );
+        map.tests = told.seen.tests;
+        map.contours = told.rounded.counts;
+        map.seen_contours = told.rounded.seen.clone();
+        map.needles = needles;
+        doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
+        map
+    }
+
+    fn map_with_doubles(&self, told: &Told, but: Option<&Told>) -> ViewMap {
+        let mut builder = Builder::new(self.mesh, self.view, self.lines, self.hidden);
         let mut question = 0;
         for (i, segment) in self.segments.iter().enumerate() {
-            let seen = told.of(i, segment.role, question, &mut layers, &mut beside);
+            let seen = told.of(i, segment.role, question);
             let mut drawn = told.draws(i, segment.role);
             let left;
             let seen = match but {
                 None => seen,
                 Some(but) => {
-                    let front = but.of(i, segment.role, question, &mut others, &mut unused);
+                    let front = but.of(i, segment.role, question);
                     let front = if but.draws(i, segment.role) { front.hidden } else { &visibility::BURIED };
                     drawn &= !front.is_empty();
                     left = layers::only_behind(front, seen.hidden);
@@ -134,43 +153,26 @@ impl<'a> Asked<'a> {
                 }
             };
             if drawn {
-                builder.add(segment, seen, limits.piece, but.is_some());
+                builder.add(segment, seen, self.limits.piece, but.is_some());
             }
             question += usize::from(segment.role != Role::Curve);
         }
-        let mut map = builder.map;
-        map.tests = told.seen.tests;
-        map.contours = told.rounded.counts;
-        map.seen_contours = told.rounded.seen.clone();
-        map.needles = needles::find(mesh, view, lines, &self.segments);
-        doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
-        map
+        builder.map
     }
 }
 
 impl Told {
     /// Whether anything of a segment may be drawn.
     fn draws(&self, segment: usize, role: Role) -> bool {
-        role == Role::Line || self.rounded.is_drawn(segment as u32, role)
+        role == Role::Line || self.rounded.is_drawn(segment, role)
     }
 
     /// What is known of a segment, number `question` of those that were asked.
-    fn of<'a>(
-        &'a self,
-        segment: usize,
-        role: Role,
-        question: usize,
-        layers: &'a mut Vec<Layer>,
-        beside: &'a mut Vec<Interval>,
-    ) -> Seen<'a> {
+    fn of(&self, segment: usize, role: Role, question: usize) -> Seen<'_> {
         if role == Role::Line {
             return Seen { hidden: self.seen.hidden(question), backed: self.seen.backed(question) };
         }
-        layers.clear();
-        layers.extend(self.rounded.hidden(segment as u32));
-        beside.clear();
-        beside.extend(self.rounded.backed(segment as u32));
-        Seen { hidden: layers, backed: beside }
+        Seen { hidden: self.rounded.hidden.of(segment), backed: self.rounded.backed.of(segment) }
     }
 }
 

@@ -26,6 +26,8 @@ pub(super) const OPEN: f64 = f64::NEG_INFINITY;
 const LAYERS: f64 = 3.0;
 /// Covers of the whole page are made by no more tasks than this at a time.
 const MOST_SHARES: usize = 8;
+/// Triangles that one task takes together.
+const BLOCK: usize = 64;
 
 /// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
 #[derive(Debug, Clone)]
@@ -54,12 +56,13 @@ impl Covers {
             .collect();
         let expanses = Expanses::new(triangles, squares.cell);
         let shares = rayon::current_num_threads().min(MOST_SHARES);
-        let of_square = (0..shares)
+        let mut covers: Vec<Vec<f64>> = (0..shares)
             .into_par_iter()
             .with_max_len(1)
             .map(|share| {
                 let mut cover = vec![OPEN; squares.len()];
-                for id in &large[share * large.len() / shares..(share + 1) * large.len() / shares] {
+                // Blocks in turn: triangles of one part of a model are as large as each other.
+                for id in large.chunks(BLOCK).skip(share).step_by(shares).flatten() {
                     let (points, face) = corners(triangles.mesh, triangles.view, *id);
                     let slack = Slack::of(triangles.mesh.extent(crate::mesh::FaceId(face)));
                     let (frame, limits) = (&triangles.view.frame, triangles.limits);
@@ -71,18 +74,26 @@ impl Covers {
                 }
                 cover
             })
-            .reduce_with(|mut a, b| {
-                a.iter_mut().zip(b).for_each(|(a, b)| *a = a.max(b));
-                a
-            });
-        let Some(of_square) = of_square else { return Self::none(triangles.grid) };
-        let mut of_tile = vec![f64::INFINITY; triangles.grid.len()];
-        for row in 0..squares.rows {
-            for column in 0..squares.columns {
-                let tile = &mut of_tile[triangles.grid.tile(column / per_tile, row / per_tile)];
-                *tile = tile.min(of_square[squares.tile(column, row)]);
+            .collect();
+        let Some(mut of_square) = covers.pop() else { return Self::none(triangles.grid) };
+        // A row of tiles and the rows of squares in it.
+        let of_row = |(row, own): (usize, &mut [f64])| {
+            let first = row * per_tile as usize * squares.columns as usize;
+            for other in &covers {
+                let other = &other[first..first + own.len()];
+                own.iter_mut().zip(other).for_each(|(own, other)| *own = own.max(*other));
             }
-        }
+            let mut of_tile = vec![f64::INFINITY; triangles.grid.columns as usize];
+            for squares in own.chunks(squares.columns as usize) {
+                for (tile, squares) in of_tile.iter_mut().zip(squares.chunks(per_tile as usize)) {
+                    *tile = squares.iter().fold(*tile, |least, square| least.min(*square));
+                }
+            }
+            of_tile
+        };
+        let rows = of_square.par_chunks_mut((per_tile * squares.columns) as usize).enumerate();
+        let of_tile: Vec<Vec<f64>> = rows.with_min_len(4).map(of_row).collect();
+        let of_tile = of_tile.concat();
         Self { squares, of_square, of_tile }
     }
 

@@ -11,6 +11,7 @@ use super::teeth::Teeth;
 use super::visibility::Visibility;
 use super::witnesses::{Bare, Court, REACH_PX, Sought, Told};
 use crate::lines::{FeatureLines, Role};
+use crate::math::grouped::{Grouped, grouped};
 use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -23,37 +24,53 @@ const GAP_PX: f64 = 1.0;
 /// segment.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Rounded {
-    /// Hidden pieces, by segment, ascending.
-    hidden: Vec<(u32, Layer)>,
-    /// Pieces with a surface beside them on the outer side.
-    backed: Vec<(u32, Interval)>,
-    /// Witnesses of which something is drawn, ascending.
-    bare: Vec<u32>,
+    /// What is not drawn of each image segment of a rounded surface, ascending.
+    pub hidden: Grouped<Layer>,
+    /// Where a surface lies beside it on the outer side, ascending.
+    pub backed: Grouped<Interval>,
+    /// Whether each is a witness of which something is drawn.
+    bare: Vec<bool>,
     pub counts: ContourCounts,
     /// What is seen of the contours of the polyhedron.
     pub seen: Vec<SeenContour>,
 }
 
 impl Rounded {
-    /// What is not drawn of an image segment.
-    pub fn hidden(&self, segment: u32) -> impl Iterator<Item = Layer> + '_ {
-        of(&self.hidden, segment)
-    }
-
     /// Whether anything of an image segment of a rounded surface may be drawn.
-    pub fn is_drawn(&self, segment: u32, role: Role) -> bool {
-        role == Role::Curve || self.bare.binary_search(&segment).is_ok()
-    }
-
-    /// Where a surface lies beside it.
-    pub fn backed(&self, segment: u32) -> impl Iterator<Item = Interval> + '_ {
-        of(&self.backed, segment)
+    pub fn is_drawn(&self, segment: usize, role: Role) -> bool {
+        role == Role::Curve || self.bare[segment]
     }
 }
 
-fn of<T: Copy>(list: &[(u32, T)], segment: u32) -> impl Iterator<Item = T> + '_ {
-    let first = list.partition_point(|(s, _)| *s < segment);
-    list[first..].iter().take_while(move |(s, _)| *s == segment).map(|(_, found)| *found)
+/// The same as it is found.
+#[derive(Debug, Default)]
+struct Found {
+    hidden: Vec<(u32, Layer)>,
+    backed: Vec<(u32, Interval)>,
+    /// Witnesses of which something is drawn.
+    bare: Vec<u32>,
+    counts: ContourCounts,
+}
+
+impl Found {
+    /// Of so many image segments.
+    fn sorted(self, segments: usize, seen: Vec<SeenContour>) -> Rounded {
+        let mut bare = vec![false; segments];
+        self.bare.iter().for_each(|segment| bare[*segment as usize] = true);
+        let hidden = by_segment(segments, &self.hidden, |layer| layer.interval.start);
+        let backed = by_segment(segments, &self.backed, |interval| interval.start);
+        Rounded { hidden, backed, bare, counts: self.counts, seen }
+    }
+}
+
+/// What was found of each segment, in the order of where it starts.
+fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -> f64) -> Grouped<T> {
+    let mut sorted =
+        grouped(segments, |put| found.iter().for_each(|(segment, value)| put(*segment as usize, *value)));
+    for segment in 0..segments {
+        sorted.of_mut(segment).sort_by(|a, b| start(a).total_cmp(&start(b)));
+    }
+    sorted
 }
 
 /// The image of smooth contours, to be asked for.
@@ -88,9 +105,8 @@ pub(super) fn decide(
             .then(b.to.total_cmp(&a.to))
             .then(a.kinds.cmp(&b.kinds))
     });
-    let mut rounded = Rounded::default();
-    rounded.counts.curves = runs.len() as u64;
-    rounded.seen = testimony.seen;
+    let mut found = Found::default();
+    found.counts.curves = runs.len() as u64;
     let mut seen_of_run: Vec<Vec<Told>> = Vec::with_capacity(runs.len());
     let mut told = testimony.told.as_slice();
     for (r, run) in runs.iter().enumerate() {
@@ -99,13 +115,11 @@ pub(super) fn decide(
         told = rest;
         let visible = joined(own.iter().filter(|t| t.count == 0), GAP_PX * limits.px);
         let silhouette = joined(own.iter().filter(|t| t.silhouette), GAP_PX * limits.px);
-        rounded.add_run(run, [&visible, &silhouette, own], REACH_PX * limits.px);
+        found.add_run(run, [&visible, &silhouette, own], REACH_PX * limits.px);
         seen_of_run.push(visible);
     }
-    rounded.add_bare(&court, segments, &testimony.bare, &seen_of_run);
-    rounded.hidden.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.interval.start.total_cmp(&b.1.interval.start)));
-    rounded.backed.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.start.total_cmp(&b.1.start)));
-    rounded
+    found.add_bare(&court, segments, &testimony.bare, &seen_of_run);
+    found.sorted(segments.len(), testimony.seen)
 }
 
 /// Pieces in ascending order of where they begin, those joined that overlap or nearly meet.
@@ -147,7 +161,7 @@ impl SeenRuns<'_> {
     }
 }
 
-impl Rounded {
+impl Found {
     /// Adds what has no curve: all but what has ink near it by chance, and ripples of the mesh that have
     /// other surface behind them.
     fn add_bare(&mut self, court: &Court, segments: &[ImageSegment], bare: &[Bare], seen: &[Vec<Told>]) {
