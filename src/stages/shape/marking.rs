@@ -49,7 +49,8 @@ pub(super) fn marks(
 ) -> Marks {
     let mark = |edge: usize| {
         let [a, b] = mesh.edges.vertices[edge];
-        if !is_long(mesh.positions[a as usize], mesh.positions[b as usize]) || smooth.straight.contains(edge) {
+        if !is_long(mesh.positions[a as usize], mesh.positions[b as usize]) || smooth.straight.contains(edge)
+        {
             return None;
         }
         let ends = smooth.across(mesh, edge)?;
