@@ -275,6 +275,12 @@ pub(crate) fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     Some((if negative { -value } else { value }, at))
 }
 
+/// The number of the digits at some place, 0 where there are none, and where they end; more than 18 wrap.
+#[inline(always)]
+pub(crate) fn plain_digits(bytes: &[u8], start: usize) -> (u64, usize) {
+    digits(bytes, start, 0)
+}
+
 /// A word of some digits, and where it ends, after one blank or several.
 #[inline(always)]
 pub(crate) fn plain_index(bytes: &[u8], mut start: usize) -> Option<(u64, usize)> {

@@ -1,10 +1,12 @@
 //! The statements of an OBJ file as flat arrays, in one pass over its bytes.
 
+mod ahead;
 mod faces;
 mod numbers;
 
 use std::ops::Range;
 
+use ahead::{Ahead, NO_CORNER, Read, Run};
 use glam::DVec3;
 
 use crate::error::Error;
@@ -103,6 +105,7 @@ impl Stop {
 
 struct Parser<'a> {
     cursor: Cursor<'a>,
+    ahead: Ahead,
     out: Statements<'a>,
     /// Positions read so far; fewer than `out.positions` in a second pass.
     position_count: usize,
@@ -129,6 +132,7 @@ impl<'a> Parser<'a> {
         let objects = vec![Object::Unnamed];
         Self {
             cursor: Cursor::new(bytes),
+            ahead: Ahead::of(bytes),
             out: Statements { positions, objects, ..Statements::default() },
             position_count: 0,
             second_pass,
@@ -152,6 +156,9 @@ impl<'a> Parser<'a> {
     fn run(mut self) -> Result<Statements<'a>, Stop> {
         self.out.has_bad_positions = self.out.positions.iter().any(|&p| !is_drawable(p));
         while !self.cursor.at_end() {
+            if let Some(run) = self.ahead.take(self.cursor.bytes, self.cursor.at) {
+                self.add_run(run);
+            }
             let c = &mut self.cursor;
             match (c.peek(), c.peek_on(1)) {
                 (b'v', b' ' | b'\t') => {
@@ -174,6 +181,35 @@ impl<'a> Parser<'a> {
         out.warnings.count("lines left out that are not OBJ statements", not_understood);
         odd_numbers.warn(&mut out.warnings);
         Ok(out)
+    }
+
+    /// Adds what was read ahead, and goes on behind it; stays where it does not hold with what was before.
+    fn add_run(&mut self, Run { end, read, .. }: Run) {
+        match read {
+            Read::Positions(points) => {
+                self.position_count += points.len();
+                if !self.second_pass {
+                    self.out.positions.extend(points);
+                }
+            }
+            Read::Uvs(uvs) => self.out.uvs.extend(uvs),
+            Read::Normals(normals) => self.out.normals.extend(normals),
+            Read::Triangles(..) | Read::Faces(..) if self.only_vertices => {}
+            Read::Triangles(_, largest) | Read::Faces(_, largest)
+                if self.out.has_bad_positions || largest as usize >= self.position_count =>
+            {
+                return;
+            }
+            Read::Triangles(triangles, _) => self.out.triangles.extend(triangles),
+            Read::Faces(faces, _) => {
+                for face in faces {
+                    self.corners.clear();
+                    self.corners.extend(face.into_iter().filter(|corner| *corner != NO_CORNER));
+                    self.cut_corners();
+                }
+            }
+        }
+        self.cursor.at = end;
     }
 
     /// The less frequent statements.

@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
+use super::ahead::NO_CORNER;
 use super::{Corner, NONE, Parser, Stop};
 use crate::error::Error;
 use crate::load::polygon::{self, CutOutcome};
-use crate::load::text::{Cursor, plain_index};
+use crate::load::text::{Cursor, plain_digits, plain_index};
 use crate::scene::coordinate::is_drawable;
 
 impl Parser<'_> {
@@ -102,6 +103,12 @@ impl Parser<'_> {
             self.unusable += 1;
             return Ok(());
         }
+        self.cut_corners();
+        Ok(())
+    }
+
+    /// Adds the triangles of a face, whose corners are `corners`.
+    pub(super) fn cut_corners(&mut self) {
         match *self.corners.as_slice() {
             [a, b, c] => self.triangle(a, b, c),
             [a, b, c, d] => {
@@ -115,7 +122,6 @@ impl Parser<'_> {
             [] | [_] | [_, _] => self.too_short += 1,
             _ => self.polygon(),
         }
-        Ok(())
     }
 
     fn polygon(&mut self) {
@@ -178,11 +184,44 @@ impl Parser<'_> {
 
 /// Three bare indices and the end of the line.
 #[inline(always)]
-fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize)> {
+pub(super) fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize)> {
     let (a, at) = plain_index(bytes, at)?;
     let (b, at) = plain_index(bytes, at)?;
     let (c, at) = plain_index(bytes, at)?;
     matches!(bytes.get(at)?, b'\n' | b'\r').then_some(([a, b, c], at))
+}
+
+/// Three or four corners of indices of few digits, and the end of the line: as [`Parser::corner`] reads them.
+pub(super) fn plain_face(bytes: &[u8], mut at: usize) -> Option<([Corner; 4], usize)> {
+    let mut corners = [NO_CORNER; 4];
+    let mut count = 0;
+    loop {
+        while *bytes.get(at)? == b' ' {
+            at += 1;
+        }
+        if matches!(bytes.get(at)?, b'\n' | b'\r') {
+            return (count > 2).then_some((corners, at));
+        }
+        let corner = corners.get_mut(count)?;
+        for (k, index) in corner.iter_mut().enumerate() {
+            let (value, end) = plain_digits(bytes, at);
+            // Another index may be missing, or none.
+            let digits = end - at;
+            if digits > 9 || (k == 0 && value == 0) {
+                return None;
+            }
+            *index = (value as u32).wrapping_sub(1);
+            at = end;
+            if k == 2 || bytes.get(at) != Some(&b'/') {
+                break;
+            }
+            at += 1;
+        }
+        if !matches!(bytes.get(at)?, b' ' | b'\n' | b'\r') {
+            return None;
+        }
+        count += 1;
+    }
 }
 
 /// How many vertices there are from here on.
