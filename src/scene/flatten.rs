@@ -31,6 +31,7 @@ impl Scene {
     fn flattened(&self, paints: Option<&Paints>) -> Soup {
         let mut soup = Soup::default();
         let default_material = self.materials.len() as u32;
+        self.reserve(&mut soup);
         for (id, part) in self.parts.iter().enumerate() {
             if let Some(geometry) = self.geometry_of(part) {
                 append(&mut soup, geometry, &part.world_from_part, PartId::from(id), default_material);
@@ -43,6 +44,25 @@ impl Scene {
             }
         }
         soup
+    }
+
+    /// Makes room for all parts at once: lists that grow by themselves are copied again and again, and may be twice as large as
+    /// needed. Where there is not as much memory they grow all the same.
+    fn reserve(&self, soup: &mut Soup) {
+        let (mut positions, mut triangles) = (0, 0);
+        for geometry in self.parts.iter().filter_map(|part| self.geometry_of(part)) {
+            if positions + geometry.positions.len() < NONE as usize {
+                positions += geometry.positions.len();
+                triangles += geometry.triangles.len();
+            }
+        }
+        let rooms = [
+            soup.positions.try_reserve_exact(positions),
+            soup.triangles.try_reserve_exact(triangles),
+            soup.triangle_part.try_reserve_exact(triangles),
+            soup.triangle_material.try_reserve_exact(triangles),
+        ];
+        drop(rooms);
     }
 
     /// Box around all that can be drawn, in world space: least and greatest coordinates. None

@@ -95,9 +95,9 @@ impl BoxTree {
     {
         let groups = self.levels[1].len();
         let tasks = groups.div_ceil(GROUPS_PER_TASK);
-        (0..tasks)
+        let found: Vec<Vec<T>> = (0..tasks)
             .into_par_iter()
-            .flat_map_iter(|task| {
+            .map(|task| {
                 let mut found = Vec::new();
                 let mut search = Search::default();
                 for group in task * GROUPS_PER_TASK..((task + 1) * GROUPS_PER_TASK).min(groups) {
@@ -105,7 +105,10 @@ impl BoxTree {
                 }
                 found
             })
-            .collect()
+            .collect();
+        let mut all = Vec::with_capacity(found.iter().map(Vec::len).sum());
+        found.into_iter().for_each(|found| all.extend(found));
+        all
     }
 
     /// The box on the fine grid of a triangle, which need not be one of the tree's.
