@@ -31,6 +31,7 @@ mod hard_edges;
 mod hatching;
 mod image_lines;
 mod inked_lines;
+mod inked_models;
 mod intersections;
 mod lines_inside;
 mod loading;

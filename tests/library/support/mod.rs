@@ -26,6 +26,7 @@ pub mod scenes;
 pub mod seen;
 pub mod segments;
 pub mod solids;
+pub mod strokes;
 pub mod torus_truth;
 pub mod truth;
 pub mod turning;
