@@ -43,6 +43,7 @@ mod motion;
 mod needles;
 mod pages;
 mod painted_surfaces;
+mod panels;
 mod paper;
 mod part_groups;
 mod patterns;
