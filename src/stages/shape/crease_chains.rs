@@ -118,6 +118,39 @@ impl<'a> Folds<'a> {
         chains
     }
 
+    /// The edges on which folds of more than `high_deg` degrees go on from where they would end inside the surface:
+    /// along folds that continue each other, to the first vertex at which another fold of more than `high_deg` degrees
+    /// ends. Where there is none they do not go on.
+    pub fn going_on(&self, high_deg: f64) -> Vec<usize> {
+        let is_high = |end: &u32| self.folds[(end >> 1) as usize].turn > high_deg as f32;
+        // The fold that leads to an end is passed over.
+        let meets = |end: u32| {
+            self.ends.of(self.vertex(end)).iter().any(|other| other >> 1 != end >> 1 && is_high(other))
+        };
+        let loose: Vec<u32> =
+            (0..2 * self.folds.len() as u32).filter(|end| is_high(end) && !meets(*end)).collect();
+        if loose.is_empty() || loose.iter().all(|end| self.ends.of(self.vertex(*end)).len() == 1) {
+            return Vec::new();
+        }
+        let links = self.links();
+        let mut more = Vec::new();
+        for from in loose {
+            let (first, mut end) = (more.len(), from);
+            let arrives = loop {
+                let Some((next, _)) = links[end as usize] else { break false };
+                more.push(self.folds[(next >> 1) as usize].edge as usize);
+                end = next ^ 1;
+                if meets(end) {
+                    break true;
+                }
+            };
+            if !arrives {
+                more.truncate(first);
+            }
+        }
+        more
+    }
+
     /// Which ends continue each other: for each end the other one and the cosine of the bend
     /// between them.
     fn links(&self) -> Vec<Option<(u32, f32)>> {

@@ -7,6 +7,7 @@
 use super::HardEdges;
 use super::file_normals::file_cosines;
 use super::free_forms::add_free_forms;
+use super::hard_edges::LOW_OF_HIGH;
 use super::planes::{Planes, area};
 use super::rounded::{Make, Origin, Verdict, verdicts};
 use crate::math::function::cos;
@@ -85,19 +86,33 @@ fn pieces_in(verdicts: &[Verdict]) -> Vec<u32> {
     verdicts.iter().map(|verdict| verdict.piece).collect()
 }
 
+/// Every sharp edge, and on machined pieces what a crease goes on along that would end inside the surface: flats and
+/// strips that are cut out of it turn by more here and by less there.
+fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
+    let is_machined = |face: &u32| verdicts[*face as usize].make == Make::Machined;
+    if !(0..verdicts.len() as u32).any(|face| is_machined(&face)) {
+        return HardEdges::above_with(mesh, turns, crease_deg);
+    }
+    let low_deg = ROUND * LOW_OF_HIGH * crease_deg;
+    HardEdges::above_and_on(mesh, turns, [crease_deg, low_deg], |edge| {
+        mesh.edges.faces(edge).list().iter().all(is_machined)
+    })
+}
+
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
 /// which the file's normals turn as well, and chains that turn by more and stand out from what is around them.
 fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
     let is_round = |face: u32| verdicts[face as usize].make == Make::Round;
     let round = (0..verdicts.len() as u32).filter(|face| is_round(*face)).count();
+    let above = || sharp_edges(mesh, turns, verdicts, crease_deg);
     if round == 0 {
-        return HardEdges::above_with(mesh, turns, crease_deg);
+        return above();
     }
     let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0));
     if round == verdicts.len() && mesh.corner_normals.is_empty() {
         return chains;
     }
-    let above = HardEdges::above_with(mesh, turns, crease_deg);
+    let above = above();
     let least = cos(crease_deg.to_radians()) as f32;
     let shaded_sharp = |edge: usize, faces: [u32; 2]| {
         faces.iter().all(|face| verdicts[*face as usize].believed)
