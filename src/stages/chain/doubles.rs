@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use kurbo::{Point, Vec2};
 use rustc_hash::FxHashMap;
 
+use super::crumbs::may_be_noise;
 use super::line::Line;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
@@ -13,6 +14,9 @@ use crate::math::grouped::{Grouped, grouped};
 use crate::math::plane::{distance2, length};
 use crate::shape::Origin;
 use crate::viewmap::ViewVertexId;
+
+/// Lines nearer than this part of the tidy length are double strokes.
+const DOUBLE: f64 = 0.3;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
 const PARALLEL_COSINE: f64 = 0.82;
@@ -55,9 +59,10 @@ struct Buckets {
     pieces: Grouped<u32>,
 }
 
-/// Leaves out smooth contours and noisy creases that double a longer visible line within
-/// `distance`, shortest first, but for what of them runs by itself.
-pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance: f64, bin: &mut Bin) {
+/// Leaves out smooth contours and noisy creases that double a longer visible line within so many tidy lengths,
+/// shortest first, but for what of them runs by itself. A line that may go for noise stands for no other.
+pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
+    let distance = DOUBLE * tidy;
     let mut suspects: Vec<u32> = (0..raws.len() as u32).filter(|i| is_suspect(&raws[*i as usize])).collect();
     if suspects.is_empty() {
         return;
@@ -65,6 +70,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
     let mut pieces: Vec<LinePiece> = Vec::new();
     let mut spans: Vec<usize> = vec![0];
     let mut lengths: Vec<f64> = Vec::with_capacity(raws.len());
+    let may_go: Vec<bool> = raws.iter().map(|raw| may_be_noise(raw, tidy)).collect();
     for (i, raw) in raws.iter().enumerate() {
         if !raw.class.hidden {
             collect(i as u32, &raw.line, distance, &mut pieces);
@@ -95,7 +101,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
                 let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
                 if !buckets.beside(&pieces, point, piece.direction, distance, |other| {
                     let other = other as usize;
-                    other != i as usize && gone[other].is_none() && lengths[other] > total
+                    other != i as usize && !may_go[other] && gone[other].is_none() && lengths[other] > total
                 }) {
                     bare += side / parts;
                 }
@@ -345,10 +351,27 @@ mod tests {
             let far = contour(&[(50.0, 3.0), (57.0, 7.0), (65.0, 3.0)], far_ends);
             let mut raws = vec![outline, near, far];
             let mut degrees = Degrees::new(&ViewMap::default(), &[]);
-            drop_doubles(&mut raws, &mut degrees, 1.2, &mut Bin::default());
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
             raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
         };
         assert_eq!(left([3, 2]), [0, 2, 3], "both sides of a rim end in the same two places");
         assert_eq!(left([4, 5]), [0, 4], "a flake beside the outline");
+    }
+
+    #[test]
+    fn a_crease_that_may_go_for_noise_stands_for_no_contour() {
+        let left = |pronounced: f64| {
+            let rim = contour(&[(50.0, 3.0), (120.0, 3.0)], [0, 1]);
+            let mut crease = contour(&[(0.0, 2.5), (200.0, 2.5)], [2, 3]);
+            crease.class.kind = LineKind::Crease;
+            crease.smooth = false;
+            crease.pronounced = pronounced;
+            let mut raws = vec![rim, crease];
+            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
+        };
+        assert_eq!(left(100.0), [2], "a sharp crease beside a contour");
+        assert_eq!(left(3.0), [0, 2], "one that turns too little for its length");
     }
 }

@@ -305,8 +305,7 @@ impl<'a> Seams<'a> {
             others.max_by(|a, b| a.along.dot(of.along).total_cmp(&b.along.dot(of.along)))
         };
         let ends = [0, 1].into_iter().filter_map(|end| Some((end, next(own, end)?)));
-        let straighter =
-            ends.max_by(|a, b| a.1.along.dot(own.along).total_cmp(&b.1.along.dot(own.along)));
+        let straighter = ends.max_by(|a, b| a.1.along.dot(own.along).total_cmp(&b.1.along.dot(own.along)));
         let Some((end, beside)) = straighter else { return DVec3::ZERO };
         let cosine = beside.along.dot(own.along);
         if cosine < ALONG {
