@@ -200,6 +200,39 @@ mod tests {
         Mesh::build(soup)
     }
 
+    /// A star of eight points, drawn out and twisted but for so many of its rings.
+    fn screw(straight: u32) -> Mesh {
+        const AROUND: u32 = 16;
+        const RINGS: u32 = 60;
+        let mut soup = Soup::default();
+        for ring in 0..=RINGS {
+            for step in 0..AROUND {
+                let twist = 0.04 * f64::from(ring.saturating_sub(straight));
+                let turn = std::f64::consts::TAU * f64::from(step) / f64::from(AROUND) + twist;
+                let radius = if step % 2 == 0 { 1.0 } else { 0.6 };
+                let z = 0.1 * f64::from(ring);
+                soup.positions.push(DVec3::new(radius * cos(turn), radius * sin(turn), z));
+            }
+        }
+        for ring in 0..RINGS {
+            for step in 0..AROUND {
+                let at = |ring: u32, step: u32| ring * AROUND + step % AROUND;
+                let (a, b) = (at(ring, step), at(ring, step + 1));
+                let (c, d) = (at(ring + 1, step), at(ring + 1, step + 1));
+                soup.triangles.extend([[a, b, c], [b, d, c]]);
+            }
+        }
+        Mesh::build(soup)
+    }
+
+    #[test]
+    fn many_sharp_edges_and_some_flat_ones_are_of_a_machined_part() {
+        let origins = |straight: u32| Patches::new(&screw(straight), 40.0, false).origins;
+        assert!(origins(5).iter().all(|origin| *origin == Origin::Constructed));
+        // So sharp and nowhere flat is what is left of a scan.
+        assert!(origins(0).iter().all(|origin| *origin == Origin::Scanned));
+    }
+
     #[test]
     fn a_crease_of_a_round_piece_is_where_its_file_shades_one() {
         let hard = |angle_deg: f64, split: bool| {
