@@ -127,17 +127,14 @@ impl<'a> Folds<'a> {
         let meets = |end: u32| {
             self.ends.of(self.vertex(end)).iter().any(|other| other >> 1 != end >> 1 && is_high(other))
         };
-        let loose: Vec<u32> =
-            (0..2 * self.folds.len() as u32).filter(|end| is_high(end) && !meets(*end)).collect();
-        if loose.is_empty() || loose.iter().all(|end| self.ends.of(self.vertex(*end)).len() == 1) {
-            return Vec::new();
-        }
-        let links = self.links();
-        let mut more = Vec::new();
+        let loose = (0..2 * self.folds.len() as u32).filter(|end| is_high(end) && !meets(*end));
+        let (mut more, mut pairs) = (Vec::new(), Vec::new());
         for from in loose {
             let (first, mut end) = (more.len(), from);
             let arrives = loop {
-                let Some((next, _)) = links[end as usize] else { break false };
+                pairs.clear();
+                self.pair_up(self.vertex(end), &mut pairs);
+                let Some(next) = pairs.iter().find_map(|pair| pair.other(end)) else { break false };
                 more.push(self.folds[(next >> 1) as usize].edge as usize);
                 end = next ^ 1;
                 if meets(end) {
@@ -266,4 +263,12 @@ struct Pair {
     rank: f64,
     /// Breaks ties.
     place: f64,
+}
+
+impl Pair {
+    /// The end that continues one of the two.
+    fn other(&self, end: u32) -> Option<u32> {
+        let [a, b] = self.ends;
+        (a == end).then_some(b).or((b == end).then_some(a))
+    }
 }
