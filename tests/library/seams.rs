@@ -121,8 +121,7 @@ fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
 #[test]
 fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
     // A plate whose long side ends in the rounding of a corner.
-    let mut plate = Solid::default();
-    plate.positions = vec![DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO];
+    let mut plate = Solid { positions: vec![DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO], ..Solid::default() };
     plate.positions.extend((0..=4).map(|k| {
         let turn = TAU / 4.0 * f64::from(k) / 4.0;
         DVec3::new(9.0 + sin(turn), 1.0 - cos(turn), 0.0)
