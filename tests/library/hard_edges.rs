@@ -7,7 +7,7 @@ use glam::DVec3;
 use ligne::math::function::tan;
 use ligne::scene::Scene;
 use ligne::stages::mesh::{EdgeMark, Mesh, Soup};
-use ligne::stages::shape::HardEdges;
+use ligne::stages::shape::{HardEdges, Patches};
 
 const CREASE_DEG: f64 = 40.0;
 
@@ -221,6 +221,61 @@ fn a_crease_that_fades_ends_once() {
     assert_eq!(bays, (0..bays.len()).collect::<Vec<_>>(), "in one piece from its sharp end on");
     let sharp = HardEdges::above(&fades, CREASE_DEG).count();
     assert!(bays.len() >= sharp + 5 && bays.len() <= 35, "{} of 40 bays, {sharp} sharp", bays.len());
+}
+
+/// A house under such a roof, whose walls and gables are flat: as programs make it, and not a scan.
+fn house(n: u32, turn_deg: impl Fn(u32) -> f64) -> Mesh {
+    let mut solid = roof(n, turn_deg);
+    let eaves = |i: u32| [3 * i + 1, 3 * i + 2];
+    let first = solid.positions.len() as u32;
+    let ground = |i: u32| [first + 2 * i, first + 2 * i + 1];
+    for i in 0..=n {
+        solid.positions.extend([2.0, -2.0].map(|y| DVec3::new(f64::from(i), y, -9.0)));
+    }
+    for i in 0..n {
+        let ([a, b], [c, d]) = (eaves(i), eaves(i + 1));
+        let ([p, q], [r, s]) = (ground(i), ground(i + 1));
+        solid.triangles.extend([[a, c, r], [a, r, p], [b, s, d], [b, q, s]]);
+    }
+    for (i, turned) in [(0, true), (n, false)] {
+        let ([a, b], [p, q], ridge) = (eaves(i), ground(i), 3 * i);
+        for [k, l, m] in [[ridge, b, a], [a, b, q], [a, q, p]] {
+            solid.triangles.push(if turned { [k, m, l] } else { [k, l, m] });
+        }
+    }
+    mesh(solid)
+}
+
+/// Numbers of the bays whose ridge is drawn, and of those whose ridge turns by more than a crease.
+fn drawn_and_sharp(mesh: &Mesh) -> [Vec<usize>; 2] {
+    let patches = Patches::new(mesh, CREASE_DEG, false);
+    assert!(patches.figure.iter().all(|figure| !figure), "a house is no figure");
+    [&patches.hard, &HardEdges::above(mesh, CREASE_DEG)].map(|hard| {
+        let on_ridge = |p: &DVec3| p.y.abs() < 1e-9 && p.z.abs() < 1e-9;
+        let ridge = ends(mesh, hard).into_iter().filter(|pair| pair.iter().all(on_ridge));
+        let mut bays: Vec<usize> = ridge.map(|pair| pair[0].x.min(pair[1].x).round() as usize).collect();
+        bays.sort_unstable();
+        bays
+    })
+}
+
+#[test]
+fn a_crease_of_a_machined_part_goes_on_to_the_next_line() {
+    let all: Vec<usize> = (0..24).collect();
+    // As far as the gable, and from dash to dash.
+    let fading = house(24, |i| 60.0 - f64::from(i) * 1.1);
+    let dashed = house(24, |i| if i % 4 < 2 { 48.0 } else { 34.0 });
+    for mesh in [fading, dashed] {
+        let [drawn, sharp] = drawn_and_sharp(&mesh);
+        assert!(sharp.len() < 20 && !sharp.is_empty(), "{sharp:?}");
+        assert_eq!(drawn, all);
+    }
+    // Where it fades away before it comes to another line it ends as it did.
+    let [drawn, sharp] = drawn_and_sharp(&house(24, |i| 60.0 - f64::from(i) * 1.6));
+    assert!(sharp.len() > 8 && sharp.len() < 16, "{sharp:?}");
+    assert_eq!(drawn, sharp);
+    let [drawn, _] = drawn_and_sharp(&house(24, |_| 36.0));
+    assert!(drawn.is_empty());
 }
 
 #[test]

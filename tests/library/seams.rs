@@ -119,6 +119,25 @@ fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
 }
 
 #[test]
+fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
+    // A plate whose long side ends in the rounding of a corner.
+    let mut plate = Solid { positions: vec![DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO], ..Solid::default() };
+    plate.positions.extend((0..=4).map(|k| {
+        let turn = TAU / 4.0 * f64::from(k) / 4.0;
+        DVec3::new(9.0 + sin(turn), 1.0 - cos(turn), 0.0)
+    }));
+    plate.positions.push(DVec3::new(10.0, 9.0, 0.0));
+    plate.triangles = (1..plate.positions.len() as u32 - 1).map(|k| [0, k, k + 1]).collect();
+    let faces = plate.triangles.len();
+    // What has a side of its own near it, one that runs the other way.
+    plate.add(Solid {
+        positions: [[5.0, -0.3, 0.1], [4.0, -0.3, 0.1], [4.5, -1.0, 0.1]].map(DVec3::from).to_vec(),
+        triangles: vec![[0, 1, 2]],
+    });
+    assert_eq!(mesh(&plate).triangles.len(), faces + 1, "no face is cut");
+}
+
+#[test]
 fn corners_on_both_sides_of_a_seam_are_one() {
     // As far apart as programs put them that turn each surface into triangles by itself.
     let mut dice = Dice::new(11);

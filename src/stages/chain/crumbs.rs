@@ -61,6 +61,12 @@ impl Rims {
     }
 }
 
+/// Whether a line is a crease of a scan that turns too little for its length: it goes, unless contours go on at both
+/// its ends.
+pub(super) fn may_be_noise(raw: &Raw, tidy: f64) -> bool {
+    raw.class.origin == Origin::Scanned && raw.class.kind == LineKind::Crease && raw.pronounced < NOISE * tidy
+}
+
 fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
     if raw.class.hidden {
         return false;
@@ -68,7 +74,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
     let length = raw.length();
     let scanned = raw.class.origin == Origin::Scanned;
     if scanned && raw.class.kind == LineKind::Crease {
-        return raw.pronounced < NOISE * tidy && !(rims.holds(raw) && length >= tidy);
+        return may_be_noise(raw, tidy) && !(rims.holds(raw) && length >= tidy);
     }
     if raw.class.kind.is_inside() {
         return raw.line.strength() < INSIDE * tidy || raw.line.peak() < INSIDE_PEAK;

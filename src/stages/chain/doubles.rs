@@ -6,6 +6,7 @@ use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::crumbs::may_be_noise;
 use super::line::Line;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
@@ -14,6 +15,9 @@ use crate::math::grouped::{Grouped, grouped};
 use crate::math::plane::{distance2, length};
 use crate::shape::Origin;
 use crate::viewmap::ViewVertexId;
+
+/// Lines nearer than this part of the tidy length are double strokes.
+const DOUBLE: f64 = 0.3;
 
 /// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
 const PARALLEL_COSINE: f64 = 0.82;
@@ -59,9 +63,10 @@ struct Buckets {
     pieces: Grouped<u32>,
 }
 
-/// Leaves out smooth contours and noisy creases that double a longer visible line within
-/// `distance`, but for what of them runs by itself.
-pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance: f64, bin: &mut Bin) {
+/// Leaves out smooth contours and noisy creases that double a longer visible line within so many tidy lengths,
+/// but for what of them runs by itself. A line that may go for noise stands for no other.
+pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
+    let distance = DOUBLE * tidy;
     if !raws.iter().any(is_suspect) {
         return;
     }
@@ -80,6 +85,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
     let pieces = found.concat();
     let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
     let rims = Rims::of(raws, &lengths);
+    let may_go: Vec<bool> = raws.iter().map(|raw| may_be_noise(raw, tidy)).collect();
     // Which sides of a line run by themselves, if it is a double. Only longer lines make it one, so that it does not matter which of
     // those are doubles themselves: of lines beside each other the longest is left.
     let alone = |i: usize| -> Option<Vec<bool>> {
@@ -101,7 +107,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, distance:
             let before = bare;
             for k in 0..parts as usize {
                 let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
-                let is_longer = |other: u32| lengths[other as usize] > total;
+                let is_longer = |other: u32| lengths[other as usize] > total && !may_go[other as usize];
                 if !buckets.beside(&pieces, point, piece.direction, distance, is_longer) {
                     bare += side / parts;
                 }
@@ -350,10 +356,27 @@ mod tests {
             let far = contour(&[(50.0, 3.0), (57.0, 7.0), (65.0, 3.0)], far_ends);
             let mut raws = vec![outline, near, far];
             let mut degrees = Degrees::new(&ViewMap::default(), &[]);
-            drop_doubles(&mut raws, &mut degrees, 1.2, &mut Bin::default());
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
             raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
         };
         assert_eq!(left([3, 2]), [0, 2, 3], "both sides of a rim end in the same two places");
         assert_eq!(left([4, 5]), [0, 4], "a flake beside the outline");
+    }
+
+    #[test]
+    fn a_crease_that_may_go_for_noise_stands_for_no_contour() {
+        let left = |pronounced: f64| {
+            let rim = contour(&[(50.0, 3.0), (120.0, 3.0)], [0, 1]);
+            let mut crease = contour(&[(0.0, 2.5), (200.0, 2.5)], [2, 3]);
+            crease.class.kind = LineKind::Crease;
+            crease.smooth = false;
+            crease.pronounced = pronounced;
+            let mut raws = vec![rim, crease];
+            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
+        };
+        assert_eq!(left(100.0), [2], "a sharp crease beside a contour");
+        assert_eq!(left(3.0), [0, 2], "one that turns too little for its length");
     }
 }

@@ -21,9 +21,6 @@ use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 /// Hidden gaps are bridged up to this part of the tidy length.
 const GAP: f64 = 0.6;
 
-/// Lines nearer than this part of the tidy length are double strokes.
-const DOUBLE: f64 = 0.3;
-
 /// A line changes between silhouette and inner contour no more often than every so many tidy
 /// lengths.
 const SILHOUETTE: f64 = 3.0;
@@ -72,7 +69,7 @@ pub(super) fn tidied(
     for _ in 0..ROUNDS {
         let count = raws.len();
         raws = stitch(raws, &mut degrees, tidy, ahead, bin);
-        drop_doubles(&mut raws, &mut degrees, DOUBLE * tidy, bin);
+        drop_doubles(&mut raws, &mut degrees, tidy, bin);
         drop_crumbs(&mut raws, &mut degrees, tidy, bin);
         if raws.len() == count {
             break;

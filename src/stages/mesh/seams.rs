@@ -294,20 +294,34 @@ impl<'a> Seams<'a> {
     }
 
     /// How far the curve, of which an open edge is a chord, may stand off, and which way: told by how it turns at
-    /// the end where it turns less, since at the end of a curve there is another corner.
+    /// the end where it turns less, since at the end of a curve there is another corner. What of that turn is the next
+    /// edge's is told by how that one turns at its other end: beside the rounding of a corner a straight
+    /// side stays straight.
     fn sagitta(&self, own: &Open) -> DVec3 {
-        let at = |end: usize| {
-            let corner = self.numbers[own.ends[end] as usize] as usize;
-            let goes_on = |other: &&Open| other.ends[1 - end] == own.ends[end] && other.part == own.part;
+        let next = |of: &Open, end: usize| {
+            let corner = self.numbers[of.ends[end] as usize] as usize;
+            let goes_on = |other: &&Open| other.ends[1 - end] == of.ends[end] && other.part == of.part;
             let others = self.at.of(corner).iter().map(|k| &self.open[*k as usize]).filter(goes_on);
-            others.map(|other| other.along).max_by(|a, b| a.dot(own.along).total_cmp(&b.dot(own.along)))
+            others.max_by(|a, b| a.along.dot(of.along).total_cmp(&b.along.dot(of.along)))
         };
-        let least =
-            [0, 1].into_iter().filter_map(at).max_by(|a, b| a.dot(own.along).total_cmp(&b.dot(own.along)));
-        let cosine = least.map_or(-1.0, |along| along.dot(own.along));
-        let Some(along) = least.filter(|_| cosine >= ALONG) else { return DVec3::ZERO };
-        let height = UNEVEN * own.length * ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt() / 4.0;
-        (along - own.along * cosine).normalize_or_zero() * height
+        let ends = [0, 1].into_iter().filter_map(|end| Some((end, next(own, end)?)));
+        let straighter = ends.max_by(|a, b| a.1.along.dot(own.along).total_cmp(&b.1.along.dot(own.along)));
+        let Some((end, beside)) = straighter else { return DVec3::ZERO };
+        let cosine = beside.along.dot(own.along);
+        if cosine < ALONG {
+            return DVec3::ZERO;
+        }
+        // The tangent of half a turn; halves of a turn belong to either edge where both are alike.
+        let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
+        let turn = half_turn(cosine);
+        let share = next(beside, end).map_or(0.0, |beyond| {
+            let cosine = beyond.along.dot(beside.along);
+            let of_beside = beside.length / (beside.length + beyond.length);
+            if cosine < ALONG { 0.0 } else { half_turn(cosine) * of_beside }
+        });
+        let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
+        let height = UNEVEN * own.length * own_turn / 2.0;
+        (beside.along - own.along * cosine).normalize_or_zero() * height
     }
 
     /// Visits the corners near a line, some perhaps twice.

@@ -118,6 +118,36 @@ impl<'a> Folds<'a> {
         chains
     }
 
+    /// The edges on which folds of more than `high_deg` degrees go on from where they would end inside the surface:
+    /// along folds that continue each other, to the first vertex at which another fold of more than `high_deg` degrees
+    /// ends. Where there is none they do not go on.
+    pub fn going_on(&self, high_deg: f64) -> Vec<usize> {
+        let is_high = |end: &u32| self.folds[(end >> 1) as usize].turn > high_deg as f32;
+        // The fold that leads to an end is passed over.
+        let meets = |end: u32| {
+            self.ends.of(self.vertex(end)).iter().any(|other| other >> 1 != end >> 1 && is_high(other))
+        };
+        let loose = (0..2 * self.folds.len() as u32).filter(|end| is_high(end) && !meets(*end));
+        let (mut more, mut pairs) = (Vec::new(), Vec::new());
+        for from in loose {
+            let (first, mut end) = (more.len(), from);
+            let arrives = loop {
+                pairs.clear();
+                self.pair_up(self.vertex(end), &mut pairs);
+                let Some(next) = pairs.iter().find_map(|pair| pair.other(end)) else { break false };
+                more.push(self.folds[(next >> 1) as usize].edge as usize);
+                end = next ^ 1;
+                if meets(end) {
+                    break true;
+                }
+            };
+            if !arrives {
+                more.truncate(first);
+            }
+        }
+        more
+    }
+
     /// Which ends continue each other: for each end the other one and the cosine of the bend
     /// between them.
     fn links(&self) -> Vec<Option<(u32, f32)>> {
@@ -233,4 +263,12 @@ struct Pair {
     rank: f64,
     /// Breaks ties.
     place: f64,
+}
+
+impl Pair {
+    /// The end that continues one of the two.
+    fn other(&self, end: u32) -> Option<u32> {
+        let [a, b] = self.ends;
+        (a == end).then_some(b).or((b == end).then_some(a))
+    }
 }

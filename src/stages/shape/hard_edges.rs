@@ -6,8 +6,9 @@
 
 use rayon::prelude::*;
 
-use super::crease_chains::{Chain, Folds, folds};
+use super::crease_chains::{Chain, Fold, Folds, folds};
 use super::roughness::Roughness;
+use crate::math::function::cos;
 use crate::mesh::dihedral::{Dihedral, mark};
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeMark, Mesh, Turns};
@@ -74,6 +75,25 @@ impl HardEdges {
 
     pub(super) fn above_with(mesh: &Mesh, turns: &Turns, crease_deg: f64) -> Self {
         Self::of_edges(mesh, folds(mesh, turns, crease_deg).iter().map(|f| f.edge as usize)).with_marks(mesh)
+    }
+
+    /// Every edge whose faces turn by more than `crease_deg` degrees, those that the file marks, and of those edges
+    /// of which `goes_on` says so the ones on which a crease goes on to the next line while it turns by more
+    /// than `low_deg` degrees.
+    pub(super) fn above_and_on(
+        mesh: &Mesh,
+        turns: &Turns,
+        [crease_deg, low_deg]: [f64; 2],
+        goes_on: impl Fn(usize) -> bool,
+    ) -> Self {
+        let mut folds = folds(mesh, turns, low_deg);
+        let cosine = cos(crease_deg.to_radians()) as f32;
+        // As sharp as `above` has it, by cosine and angle.
+        let is_above = |f: &Fold| f.turn > crease_deg as f32 && turns.at(mesh, f.edge as usize) < cosine;
+        let mut edges: Vec<usize> = folds.iter().filter(|f| is_above(f)).map(|f| f.edge as usize).collect();
+        folds.retain(|f| goes_on(f.edge as usize));
+        edges.extend(Folds::new(mesh, folds).going_on(crease_deg));
+        Self::of_edges(mesh, edges.into_iter()).with_marks(mesh)
     }
 
     /// No edge.

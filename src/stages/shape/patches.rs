@@ -7,6 +7,7 @@
 use super::HardEdges;
 use super::file_normals::file_cosines;
 use super::free_forms::add_free_forms;
+use super::hard_edges::LOW_OF_HIGH;
 use super::planes::{Planes, area};
 use super::rounded::{Make, Origin, Pieces, Verdict, verdicts};
 use crate::math::function::cos;
@@ -99,19 +100,33 @@ fn pieces_in(verdicts: &[Verdict]) -> Vec<u32> {
     verdicts.iter().map(|verdict| verdict.piece).collect()
 }
 
+/// Every sharp edge, and on machined pieces what a crease goes on along that would end inside the surface: flats and
+/// strips that are cut out of it turn by more here and by less there.
+fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
+    let is_machined = |face: &u32| verdicts[*face as usize].make == Make::Machined;
+    if !(0..verdicts.len() as u32).any(|face| is_machined(&face)) {
+        return HardEdges::above_with(mesh, turns, crease_deg);
+    }
+    let low_deg = ROUND * LOW_OF_HIGH * crease_deg;
+    HardEdges::above_and_on(mesh, turns, [crease_deg, low_deg], |edge| {
+        mesh.edges.faces(edge).list().iter().all(is_machined)
+    })
+}
+
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
 /// which the file's normals turn as well, and chains that turn by more and stand out from what is around them.
 fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
     let is_round = |face: u32| verdicts[face as usize].make == Make::Round;
     let round = (0..verdicts.len() as u32).filter(|face| is_round(*face)).count();
+    let above = || sharp_edges(mesh, turns, verdicts, crease_deg);
     if round == 0 {
-        return HardEdges::above_with(mesh, turns, crease_deg);
+        return above();
     }
     let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0));
     if round == verdicts.len() && mesh.corner_normals.is_empty() {
         return chains;
     }
-    let above = HardEdges::above_with(mesh, turns, crease_deg);
+    let above = above();
     let least = cos(crease_deg.to_radians()) as f32;
     let shaded_sharp = |edge: usize, faces: [u32; 2]| {
         faces.iter().all(|face| verdicts[*face as usize].believed)
@@ -197,6 +212,39 @@ mod tests {
         }
         soup.corner_normals = soup.triangles.clone();
         Mesh::build(soup)
+    }
+
+    /// A star of eight points, drawn out and twisted but for so many of its rings.
+    fn screw(straight: u32) -> Mesh {
+        const AROUND: u32 = 16;
+        const RINGS: u32 = 60;
+        let mut soup = Soup::default();
+        for ring in 0..=RINGS {
+            for step in 0..AROUND {
+                let twist = 0.04 * f64::from(ring.saturating_sub(straight));
+                let turn = std::f64::consts::TAU * f64::from(step) / f64::from(AROUND) + twist;
+                let radius = if step % 2 == 0 { 1.0 } else { 0.6 };
+                let z = 0.1 * f64::from(ring);
+                soup.positions.push(DVec3::new(radius * cos(turn), radius * sin(turn), z));
+            }
+        }
+        for ring in 0..RINGS {
+            for step in 0..AROUND {
+                let at = |ring: u32, step: u32| ring * AROUND + step % AROUND;
+                let (a, b) = (at(ring, step), at(ring, step + 1));
+                let (c, d) = (at(ring + 1, step), at(ring + 1, step + 1));
+                soup.triangles.extend([[a, b, c], [b, d, c]]);
+            }
+        }
+        Mesh::build(soup)
+    }
+
+    #[test]
+    fn many_sharp_edges_and_some_flat_ones_are_of_a_machined_part() {
+        let origins = |straight: u32| Patches::new(&screw(straight), 40.0, false).origins;
+        assert!(origins(5).iter().all(|origin| *origin == Origin::Constructed));
+        // So sharp and nowhere flat is what is left of a scan.
+        assert!(origins(0).iter().all(|origin| *origin == Origin::Scanned));
     }
 
     #[test]
