@@ -13,6 +13,8 @@ const GONE: u32 = u32::MAX;
 
 /// Edges that one task looks at.
 const CHUNK: usize = 1 << 14;
+/// More edges than this are spliced by one, so that nothing is there twice.
+const MANY_EDGES: usize = 1 << 20;
 
 impl Edges {
     /// The edges after faces were cut: `renamed` are the new numbers of the faces, `u32::MAX` for those that were cut; the
@@ -33,18 +35,20 @@ impl Edges {
             Some(ends) => own.vertices.partition_point(|other| other < ends),
             None => own.len(),
         };
+        let chunk = if self.len() > MANY_EDGES { self.len() } else { CHUNK };
         let spliced = |k: usize| {
-            let edges = k * CHUNK..((k + 1) * CHUNK).min(self.len());
+            let edges = k * chunk..((k + 1) * chunk).min(self.len());
             self.spliced_part(edges.clone(), (&own, place(edges.start)..place(edges.end)), renamed, kept)
         };
         let (parts, mut ids): (Vec<Self>, Vec<Vec<u32>>) =
-            (0..self.len().div_ceil(CHUNK).max(1)).into_par_iter().map(spliced).unzip();
+            (0..self.len().div_ceil(chunk).max(1)).into_par_iter().map(spliced).unzip();
         let mut before = 0;
         for (part, ids) in parts.iter().zip(&mut ids) {
             ids.iter_mut().filter(|id| **id != GONE).for_each(|id| *id += before);
             before += part.len() as u32;
         }
-        (Self::joined(parts), ids.concat())
+        let ids = if let [only] = ids.as_mut_slice() { std::mem::take(only) } else { ids.concat() };
+        (Self::joined(parts), ids)
     }
 
     /// Does so for some of the edges, and those of the pieces that stand before and among them. The ids begin with the first of these.

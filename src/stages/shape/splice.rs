@@ -14,6 +14,9 @@ use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, PaintId, P
 /// Texture coordinates and colours of new corners are rounded to this part.
 const UV_STEPS: f64 = 65536.0;
 
+/// Of more faces than this in a mesh that is given away, one thing is done after the other, so that less is there at a time.
+const MANY_FACES: usize = 500_000;
+
 /// A piece of a face, which may be cut further.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Facet {
@@ -150,10 +153,14 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cut
         Cow::Owned(mesh) => Cow::Owned(std::mem::take(&mut mesh.edges)),
     };
     let sets = [&smooth.straight, &smooth.parting].map(EdgeSet::clone);
-    let (of_edges, (mut mesh, mut smooth)) = rayon::join(
-        || OfEdges::new(&edges, sets, (&cuts, old), &triangles),
-        || of_faces(mesh, smooth, &cuts, &triangles),
-    );
+    let by_edges = || OfEdges::new(&edges, sets, (&cuts, old), &triangles);
+    let (of_edges, (mut mesh, mut smooth)) = if matches!(mesh, Cow::Owned(_)) && cuts.kept.of > MANY_FACES {
+        let of_edges = by_edges();
+        drop(edges);
+        (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
+    } else {
+        rayon::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
+    };
     mesh.edges = of_edges.edges;
     (smooth.straight, smooth.parting) = (of_edges.straight, of_edges.parting);
     let Cuts { pieces, kept, .. } = &cuts;
