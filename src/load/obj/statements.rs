@@ -3,23 +3,20 @@
 mod ahead;
 mod faces;
 mod numbers;
+mod plain;
 
 use std::ops::Range;
 
-use ahead::{Ahead, NO_CORNER, Read, Run};
+use ahead::{Ahead, Read, Run};
 use glam::DVec3;
+pub(super) use plain::NONE;
+use plain::{Corner, NO_CORNER, plain_position};
 
 use crate::error::Error;
 use crate::load::shown;
-use crate::load::text::{Cursor, plain_number};
+use crate::load::text::Cursor;
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
 use crate::scene::warnings::{Spots, Warnings};
-
-/// No index.
-pub(super) const NONE: u32 = u32::MAX;
-
-/// Position, texture coordinate and normal of a corner.
-type Corner = [u32; 3];
 
 /// Triangles and wires that follow one another in the same part with the same material.
 #[derive(Debug, Clone)]
@@ -383,20 +380,4 @@ impl<'a> Parser<'a> {
         Error::new(format!("`{word}` is not the index of a vertex"))
             .at(format!("line {}", self.cursor.line()))
     }
-}
-
-/// Three usual numbers and the end of the line.
-#[inline(always)]
-fn plain_position(bytes: &[u8], mut at: usize) -> Option<(DVec3, usize)> {
-    let mut axes = [0.0; 3];
-    for axis in &mut axes {
-        while *bytes.get(at)? == b' ' {
-            at += 1;
-        }
-        (*axis, at) = plain_number(bytes, at)?;
-        if !matches!(bytes.get(at)?, b' ' | b'\n' | b'\r') {
-            return None;
-        }
-    }
-    matches!(bytes.get(at)?, b'\n' | b'\r').then_some((DVec3::from_array(axes), at))
 }

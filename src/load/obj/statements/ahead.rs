@@ -9,8 +9,7 @@ use std::collections::VecDeque;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::faces::{plain_face, plain_triangle};
-use super::{Corner, NONE, plain_position};
+use super::plain::{Corner, NO_CORNER, plain_face, plain_position, plain_triangle};
 use crate::load::text::plain_number;
 use crate::scene::coordinate::is_drawable;
 
@@ -49,9 +48,6 @@ pub(super) enum Read {
     /// [`NO_CORNER`].
     Faces(Vec<[Corner; 4]>, u32),
 }
-
-/// Where a face has but three corners.
-pub(super) const NO_CORNER: Corner = [NONE; 3];
 
 /// What was read before its turn.
 #[derive(Debug, Default)]

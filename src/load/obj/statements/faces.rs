@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::ahead::NO_CORNER;
-use super::{Corner, NONE, Parser, Stop};
+use super::plain::{Corner, NONE, plain_triangle};
+use super::{Parser, Stop};
 use crate::error::Error;
 use crate::load::polygon::{self, CutOutcome};
-use crate::load::text::{Cursor, plain_digits, plain_index};
+use crate::load::text::Cursor;
 use crate::scene::coordinate::is_drawable;
 
 impl Parser<'_> {
@@ -179,48 +179,6 @@ impl Parser<'_> {
             }
         }
         Ok(())
-    }
-}
-
-/// Three bare indices and the end of the line.
-#[inline(always)]
-pub(super) fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize)> {
-    let (a, at) = plain_index(bytes, at)?;
-    let (b, at) = plain_index(bytes, at)?;
-    let (c, at) = plain_index(bytes, at)?;
-    matches!(bytes.get(at)?, b'\n' | b'\r').then_some(([a, b, c], at))
-}
-
-/// Three or four corners of indices of few digits, and the end of the line: as [`Parser::corner`] reads them.
-pub(super) fn plain_face(bytes: &[u8], mut at: usize) -> Option<([Corner; 4], usize)> {
-    let mut corners = [NO_CORNER; 4];
-    let mut count = 0;
-    loop {
-        while *bytes.get(at)? == b' ' {
-            at += 1;
-        }
-        if matches!(bytes.get(at)?, b'\n' | b'\r') {
-            return (count > 2).then_some((corners, at));
-        }
-        let corner = corners.get_mut(count)?;
-        for (k, index) in corner.iter_mut().enumerate() {
-            let (value, end) = plain_digits(bytes, at);
-            // Another index may be missing, or none.
-            let digits = end - at;
-            if digits > 9 || (k == 0 && value == 0) {
-                return None;
-            }
-            *index = (value as u32).wrapping_sub(1);
-            at = end;
-            if k == 2 || bytes.get(at) != Some(&b'/') {
-                break;
-            }
-            at += 1;
-        }
-        if !matches!(bytes.get(at)?, b' ' | b'\n' | b'\r') {
-            return None;
-        }
-        count += 1;
     }
 }
 
