@@ -66,3 +66,37 @@ fn surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2
         && facing_a * facing_a * nearer > most * far_a
         && facing_b * facing_b * nearer > most * far_b
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_surely_turned_is_so_by_unit_vectors() {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        let (mut told, mut turned) = (0, 0);
+        for k in 0..20_000 {
+            let mut point = || DVec3::new(next(), next(), next());
+            // From edges as long as their distance to short ones, from normals that turn much to alike ones.
+            let (near, alike) = (0.1f64.powi(k % 4), 0.1f64.powi(k / 4 % 4));
+            let (a, eye) = (point(), point() * 3.0);
+            let ends = [a, a + point() * near];
+            let normal = point().normalize_or_zero();
+            let normals = [normal, (normal + point() * alike).normalize_or_zero()];
+            let to_eye = ends.map(|p| (eye - p).normalize());
+            let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
+            let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
+            let is_turned =
+                facing[0] * facing[1] > 0.0 && facing[0].abs().min(facing[1].abs()) > REACH * turn;
+            let is_told = surely_turned(eye, ends, normals);
+            assert!(is_turned || !is_told, "{ends:?} {normals:?} from {eye}");
+            told += u32::from(is_told);
+            turned += u32::from(is_turned);
+        }
+        assert!(turned > 10_000 && f64::from(told) > 0.85 * f64::from(turned), "{told} of {turned}");
+    }
+}

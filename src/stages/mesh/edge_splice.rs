@@ -30,15 +30,20 @@ impl Edges {
         pieces: &[[u32; 3]],
     ) -> (Self, Vec<u32>) {
         let own = Self::build(vertex_count, pieces);
+        let chunk = if self.len() > MANY_EDGES { self.len() } else { CHUNK };
+        self.spliced_in_chunks(chunk, &own, renamed, kept)
+    }
+
+    /// Does so with the edges of the pieces, and so many edges at a time.
+    fn spliced_in_chunks(&self, chunk: usize, own: &Self, renamed: &[u32], kept: u32) -> (Self, Vec<u32>) {
         let place = |edge: usize| match self.vertices.get(edge) {
             Some(_) if edge == 0 => 0,
             Some(ends) => own.vertices.partition_point(|other| other < ends),
             None => own.len(),
         };
-        let chunk = if self.len() > MANY_EDGES { self.len() } else { CHUNK };
         let spliced = |k: usize| {
             let edges = k * chunk..((k + 1) * chunk).min(self.len());
-            self.spliced_part(edges.clone(), (&own, place(edges.start)..place(edges.end)), renamed, kept)
+            self.spliced_part(edges.clone(), (own, place(edges.start)..place(edges.end)), renamed, kept)
         };
         let (parts, mut ids): (Vec<Self>, Vec<Vec<u32>>) =
             (0..self.len().div_ceil(chunk).max(1)).into_par_iter().map(spliced).unzip();
@@ -241,7 +246,18 @@ mod tests {
             let anew = Edges::build(vertices, &all);
             assert_eq!(spliced.vertices, anew.vertices);
             assert!((0..anew.len()).all(|edge| spliced.faces(edge) == anew.faces(edge)), "{every}");
-            assert_eq!((spliced.fans, spliced.fan_starts), (anew.fans, anew.fan_starts));
+            assert_eq!((&spliced.fans, &spliced.fan_starts), (&anew.fans, &anew.fan_starts));
+            let own = Edges::build(vertices, &pieces);
+            for chunk in [1, 7, 64] {
+                let (parts, of_parts) = edges.spliced_in_chunks(chunk, &own, &renamed, kept.len() as u32);
+                assert_eq!(
+                    (&parts.vertices, &parts.faces),
+                    (&spliced.vertices, &spliced.faces),
+                    "by {chunk}"
+                );
+                assert_eq!((&parts.fans, &parts.fan_starts), (&spliced.fans, &spliced.fan_starts));
+                assert_eq!(of_parts, ids);
+            }
             for (edge, id) in ids.iter().enumerate() {
                 let now = spliced.vertices.get(*id as usize);
                 assert_eq!(now, Some(&edges.vertices[edge]).filter(|_| edge % every != 0));
