@@ -5,11 +5,9 @@
 //! agree and no crack opens. Faces are cut by the patterns of their cut sides.
 
 use std::borrow::Cow;
-use std::collections::hash_map::Entry;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::marking::{Marks, marks};
 use super::smooth_normals::NO_NORMAL;
@@ -55,43 +53,93 @@ pub fn cuts(
     if cut.is_empty() && thin.is_empty() {
         return None;
     }
-    let mut work = Work::new(mesh, smooth);
-    work.cut(&cut, |_, _| true);
+    let mut work = Work::of(mesh, smooth, &cut);
     let (kept, mut open) = work.affected(&edges);
     let mut done: Vec<Facet> = Vec::new();
     for cuts in 0..MOST_CUTS {
         if cuts > 0 {
             work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
         }
-        let parted: Vec<[Vec<Facet>; 2]> = open.par_chunks(CHUNK).map(|pieces| work.parted(pieces)).collect();
+        let parted = work.parted(&open);
         open.clear();
-        for [left, whole] in parted {
+        for Parted { open: left, whole, inner } in parted {
             open.extend(left);
             done.extend(whole);
+            work.sides.extend(inner);
         }
         if open.is_empty() {
             break;
         }
     }
-    done.append(&mut open);
+    done.extend(open.iter().map(|piece| piece.facet));
     let Work { positions, normals, .. } = work;
     Some(Cuts { positions, normals, pieces: done, kept, thin })
+}
+
+/// The side of a piece was decided about, and stays.
+const CLOSED: u32 = u32::MAX;
+
+/// A piece of a face, which may be cut further.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    facet: Facet,
+    /// Which [`Side`]s the sides 0-1, 1-2, 2-0 are; [`CLOSED`] where they are not cut any more.
+    sides: [u32; 3],
+}
+
+/// What becomes of the side of a piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fate {
+    Open,
+    Whole,
+    /// It is cut by a smooth vertex; its halves are two sides, the first the one at the smaller end.
+    Cut {
+        middle: u32,
+        halves: u32,
+    },
+}
+
+/// The side of a piece, or of the two that share it.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// The smooth vertices at its ends, the smaller first.
+    ends: [u32; 2],
+    fate: Fate,
+}
+
+impl Side {
+    fn open(a: u32, b: u32) -> Self {
+        Self { ends: [a.min(b), a.max(b)], fate: Fate::Open }
+    }
+}
+
+/// What some pieces are cut into.
+#[derive(Default)]
+struct Parted {
+    /// What may be cut further.
+    open: Vec<Piece>,
+    whole: Vec<Facet>,
+    /// The sides that are new inside the pieces.
+    inner: Vec<Side>,
 }
 
 struct Work<'a> {
     mesh: &'a Mesh,
     smooth: &'a SmoothNormals,
-    /// The new vertices: positions and normals.
+    /// The new vertices, which are numbered behind those of the mesh: positions and normals.
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// The smooth vertex in the middle of an edge between two, [`NO_NORMAL`] where it is not cut. New ones are numbered behind
-    /// those of the mesh.
-    middles: FxHashMap<[u32; 2], u32>,
+    /// All that are, or were, open. Neighbours know a side by its number, so that no vertex is made twice.
+    sides: Vec<Side>,
 }
 
 impl<'a> Work<'a> {
-    fn new(mesh: &'a Mesh, smooth: &'a SmoothNormals) -> Self {
-        Self { mesh, smooth, positions: Vec::new(), normals: Vec::new(), middles: FxHashMap::default() }
+    /// With the sides between some smooth vertices cut, as those of the first numbers.
+    fn of(mesh: &'a Mesh, smooth: &'a SmoothNormals, cut: &[[u32; 2]]) -> Self {
+        let sides = cut.iter().map(|[a, b]| Side::open(*a, *b)).collect();
+        let mut work = Self { mesh, smooth, positions: Vec::new(), normals: Vec::new(), sides };
+        work.cut(&(0..cut.len() as u32).collect::<Vec<_>>(), |_, _| true);
+        work
     }
 
     fn position(&self, v: u32) -> DVec3 {
@@ -108,148 +156,184 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn ends(&self, ends: [u32; 2]) -> ([DVec3; 2], [DVec3; 2]) {
-        (ends.map(|v| self.position(v)), ends.map(|v| self.normal(v)))
-    }
-
-    /// Cuts those of some edges for which `wanted` holds; the others stay whole.
-    fn cut(&mut self, edges: &[[u32; 2]], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
-        let middle = |ends: &[u32; 2]| {
-            let (positions, normals) = self.ends(*ends);
+    /// Cuts those of some sides for which `wanted` holds; the others stay whole.
+    fn cut(&mut self, sides: &[u32], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+        let middle = |side: &u32| {
+            let [a, b] = self.sides[*side as usize].ends;
+            let positions = [self.position(a), self.position(b)];
+            let normals = [self.normal(a), self.normal(b)];
             wanted(positions, normals).then(|| {
                 let arc = EdgeArc::new(positions, normals);
                 (arc.at(0.5), arc.middle_normal())
             })
         };
         let middles: Vec<Option<(DVec3, DVec3)>> =
-            edges.par_iter().with_min_len(1 << 8).map(middle).collect();
-        self.middles.reserve(edges.len());
-        for (ends, (position, normal)) in
-            edges.iter().zip(middles).filter_map(|(ends, middle)| Some((*ends, middle?)))
-        {
-            self.middles.insert(ends, (self.smooth.vertices.len() + self.normals.len()) as u32);
+            sides.par_iter().with_min_len(1 << 8).map(middle).collect();
+        for (side, middle) in sides.iter().zip(middles) {
+            let Some((position, normal)) = middle else {
+                self.sides[*side as usize].fate = Fate::Whole;
+                continue;
+            };
+            let middle = (self.smooth.vertices.len() + self.normals.len()) as u32;
+            let halves = self.sides.len() as u32;
+            let [a, b] = self.sides[*side as usize].ends;
+            self.sides[*side as usize].fate = Fate::Cut { middle, halves };
+            self.sides.extend([Side::open(a, middle), Side::open(b, middle)]);
             self.positions.push(position);
             self.normals.push(normal);
         }
     }
 
     /// Decides about the open sides of pieces that are not decided yet.
-    fn decide(&mut self, pieces: &[Facet], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+    fn decide(&mut self, pieces: &[Piece], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
         // A side is mostly that of two pieces.
-        self.middles.reserve(pieces.len() * 3 / 2);
         let mut asked = Vec::with_capacity(pieces.len() * 3 / 2);
-        for piece in pieces {
-            for side in (0..3).filter(|side| piece.open[*side]) {
-                if let Entry::Vacant(vacant) = self.middles.entry(piece.side(side)) {
-                    asked.push(*vacant.key());
-                    vacant.insert(NO_NORMAL);
-                }
+        for side in pieces.iter().flat_map(|piece| piece.sides).filter(|side| *side != CLOSED) {
+            let fate = &mut self.sides[side as usize].fate;
+            if *fate == Fate::Open {
+                *fate = Fate::Whole;
+                asked.push(side);
             }
         }
         self.cut(&asked, wanted);
     }
 
-    /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut.
-    fn affected(&self, cut: &[u32]) -> (Kept, Vec<Facet>) {
+    /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut, which are
+    /// the first sides.
+    fn affected(&self, cut: &[u32]) -> (Kept, Vec<Piece>) {
         let Self { mesh, smooth, .. } = self;
-        let mut faces: Vec<u32> = Vec::with_capacity(2 * cut.len());
-        cut.iter().for_each(|edge| faces.extend_from_slice(mesh.edges.faces(*edge as usize).list()));
-        faces.par_sort_unstable();
-        faces.dedup();
-        let open_piece = |face: &u32| {
-            let marks = mesh.edge_marks.get(*face as usize).copied().unwrap_or_default();
-            let mut piece =
-                Facet { corners: smooth.corners_of(*face)?, open: [false; 3], marks, face: *face };
-            piece.open = [0, 1, 2].map(|side| self.middles.contains_key(&piece.side(side)));
-            piece.open.contains(&true).then_some(piece)
+        // A face with a side, of all that are cut.
+        let mut at: Vec<(u32, u32)> = Vec::with_capacity(2 * cut.len());
+        for (side, edge) in cut.iter().enumerate() {
+            at.extend(mesh.edges.faces(*edge as usize).list().iter().map(|face| (*face, side as u32)));
+        }
+        at.par_sort_unstable();
+        let open_piece = |at: &[(u32, u32)]| {
+            let face = at.first()?.0;
+            let corners = smooth.corners_of(face)?;
+            let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
+            let sides = [0, 1, 2].map(|k| {
+                let ends = Side::open(corners[k], corners[(k + 1) % 3]).ends;
+                let side = at.iter().find(|(_, side)| self.sides[*side as usize].ends == ends);
+                side.map_or(CLOSED, |(_, side)| *side)
+            });
+            let facet = Facet { corners, marks, face };
+            (sides != [CLOSED; 3]).then_some(Piece { facet, sides })
         };
-        let open: Vec<Facet> = faces.par_iter().with_min_len(CHUNK).filter_map(open_piece).collect();
-        let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.face));
+        let open: Vec<Piece> = at.par_chunk_by(|a, b| a.0 == b.0).filter_map(open_piece).collect();
+        let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.facet.face));
         (kept, open)
     }
 
-    fn middle(&self, piece: &Facet, side: usize) -> Option<u32> {
-        if !piece.open[side] {
-            return None;
-        }
-        self.middles.get(&piece.side(side)).copied().filter(|middle| *middle != NO_NORMAL)
+    /// The middles of the sides of a piece that are cut, and where their halves are.
+    fn cuts(&self, piece: &Piece) -> [Option<(u32, u32)>; 3] {
+        piece.sides.map(|side| match self.sides.get(side as usize)?.fate {
+            Fate::Cut { middle, halves } => Some((middle, halves)),
+            Fate::Open | Fate::Whole => None,
+        })
     }
 
-    /// Cuts pieces: those that may be cut further, and those that are done.
-    fn parted(&self, pieces: &[Facet]) -> [Vec<Facet>; 2] {
-        let mut next = Vec::with_capacity(pieces.len() * 4);
-        pieces.iter().for_each(|piece| self.split(piece, &mut next));
-        let (open, done) = next.into_iter().partition(|piece: &Facet| piece.open.contains(&true));
-        [open, done]
+    /// Cuts pieces whose sides are decided about.
+    fn parted(&self, pieces: &[Piece]) -> Vec<Parted> {
+        // As many sides are new inside a piece as are cut around it.
+        let inner = |pieces: &[Piece]| {
+            pieces.iter().map(|piece| self.cuts(piece).iter().flatten().count()).sum::<usize>()
+        };
+        let counts: Vec<usize> = pieces.par_chunks(CHUNK).map(inner).collect();
+        let mut first = self.sides.len();
+        let of_chunk = |(pieces, count): (_, usize)| {
+            first += count;
+            (pieces, first - count)
+        };
+        let chunks: Vec<(&[Piece], usize)> = pieces.chunks(CHUNK).zip(counts).map(of_chunk).collect();
+        let part = |(pieces, first): (&[Piece], usize)| {
+            let mut parted = Parted {
+                open: Vec::with_capacity(pieces.len() * 2),
+                whole: Vec::with_capacity(pieces.len() * 2),
+                inner: Vec::with_capacity(pieces.len() * 3),
+            };
+            pieces.iter().for_each(|piece| self.split(piece, first, &mut parted));
+            parted
+        };
+        chunks.into_par_iter().map(part).collect()
     }
 
-    /// Cuts a piece by the pattern of its cut sides.
-    fn split(&self, piece: &Facet, out: &mut Vec<Facet>) {
-        let middles = [0, 1, 2].map(|side| self.middle(piece, side));
-        let count = middles.iter().flatten().count();
+    /// Cuts a piece by the pattern of its cut sides; `first` is the number of the first new side of all that are parted with it.
+    fn split(&self, piece: &Piece, first: usize, out: &mut Parted) {
+        let cuts = self.cuts(piece);
+        let count = cuts.iter().flatten().count();
         // Turned so that side 0 is the only cut one, or side 2 the only whole one.
         let turn = match count {
-            1 => middles.iter().position(Option::is_some).unwrap_or(0),
-            2 => (middles.iter().position(Option::is_none).unwrap_or(0) + 1) % 3,
+            1 => cuts.iter().position(Option::is_some).unwrap_or(0),
+            2 => (cuts.iter().position(Option::is_none).unwrap_or(0) + 1) % 3,
             _ => 0,
         };
-        let piece = piece.turned(turn);
-        let m = |side: usize| middles[(side + turn) % 3].unwrap_or(NO_NORMAL);
-        let [a, b, c] = piece.corners;
+        let Piece { facet, sides } = piece.turned(turn);
+        let cut = |side: usize| cuts[(side + turn) % 3].unwrap_or((NO_NORMAL, CLOSED));
+        let m = |side: usize| cut(side).0;
+        let [a, b, c] = facet.corners;
         // A whole side was decided about and stays; halves and new sides may be cut again.
-        let own = |side: usize| (false, piece.marks[side]);
-        let half = |side: usize| (true, piece.marks[side]);
-        let new = (true, EdgeMark::Unmarked);
-        let mut push = |corners: [u32; 3], sides: [(bool, EdgeMark); 3]| {
-            out.push(Facet {
-                corners,
-                open: sides.map(|s| s.0),
-                marks: sides.map(|s| s.1),
-                face: piece.face,
-            });
+        let own = |side: usize| (CLOSED, facet.marks[side]);
+        let half = |side: usize, end: u32| {
+            let is_second = end != self.sides[sides[side] as usize].ends[0];
+            (cut(side).1 + u32::from(is_second), facet.marks[side])
+        };
+        let new = |k: usize| ((first + k) as u32, EdgeMark::Unmarked);
+        let known = out.inner.len();
+        let mut push = |corners: [u32; 3], sides: [(u32, EdgeMark); 3]| {
+            let facet = Facet { corners, marks: sides.map(|side| side.1), face: facet.face };
+            let sides = sides.map(|side| side.0);
+            if sides == [CLOSED; 3] {
+                out.whole.push(facet);
+            } else {
+                out.open.push(Piece { facet, sides });
+            }
         };
         match count {
-            0 => push(piece.corners, [own(0), own(1), own(2)]),
+            0 => push([a, b, c], [own(0), own(1), own(2)]),
             1 => {
-                push([a, m(0), c], [half(0), new, own(2)]);
-                push([m(0), b, c], [half(0), own(1), new]);
+                let across = new(known);
+                push([a, m(0), c], [half(0, a), across, own(2)]);
+                push([m(0), b, c], [half(0, b), own(1), across]);
+                out.inner.push(Side::open(m(0), c));
             }
             2 => {
-                push([m(0), b, m(1)], [half(0), half(1), new]);
+                let (across, rest) = (new(known), new(known + 1));
+                push([m(0), b, m(1)], [half(0, b), half(1, b), across]);
                 let length = |p: u32, q: u32| self.position(p).distance_squared(self.position(q));
-                if length(a, m(1)) <= length(m(0), c) {
-                    push([a, m(0), m(1)], [half(0), new, new]);
-                    push([a, m(1), c], [new, half(1), own(2)]);
+                let diagonal = if length(a, m(1)) <= length(m(0), c) {
+                    push([a, m(0), m(1)], [half(0, a), across, rest]);
+                    push([a, m(1), c], [rest, half(1, c), own(2)]);
+                    Side::open(a, m(1))
                 } else {
-                    push([a, m(0), c], [half(0), new, own(2)]);
-                    push([m(0), m(1), c], [new, half(1), new]);
-                }
+                    push([a, m(0), c], [half(0, a), rest, own(2)]);
+                    push([m(0), m(1), c], [across, half(1, c), rest]);
+                    Side::open(m(0), c)
+                };
+                out.inner.extend([Side::open(m(0), m(1)), diagonal]);
             }
             _ => {
-                push([a, m(0), m(2)], [half(0), new, half(2)]);
-                push([m(0), b, m(1)], [half(0), half(1), new]);
-                push([m(2), m(1), c], [new, half(1), half(2)]);
-                push([m(0), m(1), m(2)], [new, new, new]);
+                let [at_a, at_b, at_c] = [0, 1, 2].map(|k| new(known + k));
+                push([a, m(0), m(2)], [half(0, a), at_a, half(2, a)]);
+                push([m(0), b, m(1)], [half(0, b), half(1, b), at_b]);
+                push([m(2), m(1), c], [at_c, half(1, c), half(2, c)]);
+                push([m(0), m(1), m(2)], [at_b, at_c, at_a]);
+                out.inner.extend([[m(0), m(2)], [m(0), m(1)], [m(1), m(2)]].map(|[p, q]| Side::open(p, q)));
             }
         }
     }
 }
 
-impl Facet {
-    /// The smooth vertices at the ends of a side, smaller first.
-    fn side(&self, side: usize) -> [u32; 2] {
-        let (a, b) = (self.corners[side], self.corners[(side + 1) % 3]);
-        [a.min(b), a.max(b)]
-    }
-
+impl Piece {
     fn turned(&self, by: usize) -> Self {
         let pick = |k: usize| (k + by) % 3;
-        Self {
-            corners: [0, 1, 2].map(|k| self.corners[pick(k)]),
-            open: [0, 1, 2].map(|k| self.open[pick(k)]),
-            marks: [0, 1, 2].map(|k| self.marks[pick(k)]),
-            face: self.face,
-        }
+        let Self { facet, sides } = self;
+        let facet = Facet {
+            corners: [0, 1, 2].map(|k| facet.corners[pick(k)]),
+            marks: [0, 1, 2].map(|k| facet.marks[pick(k)]),
+            face: facet.face,
+        };
+        Self { facet, sides: [0, 1, 2].map(|k| sides[pick(k)]) }
     }
 }
 

@@ -17,13 +17,12 @@ const UV_STEPS: f64 = 65536.0;
 /// Of more faces than this in a mesh that is given away, one thing is done after the other, so that less is there at a time.
 const MANY_FACES: usize = 500_000;
 
-/// A piece of a face, which may be cut further.
+/// A piece of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Facet {
     /// Smooth vertices.
     pub corners: [u32; 3],
-    /// Whether the sides 0-1, 1-2, 2-0 may be cut.
-    pub open: [bool; 3],
+    /// Those of the sides 0-1, 1-2, 2-0.
     pub marks: [EdgeMark; 3],
     /// The face of the given mesh it is part of.
     pub face: u32,
