@@ -353,14 +353,8 @@ impl<'a> Prepared<'a> {
         report.stages_ms.features += watch.lap_ms();
         centre_on_page(&mut map, camera, &page);
 
-        let ahead = Ahead {
-            mesh: &surface.mesh,
-            pieces: &surface.pieces,
-            view,
-            lines,
-            seen: &map.seen_contours,
-            moved: margin(camera, &page),
-        };
+        let (whole, moved) = ((&surface.mesh, surface.pieces.as_slice()), margin(camera, &page));
+        let ahead = Ahead::new(whole, view, lines, &map.seen_contours, moved);
         let mut chains = hidden::chains(&ahead, &map, style, page.unit, view.frame.perspective);
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
@@ -408,8 +402,16 @@ impl<'a> Prepared<'a> {
                 layers.extend(hatch::tooth(&page, &style.paper, style.seed));
             }
             Some(stage) => {
-                let made =
-                    Made { surface, view, lines, ahead, map: &map, chains: &chains, style, page: &page };
+                let made = Made {
+                    surface,
+                    view,
+                    lines,
+                    ahead: &ahead,
+                    map: &map,
+                    chains: &chains,
+                    style,
+                    page: &page,
+                };
                 layers = stages::draw(stage, &made);
             }
         }

@@ -25,7 +25,7 @@ pub(super) struct Made<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
-    pub ahead: Ahead<'a>,
+    pub ahead: &'a Ahead<'a>,
     /// In the middle of the page.
     pub map: &'a ViewMap,
     pub chains: &'a [Chain],

@@ -27,7 +27,7 @@ fn note(reason: Reason) -> &'static str {
 pub(super) fn draw(made: &Made) -> Vec<Layer> {
     let style = made.style;
     let (chains, removed) =
-        link_and_keep(Some(&made.ahead), made.map, &style.chain, made.page.unit, style.lines.hidden);
+        link_and_keep(Some(made.ahead), made.map, &style.chain, made.page.unit, style.lines.hidden);
     let seen = chains.iter().filter(|chain| chain.invisibility == 0);
     let mut marks: Vec<_> =
         seen.map(|chain| line(chain.path.clone(), PALE, made.px(1.2), &[chain.kind.name()], None)).collect();

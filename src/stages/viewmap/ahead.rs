@@ -1,11 +1,14 @@
 //! [`Ahead`]: whether a straight way between two lines leads behind another surface than theirs.
 
+use std::sync::OnceLock;
+
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
 use super::graph::SeenContour;
 use super::limits::Limits;
+use super::near_tiles::NearTiles;
 use super::occlude::{Part, hidden_interval};
 use super::occluders::{Occluder, Triangles};
 use super::project::ImageSegment;
@@ -23,20 +26,16 @@ const TILES: u32 = 256;
 const NO_END: u32 = u32::MAX;
 
 /// What may lie before the lines of a view map.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Ahead<'a> {
-    /// All surfaces.
-    pub mesh: &'a Mesh,
-    /// Which connected piece each face is of; empty if there is but one.
-    pub pieces: &'a [u32],
-    /// The view that the map is of.
-    pub view: &'a View,
-    /// The feature lines that the map is of.
-    pub lines: &'a FeatureLines,
-    /// What is seen of the contours of the polyhedron.
-    pub seen: &'a [SeenContour],
-    /// By how much the map has been moved on the page since it was made, user units.
-    pub moved: Vec2,
+    mesh: &'a Mesh,
+    pieces: &'a [u32],
+    view: &'a View,
+    lines: &'a FeatureLines,
+    seen: &'a [SeenContour],
+    moved: Vec2,
+    /// Made when the first ways are asked about.
+    near: OnceLock<NearTiles>,
 }
 
 /// A straight way through the image between two points of lines.
@@ -50,7 +49,21 @@ pub struct Way {
     pub segments: [u32; 2],
 }
 
-impl Ahead<'_> {
+impl<'a> Ahead<'a> {
+    /// All surfaces of a `mesh` before the `lines` of a view of it. `pieces` says which connected piece each face is of, and is empty
+    /// if there is but one; `seen` is what is seen of the contours of the polyhedron; the map of the lines has been `moved` by so much
+    /// on the page since it was made, user units.
+    #[must_use]
+    pub fn new(
+        (mesh, pieces): (&'a Mesh, &'a [u32]),
+        view: &'a View,
+        lines: &'a FeatureLines,
+        seen: &'a [SeenContour],
+        moved: Vec2,
+    ) -> Self {
+        Self { mesh, pieces, view, lines, seen, moved, near: OnceLock::new() }
+    }
+
     /// Of each way, whether it leads behind a surface that is of another piece than the lines that it leads
     /// between, and that is seen there. What hides the way of the lines' own piece does not count, nor what
     /// lies behind that, nor what the way touches; nor what lies before the way where the polyhedron's contour
@@ -60,7 +73,7 @@ impl Ahead<'_> {
         if self.pieces.is_empty() || ways.is_empty() {
             return vec![false; ways.len()];
         }
-        let Self { mesh, view, .. } = *self;
+        let Self { mesh, view, .. } = self;
         let limits = Limits::new(&view.frame);
         let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
         let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
@@ -72,8 +85,8 @@ impl Ahead<'_> {
         });
         let wanted: Vec<bool> = (0..grid.len()).map(|tile| !items.of(tile).is_empty()).collect();
         let triangles = Triangles { mesh, view, grid: &grid, limits: &limits };
-        let open = vec![f64::NEG_INFINITY; grid.len()];
-        let occluders = triangles.fill(&triangles.tile_boxes(), &wanted, &open);
+        let near = self.near.get_or_init(|| NearTiles::new(mesh, view, &limits));
+        let occluders = near.fill(&triangles, &wanted);
         let reach = DVec2::splat(REACH_PX * limits.px);
         let seen = grouped(grid.len(), |put| {
             for seen in self.seen {
@@ -142,7 +155,7 @@ struct Around<'a> {
 impl Around<'_> {
     /// Whether something hides the part of a way in the tile that is of other pieces than its lines'.
     fn hides(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
-        let Self { ahead, limits, over, .. } = *self;
+        let Self { ahead, limits, over, .. } = self;
         let is_own = |occluder: &Occluder| own.contains(&ahead.pieces[occluder.face as usize]);
         let part = Part::new(way, part.0, part.1);
         over.iter().filter(|occluder| !is_own(occluder)).any(|other| {

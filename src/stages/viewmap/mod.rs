@@ -11,6 +11,7 @@ pub mod grid;
 pub mod image;
 pub mod layers;
 pub mod limits;
+mod near_tiles;
 mod needles;
 pub mod occlude;
 pub mod occluders;

@@ -161,6 +161,24 @@ impl Triangles<'_> {
                 pairs
             })
             .collect();
+        self.by_tile(&found)
+    }
+
+    /// Those of some of the triangles, whose ids ascend.
+    #[must_use]
+    pub(super) fn fill_of(&self, ids: &[u32], wanted: &[bool], cover: &[f64]) -> Grouped<u32> {
+        let wanted = &Wanted::new(self.grid, wanted);
+        let of_chunk = |ids: &[u32]| {
+            let mut pairs = Vec::with_capacity(ids.len());
+            ids.iter().for_each(|id| self.add_tiles(*id, self.tile_box(*id), wanted, cover, &mut pairs));
+            pairs
+        };
+        let found: Vec<Vec<(u32, u32)>> = ids.par_chunks(1 << 12).map(of_chunk).collect();
+        self.by_tile(&found)
+    }
+
+    /// Pairs of tile and triangle by their tiles.
+    fn by_tile(&self, found: &[Vec<(u32, u32)>]) -> Grouped<u32> {
         // Chunks follow the order of the triangles, so tiles do too.
         grouped(self.grid.len(), |put| {
             for (tile, id) in found.iter().flatten() {
@@ -213,7 +231,7 @@ impl Triangles<'_> {
 }
 
 /// Which tiles are wanted, with their number in each block of tiles.
-struct Wanted<'a> {
+pub(super) struct Wanted<'a> {
     tiles: &'a [bool],
     /// How many are wanted of those above and to the left of each corner of a tile.
     sums: Vec<u32>,
@@ -221,7 +239,7 @@ struct Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    fn new(grid: &Grid, tiles: &'a [bool]) -> Self {
+    pub fn new(grid: &Grid, tiles: &'a [bool]) -> Self {
         let (columns, width) = (grid.columns as usize, grid.columns as usize + 1);
         let mut sums = vec![0u32; width * (grid.rows as usize + 1)];
         for (row, of_row) in tiles.chunks(columns).enumerate() {
@@ -236,7 +254,7 @@ impl<'a> Wanted<'a> {
 
     /// Whether any of a block that is not empty is wanted.
     #[inline]
-    fn has_any(&self, tiles: TileBox) -> bool {
+    pub fn has_any(&self, tiles: TileBox) -> bool {
         let at = |row: usize, column: usize| self.sums[row * self.width + column];
         let (left, right) = (usize::from(tiles.left), usize::from(tiles.right) + 1);
         let (top, bottom) = (usize::from(tiles.top), usize::from(tiles.bottom) + 1);

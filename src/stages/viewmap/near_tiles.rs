@@ -1,0 +1,123 @@
+//! [`NearTiles`]: which of all triangles may lie over a few tiles, told by coarse squares of the frame.
+//!
+//! Some ways are asked about several times a view. Where each triangle lies is found once for all of them, and by far the
+//! most are not looked at again.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::grid::{Grid, TileBox};
+use super::limits::Limits;
+use super::occluders::{Triangles, Wanted};
+use crate::math::grouped::Grouped;
+use crate::mesh::Mesh;
+use crate::view::View;
+
+/// Squares along the longer side of the frame.
+const SQUARES: u32 = 256;
+
+/// Triangles that one task looks at.
+const CHUNK: usize = 1 << 14;
+
+/// The squares of the frame that each triangle's box meets.
+#[derive(Debug)]
+pub struct NearTiles {
+    grid: Grid,
+    boxes: Vec<TileBox>,
+}
+
+impl NearTiles {
+    /// The squares of a view's frame.
+    #[must_use]
+    pub fn new(mesh: &Mesh, view: &View, limits: &Limits) -> Self {
+        let size = DVec2::new(view.frame.width, view.frame.height);
+        // Lines end where the frame does, but for rounding.
+        let grid = Grid::new(-DVec2::splat(limits.px), size + limits.px, SQUARES);
+        let boxes = Triangles { mesh, view, grid: &grid, limits }.tile_boxes();
+        Self { grid, boxes }
+    }
+
+    /// The ids of the triangles of each wanted tile, ascending: [`Triangles::fill`] without a cover.
+    #[must_use]
+    pub(super) fn fill(&self, triangles: &Triangles, wanted: &[bool]) -> Grouped<u32> {
+        let open = vec![f64::NEG_INFINITY; triangles.grid.len()];
+        match self.squares(triangles, wanted) {
+            Some(squares) => triangles.fill_of(&self.over(&squares), wanted, &open),
+            None => triangles.fill(&triangles.tile_boxes(), wanted, &open),
+        }
+    }
+
+    /// The squares in which a triangle may reach a wanted tile; none if a tile is not in the frame.
+    fn squares(&self, triangles: &Triangles, wanted: &[bool]) -> Option<Vec<bool>> {
+        let (grid, own) = (triangles.grid, &self.grid);
+        // By so much a triangle may lie beside a tile that its box meets, and a little for rounding.
+        let slack = (grid.cell.max(own.cell) * 1e-3).max(4.0 * triangles.limits.beside);
+        let (low, high) = (own.corner(0, 0), own.corner(own.columns, own.rows));
+        let mut squares = vec![false; own.len()];
+        for tile in (0..grid.len()).filter(|tile| wanted[*tile]) {
+            let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);
+            let (from, to) = (grid.corner(column, row) - slack, grid.corner(column + 1, row + 1) + slack);
+            if from.cmplt(low).any() || to.cmpgt(high).any() {
+                return None;
+            }
+            let over = own.tile_box(from.extend(0.0), to.extend(0.0));
+            own.tiles_of(over).for_each(|(square, _)| squares[square] = true);
+        }
+        Some(squares)
+    }
+
+    /// The triangles whose boxes meet one of some squares, ascending.
+    fn over(&self, squares: &[bool]) -> Vec<u32> {
+        let wanted = Wanted::new(&self.grid, squares);
+        let of_chunk = |(k, boxes): (usize, &[TileBox])| -> Vec<u32> {
+            let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && wanted.has_any(**tiles);
+            boxes.iter().enumerate().filter(is_near).map(|(i, _)| (k * CHUNK + i) as u32).collect()
+        };
+        let found: Vec<Vec<u32>> = self.boxes.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+        found.concat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::Soup;
+    use crate::scene::Camera;
+
+    #[test]
+    fn the_triangles_of_a_few_tiles_are_those_of_looking_at_all() {
+        // Triangles of many sizes all over the frame and beyond it.
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        let mut soup = Soup::default();
+        for k in 0..3000u32 {
+            let middle = DVec3::new(next(), next(), next());
+            let size = 0.3 * 0.5f64.powi((k % 8) as i32);
+            soup.positions.extend([0; 3].map(|_| middle + DVec3::new(next(), next(), next()) * size));
+            soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
+        }
+        let mesh = Mesh::build(soup);
+        let camera = Camera::three_quarter().fit_points(&mesh.positions, 0.0);
+        let view = View::new(&mesh, &camera);
+        let limits = Limits::new(&view.frame);
+        let near = NearTiles::new(&mesh, &view, &limits);
+        for (low, high) in [(100.0, 400.0), (0.0, 1000.0), (-50.0, 200.0), (333.0, 334.0)] {
+            let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), 64);
+            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let wanted: Vec<bool> = (0..grid.len()).map(|tile| tile % 37 == 0).collect();
+            assert_eq!(near.squares(&triangles, &wanted).is_some(), low >= 0.0);
+            let all = triangles.fill(&triangles.tile_boxes(), &wanted, &vec![f64::NEG_INFINITY; grid.len()]);
+            let found = near.fill(&triangles, &wanted);
+            let count: usize = (0..grid.len()).map(|tile| all.of(tile).len()).sum();
+            assert!(count > 20, "{count}");
+            for tile in 0..grid.len() {
+                assert_eq!(found.of(tile), all.of(tile), "{tile} of {low} to {high}");
+            }
+        }
+    }
+}
