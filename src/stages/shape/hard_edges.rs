@@ -59,7 +59,7 @@ impl HardEdges {
     pub(super) fn find_with(mesh: &Mesh, turns: &Turns, crease_deg: f64) -> Self {
         let folds = Folds::new(mesh, folds(mesh, turns, LOW_OF_HIGH * crease_deg));
         let chains = folds.chains(crease_deg);
-        let roughness = Roughness::new(mesh, crease_deg);
+        let roughness = Roughness::new(mesh, turns, crease_deg);
         let kept: Vec<&Chain> =
             chains.par_iter().filter(|c| stands_out(mesh, c, crease_deg, &roughness)).collect();
         let edges = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize));

@@ -8,8 +8,8 @@
 
 use super::crease_chains::Chain;
 use crate::math::function::{acos, cos};
-use crate::mesh::Mesh;
 use crate::mesh::dihedral::Dihedral;
+use crate::mesh::{EdgeFaces, Mesh, Turns};
 
 /// The standard deviation of a normal distribution is this many times the median of its absolute
 /// values.
@@ -24,6 +24,7 @@ const SAMPLES: usize = 64;
 /// Finds the edges around a line.
 pub(super) struct Roughness<'a> {
     mesh: &'a Mesh,
+    turns: &'a Turns,
     /// For each vertex, the first edge whose smaller vertex it is, and one entry more.
     first_edge: Vec<u32>,
     /// Edges that turn by more than the angle of this cosine are no noise.
@@ -40,7 +41,7 @@ pub(super) struct Around {
 }
 
 impl<'a> Roughness<'a> {
-    pub fn new(mesh: &'a Mesh, high_deg: f64) -> Self {
+    pub fn new(mesh: &'a Mesh, turns: &'a Turns, high_deg: f64) -> Self {
         let mut first_edge = Vec::with_capacity(mesh.positions.len() + 1);
         for (edge, [lo, _]) in mesh.edges.vertices.iter().enumerate() {
             while first_edge.len() <= *lo as usize {
@@ -48,7 +49,7 @@ impl<'a> Roughness<'a> {
             }
         }
         first_edge.resize(mesh.positions.len() + 1, mesh.edges.len() as u32);
-        Self { mesh, first_edge, high_cosine: cos(high_deg.to_radians()) as f32 }
+        Self { mesh, turns, first_edge, high_cosine: cos(high_deg.to_radians()) as f32 }
     }
 
     /// The edges of the faces beside a chain and of their neighbours, without those of the chain
@@ -65,12 +66,12 @@ impl<'a> Roughness<'a> {
             }
         };
         for fold in chain.folds.iter().step_by(chain.folds.len().div_ceil(SAMPLES)) {
-            let Some(dihedral) = Dihedral::at(self.mesh, fold.edge as usize) else { continue };
-            for face in dihedral.faces {
-                for (edge, beside) in self.sides(face, fold.edge as usize) {
-                    seen(edge, beside.cosine);
-                    let beyond = if beside.faces[0] == face { beside.faces[1] } else { beside.faces[0] };
-                    self.sides(beyond, edge).for_each(|(edge, next)| seen(edge, next.cosine));
+            let Some((faces, _)) = self.dihedral(fold.edge as usize) else { continue };
+            for face in faces {
+                for (edge, (faces, cosine)) in self.sides(face, fold.edge as usize) {
+                    seen(edge, cosine);
+                    let beyond = if faces[0] == face { faces[1] } else { faces[0] };
+                    self.sides(beyond, edge).for_each(|(edge, (_, cosine))| seen(edge, cosine));
                 }
             }
         }
@@ -83,13 +84,21 @@ impl<'a> Roughness<'a> {
         }
     }
 
-    /// The edges of a face at which it meets another, but for one.
-    fn sides(&self, face: u32, except: usize) -> impl Iterator<Item = (usize, Dihedral)> + '_ {
+    /// The edges of a face at which it meets another, but for one: with both faces and the cosine of the turn.
+    fn sides(&self, face: u32, except: usize) -> impl Iterator<Item = (usize, ([u32; 2], f32))> + '_ {
         let [a, b, c] = self.mesh.triangles[face as usize];
         let edges = [(a, b), (b, c), (c, a)].into_iter().filter_map(|(u, v)| self.edge(u, v));
-        edges
-            .filter(move |edge| *edge != except)
-            .filter_map(|edge| Some((edge, Dihedral::at(self.mesh, edge)?)))
+        edges.filter(move |edge| *edge != except).filter_map(|edge| Some((edge, self.dihedral(edge)?)))
+    }
+
+    /// Faces and cosine of [`Dihedral::at`], mostly without a look at the faces.
+    #[inline]
+    fn dihedral(&self, edge: usize) -> Option<([u32; 2], f32)> {
+        let cosine = self.turns.of_two(edge);
+        match self.mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, .. } if cosine.abs() > 0.0 => Some((faces, cosine)),
+            _ => Dihedral::at(self.mesh, edge).map(|dihedral| (dihedral.faces, dihedral.cosine)),
+        }
     }
 
     fn edge(&self, u: u32, v: u32) -> Option<usize> {

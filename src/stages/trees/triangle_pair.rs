@@ -64,28 +64,46 @@ impl Triangle {
         self.trusted & (a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0)
     }
 
-    /// Distances of points from the plane, right in sign; zero within the tolerance.
+    /// Distances of points from the plane, right in sign; zero within the tolerance. None where they are surely not on both sides.
     #[inline]
-    fn distances(&self, points: &[DVec3; 3], normal_length: f64, tolerance: PairTolerance) -> [f64; 3] {
+    fn distances(
+        &self,
+        points: &[DVec3; 3],
+        normal_length: f64,
+        tolerance: PairTolerance,
+    ) -> Option<[f64; 3]> {
         let [a, b, c] = self.corners;
         let reach = |way: DVec3| way.x.abs() + way.y.abs() + way.z.abs();
         let size = reach(b - a) + reach(c - a);
         let least = (1.0 - 1e-6) * tolerance.plane * normal_length;
-        points.map(|point| {
-            let way = point - a;
+        let (mut is_zero, mut below, mut above) = ([false; 3], false, false);
+        for (is_zero, point) in is_zero.iter_mut().zip(points) {
+            let way = *point - a;
+            let about = self.normal.dot(way);
             // More than any determinant of these points is off by, so that what is below comes to zero either way.
-            let error = 48.0 * f64::EPSILON * (size + reach(way)).powi(3);
+            let far = size + reach(way);
+            let error = 48.0 * f64::EPSILON * (far * far * far);
             // Where surfaces lie on each other most corners are in the other plane, and exact signs take long to
-            // say so.
-            if self.normal.dot(way).abs() + error < least {
-                return 0.0;
+            // say so; most others are all on one side of it.
+            *is_zero = about.abs() + error < least;
+            below |= !*is_zero && about <= error;
+            above |= !*is_zero && about >= -error;
+        }
+        if !(below && above) {
+            return None;
+        }
+        let mut distances = [0.0; 3];
+        for ((distance, point), is_zero) in distances.iter_mut().zip(points).zip(is_zero) {
+            if !is_zero {
+                *distance = self.distance(*point, normal_length, tolerance);
             }
-            self.distance(point, normal_length, tolerance)
-        })
+        }
+        Some(distances)
     }
 
     fn distance(&self, point: DVec3, normal_length: f64, tolerance: PairTolerance) -> f64 {
-        let [a, b, c] = self.corners.map(coordinates);
+        let [a, b, c] = self.corners;
+        let (a, b, c) = (coordinates(a), coordinates(b), coordinates(c));
         let distance = -orient3d(a, b, c, coordinates(point)) / normal_length;
         if distance.abs() < tolerance.plane { 0.0 } else { distance }
     }
@@ -140,9 +158,9 @@ pub(super) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
     if !(a_length > 0.0 && b_length > 0.0) {
         return None;
     }
-    let b_distances = a.distances(&b.corners, a_length, tolerance);
+    let b_distances = a.distances(&b.corners, a_length, tolerance)?;
     let b_crossings = crossings(b, b_distances)?;
-    let a_distances = b.distances(&a.corners, b_length, tolerance);
+    let a_distances = b.distances(&a.corners, b_length, tolerance)?;
     let a_crossings = crossings(a, a_distances)?;
 
     let along = (a.normal / a_length).cross(b.normal / b_length);
