@@ -32,7 +32,9 @@ mod late_search;
 mod late_shadows;
 mod maps;
 mod motion;
+mod on_page;
 mod on_surface;
+mod on_threads;
 mod patterns;
 mod pictures;
 pub mod report;
@@ -45,8 +47,6 @@ mod welded;
 
 use std::borrow::Cow;
 use std::sync::Arc;
-
-use kurbo::Vec2;
 
 pub use areas::hotspots;
 pub use maps::MapFiles;
@@ -75,6 +75,8 @@ use hatching::Hatching;
 use late_search::LateSearch;
 use late_shadows::LateShadows;
 use motion::Trails;
+use on_page::{centre_on_page, margin};
+use on_threads::on_threads;
 use stages::Made;
 use welded::Welded;
 
@@ -162,21 +164,21 @@ impl<'a> Prepared<'a> {
     /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        Self::made(Welded::of(scene, style), style, None).0
+        on_threads(|| Self::made(Welded::of(scene, style), style, None).0)
     }
 
     /// Does so for one camera: the surface gets the finer triangles that it needs there at once and for good, which takes less
     /// memory than to have them beside those of the model.
     #[must_use]
     pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
-        Self::made(Welded::of(scene, style), style, Some(camera)).0
+        on_threads(|| Self::made(Welded::of(scene, style), style, Some(camera)).0)
     }
 
     /// Does so for one camera with a scene that nobody else needs: its shapes go when the mesh is made of them, and are not held
     /// beside it.
     #[must_use]
     pub fn of_scene(scene: Scene, style: &'a Style, camera: &Camera) -> Self {
-        Self::made(Welded::of_all(scene, style), style, Some(camera)).0
+        on_threads(|| Self::made(Welded::of_all(scene, style), style, Some(camera)).0)
     }
 
     fn made(welded: Welded<'a>, style: &'a Style, only: Option<&Camera>) -> (Self, Option<Patches>) {
@@ -218,7 +220,8 @@ impl<'a> Prepared<'a> {
         stage: Option<Stage>,
     ) -> Result<(Drawing, Report), Error> {
         camera.validate()?;
-        Ok(self.on_view(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
+        let drawn = |on_view: OnView| self.drawn(on_view, camera, page, stage);
+        Ok(on_threads(|| self.on_view(camera, page.unit, drawn)))
     }
 
     /// The maps of a view that lines in the image are found in, whether the style seeks any or not. `unit` is that of the page.
@@ -452,21 +455,6 @@ struct OnView<'a> {
     report: Report,
     watch: Stopwatch,
     warnings: Vec<String>,
-}
-
-/// Moves the picture from the camera's frame to the middle of the page.
-fn centre_on_page(map: &mut ViewMap, camera: &Camera, page: &Page) {
-    let margin = margin(camera, page);
-    if margin != Vec2::ZERO {
-        for vertex in &mut map.vertices {
-            vertex.position += margin;
-        }
-    }
-}
-
-/// From the camera's frame to the page.
-fn margin(camera: &Camera, page: &Page) -> Vec2 {
-    Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0
 }
 
 /// The model's name: its file without folder and ending.

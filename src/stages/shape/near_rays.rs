@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::math::tolerance;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::Mesh;
 
 /// Cells along each side of the grid: as many as a word has bits.
 const CELLS: usize = 64;
@@ -19,11 +19,21 @@ pub(super) fn near_faces(mesh: &Mesh, segments: &[[DVec3; 2]]) -> Vec<u32> {
     let slack = tolerance::RAY_BOX_OF_MESH * (radius + middle.length());
     let faces = 0..mesh.triangles.len() as u32;
     let Some(grid) = Grid::around(segments, slack) else { return faces.collect() };
+    let places: Vec<Place> =
+        mesh.positions.par_iter().with_min_len(1 << 13).map(|p| grid.place(*p)).collect();
     let is_near = |face: &u32| {
-        let [a, b, c] = mesh.corners(FaceId(*face));
-        grid.holds(a.min(b).min(c), a.max(b).max(c))
+        let [a, b, c] = mesh.triangles[*face as usize];
+        grid.holds(places[a as usize], places[b as usize], places[c as usize])
     };
     faces.into_par_iter().with_min_len(1 << 13).filter(is_near).collect()
+}
+
+/// Where a point is in a grid.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    cell: [u8; 3],
+    /// A bit for each side of the grid that it lies beyond.
+    beyond: u8,
 }
 
 /// Which cells of a grid the boxes of some segments lie in.
@@ -60,13 +70,24 @@ impl Grid {
         ((p - self.low) * self.cells_per_unit).to_array().map(|x| (x as usize).min(CELLS - 1))
     }
 
-    /// Whether a box may touch one of the segments.
     #[inline]
-    fn holds(&self, low: DVec3, high: DVec3) -> bool {
-        if low.cmpgt(self.high).any() || high.cmplt(self.low).any() {
+    fn place(&self, p: DVec3) -> Place {
+        let [x, y, z] = self.cell(p);
+        let (below, above) = (p.cmplt(self.low).bitmask(), p.cmpgt(self.high).bitmask());
+        Place { cell: [x as u8, y as u8, z as u8], beyond: (below | above << 3) as u8 }
+    }
+
+    /// Whether the box around three points may touch one of the segments.
+    #[inline]
+    fn holds(&self, a: Place, b: Place, c: Place) -> bool {
+        if a.beyond & b.beyond & c.beyond != 0 {
             return false;
         }
-        let (first, last) = (self.cell(low), self.cell(high));
+        let (mut first, mut last) = ([0; 3], [0; 3]);
+        for axis in 0..3 {
+            let [a, b, c] = [a.cell[axis], b.cell[axis], c.cell[axis]];
+            (first[axis], last[axis]) = (usize::from(a.min(b).min(c)), usize::from(a.max(b).max(c)));
+        }
         rows(first, last) > MANY_ROWS
             || (first[2]..=last[2]).any(|z| {
                 (first[1]..=last[1]).any(|y| self.rows[z * CELLS + y] & bits(first[0], last[0]) != 0)
@@ -86,7 +107,7 @@ fn bits(first: usize, last: usize) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Soup;
+    use crate::mesh::{FaceId, Soup};
 
     #[test]
     fn no_face_that_a_segment_touches_is_left_out() {

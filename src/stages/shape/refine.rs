@@ -226,11 +226,15 @@ impl<'a> Work<'a> {
     }
 
     /// The middles of the sides of a piece that are cut, and where their halves are.
+    #[inline]
     fn cuts(&self, piece: &Piece) -> [Option<(u32, u32)>; 3] {
-        piece.sides.map(|side| match self.sides.get(side as usize)?.fate {
-            Fate::Cut { middle, halves } => Some((middle, halves)),
-            Fate::Open | Fate::Whole => None,
-        })
+        let mut cuts = [None; 3];
+        for (cut, side) in cuts.iter_mut().zip(piece.sides) {
+            if let Some(Side { fate: Fate::Cut { middle, halves }, .. }) = self.sides.get(side as usize) {
+                *cut = Some((*middle, *halves));
+            }
+        }
+        cuts
     }
 
     /// Cuts pieces whose sides are decided about.
@@ -325,15 +329,12 @@ impl<'a> Work<'a> {
 }
 
 impl Piece {
-    fn turned(&self, by: usize) -> Self {
-        let pick = |k: usize| (k + by) % 3;
-        let Self { facet, sides } = self;
-        let facet = Facet {
-            corners: [0, 1, 2].map(|k| facet.corners[pick(k)]),
-            marks: [0, 1, 2].map(|k| facet.marks[pick(k)]),
-            face: facet.face,
-        };
-        Self { facet, sides: [0, 1, 2].map(|k| sides[pick(k)]) }
+    #[inline]
+    fn turned(mut self, by: usize) -> Self {
+        self.facet.corners.rotate_left(by);
+        self.facet.marks.rotate_left(by);
+        self.sides.rotate_left(by);
+        self
     }
 }
 

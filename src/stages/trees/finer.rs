@@ -62,8 +62,11 @@ impl PairSearch {
         scale: impl Fn(u32) -> f64 + Sync,
     ) -> IntersectionCurves {
         let Some(tree) = &self.tree else { return IntersectionCurves::default() };
-        let kept = &hosts.faces[..hosts.kept];
-        let whole = |face: u32| kept.binary_search(&face).ok().map(|place| place as u32);
+        let mut places = vec![u32::MAX; self.ranks.len()];
+        for (place, face) in hosts.faces[..hosts.kept].iter().enumerate() {
+            places[*face as usize] = place as u32;
+        }
+        let whole = |face: u32| places.get(face as usize).copied().filter(|place| *place != u32::MAX);
         let left =
             |pair: &Pair| Some(Pair { faces: [whole(pair.faces[0])?, whole(pair.faces[1])?], ..*pair });
         let mut pairs: Vec<Pair> = self.pairs.iter().filter_map(left).collect();
@@ -111,8 +114,8 @@ struct Cut<'a> {
 #[derive(Default)]
 struct Search {
     stack: Vec<(usize, usize)>,
-    /// Faces near a face: whole ones of the finer mesh, and the ranks of others that were cut.
-    whole: Vec<u32>,
+    /// Faces near a face: whole ones of the finer mesh with their boxes, and the ranks of others that were cut.
+    whole: Vec<(u32, FineBox)>,
     cut: Vec<u32>,
     /// The pieces of a face.
     pieces: Vec<u32>,
@@ -149,6 +152,7 @@ impl<'a> Cut<'a> {
     fn search_face(&self, rank: u32, face: u32, whole: impl Fn(u32) -> Option<u32>, search: &mut Search) {
         let Search { stack, whole: kept, cut, pieces, others } = search;
         let of_piece = |piece: u32| self.boxes[piece as usize - self.kept];
+        let triangle = |face: u32| self.finer.triangles[face as usize];
         pieces.clear();
         pieces.extend_from_slice(self.pieces.of(rank as usize));
         others.resize_with(pieces.len().max(others.len()), Vec::new);
@@ -164,18 +168,16 @@ impl<'a> Cut<'a> {
             if !self.pieces.of(other_rank as usize).is_empty() {
                 cut.extend((other_rank > rank).then_some(other_rank));
             } else {
-                kept.extend(whole(other));
+                let of_face =
+                    |face: u32| self.tree.box_of(triangle(face).map(|v| self.finer.positions[v as usize]));
+                kept.extend(whole(other).map(|face| (face, of_face(face))));
             }
         });
-        let triangle = |face: u32| self.finer.triangles[face as usize];
         let are_strangers = |piece: u32, other: u32| !share_a_vertex(triangle(piece), triangle(other));
         for (k, piece) in pieces.iter().enumerate() {
             let own = of_piece(*piece);
-            let far =
-                |face: &u32| self.tree.box_of(triangle(*face).map(|v| self.finer.positions[v as usize]));
-            let near =
-                kept.iter().copied().filter(|face| are_strangers(*piece, *face) && own.overlaps(far(face)));
-            others[k].extend(near);
+            let near = kept.iter().filter(|(face, far)| own.overlaps(*far) && are_strangers(*piece, *face));
+            others[k].extend(near.map(|(face, _)| *face));
             let of_cut = cut.iter().flat_map(|rank| self.pieces.of(*rank as usize)).copied();
             let later = pieces[k + 1..].iter().copied();
             let near = of_cut.chain(later);

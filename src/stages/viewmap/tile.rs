@@ -244,7 +244,7 @@ impl Context<'_> {
         ];
         let farthest = (low.z as f32).next_down();
         let part = Part::new(segment, item.start, item.end);
-        let mut run = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut run = NO_RUN;
         for entry in entries.chosen {
             let reach = &all.reaches[*entry as usize];
             if reach.nearest < farthest {
@@ -268,11 +268,7 @@ impl Context<'_> {
             };
             hidden.push(found);
             if !self.counting {
-                if found.start <= run.1 && found.end >= run.0 {
-                    run = (run.0.min(found.start), run.1.max(found.end));
-                } else if found.end - found.start > run.1 - run.0 {
-                    run = (found.start, found.end);
-                }
+                run = longer(run, (found.start, found.end));
                 if run.0 <= item.start && run.1 >= item.end {
                     return true;
                 }
@@ -296,6 +292,7 @@ impl Context<'_> {
         let (p, q) = (segment.a.truncate() + shift, segment.b.truncate() + shift);
         let (from, to) = (segment.at(item.start).truncate() + shift, segment.at(item.end).truncate() + shift);
         let (low, high) = (from.min(to), from.max(to));
+        let mut run = NO_RUN;
         for entry in entries.chosen {
             let b = all.reaches[*entry as usize].bounds.map(f64::from);
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
@@ -311,6 +308,11 @@ impl Context<'_> {
                 let kind = ViewVertexKind::Backdrop;
                 let interval = Interval { start, end, start_kind: kind, end_kind: kind };
                 result.backed.push((item.segment, interval));
+                run = longer(run, (start, end));
+                // No other triangle tells more.
+                if run.0 <= item.start && run.1 >= item.end {
+                    return;
+                }
             }
         }
     }
@@ -334,6 +336,21 @@ impl Context<'_> {
         let height =
             third.map(|v| (self.triangles.view.points[*v as usize] - segment.a).truncate().dot(across));
         height.filter(|h| h.is_finite()).unwrap_or(0.0)
+    }
+}
+
+/// A range of parameters without any.
+const NO_RUN: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+/// Two ranges as one where they meet, the longer one where they do not.
+#[inline]
+fn longer(run: (f64, f64), found: (f64, f64)) -> (f64, f64) {
+    if found.0 <= run.1 && found.1 >= run.0 {
+        (run.0.min(found.0), run.1.max(found.1))
+    } else if found.1 - found.0 > run.1 - run.0 {
+        found
+    } else {
+        run
     }
 }
 

@@ -1,0 +1,7 @@
+//! [`on_threads`]: work that is begun on the threads that share it.
+
+/// Does some work on one of the threads that parts of it are shared out to: whoever calls from another thread waits for them
+/// once, and not at each part.
+pub(super) fn on_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    rayon::scope(|_| work())
+}
