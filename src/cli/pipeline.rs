@@ -90,10 +90,11 @@ pub(super) fn png(drawing: &Drawing, dpi: f64) -> Result<Vec<u8>, Error> {
 
 /// Works with so many threads, or with as many as there are cores.
 pub(super) fn in_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
-    if threads.is_none() {
-        return Ok(work());
+    match threads {
+        // On one of the threads themselves, so that none has to be waited for at each part of the work.
+        None => Ok(rayon::scope(|_| work())),
+        Some(_) => Ok(pool(threads)?.install(work)),
     }
-    Ok(pool(threads)?.install(work))
 }
 
 /// So many threads, or as many as there are cores.

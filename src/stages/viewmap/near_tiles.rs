@@ -43,7 +43,7 @@ impl NearTiles {
         let open = vec![f64::NEG_INFINITY; triangles.grid.len()];
         match self.squares(triangles, wanted) {
             Some(squares) => triangles.fill_of(&self.over(&squares), wanted, &open),
-            None => triangles.fill(&triangles.tile_boxes(), wanted, &open),
+            None => triangles.fill(triangles.tile_boxes(), wanted, &open),
         }
     }
 
@@ -111,7 +111,7 @@ mod tests {
             let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
             let wanted: Vec<bool> = (0..grid.len()).map(|tile| tile % 37 == 0).collect();
             assert_eq!(near.squares(&triangles, &wanted).is_some(), low >= 0.0);
-            let all = triangles.fill(&triangles.tile_boxes(), &wanted, &vec![f64::NEG_INFINITY; grid.len()]);
+            let all = triangles.fill(triangles.tile_boxes(), &wanted, &vec![f64::NEG_INFINITY; grid.len()]);
             let found = near.fill(&triangles, &wanted);
             let count: usize = (0..grid.len()).map(|tile| all.of(tile).len()).sum();
             assert!(count > 20, "{count}");

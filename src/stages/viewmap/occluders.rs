@@ -145,9 +145,10 @@ impl Triangles<'_> {
         }
     }
 
-    /// The ids of the triangles of each wanted tile that reach before its cover, ascending.
+    /// The ids of the triangles of each wanted tile that reach before its cover, ascending. The boxes of all triangles are not
+    /// held beside what comes of them.
     #[must_use]
-    pub(super) fn fill(&self, boxes: &[TileBox], wanted: &[bool], cover: &[f64]) -> Grouped<u32> {
+    pub(super) fn fill(&self, boxes: Vec<TileBox>, wanted: &[bool], cover: &[f64]) -> Grouped<u32> {
         let chunk = self.chunk();
         let wanted = &Wanted::new(self.grid, wanted);
         let found: Vec<Vec<(u32, u32)>> = boxes
@@ -161,6 +162,7 @@ impl Triangles<'_> {
                 pairs
             })
             .collect();
+        drop(boxes);
         self.by_tile(&found)
     }
 

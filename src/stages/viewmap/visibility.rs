@@ -105,8 +105,7 @@ pub fn decide(
             item.end = f64::NEG_INFINITY;
         }
     }
-    let occluders = triangles.fill(&boxes, &wanted, &covers.of_tile);
-    drop(boxes);
+    let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
 
     // Where triangles lie over several tiles, how far each reaches is found once.
     let several = occluders.value_count() > 2 * triangles.count();
