@@ -423,6 +423,30 @@ fn a_border_between_materials_is_a_line() {
 }
 
 #[test]
+fn parts_of_two_materials_that_lie_on_each_other_have_no_border_inside() {
+    let sheet = |material: u32| Geometry {
+        triangle_material: vec![material; 2],
+        ..geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0))
+    };
+    let both =
+        Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), sheet(1)]) };
+    let drawn = stages(&both, &from_front(4.0), &counting());
+    assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Material).len()), (4, 0));
+
+    // A third face in another direction is where a material ends.
+    let fin = Geometry {
+        positions: vec![at(-1.0, -1.0, 0.0), at(1.0, 1.0, 0.0), at(0.0, 0.0, 1.0)],
+        triangles: vec![[0, 1, 2]],
+        triangle_material: vec![1],
+        ..Geometry::default()
+    };
+    let finned =
+        Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), fin]) };
+    let drawn = stages(&finned, &from_front(4.0), &counting());
+    assert_ne!(count_visible(&drawn), 4);
+}
+
+#[test]
 fn marks_of_the_file_make_and_unmake_creases() {
     let mut square = geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0));
     let plain = EdgeMark::Unmarked;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::mesh::dihedral::{mark, runs_up};
 use crate::mesh::needle::{Beyond, beyond};
-use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, Mesh};
+use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, MaterialId, Mesh};
 use crate::shape::{HardEdges, Origin, SmoothNormals};
 use crate::view::View;
 
@@ -244,8 +244,7 @@ impl<'a> Finder<'a> {
         let side = |f: u32| self.view.facing[f as usize] == runs_up(mesh, edge, f);
         let contour = real.iter().all(|f| side(*f)) || real.iter().all(|f| !side(*f));
         let turn = self.corner_turn(edge, &real).max(self.own_turn(edge, &real));
-        let materials = |f: &u32| mesh.face_material[*f as usize];
-        let other_material = real.iter().any(|f| materials(f) != materials(&real[0]));
+        let other_material = self.materials_change(edge, &real);
         let kind = if contour && self.wants(LineKind::Contour) {
             LineKind::Contour
         } else if turn > self.crease_deg && self.wants(LineKind::Crease) {
@@ -261,6 +260,22 @@ impl<'a> Finder<'a> {
             strength: turn,
             ..self.segment(edge, kind, nearer, [real[0], real[1]])
         })
+    }
+
+    /// Whether the materials of faces that meet in one edge change from one to the next. Parts that lie on each other
+    /// face on face are one surface: where each of its faces is of the same materials, none of them ends.
+    fn materials_change(&self, edge: usize, faces: &[u32]) -> bool {
+        let mesh = self.mesh;
+        let ends = mesh.edges.vertices[edge];
+        let third = |face: u32| mesh.triangles[face as usize].iter().find(|v| !ends.contains(v)).copied();
+        let mut found: Vec<(Option<u32>, MaterialId)> =
+            faces.iter().map(|f| (third(*f), mesh.face_material[*f as usize])).collect();
+        found.sort_unstable();
+        found.dedup();
+        let materials = |own: &[(Option<u32>, MaterialId)]| own.iter().map(|(_, m)| *m).collect::<Vec<_>>();
+        let mut surfaces = found.chunk_by(|a, b| a.0 == b.0).map(materials);
+        let first = surfaces.next();
+        surfaces.any(|other| Some(&other) != first.as_ref())
     }
 
     /// Of faces that meet in one edge the one to which the line belongs: one that turns its outside to the

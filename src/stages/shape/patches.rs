@@ -247,6 +247,59 @@ mod tests {
         assert!(origins(0).iter().all(|origin| *origin == Origin::Scanned));
     }
 
+    /// Rough ground of 20 by 20 squares, as high as that at most and level for so many squares from one corner each way, and a
+    /// plate of one square in width and of so much length that stands on one of its sides.
+    fn ground(height: f64, level: u32, plate: f64) -> Mesh {
+        const SIDE: u32 = 20;
+        let mut soup = Soup::default();
+        for i in 0..=SIDE {
+            for j in 0..=SIDE {
+                let (x, y) = (u64::from(i), u64::from(j));
+                let by_chance =
+                    ((x + 3).pow(2) * (y + 5).pow(3) * (x + 7) * 131 + x * 577 + y * y * 263) % 1009;
+                let z = if i.max(j) <= level && level > 0 { 0.0 } else { height * by_chance as f64 / 1009.0 };
+                soup.positions.push(DVec3::new(f64::from(i), f64::from(j), z));
+            }
+        }
+        let at = |i: u32, j: u32| i * (SIDE + 1) + j;
+        for (i, j) in (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| (i, j))) {
+            let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
+            soup.triangles.extend([[a, b, c], [b, d, c]]);
+        }
+        if plate > 0.0 {
+            let (low, high) = (at(SIDE, 3), at(SIDE, 4));
+            let far = soup.positions.len() as u32;
+            let ends = [low, high].map(|v| soup.positions[v as usize] + DVec3::X * plate);
+            soup.positions.extend(ends);
+            soup.triangles.extend([[low, far, high], [far, far + 1, high]]);
+        }
+        Mesh::build(soup)
+    }
+
+    fn constructed(mesh: &Mesh) -> bool {
+        let origins = Patches::new(mesh, 40.0, false).origins;
+        assert!(origins.iter().all(|origin| *origin == origins[0]));
+        origins[0] == Origin::Constructed
+    }
+
+    #[test]
+    fn rough_ground_is_a_scan_until_flats_levels_or_corners_say_otherwise() {
+        let found = |parts: &[(f64, u32, f64)]| -> Vec<bool> {
+            parts.iter().map(|(height, level, plate)| constructed(&ground(*height, *level, *plate))).collect()
+        };
+        // A flat of a twelfth of its surface, most of its surface in one plane with a neighbour, sharp at most of its edges.
+        assert_eq!(found(&[(0.6, 6, 0.0), (0.6, 0, 600.0), (6.0, 0, 0.0)]), [true; 3]);
+        // A flat of a twenty-fifth, a third in one plane with a neighbour, less steep.
+        assert_eq!(found(&[(0.6, 0, 0.0), (0.6, 4, 0.0), (0.6, 0, 200.0), (1.2, 0, 0.0)]), [false; 4]);
+    }
+
+    #[test]
+    fn sharp_parts_are_machined_where_more_of_their_edges_are_flat_than_by_chance() {
+        // Of its edges one in sixty is flat, and no more are nearly flat.
+        assert!(constructed(&screw(2)));
+        assert!(!constructed(&screw(0)));
+    }
+
     #[test]
     fn a_crease_of_a_round_piece_is_where_its_file_shades_one() {
         let hard = |angle_deg: f64, split: bool| {

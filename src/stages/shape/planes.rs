@@ -17,6 +17,8 @@ const COMPACT: f64 = 0.025;
 
 /// In [`Planes::of_face`]: the face is in no flat.
 const NONE: u32 = u32::MAX;
+/// In [`Planes::of_face`]: the face lies in one plane with a neighbour, but they are too few for a flat.
+const FEW: u32 = u32::MAX - 1;
 
 /// The flats of a mesh.
 #[derive(Debug, Clone, Default)]
@@ -48,6 +50,9 @@ impl Planes {
         for face in 0..faces as u32 {
             let first = groups.of(face) as usize;
             if sizes[first] < LEAST_FACES {
+                if sizes[first] > 1 {
+                    of_face[face as usize] = FEW;
+                }
                 continue;
             }
             if first == face as usize {
@@ -76,7 +81,13 @@ impl Planes {
     /// The number of the flat that a face is in.
     #[inline]
     pub fn of(&self, face: u32) -> Option<u32> {
-        Some(self.of_face[face as usize]).filter(|flat| *flat != NONE)
+        Some(self.of_face[face as usize]).filter(|flat| *flat < FEW)
+    }
+
+    /// Whether a face lies in one plane with a neighbour.
+    #[inline]
+    pub fn is_level(&self, face: u32) -> bool {
+        self.of_face[face as usize] != NONE
     }
 
     /// The flat that holds a face, unless it is a strip.
