@@ -58,14 +58,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let view = View::new(&surface.mesh, &camera);
         let feature_lines = lines::extract_with(&surface, known, &view, &style.lines);
         let map = viewmap::build(&surface.mesh, &view, &feature_lines, &style.lines);
-        let ahead = Ahead {
-            mesh: &surface.mesh,
-            pieces: &surface.pieces,
-            view: &view,
-            lines: &feature_lines,
-            seen: &map.seen_contours,
-            moved: Vec2::ZERO,
-        };
+        let whole = (&surface.mesh, surface.pieces.as_slice());
+        let ahead = Ahead::new(whole, &view, &feature_lines, &map.seen_contours, Vec2::ZERO);
         let chains = chain::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
         let layers = stroke::ink(&chains, &context, &style.stroke);
 
