@@ -252,7 +252,7 @@ mod tests {
             }
             let out = triangle.normal / length;
             let points = [0, 1, 2].map(|_| {
-                let off = 0.1f64.powf(10.0 + 3.0 * next()) * next().signum();
+                let off = 0.1f64.powi(7 + (k / 8) % 7) * next();
                 a + (b - a) * next() + across * (height * next()) + out * off
             });
             let signs = points.map(|p| triangle.distance(p, length, tolerance));
