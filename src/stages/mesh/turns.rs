@@ -39,6 +39,19 @@ impl Turns {
         let cosine = self.cosines[edge];
         if cosine.abs() > 0.0 { cosine } else { looked_through(mesh, edge) }
     }
+
+    /// [`Dihedral::at`], mostly without a look at the faces.
+    #[inline]
+    #[must_use]
+    pub fn dihedral(&self, mesh: &Mesh, edge: usize) -> Option<Dihedral> {
+        let cosine = self.cosines[edge];
+        match mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, same_way } if cosine.abs() > 0.0 => {
+                Some(Dihedral { faces, same_way, cosine })
+            }
+            _ => Dihedral::at(mesh, edge),
+        }
+    }
 }
 
 /// Out of line: borders, faces without area and right angles are rare.

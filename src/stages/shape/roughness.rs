@@ -9,7 +9,7 @@
 use super::crease_chains::Chain;
 use crate::math::function::{acos, cos};
 use crate::mesh::dihedral::Dihedral;
-use crate::mesh::{EdgeFaces, Mesh, Turns};
+use crate::mesh::{Mesh, Turns};
 
 /// The standard deviation of a normal distribution is this many times the median of its absolute
 /// values.
@@ -66,12 +66,12 @@ impl<'a> Roughness<'a> {
             }
         };
         for fold in chain.folds.iter().step_by(chain.folds.len().div_ceil(SAMPLES)) {
-            let Some((faces, _)) = self.dihedral(fold.edge as usize) else { continue };
-            for face in faces {
-                for (edge, (faces, cosine)) in self.sides(face, fold.edge as usize) {
-                    seen(edge, cosine);
-                    let beyond = if faces[0] == face { faces[1] } else { faces[0] };
-                    self.sides(beyond, edge).for_each(|(edge, (_, cosine))| seen(edge, cosine));
+            let Some(dihedral) = self.turns.dihedral(self.mesh, fold.edge as usize) else { continue };
+            for face in dihedral.faces {
+                for (edge, beside) in self.sides(face, fold.edge as usize) {
+                    seen(edge, beside.cosine);
+                    let beyond = if beside.faces[0] == face { beside.faces[1] } else { beside.faces[0] };
+                    self.sides(beyond, edge).for_each(|(edge, next)| seen(edge, next.cosine));
                 }
             }
         }
@@ -84,21 +84,13 @@ impl<'a> Roughness<'a> {
         }
     }
 
-    /// The edges of a face at which it meets another, but for one: with both faces and the cosine of the turn.
-    fn sides(&self, face: u32, except: usize) -> impl Iterator<Item = (usize, ([u32; 2], f32))> + '_ {
+    /// The edges of a face at which it meets another, but for one.
+    fn sides(&self, face: u32, except: usize) -> impl Iterator<Item = (usize, Dihedral)> + '_ {
         let [a, b, c] = self.mesh.triangles[face as usize];
         let edges = [(a, b), (b, c), (c, a)].into_iter().filter_map(|(u, v)| self.edge(u, v));
-        edges.filter(move |edge| *edge != except).filter_map(|edge| Some((edge, self.dihedral(edge)?)))
-    }
-
-    /// Faces and cosine of [`Dihedral::at`], mostly without a look at the faces.
-    #[inline]
-    fn dihedral(&self, edge: usize) -> Option<([u32; 2], f32)> {
-        let cosine = self.turns.of_two(edge);
-        match self.mesh.edges.faces(edge) {
-            EdgeFaces::Two { faces, .. } if cosine.abs() > 0.0 => Some((faces, cosine)),
-            _ => Dihedral::at(self.mesh, edge).map(|dihedral| (dihedral.faces, dihedral.cosine)),
-        }
+        edges
+            .filter(move |edge| *edge != except)
+            .filter_map(|edge| Some((edge, self.turns.dihedral(self.mesh, edge)?)))
     }
 
     fn edge(&self, u: u32, v: u32) -> Option<usize> {
