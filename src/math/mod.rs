@@ -2,6 +2,9 @@
 
 pub mod colour;
 pub mod colour_names;
+#[cfg(test)]
+#[path = "../../tests/library/support/dice.rs"]
+pub mod dice;
 pub mod factor;
 pub mod function;
 pub mod glob;

@@ -70,17 +70,14 @@ fn surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::dice::Dice;
 
     #[test]
     fn what_is_surely_turned_is_so_by_unit_vectors() {
-        let mut state = 1u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        };
+        let mut dice = Dice::new(1);
         let (mut told, mut turned) = (0, 0);
         for k in 0..20_000 {
-            let mut point = || DVec3::new(next(), next(), next());
+            let mut point = || dice.point(1.0);
             // From edges as long as their distance to short ones, from normals that turn much to alike ones.
             let (near, alike) = (0.1f64.powi(k % 4), 0.1f64.powi(k / 4 % 4));
             let (a, eye) = (point(), point() * 3.0);

@@ -228,22 +228,18 @@ fn crossings(triangle: &Triangle, distances: [f64; 3]) -> Option<[Piercing; 2]> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::dice::Dice;
 
     #[test]
     fn what_is_told_before_exact_signs_is_what_they_say() {
-        let mut state = 1u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        };
+        let mut dice = Dice::new(1);
         let tolerance = PairTolerance::of_parts(1.0);
         let (mut early, mut exact) = (0, 0);
         for k in 0..20_000 {
             // From whole triangles to slivers, whose planes no rounded product tells, and points so near to them.
             let height = 0.1f64.powi(k % 8);
-            let mut point = || DVec3::new(next(), next(), next());
-            let (a, b) = (point(), point());
-            let across = (b - a).cross(point()).normalize_or_zero();
+            let (a, b) = (dice.point(1.0), dice.point(1.0));
+            let across = (b - a).cross(dice.point(1.0)).normalize_or_zero();
             let positions = [a, b, a + (b - a) * 0.4 + across * height];
             let triangle = Triangle::new(&positions, [0, 1, 2]);
             let length = triangle.normal.length();
@@ -252,8 +248,9 @@ mod tests {
             }
             let out = triangle.normal / length;
             let points = [0, 1, 2].map(|_| {
-                let off = 0.1f64.powi(7 + (k / 8) % 7) * next();
-                a + (b - a) * next() + across * (height * next()) + out * off
+                let off = 0.1f64.powi(7 + (k / 8) % 7) * dice.between(-1.0, 1.0);
+                let inside = (b - a) * dice.between(-1.0, 1.0) + across * (height * dice.between(-1.0, 1.0));
+                a + inside + out * off
             });
             let signs = points.map(|p| triangle.distance(p, length, tolerance));
             let is_crossed = signs.iter().any(|d| *d < 0.0) && signs.iter().any(|d| *d > 0.0);

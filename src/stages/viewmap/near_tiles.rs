@@ -80,25 +80,20 @@ impl NearTiles {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
+    use crate::math::dice::Dice;
     use crate::mesh::Soup;
     use crate::scene::Camera;
 
     #[test]
     fn the_triangles_of_a_few_tiles_are_those_of_looking_at_all() {
         // Triangles of many sizes all over the frame and beyond it.
-        let mut state = 1u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        };
+        let mut dice = Dice::new(1);
         let mut soup = Soup::default();
         for k in 0..3000u32 {
-            let middle = DVec3::new(next(), next(), next());
+            let middle = dice.point(1.0);
             let size = 0.3 * 0.5f64.powi((k % 8) as i32);
-            soup.positions.extend([0; 3].map(|_| middle + DVec3::new(next(), next(), next()) * size));
+            soup.positions.extend([0; 3].map(|_| middle + dice.point(size)));
             soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
         }
         let mesh = Mesh::build(soup);
