@@ -220,8 +220,7 @@ impl<'a> Prepared<'a> {
         stage: Option<Stage>,
     ) -> Result<(Drawing, Report), Error> {
         camera.validate()?;
-        let drawn = |on_view: OnView| self.drawn(on_view, camera, page, stage);
-        Ok(on_threads(|| self.on_view(camera, page.unit, drawn)))
+        Ok(self.on_view(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
     }
 
     /// The maps of a view that lines in the image are found in, whether the style seeks any or not. `unit` is that of the page.
@@ -230,11 +229,13 @@ impl<'a> Prepared<'a> {
     /// If the camera can take no picture: see [`Camera::validate`].
     pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
         camera.validate()?;
-        let refined = self.surface.refined_for(camera);
-        let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
-        let view = View::new(&surface.mesh, camera);
-        let maps = image::maps(surface, &view, self.style, unit);
-        MapFiles::new(&surface.mesh, &maps, &self.style.lines.image)
+        on_threads(|| {
+            let refined = self.surface.refined_for(camera);
+            let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
+            let view = View::new(&surface.mesh, camera);
+            let maps = image::maps(surface, &view, self.style, unit);
+            MapFiles::new(&surface.mesh, &maps, &self.style.lines.image)
+        })
     }
 
     /// What a view is hatched on, and the strokes of each layer of its hatching, each with what it is
@@ -253,7 +254,11 @@ impl<'a> Prepared<'a> {
     }
 
     /// Decides what is seen of the lines of a view.
-    fn on_view<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(OnView) -> T) -> T {
+    fn on_view<T: Send>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(OnView) -> T + Send) -> T {
+        on_threads(|| self.decided(camera, unit, call))
+    }
+
+    fn decided<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(OnView) -> T) -> T {
         let Self { scene, style, sought, paints, .. } = self;
         let mut report = Report::default();
         let mut watch = Stopwatch::start();
@@ -354,20 +359,20 @@ impl<'a> Prepared<'a> {
         report.stages_ms.chains = watch.lap_ms();
         let lines = &*image::joined(&mut map, lines, surface, view, style, page.unit);
         report.stages_ms.features += watch.lap_ms();
-        centre_on_page(&mut map, camera, &page);
+        centre_on_page(&mut map, &view.frame, &page);
 
-        let (whole, moved) = ((&surface.mesh, surface.pieces.as_slice()), margin(camera, &page));
+        let (whole, moved) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
         let ahead = Ahead::new(whole, view, lines, &map.seen_contours, moved);
         let mut chains = hidden::chains(&ahead, &map, style, page.unit, view.frame.perspective);
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
                 fills::keep_inked(veiled, style);
-                centre_on_page(veiled, camera, &page);
+                centre_on_page(veiled, &view.frame, &page);
             }));
         }
         report.stages_ms.chains += watch.lap_ms();
 
-        let margin = margin(camera, &page);
+        let margin = margin(&view.frame, &page);
         let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
         beside::ask(&mut chains, &beside);
         let paints = paints.as_deref();
@@ -398,7 +403,7 @@ impl<'a> Prepared<'a> {
         match stage {
             None => {
                 let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
-                let centre = |map: &mut ViewMap| centre_on_page(map, camera, &page);
+                let centre = |map: &mut ViewMap| centre_on_page(map, &view.frame, &page);
                 let trails = Trails::of((clear, view, camera), scene, style, page.unit, centre);
                 layers.extend(trails.iter().flat_map(|trails| trails.ink(&context)));
                 layers.extend(stroke::ink(&chains, &context, &style.stroke));

@@ -5,3 +5,14 @@
 pub(super) fn on_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon::scope(|_| work())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_begins_on_a_thread_that_shares_it() {
+        assert!(rayon::current_thread_index().is_none());
+        assert!(on_threads(rayon::current_thread_index).is_some());
+    }
+}

@@ -10,6 +10,7 @@ use super::anchors::Anchors;
 use super::fills::{self, Paintable};
 use super::late_search::LateSearch;
 use super::late_shadows::LateShadows;
+use super::on_threads::on_threads;
 use super::welded::{Welded, paints_of};
 use super::{Prepared, glass};
 use crate::mesh::Sources;
@@ -55,7 +56,7 @@ impl<'a> Resting<'a> {
     }
 
     fn without_anchors(scene: &'a Scene, style: &'a Style) -> Self {
-        let (still, patches) = Prepared::made(Welded::of(scene, style), style, None);
+        let (still, patches) = on_threads(|| Prepared::made(Welded::of(scene, style), style, None));
         let sources = Sources::of(&still.surface.mesh, &still.scene.to_soup());
         Self { scene, style, still, patches, sources }
     }

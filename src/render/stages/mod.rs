@@ -11,6 +11,7 @@ mod zeros;
 use kurbo::{Point, Vec2};
 
 use super::Stage;
+use super::on_page::margin;
 use crate::chain::Chain;
 use crate::drawing::{Layer, LayerKind, Length, Mark, Page};
 use crate::lines::{FeatureLines, LineKind, Surface};
@@ -49,8 +50,7 @@ pub(super) fn draw(stage: Stage, made: &Made) -> Vec<Layer> {
 impl Made<'_> {
     /// From the camera's frame to the page.
     fn margin(&self) -> Vec2 {
-        let frame = &self.view.frame;
-        Vec2::new(self.page.width - frame.width, self.page.height - frame.height) / 2.0
+        margin(&self.view.frame, self.page)
     }
 
     /// So many px in the unit of the page.
