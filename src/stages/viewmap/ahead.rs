@@ -85,8 +85,7 @@ impl<'a> Ahead<'a> {
         });
         let wanted: Vec<bool> = (0..grid.len()).map(|tile| !items.of(tile).is_empty()).collect();
         let triangles = Triangles { mesh, view, grid: &grid, limits: &limits };
-        let near = self.near.get_or_init(|| NearTiles::new(mesh, view, &limits));
-        let occluders = near.fill(&triangles, &wanted);
+        let occluders = self.near(&limits).fill(&triangles, &wanted);
         let reach = DVec2::splat(REACH_PX * limits.px);
         let seen = grouped(grid.len(), |put| {
             for seen in self.seen {
@@ -117,6 +116,15 @@ impl<'a> Ahead<'a> {
         let mut hidden = vec![false; ways.len()];
         found.iter().flatten().for_each(|way| hidden[*way as usize] = true);
         hidden
+    }
+
+    fn near(&self, limits: &Limits) -> &NearTiles {
+        if let Some(near) = self.near.get() {
+            return near;
+        }
+        // A task that waited here for another could be one that the other does meanwhile, and never end: rather is it made twice.
+        let made = NearTiles::new(self.mesh, self.view, limits);
+        self.near.get_or_init(|| made)
     }
 
     fn piece(&self, segment: u32) -> u32 {
