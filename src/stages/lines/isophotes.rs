@@ -47,6 +47,16 @@ struct Tracer<'a> {
     found: Vec<Found>,
 }
 
+/// The sides of a face, each opposite the corner of its number.
+struct Measures {
+    /// Their lengths in the image.
+    sides: [f64; 3],
+    /// Their lengths in space.
+    spans: [f64; 3],
+    /// By how much normals turn along them, radians.
+    turns: [f64; 3],
+}
+
 /// What is the same for all faces.
 struct Ready {
     /// A CSS px in user units.
@@ -54,6 +64,10 @@ struct Ready {
     /// For each channel and each set of shadowed lights the values at all normals of a surface that
     /// turns its outside to the eye, then its inside; empty where values vary from place to place.
     values: Vec<Vec<[Vec<f64>; 2]>>,
+    /// For each channel whether it varies from place to place.
+    is_local: Vec<bool>,
+    /// By how much other channels change with the angle of the normal at most, per radian.
+    steepness: f64,
     /// Where there are gradients, which faces may be seen; empty if all of them.
     in_sight: Vec<bool>,
 }
@@ -83,6 +97,8 @@ impl Ready {
         let channels = 0..lit.shading.channels();
         Self {
             px: page_px(lit),
+            is_local: channels.clone().map(|channel| lit.shading.is_local(channel)).collect(),
+            steepness: lit.shading.steepness(),
             values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
             in_sight: if lit.shading.most_levels() > tolerance::FEW_LEVELS && !sees_through {
                 in_sight(lit.mesh, lit.view)
@@ -100,23 +116,65 @@ impl<'a> Tracer<'a> {
 
     /// Whether no level can be crossed on a face, told from the values at its corners: inside, they
     /// differ from what lies between by no more than the normals turn.
-    fn is_even(&self, face: u32, levels: &[f64], channel: usize, shadow: usize) -> bool {
+    fn is_even(
+        &self,
+        face: u32,
+        normals: &[DVec3; 3],
+        levels: &[f64],
+        channel: usize,
+        shadow: usize,
+    ) -> bool {
         let [outside, inside] = &self.ready.values[channel][shadow];
         let values = if self.lit.view.facing[face as usize] { outside } else { inside };
         if values.is_empty() {
             return false;
         }
-        let corners = self.lit.normals.corners[face as usize];
-        let [a, b, c] = corners.map(|id| values[id as usize]);
-        let [n, m, o] = self.lit.normals.of(face);
-        let turn2 = n.distance_squared(m).max(m.distance_squared(o)).max(o.distance_squared(n));
-        let off = turn2 * self.lit.shading.steepness();
+        let [a, b, c] = self.lit.normals.corners[face as usize];
+        let (a, b, c) = (values[a as usize], values[b as usize], values[c as usize]);
+        let [n, m, o] = normals;
+        let turn2 = n.distance_squared(*m).max(m.distance_squared(*o)).max(o.distance_squared(*n));
+        let off = turn2 * self.ready.steepness;
         let (low, high) = (a.min(b).min(c) - off, a.max(b).max(c) + off);
         levels.partition_point(|level| *level < low) == levels.partition_point(|level| *level <= high)
     }
 
     fn trace(&mut self, face: u32, shadowed: &[u32]) {
-        let Lit { mesh, view, normals, shading, .. } = self.lit;
+        let Lit { mesh, normals, shading, .. } = self.lit;
+        let n = normals.of(face);
+        let is_flat = n[0] == n[1] && n[1] == n[2];
+        let own = [mesh.paint(FaceId(face))];
+        let shown = self.paints_shown(face);
+        let paints = shown.as_deref().unwrap_or(&own);
+        let mut measures = None;
+        for channel in 0..shading.channels() {
+            if is_flat && !self.ready.is_local[channel] {
+                continue;
+            }
+            for (k, paint) in paints.iter().enumerate() {
+                let levels = shading.levels(*paint, channel);
+                if levels.is_empty() || paints[..k].iter().any(|p| shading.levels(*p, channel) == levels) {
+                    continue;
+                }
+                let is_hidden = || self.ready.in_sight.get(face as usize) == Some(&false);
+                if self.lit.is_gradient(channel, levels) && is_hidden() {
+                    continue;
+                }
+                for (shadow, shadowed) in shadowed.iter().enumerate() {
+                    if self.is_even(face, &n, levels, channel, shadow) {
+                        continue;
+                    }
+                    let measures = measures.get_or_insert_with(|| self.measures(face, &n));
+                    let band = self.band((face, &n), measures, channel, levels, *shadowed);
+                    let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
+                    band.trace(nodes, &mut self.found);
+                }
+            }
+        }
+    }
+
+    /// The sides of a face.
+    fn measures(&self, face: u32, n: &[DVec3; 3]) -> Measures {
+        let Lit { mesh, view, .. } = self.lit;
         let corners = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
         let length = |i: usize, j: usize| {
             let way = corners[j].truncate() - corners[i].truncate();
@@ -127,63 +185,49 @@ impl<'a> Tracer<'a> {
                 way.length()
             }
         };
-        let sides = [length(1, 2), length(2, 0), length(0, 1)];
         let p = mesh.corners(FaceId(face));
-        let spans = [p[1].distance(p[2]), p[2].distance(p[0]), p[0].distance(p[1])];
-        let n = normals.of(face);
-        let turns = [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])];
-        let is_flat = turns.iter().all(|turn| *turn == 0.0);
-        let own = [mesh.paint(FaceId(face))];
-        let shown = self.paints_shown(face);
-        let paints = shown.as_deref().unwrap_or(&own);
-        let bands = (0..shading.channels()).flat_map(|channel| {
-            paints.iter().enumerate().map(move |(k, paint)| (channel, k, shading.levels(*paint, channel)))
-        });
-        for (channel, k, levels) in bands {
-            if levels.is_empty() || (is_flat && !shading.is_local(channel)) {
-                continue;
-            }
-            if paints[..k].iter().any(|paint| shading.levels(*paint, channel) == levels) {
-                continue;
-            }
-            let is_hidden = || self.ready.in_sight.get(face as usize) == Some(&false);
-            if self.lit.is_gradient(channel, levels) && is_hidden() {
-                continue;
-            }
-            for (shadow, shadowed) in shadowed.iter().enumerate() {
-                if self.is_even(face, levels, channel, shadow) {
-                    continue;
-                }
-                let alike = alike(levels);
-                // Strokes of a hatching end there, one by one: less will do.
-                let (near, exact) = if shading.bins() == Some(channel) {
-                    (tolerance::BIN_PX, tolerance::BIN_VALUE)
-                } else if self.lit.is_gradient(channel, levels) {
-                    (tolerance::BIN_PX, tolerance::GRADIENT_VALUE)
-                } else {
-                    (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
-                };
-                let shadowed = *shadowed;
-                let stride = self.lit.stride(face, channel, levels, shadowed);
-                let (lit, px) = (self.lit, self.ready.px);
-                let band = Band {
-                    lit,
-                    px,
-                    face,
-                    channel,
-                    shadowed,
-                    levels,
-                    stride,
-                    alike,
-                    near,
-                    exact,
-                    sides,
-                    spans,
-                    turns,
-                };
-                let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
-                band.trace(nodes, &mut self.found);
-            }
+        Measures {
+            sides: [length(1, 2), length(2, 0), length(0, 1)],
+            spans: [p[1].distance(p[2]), p[2].distance(p[0]), p[0].distance(p[1])],
+            turns: [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])],
+        }
+    }
+
+    fn band(
+        &self,
+        (face, normals): (u32, &[DVec3; 3]),
+        measures: &Measures,
+        channel: usize,
+        levels: &'a [f64],
+        shadowed: u32,
+    ) -> Band<'a> {
+        // Strokes of a hatching end there, one by one: less will do.
+        let (near, exact) = if self.lit.shading.bins() == Some(channel) {
+            (tolerance::BIN_PX, tolerance::BIN_VALUE)
+        } else if self.lit.is_gradient(channel, levels) {
+            (tolerance::BIN_PX, tolerance::GRADIENT_VALUE)
+        } else {
+            (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
+        };
+        let Measures { sides, spans, turns } = *measures;
+        Band {
+            lit: self.lit,
+            px: self.ready.px,
+            face,
+            paint: self.lit.mesh.paint(FaceId(face)),
+            normals: *normals,
+            channel,
+            is_local: self.ready.is_local[channel],
+            steepness: self.ready.steepness,
+            shadowed,
+            levels,
+            stride: self.lit.stride(face, channel, levels, shadowed),
+            alike: alike(levels),
+            near,
+            exact,
+            sides,
+            spans,
+            turns,
         }
     }
 

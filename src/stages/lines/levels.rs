@@ -6,7 +6,8 @@
 use glam::DVec3;
 
 use super::Lit;
-use crate::mesh::FaceId;
+use crate::field::SurfacePoint;
+use crate::mesh::PaintId;
 
 /// A piece of a level, and the face it lies on. The brighter side is on its left.
 pub(super) type Found = (u32, [DVec3; 2]);
@@ -24,7 +25,14 @@ pub(super) struct Band<'a> {
     /// A CSS px in user units.
     pub px: f64,
     pub face: u32,
+    pub paint: PaintId,
+    /// The normals at its corners.
+    pub normals: [DVec3; 3],
     pub channel: usize,
+    /// Whether its value varies from place to place and not with the normal alone.
+    pub is_local: bool,
+    /// By how much its value changes with the angle of the normal at most, per radian, where it is not local.
+    pub steepness: f64,
     pub shadowed: u32,
     pub levels: &'a [f64],
     /// One in so many of them is drawn: the others are too near to it to be seen.
@@ -43,12 +51,36 @@ pub(super) struct Band<'a> {
     pub turns: [f64; 3],
 }
 
+/// A side of a piece of a face.
+#[derive(Clone, Copy)]
+struct Side {
+    /// By how much normals turn along it, radians.
+    turn: f64,
+    /// Its length in the image.
+    length: f64,
+    /// Whether normals turn so little along it that the value must be all but linear there.
+    is_straight: bool,
+}
+
 impl Band<'_> {
     /// The point of the face with these weights.
     pub fn node(&self, weights: [f64; 3]) -> Node {
-        let point = self.lit.point(self.face, weights);
-        let paint = self.lit.mesh.paint(FaceId(self.face));
-        Node { weights, value: self.lit.shading.value(self.channel, paint, &point, self.shadowed) }
+        Node {
+            weights,
+            value: self.lit.shading.value(self.channel, self.paint, &self.point(weights), self.shadowed),
+        }
+    }
+
+    /// The point of the face with these weights, as the light of this channel asks for it.
+    fn point(&self, weights: [f64; 3]) -> SurfacePoint {
+        if !self.is_local {
+            let normal = self.lit.normal(self.face, &self.normals, weights);
+            // Where there is no normal, that to the eye stands for it, and this varies from place to place.
+            if normal != DVec3::ZERO {
+                return SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
+            }
+        }
+        self.lit.point(self.face, weights)
     }
 
     /// Traces the levels through the face; these are its corners.
@@ -60,87 +92,88 @@ impl Band<'_> {
     ///
     /// Whether a side is cut depends on the side alone, so that the pieces of neighbours meet.
     fn cut(&self, nodes: [Node; 3], depth: u32, found: &mut Vec<Found>) {
-        if self.is_out_of_reach(&nodes) {
+        let turns = [self.turn(&nodes, 0), self.turn(&nodes, 1), self.turn(&nodes, 2)];
+        if self.is_out_of_reach(&nodes, turns) {
             return;
         }
-        if depth < DEEPEST {
-            let middle = |i: usize, j: usize| {
-                if self.is_straight(nodes[i], nodes[j]) {
-                    return None;
+        if depth >= DEEPEST {
+            self.draw(nodes, found);
+            return;
+        }
+        let mut sides = [Side { turn: 0.0, length: 0.0, is_straight: true }; 3];
+        let mut middles = [None; 3];
+        for k in 0..3 {
+            let (a, b) = (nodes[(k + 1) % 3], nodes[(k + 2) % 3]);
+            sides[k] = self.side(a, b, turns[k]);
+            if !sides[k].is_straight {
+                let middle = self.node(mean(a.weights, b.weights));
+                if self.is_bent(a, middle, b, sides[k]) {
+                    middles[k] = Some(middle);
                 }
-                let middle = self.node(mean(nodes[i].weights, nodes[j].weights));
-                self.is_bent(nodes[i], middle, nodes[j]).then_some(middle)
-            };
-            let middles = [middle(1, 2), middle(2, 0), middle(0, 1)];
-            if middles.iter().any(Option::is_some) {
-                for piece in pieces(nodes, middles).iter().flatten() {
-                    self.cut(*piece, depth + 1, found);
-                }
-                return;
             }
-            if (0..3).all(|k| self.is_straight(nodes[k], nodes[(k + 1) % 3])) {
-                self.draw(nodes, found);
-                return;
+        }
+        if middles.iter().any(Option::is_some) {
+            for piece in pieces(nodes, middles).iter().flatten() {
+                self.cut(*piece, depth + 1, found);
             }
-            let third = |k: usize| (nodes[0].weights[k] + nodes[1].weights[k] + nodes[2].weights[k]) / 3.0;
-            let centroid = self.node([third(0), third(1), third(2)]);
-            let linear = (nodes[0].value + nodes[1].value + nodes[2].value) / 3.0;
-            let side = |k: usize| extent(&self.sides, nodes[k].weights, nodes[(k + 1) % 3].weights);
-            let longest = (0..3).map(side).fold(0.0, f64::max);
-            if self.is_off(&nodes, centroid.value, linear, longest) {
-                for k in 0..3 {
-                    self.cut([nodes[k], nodes[(k + 1) % 3], centroid], depth + 1, found);
-                }
-                return;
+            return;
+        }
+        if sides.iter().all(|side| side.is_straight) {
+            self.draw(nodes, found);
+            return;
+        }
+        let third = |k: usize| (nodes[0].weights[k] + nodes[1].weights[k] + nodes[2].weights[k]) / 3.0;
+        let centroid = self.node([third(0), third(1), third(2)]);
+        let linear = (nodes[0].value + nodes[1].value + nodes[2].value) / 3.0;
+        let longest = sides.iter().fold(0.0, |longest: f64, side| longest.max(side.length));
+        if self.is_off(&nodes, centroid.value, linear, longest) {
+            for k in 0..3 {
+                self.cut([nodes[k], nodes[(k + 1) % 3], centroid], depth + 1, found);
             }
+            return;
         }
         self.draw(nodes, found);
     }
 
-    /// Whether no level can be crossed anywhere on a piece, by how far normals turn on it.
-    fn is_out_of_reach(&self, nodes: &[Node; 3]) -> bool {
-        let most = |of: &[f64; 3]| {
-            let side = |k: usize| extent(of, nodes[k].weights, nodes[(k + 1) % 3].weights);
-            side(0).max(side(1)).max(side(2))
-        };
-        let turn = most(&self.turns) * TURN_OF_CHORD;
-        let shading = self.lit.shading;
-        let (low, high) = if shading.is_local(self.channel) {
+    /// By how much normals turn along the side of a piece opposite a corner of it, radians, at most.
+    fn turn(&self, nodes: &[Node; 3], opposite: usize) -> f64 {
+        extent(&self.turns, nodes[(opposite + 1) % 3].weights, nodes[(opposite + 2) % 3].weights)
+    }
+
+    /// Whether no level can be crossed anywhere on a piece, by how far normals turn along its sides.
+    fn is_out_of_reach(&self, nodes: &[Node; 3], turns: [f64; 3]) -> bool {
+        let turn = turns[0].max(turns[1]).max(turns[2]) * TURN_OF_CHORD;
+        let (low, high) = if self.is_local {
+            let span = |a: usize, b: usize| extent(&self.spans, nodes[a].weights, nodes[b].weights);
+            let longest = span(0, 1).max(span(1, 2)).max(span(2, 0));
             let point = self.lit.point(self.face, nodes[0].weights);
-            let paint = self.lit.mesh.paint(FaceId(self.face));
-            shading.range(self.channel, paint, &point, self.shadowed, turn, most(&self.spans))
+            self.lit.shading.range(self.channel, self.paint, &point, self.shadowed, turn, longest)
         } else {
-            let off = turn * shading.steepness();
-            let values = nodes.iter().map(|node| node.value);
-            (
-                values.clone().fold(f64::INFINITY, f64::min) - off,
-                values.fold(f64::NEG_INFINITY, f64::max) + off,
-            )
+            let off = turn * self.steepness;
+            let [a, b, c] = [nodes[0].value, nodes[1].value, nodes[2].value];
+            (a.min(b).min(c) - off, a.max(b).max(c) + off)
         };
         self.levels.partition_point(|level| *level < low)
             == self.levels.partition_point(|level| *level <= high)
     }
 
-    /// Whether normals turn so little along a side that the value must be all but linear there.
-    fn is_straight(&self, a: Node, b: Node) -> bool {
-        if self.lit.shading.is_local(self.channel) {
-            return false;
-        }
-        let turn = extent(&self.turns, a.weights, b.weights);
-        // What a cosine is off its chord at most.
-        let off = turn * turn / 8.0 * self.lit.shading.steepness();
+    /// A side of a piece along which normals turn by so much.
+    fn side(&self, a: Node, b: Node, turn: f64) -> Side {
         let length = extent(&self.sides, a.weights, b.weights);
-        turn <= MOST_TURN && off * length <= self.near * self.px * (a.value - b.value).abs()
+        // What a cosine is off its chord at most.
+        let off = turn * turn / 8.0 * self.steepness;
+        let is_straight = !self.is_local
+            && turn <= MOST_TURN
+            && off * length <= self.near * self.px * (a.value - b.value).abs();
+        Side { turn, length, is_straight }
     }
 
     /// Whether the value along a side bends so much that a level would cross it elsewhere.
-    fn is_bent(&self, a: Node, middle: Node, b: Node) -> bool {
-        let length = extent(&self.sides, a.weights, b.weights);
-        let nodes = [a, b];
-        let far_reaching = length > LONGEST_PX * self.px && self.lit.shading.is_local(self.channel);
-        let turning = extent(&self.turns, a.weights, b.weights) > MOST_TURN;
-        ((far_reaching || turning) && length > SHORTEST_PX * self.px)
-            || self.is_off(&nodes, middle.value, f64::midpoint(a.value, b.value), length)
+    fn is_bent(&self, a: Node, middle: Node, b: Node, side: Side) -> bool {
+        let Side { turn, length, .. } = side;
+        let far_reaching = length > LONGEST_PX * self.px && self.is_local;
+        ((far_reaching || turn > MOST_TURN) && length > SHORTEST_PX * self.px)
+            || self.is_off(&[a, b], middle.value, f64::midpoint(a.value, b.value), length)
     }
 
     /// Whether a value differs from the linear one so much that a level would be displaced.
@@ -188,7 +221,10 @@ impl Band<'_> {
     /// Where a level crosses a side, from below to above.
     fn crossing(&self, a: Node, b: Node, level: f64) -> DVec3 {
         let (low, high) = if a.value < level { (a, b) } else { (b, a) };
-        let at = |t: f64| [0, 1, 2].map(|k| low.weights[k] + (high.weights[k] - low.weights[k]) * t);
+        let at = |t: f64| {
+            let weight = |k: usize| low.weights[k] + (high.weights[k] - low.weights[k]) * t;
+            [weight(0), weight(1), weight(2)]
+        };
         let (mut t_low, mut t_high) = (0.0, 1.0);
         let (mut f_low, mut f_high) = (low.value - level, high.value - level);
         let mut t = 0.0;
@@ -234,18 +270,23 @@ const SHORTEST_PX: f64 = 0.5;
 
 /// Half way between two points of a face.
 fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]))
+    [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1]), f64::midpoint(a[2], b[2])]
 }
 
 /// How far it is between two points of a face of which these are the sides (each opposite the corner
 /// of its number), at most; exact along a side.
+#[inline]
 pub(super) fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
-    let change = |k: usize| (a[k] - b[k]).abs();
-    (0..3)
-        .map(|k| (k, change((k + 1) % 3).min(change((k + 2) % 3))))
-        .filter(|(_, part)| *part > 0.0)
-        .map(|(k, part)| sides[k] * part)
-        .sum()
+    let change = [(a[0] - b[0]).abs(), (a[1] - b[1]).abs(), (a[2] - b[2]).abs()];
+    let mut sum = 0.0;
+    for k in 0..3 {
+        let part = change[(k + 1) % 3].min(change[(k + 2) % 3]);
+        // A side may be as long as can be.
+        if part > 0.0 {
+            sum += sides[k] * part;
+        }
+    }
+    sum
 }
 
 /// A triangle cut at the middles of some of its sides (each opposite the corner of its number).

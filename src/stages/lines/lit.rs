@@ -39,19 +39,25 @@ impl Lit<'_> {
     #[must_use]
     pub fn point(&self, face: u32, weights: [f64; 3]) -> SurfacePoint {
         let t = self.mesh.triangles[face as usize];
-        let normals = self.normals.of(face);
-        let sum = |of: &dyn Fn(usize) -> DVec3| (0..3).map(|k| of(k) * weights[k]).sum::<DVec3>();
-        let normal = sum(&|k| normals[k]).normalize_or_zero();
         let openness = if self.openness.is_empty() {
             1.0
         } else {
             (0..3).map(|k| self.openness[t[k] as usize] * weights[k]).sum()
         };
+        let [a, b, c] = self.mesh.corners(FaceId(face));
         SurfacePoint {
-            position: sum(&|k| self.mesh.positions[t[k] as usize]),
-            normal: if self.view.facing[face as usize] { normal } else { -normal },
+            position: DVec3::ZERO + a * weights[0] + b * weights[1] + c * weights[2],
+            normal: self.normal(face, &self.normals.of(face), weights),
             openness,
         }
+    }
+
+    /// The unit normal of a face at the point with these weights, on the side that the eye sees; `corners` are those at its corners.
+    #[inline]
+    pub(super) fn normal(&self, face: u32, corners: &[DVec3; 3], weights: [f64; 3]) -> DVec3 {
+        let sum = DVec3::ZERO + corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+        let normal = sum.normalize_or_zero();
+        if self.view.facing[face as usize] { normal } else { -normal }
     }
 
     /// A point of a face, moved out to the curved surface for which the face stands, if that is no
@@ -62,9 +68,9 @@ impl Lit<'_> {
     pub(super) fn lifted(&self, face: u32, weights: [f64; 3], px: f64) -> DVec3 {
         let corners = self.mesh.corners(FaceId(face));
         let normals = self.normals.of(face);
-        let p: DVec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
+        let p = DVec3::ZERO + corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
         let onto = |k: usize| normals[k] * ((p - corners[k]).dot(normals[k]) * weights[k]);
-        let lift = -(0..3).map(onto).sum::<DVec3>() / 2.0;
+        let lift = -(DVec3::ZERO + onto(0) + onto(1) + onto(2)) / 2.0;
         let frame = &self.view.frame;
         let per_px = if frame.perspective { frame.depth(p) } else { 1.0 } * px / frame.scale;
         let way = lift.length() / (per_px * tolerance::LIFT_PX);
