@@ -27,6 +27,10 @@ const TASK: usize = 1 << 12;
 /// Points in a cell of the grid, on average.
 const POINTS_A_CELL: usize = 2;
 
+/// A point is on the right side of a line through two others unless it is nearer to it than this part of their coordinates: a
+/// thousand times what rounding does.
+const ROUNDING_OF_SIDES: f64 = 1e-12;
+
 /// Most cells across the image.
 const MOST_CELLS: usize = 512;
 
@@ -121,8 +125,9 @@ impl<'a> PointGrid<'a> {
         if corners.iter().any(|c| c.z.is_nan()) {
             return;
         }
-        let [a, b, c] = corners.map(DVec3::truncate);
-        let Some([columns, rows]) = self.touched(a.min(b).min(c), a.max(b).max(c)) else { return };
+        let [a, b, c] = [corners[0].truncate(), corners[1].truncate(), corners[2].truncate()];
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let Some([columns, rows]) = self.touched(low, high) else { return };
         let area = (b - a).perp_dot(c - a);
         if area == 0.0 {
             return;
@@ -137,10 +142,17 @@ impl<'a> PointGrid<'a> {
                 if ids[i] < ids[j] { turn(corners[i], corners[j]) } else { -turn(corners[j], corners[i]) };
             if area > 0.0 { turn } else { -turn }
         };
+        // Most points near a small face are not in its box even, which is sooner told than on which side of its sides they are.
+        // What rounding may make of these is less than the margin.
+        let margin = low.abs().max(high.abs()) * ROUNDING_OF_SIDES;
+        let (low, high) = (low - margin, high + margin);
         for row in rows {
             for column in columns.clone() {
                 for point in self.cells.of(row * self.across + column) {
                     let p = self.points[*point as usize];
+                    if p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y {
+                        continue;
+                    }
                     let weights = [side(1, 2, p), side(2, 0, p), side(0, 1, p)];
                     if weights.iter().all(|w| *w >= 0.0) {
                         let sum: f64 = weights.iter().sum();
