@@ -23,6 +23,8 @@ pub(super) struct Tolerances {
     pub clean: bool,
     /// 0 when curves are not fitted.
     pub fit: f64,
+    /// Whether the points are asked for too where a curve is fitted.
+    pub points: bool,
 }
 
 /// Spacing of the points that smoothing works on, px.
@@ -34,10 +36,13 @@ const CORNER_PX: f64 = 6.0;
 /// Length over which a turn of a line without noise is measured, px.
 const SHARP_PX: f64 = 2.0;
 
+/// Points of a line that it is worth another thread for.
+const LONG: usize = 256;
+
 /// Cosine of the turn (35 degrees) over that length that makes a corner.
 const SHARP_COSINE: f64 = 0.82;
 
-/// A finished line and its path.
+/// A finished line and its path; the line has no points where a curve is fitted and they are not asked for.
 pub(super) fn finish(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     if t.smooth <= 0.0 || !raw.is_soft() {
         return exact(raw, t);
@@ -67,11 +72,13 @@ fn close(line: &mut Line) {
 /// A line nothing of which is smoothed.
 fn exact(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     let straightened = straighten(raw);
-    let line = if t.simplify > 0.0 { simplify(&straightened, t.simplify) } else { straightened.clone() };
+    let simple = || if t.simplify > 0.0 { simplify(&straightened, t.simplify) } else { straightened.clone() };
     if t.fit <= 0.0 {
+        let line = simple();
         let path = polyline(&line);
         return (line, path);
     }
+    let line = if t.points { simple() } else { Line::default() };
     let path = if raw.closed {
         closed_exact(&straightened, t.fit)
     } else {
@@ -101,10 +108,23 @@ fn closed(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     }
     let mut dense = dense;
     dense.points = smooth(&dense.points, true, t.smooth);
-    let line = simplify(&dense, t.simplify);
-    let path =
-        if t.fit > 0.0 && dense.len() > 8 { closed_smooth(&dense.points, t.fit) } else { polyline(&line) };
+    let fits = t.fit > 0.0 && dense.len() > 8;
+    let (line, path) = simple_and_fitted(&dense, fits, t, || closed_smooth(&dense.points, t.fit));
+    let path = path.unwrap_or_else(|| polyline(&line));
     (line, path)
+}
+
+/// The points that stay of a line, where they are needed, and the curve through all of them where one is fitted: each is made
+/// without the other.
+fn simple_and_fitted<P: Send>(
+    dense: &Line,
+    fits: bool,
+    t: Tolerances,
+    fitted: impl FnOnce() -> P + Send,
+) -> (Line, Option<P>) {
+    let simple = || if t.points || !fits { simplify(dense, t.simplify) } else { Line::default() };
+    let fitted = || fits.then(fitted);
+    if dense.len() < LONG { (simple(), fitted()) } else { rayon::join(simple, fitted) }
 }
 
 /// An open line, in stretches that are smooth and stretches that are exact.
@@ -195,13 +215,16 @@ fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
         }
         let mut part = dense.slice(a, b);
         part.points = smooth(&part.points, false, t.smooth);
-        let simple = simplify(&part, t.simplify);
-        append(&mut line, &simple);
-        if t.fit > 0.0 {
+        let fitted = || {
+            let mut path = BezPath::new();
+            path.move_to(part.points[0]);
             add_smooth(&part.points, t.fit, &mut path);
-        } else {
-            path.extend(polyline(&simple).elements().iter().skip(1).copied());
-        }
+            path
+        };
+        let (simple, fitted) = simple_and_fitted(&part, t.fit > 0.0, t, fitted);
+        append(&mut line, &simple);
+        let drawn = fitted.unwrap_or_else(|| polyline(&simple));
+        path.extend(drawn.elements().iter().skip(1).copied());
     }
     (line, path)
 }

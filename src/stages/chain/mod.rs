@@ -141,6 +141,7 @@ fn link_with(
         tidy: options.tidy.in_unit(unit).max(0.0),
         clean: false,
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
+        points: true,
     };
     let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, ahead, bin);
     raws.into_par_iter().with_min_len(4).map(|raw| chain(raw, t)).collect()
@@ -165,6 +166,7 @@ pub(crate) fn curve(
         tidy: 0.0,
         clean: false,
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
+        points: false,
     };
     let sample = Sample::new(0.0, 1.0);
     let mut line = Line { closed, ..Line::default() };

@@ -5,10 +5,13 @@
 //! that a line that doubles back keeps its tip.
 
 use super::line::Line;
-use crate::math::plane::distance2;
 
 /// Points this near to the straight line between their neighbours, in user units, are rounding.
 const COLLINEAR: f64 = 1e-9;
+
+/// Points between two that are enough for two threads, where each gets no less than one part in so many.
+const LONG: usize = 512;
+const EVEN: usize = 8;
 
 /// How much the strength of a line may be off where points are left out.
 const STRENGTH: f64 = 0.08;
@@ -68,26 +71,52 @@ pub(super) fn simplify(line: &Line, tolerance: f64) -> Line {
 /// Indices of the points that stay in an open line.
 fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
     let n = line.len();
-    let mut stays = vec![false; n];
-    let mut open = vec![(0, n - 1)];
-    stays[0] = true;
-    stays[n - 1] = true;
-    while let Some((a, b)) = open.pop() {
-        let mut worst = (tolerance2, None);
-        for i in a + 1..b {
-            let off = strength_off(line, i, a, b) / STRENGTH;
-            let d = distance2(line.points[i], line.points[a], line.points[b]).max(off * off * tolerance2);
-            if d > worst.0 {
-                worst = (d, Some(i));
-            }
-        }
-        if let Some(i) = worst.1 {
-            stays[i] = true;
-            open.push((a, i));
-            open.push((i, b));
-        }
+    let mut stays = vec![true; n];
+    if let [_, between @ .., _] = &mut stays[..] {
+        between.fill(false);
+        split(line, tolerance2, [0, n - 1], between);
     }
     (0..n).filter(|i| stays[*i]).collect()
+}
+
+/// Says which of the points between two that stay do so too.
+fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: &mut [bool]) {
+    while let Some(i) = worst(line, a, b, tolerance2) {
+        let (low, high) = between.split_at_mut(i - a - 1);
+        let Some((stays, high)) = high.split_first_mut() else { return };
+        *stays = true;
+        let (below, above) = (i - a, b - i);
+        // Deep only where the halves are halves, and no deeper than their number has digits.
+        if below.min(above) * EVEN >= b - a && b - a >= LONG {
+            rayon::join(|| split(line, tolerance2, [a, i], low), || split(line, tolerance2, [i, b], high));
+            return;
+        }
+        if below < above {
+            split(line, tolerance2, [a, i], low);
+            (a, between) = (i, high);
+        } else {
+            split(line, tolerance2, [i, b], high);
+            (b, between) = (i, low);
+        }
+    }
+}
+
+/// The first of the points between two others that is farthest off them, if that is too far.
+fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
+    let (from, strength) = (line.points[a], line.samples[a].strength);
+    let (way, change) = (line.points[b] - from, line.samples[b].strength - strength);
+    let length2 = way.hypot2();
+    let mut worst = (tolerance2, None);
+    for i in a + 1..b {
+        let p = line.points[i];
+        let t = if length2 > 0.0 { ((p - from).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        let off = (line.samples[i].strength - (strength + change * t)).abs() / STRENGTH;
+        let d = (p - (from + way * t)).hypot2().max(off * off * tolerance2);
+        if d > worst.0 {
+            worst = (d, Some(i));
+        }
+    }
+    worst.1
 }
 
 /// How much the strength at point `i` differs from what lies on the way from point `a` to `b`.
