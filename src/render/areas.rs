@@ -13,7 +13,7 @@ use crate::field::{LightOptions, ShadeOptions, ToneOptions};
 use crate::hatch::HatchOptions;
 use crate::lines::{LineKind, LineOptions, Source};
 use crate::mesh::{MaterialId, PaintId};
-use crate::region::{self, Look, RegionOptions, paint};
+use crate::region::{self, Look, PageBorders, RegionOptions, paint};
 use crate::scene::{Camera, GlassDraw, GlassOptions, Scene, TextureFill, TextureOptions};
 use crate::style::Style;
 
@@ -75,7 +75,7 @@ pub fn hotspots(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> Re
     };
     let areas = prepared.on_view(camera, page.unit, |on_view| {
         let fills = on_view.fills?;
-        let seen = fills.see(&on_view.map, &page);
+        let seen = fills.see(&PageBorders::of(&on_view.map, &on_view.view.frame), &page);
         let regions = region::gather_as(&seen, by_part, &style.region, &style.chain, page.unit);
         let offset = fills.paint_context(&page, camera).offset;
         Some(paint::outlines(&regions, offset, 0.0, |_| true))

@@ -18,10 +18,9 @@ use crate::lines::{
     texture_borders, tone_edges,
 };
 use crate::math::colour::Colour;
-use crate::mesh::solid::solid_parts;
 use crate::mesh::{EdgeSet, FaceId, Mesh, PaintId, PartId};
 use crate::region::{
-    self, Darkened, Look, Region, RegionOptions, Regions, Seen, StepsAs, paint::PaintContext,
+    self, Darkened, Look, PageBorders, Region, RegionOptions, Regions, Seen, StepsAs, paint::PaintContext,
 };
 use crate::scene::{Camera, Paint, Scene, paint::Paints};
 use crate::shadow::Shadows;
@@ -122,10 +121,16 @@ pub(super) struct Paintable {
 }
 
 impl Paintable {
-    pub fn new(surface: &Surface, paints: &Paints) -> Self {
+    /// `solid` says which parts of the mesh nobody sees the inside of.
+    pub fn new(surface: &Surface, paints: &Paints, solid: Vec<bool>) -> Self {
         let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
         let edges = tone_edges::candidates(&surface.mesh, &normals, paints);
-        Self { normals, edges, solid: solid_parts(&surface.mesh) }
+        Self { normals, edges, solid }
+    }
+
+    /// That of a surface some of whose faces are cut: its parts are as closed as they were.
+    pub fn finer(&self, surface: &Surface, paints: &Paints) -> Self {
+        Self::new(surface, paints, self.solid.clone())
     }
 }
 
@@ -274,15 +279,21 @@ impl<'a> Fills<'a> {
         self.shadows.lines.append_to(lit.mesh, lines);
     }
 
-    /// What the eye sees, with a view map that is not moved on the page yet.
-    pub fn see(&self, map: &ViewMap, page: &Page) -> Seen {
-        region::see(&self.lit(), map, |points| self.shadowed(points), self.darkened, page.unit)
+    /// What the eye sees, cut by these borders.
+    pub fn see(&self, borders: &PageBorders, page: &Page) -> Seen {
+        region::see(&self.lit(), borders, |points| self.shadowed(points), self.darkened, page.unit)
     }
 
     /// What the eye sees with another mesh before it, which has the same faces but hides less.
     pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
         let lit = Lit { mesh: clear, ..self.lit() };
-        region::see(&lit, map, |points| self.shadowed(points), self.darkened, page.unit)
+        region::see(
+            &lit,
+            &PageBorders::of(map, &self.view.frame),
+            |points| self.shadowed(points),
+            self.darkened,
+            page.unit,
+        )
     }
 
     /// The outlines of regions that look as `pick` says, with their colours and where they are from.

@@ -8,7 +8,7 @@ use crate::drawing::{Layer, LayerKind, Mark, Page, Paint, Unit};
 use crate::lines::{FeatureLines, HiddenLines, LineOptions, Surface};
 use crate::math::colour::Colour;
 use crate::mesh::{MaterialId, Mesh};
-use crate::region;
+use crate::region::{self, PageBorders};
 use crate::scene::cutout::Cut;
 use crate::scene::{Camera, GlassDraw, Scene, cutout, glass};
 use crate::style::Style;
@@ -99,12 +99,12 @@ impl Behind<'_> {
     pub fn paint(
         &self,
         fills: &Fills,
-        map: &ViewMap,
+        borders: &PageBorders,
         (page, camera, style): (&Page, &Camera, &Style),
         layers: &mut Vec<Layer>,
     ) {
         let opacity = |material: MaterialId| self.panes.opacities.get(material.index()).copied().flatten();
-        let seen = fills.see(map, page);
+        let seen = fills.see(borders, page);
         let panes = fills.outlines(&seen, page, camera, style, |look| opacity(look.material).is_some());
         if layers.is_empty() {
             layers.push(Layer { kind: LayerKind::Fills, pen: None, ordered: false, marks: Vec::new() });

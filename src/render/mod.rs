@@ -35,6 +35,7 @@ mod motion;
 mod on_page;
 mod on_surface;
 mod on_threads;
+mod painted;
 mod patterns;
 mod pictures;
 pub mod report;
@@ -55,15 +56,16 @@ pub use resting::Resting;
 pub use sections::{hatched, trailed};
 pub use stage::Stage;
 
-use crate::drawing::{Drawing, Layer, LayerKind, Length, Page, Unit};
+use crate::drawing::{Drawing, Layer, Length, Page, Unit};
 use crate::error::Error;
 use crate::hatch::{self, Hatched};
 use crate::lines::{self, FeatureLines, Known, LineOptions, Surface, Textures};
 use crate::math::colour::Colour;
-use crate::region::Ground;
+use crate::mesh::solid::solid_parts;
+use crate::region::{Ground, PageBorders};
 use crate::scene::{Camera, Scene, Warnings, paint::Paints};
 use crate::shape::Patches;
-use crate::stroke::{self, InkContext, Order, Parting};
+use crate::stroke::{self, InkContext, Parting};
 use crate::style::Style;
 use crate::view::View;
 use crate::viewmap::{self, Ahead, ViewMap};
@@ -77,6 +79,7 @@ use late_shadows::LateShadows;
 use motion::Trails;
 use on_page::{centre_on_page, margin};
 use on_threads::on_threads;
+use painted::{Painted, Paintings};
 use stages::Made;
 use welded::Welded;
 
@@ -186,12 +189,13 @@ impl<'a> Prepared<'a> {
         let sought = fills::sought(style);
         let (mut surface, mut patches) = Surface::with_patches(mesh, &sought);
         let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
+        let painted = paints.as_ref().filter(|_| fills::asks_surface(style));
+        let painted = painted.map(|paints| (paints, solid_parts(&surface.mesh)));
         if let Some(camera) = only.filter(|camera| camera.validate().is_ok()) {
             patches = None;
             surface = surface.finer_for(camera);
         }
-        let paintable = paints.as_ref().filter(|_| fills::asks_surface(style));
-        let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
+        let paintable = painted.map(|(paints, solid)| Paintable::new(&surface, paints, solid));
         let prepared = Self {
             scene,
             warnings,
@@ -248,7 +252,8 @@ impl<'a> Prepared<'a> {
             let fills = fills.filter(|_| self.style.hatch.enabled)?;
             let (scene, style) = (self.scene.as_ref(), self.style);
             let hatching = Hatching { fills, scene, page: &page, camera, style };
-            let seen = behind.map_or_else(|| fills.see(&map, &page), |behind| behind.see(fills, &page));
+            let see = || fills.see(&PageBorders::of(&map, &on_view.view.frame), &page);
+            let seen = behind.map_or_else(see, |behind| behind.see(fills, &page));
             Some(hatching.strokes(&seen))
         })
     }
@@ -266,16 +271,18 @@ impl<'a> Prepared<'a> {
 
         let refined = self.surface.refined_for(camera);
         let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
-        let own = refined.as_ref().map(|_| surface).zip(paints.as_deref());
-        let own = own.filter(|_| fills::asks_surface(style));
-        let own = own.map(|(surface, paints)| Paintable::new(surface, paints));
+        // Finer triangles are those of this view alone.
+        let paint = || {
+            let whole = self.paintable.as_ref().filter(|_| refined.is_some())?;
+            Some(whole.finer(surface, paints.as_deref()?))
+        };
+        let search =
+            || refined.as_ref().and_then(|finer| self.search.of_finer_view(&self.surface, finer, sought));
+        let look = || rayon::join(|| View::new(&surface.mesh, camera), paint);
+        let (finer, (view, own)) = rayon::join(search, look);
         let paintable = own.as_ref().or(self.paintable.as_ref());
-        let view = View::new(&surface.mesh, camera);
         report.stages_ms.topology = watch.lap_ms();
 
-        // Finer triangles are those of this view alone.
-        let finer =
-            refined.as_ref().and_then(|finer| self.search.of_finer_view(&self.surface, finer, sought));
         let known = if surface.refined {
             Known { intersections: finer.as_ref(), ..Known::default() }
         } else {
@@ -317,60 +324,46 @@ impl<'a> Prepared<'a> {
         let OnView { surface, view, lines, textures, fills, mut map, .. } = on_view;
         let OnView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
         let mut layers: Vec<Layer> = hatch::paper(&page, &style.paper, style.seed).into_iter().collect();
-        let mut blacks = None;
-        if let Some(fills) = fills.filter(|_| fills::is_lit(style)) {
-            let seen =
-                behind.as_ref().map_or_else(|| fills.see(&map, &page), |behind| behind.see(fills, &page));
-            if style.region.enabled {
-                let (mut painted, regions) = fills.paint(&seen, &page, camera, style);
-                report.counts.regions = regions.regions.len() as u64;
-                if let Some(paints) = paints {
-                    let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
-                    let (on, asked) = ((clear, lines), (&page, camera, *style));
-                    pictures::add(fills, on, (paints, &regions), asked, &mut painted, &mut warnings);
-                }
-                if let Some(behind) = &behind {
-                    behind.paint(fills, &map, (&page, camera, style), &mut painted);
-                }
-                layers.extend(painted);
-            }
-            let mut patterned = patterns::marks(fills, &seen, scene, (&page, camera, style));
-            report.counts.leaks = seen.leaks;
-            report.stages_ms.regions = watch.lap_ms();
-            let hatching = Hatching { fills, scene, page: &page, camera, style };
-            let mut hatched = if style.hatch.enabled { hatching.layer(&seen) } else { None };
-            if !patterned.is_empty() {
-                patterned.extend(hatched.take().into_iter().flat_map(|layer| layer.marks));
-                hatched =
-                    Some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks: patterned });
-            }
-            if style.stroke.layers.order == Order::Travel {
-                hatched = hatched.map(stroke::travel::along);
-            }
-            layers.extend(hatched);
-            if style.hatch.enabled {
-                report.stages_ms.hatching = watch.lap_ms();
-            }
-            blacks = hatching.black_ground(&seen);
-        }
-        if fills.is_some() {
-            fills::keep_inked(&mut map, style);
-        }
-        report.stages_ms.chains = watch.lap_ms();
-        let lines = &*image::joined(&mut map, lines, surface, view, style, page.unit);
-        report.stages_ms.features += watch.lap_ms();
-        centre_on_page(&mut map, &view.frame, &page);
-
+        let lit = fills.filter(|_| fills::is_lit(style));
+        let borders = lit.map(|_| PageBorders::of(&map, &view.frame));
         let (whole, moved) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
-        let ahead = Ahead::new(whole, view, lines, &map.seen_contours, moved);
-        let mut chains = hidden::chains(&ahead, &map, style, page.unit, view.frame.perspective);
+        // Both have parts that one thread does alone.
+        let paint = || {
+            let (fills, borders) = lit.zip(borders.as_ref())?;
+            let (paints, behind) = (paints.as_deref(), behind.as_ref());
+            let on = Paintings { scene, style, paints, fills, surface, lines, borders, behind };
+            Some(Painted::of(&on, &page, camera))
+        };
+        let link = || {
+            let mut watch = Stopwatch::start();
+            if fills.is_some() {
+                fills::keep_inked(&mut map, style);
+            }
+            let lines = image::joined(&mut map, lines, surface, view, style, page.unit);
+            let joining = watch.lap_ms();
+            centre_on_page(&mut map, &view.frame, &page);
+            let ahead = Ahead::new(whole, view, &lines, &map.seen_contours, moved);
+            let chains = hidden::chains(&ahead, &map, style, page.unit, view.frame.perspective);
+            (lines, chains, [joining, watch.lap_ms()])
+        };
+        let (painted, (lines, mut chains, [joining, linking])) = rayon::join(paint, link);
+        let Painted { layers: painted, blacks, warnings: more, regions, leaks, regions_ms, hatching_ms } =
+            painted.unwrap_or_default();
+        layers.extend(painted);
+        warnings.extend(more);
+        (report.counts.regions, report.counts.leaks) = (regions, leaks);
+        report.stages_ms.regions = regions_ms;
+        report.stages_ms.hatching = hatching_ms;
+        report.stages_ms.features += joining;
+        let lines = &*lines;
+        watch.lap_ms();
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
                 fills::keep_inked(veiled, style);
                 centre_on_page(veiled, &view.frame, &page);
             }));
         }
-        report.stages_ms.chains += watch.lap_ms();
+        report.stages_ms.chains = linking + watch.lap_ms();
 
         let margin = margin(&view.frame, &page);
         let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
@@ -410,6 +403,7 @@ impl<'a> Prepared<'a> {
                 layers.extend(hatch::tooth(&page, &style.paper, style.seed));
             }
             Some(stage) => {
+                let ahead = Ahead::new(whole, view, lines, &map.seen_contours, moved);
                 let made = Made {
                     surface,
                     view,

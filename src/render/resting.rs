@@ -14,6 +14,7 @@ use super::on_threads::on_threads;
 use super::welded::{Welded, paints_of};
 use super::{Prepared, glass};
 use crate::mesh::Sources;
+use crate::mesh::solid::solid_parts;
 use crate::scene::cutout::Cut;
 use crate::scene::{Part, Scene};
 use crate::shape::Patches;
@@ -137,7 +138,7 @@ impl<'a> Resting<'a> {
         let sought = fills::sought(style);
         let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
         let paintable = paints.as_deref().filter(|_| fills::asks_surface(style));
-        let paintable = paintable.map(|paints| Paintable::new(&surface, paints));
+        let paintable = paintable.map(|paints| Paintable::new(&surface, paints, solid_parts(&surface.mesh)));
         let (search, shadows) = (LateSearch::default(), LateShadows::default());
         let counts = self.still.counts;
         Some(Prepared {

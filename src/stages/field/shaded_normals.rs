@@ -5,6 +5,7 @@
 //! tessellation does not show and corners stay corners.
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use crate::mesh::{FaceId, Mesh};
 use crate::shape::{HardEdges, SmoothNormals};
@@ -97,19 +98,27 @@ impl ShadedNormals {
 
     /// Gives faces whose normals are zero or leave the face altogether the face's own normal.
     fn mend(&mut self, mesh: &Mesh) {
-        for face in 0..self.corners.len() {
-            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
-            let bad = |n: DVec3| n == DVec3::ZERO || n.dot(own) < LEAST_COSINE;
-            if own != DVec3::ZERO && self.corners[face].iter().any(|id| bad(self.normals[*id as usize])) {
-                let id = self.normals.len() as u32;
-                self.normals.push(own);
-                let normals = &self.normals;
-                self.corners[face] =
-                    self.corners[face].map(|k| if bad(normals[k as usize]) { id } else { k });
-            }
+        let own = |face: usize| Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+        let bad = |normal: DVec3, own: DVec3| normal == DVec3::ZERO || normal.dot(own) < LEAST_COSINE;
+        let is_bad = |face: &u32| {
+            let own = own(*face as usize);
+            own != DVec3::ZERO && self.of(*face).iter().any(|normal| bad(*normal, own))
+        };
+        let faces = (0..self.corners.len() as u32).into_par_iter().with_min_len(FACES_PER_TASK);
+        let faces: Vec<u32> = faces.filter(is_bad).collect();
+        for face in faces {
+            let (face, own) = (face as usize, own(face as usize));
+            let id = self.normals.len() as u32;
+            self.normals.push(own);
+            let normals = &self.normals;
+            self.corners[face] =
+                self.corners[face].map(|k| if bad(normals[k as usize], own) { id } else { k });
         }
     }
 }
+
+/// Faces whose normals one task looks at.
+const FACES_PER_TASK: usize = 1 << 12;
 
 /// Normals farther than this from their face's own (cosine) do not belong to it.
 const LEAST_COSINE: f64 = -0.2;

@@ -36,7 +36,7 @@ pub use options::{RegionOptions, Seams, StepsAs};
 pub use paint::paint;
 pub use ramps::Ramp;
 pub use samples::Samples;
-pub use seen::{Darkened, Look, Seen, see};
+pub use seen::{Darkened, Look, PageBorders, Seen, see};
 
 use crate::chain::{self, ChainOptions};
 use crate::drawing::{Length, Unit};

@@ -13,6 +13,7 @@ use crate::drawing::{Length, Unit};
 use crate::lines::{LineKind, Lit};
 use crate::math::tolerance;
 use crate::mesh::{MaterialId, PaintId, PartId};
+use crate::view::Frame;
 use crate::viewmap::{ViewMap, front_faces};
 
 /// What a part of the page looks like.
@@ -55,27 +56,41 @@ pub struct Darkened {
     pub bins: bool,
 }
 
-/// Cuts the page along the visible lines of a view map, before the map is moved on the page, and asks
-/// what is seen. `shadowed` tells which lights do not reach points of faces.
+/// The visible lines that may part looks and the edge of the page, on a grid.
+#[derive(Debug, Clone)]
+pub struct PageBorders(Segments);
+
+impl PageBorders {
+    /// Those of a view map, before it is moved on the page, in the frame of its camera.
+    #[must_use]
+    pub fn of(map: &ViewMap, frame: &Frame) -> Self {
+        Self(segments(map, [frame.width, frame.height], step(frame)))
+    }
+}
+
+/// User units in a step of the grid.
+fn step(frame: &Frame) -> f64 {
+    frame.width.max(frame.height) / tolerance::REGION_STEPS
+}
+
+/// Cuts the page along borders and asks what is seen. `shadowed` tells which lights do not reach points of faces.
 #[must_use]
 pub fn see(
     lit: &Lit,
-    map: &ViewMap,
+    PageBorders(segments): &PageBorders,
     shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
     darkened: Darkened,
     unit: Unit,
 ) -> Seen {
-    let frame = &lit.view.frame;
-    let step = frame.width.max(frame.height) / tolerance::REGION_STEPS;
+    let step = step(&lit.view.frame);
     let px = Length::px(1.0).in_unit(unit);
-    let segments = segments(map, [frame.width, frame.height], step);
     let of_tone = match lit.shading.most_levels() {
         0 => tolerance::THIN_BIN_PX,
         1..=tolerance::FEW_LEVELS => tolerance::THIN_PX,
         _ => tolerance::THIN_STEP_PX,
     };
     let fine = |border: Border| if border.is_tone() { of_tone } else { tolerance::THIN_PX };
-    let segments = thin::thinned(&segments, |border| fine(border) * px / step);
+    let segments = thin::thinned(segments, |border| fine(border) * px / step);
     let noded = noding::node(&segments, tolerance::BRIDGE_PX * px / step);
     let cut = Triangulation::new(noded);
 
@@ -116,7 +131,6 @@ impl Seen {
 /// In lists of looks: only paper is seen.
 pub(super) const NOTHING: u32 = 0;
 
-/// The visible lines that may part looks and the edge of the page, on a grid.
 fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
     let on_grid = |p: Point| [p.x, p.y].map(|x| (x / step).round() as i64);
     let [right, bottom] = page.map(|x| (x / step).round() as i64);

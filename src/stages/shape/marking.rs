@@ -18,7 +18,7 @@ const FEW: usize = 500;
 const SWOLLEN: f64 = 6.0;
 
 /// Edges that one task looks at.
-const CHUNK: usize = 1 << 14;
+const CHUNK: usize = 1 << 12;
 
 /// What becomes of the edges of a mesh.
 pub(super) struct Marks {
@@ -81,11 +81,15 @@ fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Mark
     let part_of = |edge: usize| mesh.face_part[mesh.edges.faces(edge).list()[0] as usize].index();
     let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
     let (mut faces, mut wanted) = (vec![0usize; parts], vec![0usize; parts]);
+    marked.iter().for_each(|marked| wanted[part_of(marked.edge)] += 1);
+    let is_few = |wanted: usize, faces: usize| wanted <= faces * 3 / 2 / FEW;
+    if !wanted.iter().any(|wanted| *wanted > 0 && is_few(*wanted, mesh.triangles.len())) {
+        return marked;
+    }
     for (part, corners) in mesh.face_part.iter().zip(&smooth.corners) {
         faces[part.index()] += usize::from(corners[0] != NO_NORMAL);
     }
-    marked.iter().for_each(|marked| wanted[part_of(marked.edge)] += 1);
-    let is_dense = |part: usize| faces[part] > SMALL && wanted[part] <= faces[part] * 3 / 2 / FEW;
+    let is_dense = |part: usize| faces[part] > SMALL && is_few(wanted[part], faces[part]);
     marked.retain(|marked| !is_dense(part_of(marked.edge)));
     marked
 }
