@@ -73,7 +73,8 @@ fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64
     let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
         .into_par_iter()
         .with_min_len(256)
-        .flat_map_iter(|k| among.covered_with(k))
+        .map_init(Near::default, |near, k| among.covered_with(k, near))
+        .flatten_iter()
         .collect();
     covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
     covered
@@ -92,13 +93,14 @@ struct Among<'a> {
 
 impl Among<'_> {
     /// What one line and those before it cover of each other.
-    fn covered_with(&self, number: usize) -> Vec<(u32, (f64, f64))> {
+    fn covered_with(&self, number: usize, near: &mut Near) -> Vec<(u32, (f64, f64))> {
         let Self { map, extents, within, lines, .. } = self;
         let (id, line) = &lines[number];
         let edge = &map.edges[*id as usize];
         let mut covered = Vec::new();
-        for near in self.near(number) {
-            let (other_id, other_line) = &lines[near as usize];
+        self.find_near(number, near);
+        for near in &near.lines {
+            let (other_id, other_line) = &lines[*near as usize];
             let other = &map.edges[*other_id as usize];
             let joined = edge.start == other.start
                 || edge.start == other.end
@@ -118,12 +120,12 @@ impl Among<'_> {
         covered
     }
 
-    /// The lines before one that may be within reach of it, ascending: what is lies in a tile of the line or of one of its
+    /// Finds the lines before one that may be within reach of it, ascending: what is lies in a tile of the line or of one of its
     /// neighbours at that distance, since tiles are convex.
-    fn near(&self, number: usize) -> Vec<u32> {
+    fn find_near(&self, number: usize, Near { tiles, lines }: &mut Near) {
         let (_, line) = &self.lines[number];
         let across = Vec2::new(-line.along.y, line.along.x) * self.within;
-        let mut tiles: Vec<usize> = Vec::new();
+        tiles.clear();
         for shift in [Vec2::ZERO, across, -across] {
             self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
                 // Most lines are short, and their tile comes three times.
@@ -136,13 +138,20 @@ impl Among<'_> {
             let own = self.in_tile.of(*tile);
             own[..own.partition_point(|other| (*other as usize) < number)].iter().copied()
         };
-        let mut near: Vec<u32> = tiles.iter().flat_map(before).collect();
+        lines.clear();
+        lines.extend(tiles.iter().flat_map(before));
         if tiles.len() > 1 {
-            near.sort_unstable();
-            near.dedup();
+            lines.sort_unstable();
+            lines.dedup();
         }
-        near
     }
+}
+
+/// What may be near a line. That of the next line takes the memory over.
+#[derive(Default)]
+struct Near {
+    tiles: Vec<usize>,
+    lines: Vec<u32>,
 }
 
 /// Which of two edges that coincide stays: the lesser. Of parts that touch the smaller one has the line.

@@ -60,14 +60,17 @@ impl ImageSegment {
 /// All feature segments of which something lies on the page, in order.
 #[must_use]
 pub fn project(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<ImageSegment> {
+    const CHUNK: usize = 1 << 10;
     let found: Vec<Vec<ImageSegment>> = lines
         .segments
-        .par_chunks(1 << 12)
+        .par_chunks(CHUNK)
         .enumerate()
         .map(|(chunk, segments)| {
-            let first = chunk << 12;
-            let numbered = segments.iter().enumerate();
-            numbered.filter_map(|(i, s)| project_one(mesh, view, lines, s, (first + i) as u32)).collect()
+            let numbered = segments.iter().zip((chunk * CHUNK) as u32..);
+            // Most are on the page.
+            let mut found = Vec::with_capacity(segments.len());
+            found.extend(numbered.filter_map(|(s, source)| project_one(mesh, view, lines, s, source)));
+            found
         })
         .collect();
     found.concat()

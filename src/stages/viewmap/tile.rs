@@ -51,13 +51,25 @@ pub(super) struct Context<'a> {
     pub(super) counting: bool,
 }
 
-/// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole.
+/// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole. Those of the next tile
+/// take the memory over.
 #[derive(Debug, Default)]
 pub(super) struct TileTriangles {
     reaches: Vec<Reach>,
     /// The place of each among those that were looked up, if it was.
     places: Vec<u32>,
     looked_up: Vec<Occluder>,
+    /// 0, 1, 2 and so on.
+    numbers: Vec<u32>,
+    /// What is found out about one item.
+    found: Found,
+}
+
+/// What is found out about an item, before it is put together.
+#[derive(Debug, Default)]
+struct Found {
+    hidden: Vec<Interval>,
+    layers: Vec<Layer>,
 }
 
 /// Stands for no place.
@@ -103,8 +115,12 @@ impl Context<'_> {
         tile: usize,
         result: &mut TileResult,
     ) {
-        let chosen: Vec<u32> = (0..all.reaches.len() as u32).collect();
-        self.decide(items, all, Entries { chosen: &chosen, ordered: false }, (grid, tile), result);
+        let count = all.reaches.len();
+        let mut numbers = std::mem::take(&mut all.numbers);
+        numbers.extend(numbers.len() as u32..count as u32);
+        let entries = Entries { chosen: &numbers[..count], ordered: false };
+        self.decide(items, all, entries, (grid, tile), result);
+        all.numbers = numbers;
     }
 
     fn decide(
@@ -130,8 +146,7 @@ impl Context<'_> {
             sorted = nearest_first(&all.reaches, entries.chosen);
             entries = Entries { chosen: &sorted, ordered: true };
         }
-        let mut hidden: Vec<Interval> = Vec::new();
-        let mut layers: Vec<Layer> = Vec::new();
+        let Found { mut hidden, mut layers } = std::mem::take(&mut all.found);
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &self.segments[item.segment as usize];
             hidden.clear();
@@ -148,6 +163,7 @@ impl Context<'_> {
                 self.gather_backed(segment, item, all, entries, result);
             }
         }
+        all.found = Found { hidden, layers };
     }
 
     /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over

@@ -116,13 +116,12 @@ pub fn decide(
     const TILES: usize = 64;
     let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
         .into_par_iter()
-        .map(|k| {
+        .map_init(TileTriangles::default, |all, k| {
             let mut result = TileResult::default();
-            let mut all = TileTriangles::default();
             for tile in k * TILES..((k + 1) * TILES).min(grid.len()) {
                 if items.of(tile).iter().any(|item| item.end > item.start) {
                     all.replace(occluders.of(tile).iter().map(reach));
-                    context.decide_tile(items.of(tile), &mut all, &grid, tile, &mut result);
+                    context.decide_tile(items.of(tile), all, &grid, tile, &mut result);
                 }
             }
             result
