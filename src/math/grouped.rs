@@ -18,22 +18,24 @@ impl<T> Default for Grouped<T> {
 
 /// Sorts what `fill` puts into `count` groups: `fill` runs twice and must put the same both times, group first.
 pub fn grouped<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> Grouped<T> {
-    let mut starts = vec![0u32; count + 1];
+    // Of each group the number stands two places on, then its start one place on, which moves to its end while it is filled: that
+    // is where the next one starts.
+    let mut starts = vec![0u32; count + 2];
     let mut any = None;
     fill(&mut |group, value| {
-        starts[group + 1] += 1;
+        starts[group + 2] += 1;
         any = Some(value);
     });
     for group in 0..count {
-        starts[group + 1] += starts[group];
+        starts[group + 2] += starts[group + 1];
     }
-    let Some(blank) = any else { return Grouped { starts, values: Vec::new() } };
-    let mut values = vec![blank; starts[count] as usize];
-    let mut next = starts.clone();
+    let mut values = any.map_or_else(Vec::new, |blank| vec![blank; starts[count + 1] as usize]);
     fill(&mut |group, value| {
-        values[next[group] as usize] = value;
-        next[group] += 1;
+        let next = &mut starts[group + 1];
+        values[*next as usize] = value;
+        *next += 1;
     });
+    starts.truncate(count + 1);
     Grouped { starts, values }
 }
 

@@ -60,7 +60,7 @@ impl<'a> Finder<'a> {
 
     /// What the first `count` edges are that `edge` tells.
     fn find(&self, count: usize, edge: impl Fn(usize) -> usize + Sync) -> Vec<FeatureSegment> {
-        const CHUNK: usize = 1 << 14;
+        const CHUNK: usize = 1 << 12;
         let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {

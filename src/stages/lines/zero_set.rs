@@ -17,7 +17,7 @@ use crate::shape::SmoothNormals;
 use crate::shape::smooth_normals::NO_NORMAL;
 
 /// Faces that one task looks at. Fixed, so that nothing depends on the number of threads.
-const CHUNK: usize = 1 << 14;
+const CHUNK: usize = 1 << 12;
 
 /// A point on an edge of the mesh, between two smooth vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]

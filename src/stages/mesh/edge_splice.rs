@@ -12,7 +12,7 @@ use super::{EdgeFaces, Edges};
 const GONE: u32 = u32::MAX;
 
 /// Edges that one task looks at.
-const CHUNK: usize = 1 << 14;
+const CHUNK: usize = 1 << 13;
 /// More edges than this are spliced by one, so that nothing is there twice.
 const MANY_EDGES: usize = 1 << 20;
 

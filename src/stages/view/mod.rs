@@ -18,6 +18,9 @@ use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::scene::Camera;
 
+/// Vertices or faces that one task looks at.
+const GRAIN: usize = 1 << 12;
+
 /// A mesh seen by a camera.
 #[derive(Debug, Clone)]
 pub struct View {
@@ -40,17 +43,14 @@ impl View {
         if frame.near.is_none() && frame.perspective {
             frame.near = Some(frame.focus.max(f64::MIN_POSITIVE) * tolerance::NEAR_OF_TARGET);
         }
-        let points: Vec<DVec3> =
-            mesh.positions.par_iter().with_min_len(1 << 14).map(|p| frame.image_from_local(*p)).collect();
-        let facing = mesh
-            .triangles
-            .par_iter()
-            .with_min_len(1 << 13)
-            .map(|t| {
-                let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
-                frame.faces_eye(a, b, c)
-            })
-            .collect();
+        let points =
+            || mesh.positions.par_iter().with_min_len(GRAIN).map(|p| frame.image_from_local(*p)).collect();
+        let faces_eye = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+            frame.faces_eye(a, b, c)
+        };
+        let facing = || mesh.triangles.par_iter().with_min_len(GRAIN).map(faces_eye).collect();
+        let (points, facing): (Vec<DVec3>, Vec<bool>) = rayon::join(points, facing);
         let clipped = clip::clip_faces(mesh, &frame, &points);
         Self { frame, points, facing, clipped }
     }

@@ -51,7 +51,7 @@ impl Covers {
         let squares = triangles.grid.refined(per_tile);
         let large: Vec<u32> = (0..triangles.count() as u32)
             .into_par_iter()
-            .with_min_len(1 << 13)
+            .with_min_len(1 << 12)
             .filter(|id| is_large(triangles, *id, squares.cell))
             .collect();
         let expanses = Expanses::new(triangles, squares.cell);

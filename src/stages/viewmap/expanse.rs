@@ -41,7 +41,7 @@ impl Expanses {
         let Triangles { mesh, view, .. } = *triangles;
         let turns: Vec<i8> = (0..mesh.triangles.len())
             .into_par_iter()
-            .with_min_len(1 << 13)
+            .with_min_len(1 << 12)
             .map(|face| turn(mesh, view, face as u32))
             .collect();
         let runs_on = |edge: usize| match mesh.edges.faces(edge) {

@@ -17,7 +17,7 @@ use crate::view::View;
 const SQUARES: u32 = 256;
 
 /// Triangles that one task looks at.
-const CHUNK: usize = 1 << 14;
+const CHUNK: usize = 1 << 12;
 
 /// The squares of the frame that each triangle's box meets.
 #[derive(Debug)]

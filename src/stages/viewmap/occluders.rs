@@ -71,7 +71,7 @@ impl Triangles<'_> {
 
     /// Triangles a task takes: a share of all that depends on nothing but their number.
     fn chunk(&self) -> usize {
-        self.count().div_ceil(16).max(1 << 13)
+        self.count().div_ceil(16).max(1 << 11)
     }
 
     /// The tiles that each triangle's box meets; an empty box for triangles that hide nothing or
