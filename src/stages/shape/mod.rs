@@ -5,6 +5,7 @@ pub mod bends;
 mod crease_chains;
 pub mod curvature;
 mod curvature_derivative;
+mod cut_pieces;
 mod cylinder;
 pub mod cylinders;
 mod diffusion;

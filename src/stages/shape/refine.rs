@@ -9,7 +9,9 @@ use std::borrow::Cow;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::cut_pieces::{CLOSED, Fate, Parted, Piece, STRAIGHT, Side, is_open};
 use super::marking::{Marks, marks};
+use super::planes::area;
 use super::smooth_normals::NO_NORMAL;
 use super::splice::{Cuts, Facet, Kept, Refined, splice};
 use super::{EdgeArc, SmoothNormals};
@@ -54,18 +56,20 @@ pub fn cuts(
         return None;
     }
     let mut work = Work::of(mesh, smooth, &cut);
-    let (kept, mut open) = work.affected(&edges);
+    let (kept, mut open) = work.affected(&edges, &thin);
     let mut done: Vec<Facet> = Vec::new();
+    let mut straight: Vec<[u32; 2]> = Vec::new();
     for cuts in 0..MOST_CUTS {
         if cuts > 0 {
             work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
         }
         let parted = work.parted(&open);
         open.clear();
-        for Parted { open: left, whole, inner } in parted {
+        for Parted { open: left, whole, inner, straight: level } in parted {
             open.extend(left);
             done.extend(whole);
             work.sides.extend(inner);
+            straight.extend(level);
         }
         if open.is_empty() {
             break;
@@ -73,54 +77,7 @@ pub fn cuts(
     }
     done.extend(open.iter().map(|piece| piece.facet));
     let Work { positions, normals, .. } = work;
-    Some(Cuts { positions, normals, pieces: done, kept, thin })
-}
-
-/// The side of a piece was decided about, and stays.
-const CLOSED: u32 = u32::MAX;
-
-/// A piece of a face, which may be cut further.
-#[derive(Debug, Clone, Copy)]
-struct Piece {
-    facet: Facet,
-    /// Which [`Side`]s the sides 0-1, 1-2, 2-0 are; [`CLOSED`] where they are not cut any more.
-    sides: [u32; 3],
-}
-
-/// What becomes of the side of a piece.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Fate {
-    Open,
-    Whole,
-    /// It is cut by a smooth vertex; its halves are two sides, the first the one at the smaller end.
-    Cut {
-        middle: u32,
-        halves: u32,
-    },
-}
-
-/// The side of a piece, or of the two that share it.
-#[derive(Debug, Clone, Copy)]
-struct Side {
-    /// The smooth vertices at its ends, the smaller first.
-    ends: [u32; 2],
-    fate: Fate,
-}
-
-impl Side {
-    fn open(a: u32, b: u32) -> Self {
-        Self { ends: [a.min(b), a.max(b)], fate: Fate::Open }
-    }
-}
-
-/// What some pieces are cut into.
-#[derive(Default)]
-struct Parted {
-    /// What may be cut further.
-    open: Vec<Piece>,
-    whole: Vec<Facet>,
-    /// The sides that are new inside the pieces.
-    inner: Vec<Side>,
+    Some(Cuts { positions, normals, pieces: done, kept, thin, straight })
 }
 
 struct Work<'a> {
@@ -188,7 +145,7 @@ impl<'a> Work<'a> {
     fn decide(&mut self, pieces: &[Piece], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
         // A side is mostly that of two pieces.
         let mut asked = Vec::with_capacity(pieces.len() * 3 / 2);
-        for side in pieces.iter().flat_map(|piece| piece.sides).filter(|side| *side != CLOSED) {
+        for side in pieces.iter().flat_map(|piece| piece.sides).filter(is_open) {
             let fate = &mut self.sides[side as usize].fate;
             if *fate == Fate::Open {
                 *fate = Fate::Whole;
@@ -199,9 +156,21 @@ impl<'a> Work<'a> {
     }
 
     /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut, which are
-    /// the first sides.
-    fn affected(&self, cut: &[u32]) -> (Kept, Vec<Piece>) {
+    /// the first sides; `thin` edges stay straight.
+    fn affected(&self, cut: &[u32], thin: &[usize]) -> (Kept, Vec<Piece>) {
         let Self { mesh, smooth, .. } = self;
+        let has_straight = !(smooth.straight.is_empty() && thin.is_empty());
+        // Whether a side of a face is straight, and the curve over it would rise by more than the face is wide.
+        let is_straight = |face: u32, [a, b]: [u32; 2]| {
+            let ends = [a, b].map(|v| smooth.vertices[v as usize]);
+            let edge = mesh.edges.vertices.binary_search(&[ends[0].min(ends[1]), ends[0].max(ends[1])]);
+            let stays = |edge: usize| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok();
+            edge.is_ok_and(stays) && {
+                let at = ends.map(|v| mesh.positions[v as usize]);
+                let rise = EdgeArc::new(at, [a, b].map(|v| smooth.normals[v as usize])).height().length();
+                rise * at[0].distance(at[1]) > 2.0 * area(mesh, face)
+            }
+        };
         // A face with a side, of all that are cut.
         let mut at: Vec<(u32, u32)> = Vec::with_capacity(2 * cut.len());
         for (side, edge) in cut.iter().enumerate() {
@@ -215,10 +184,14 @@ impl<'a> Work<'a> {
             let sides = [0, 1, 2].map(|k| {
                 let ends = Side::open(corners[k], corners[(k + 1) % 3]).ends;
                 let side = at.iter().find(|(_, side)| self.sides[*side as usize].ends == ends);
-                side.map_or(CLOSED, |(_, side)| *side)
+                match side {
+                    Some((_, side)) => *side,
+                    None if has_straight && is_straight(face, ends) => STRAIGHT,
+                    None => CLOSED,
+                }
             });
             let facet = Facet { corners, marks, face };
-            (sides != [CLOSED; 3]).then_some(Piece { facet, sides })
+            sides.iter().any(is_open).then_some(Piece { facet, sides })
         };
         let open: Vec<Piece> = at.par_chunk_by(|a, b| a.0 == b.0).filter_map(open_piece).collect();
         let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.facet.face));
@@ -255,6 +228,7 @@ impl<'a> Work<'a> {
                 open: Vec::with_capacity(pieces.len() * 2),
                 whole: Vec::with_capacity(pieces.len() * 2),
                 inner: Vec::with_capacity(pieces.len() * 3),
+                straight: Vec::new(),
             };
             pieces.iter().for_each(|piece| self.split(piece, first, &mut parted));
             parted
@@ -277,20 +251,23 @@ impl<'a> Work<'a> {
         let m = |side: usize| cut(side).0;
         let [a, b, c] = facet.corners;
         // A whole side was decided about and stays; halves and new sides may be cut again.
-        let own = |side: usize| (CLOSED, facet.marks[side]);
+        let own = |side: usize| (if sides[side] == STRAIGHT { STRAIGHT } else { CLOSED }, facet.marks[side]);
         let half = |side: usize, end: u32| {
             let is_second = end != self.sides[sides[side] as usize].ends[0];
             (cut(side).1 + u32::from(is_second), facet.marks[side])
         };
-        let new = |k: usize| ((first + k) as u32, EdgeMark::Unmarked);
+        // Along the straight sides of a sliver the surface does not bend between them either: from the middle of its short
+        // side it would rise over all the length of the long ones.
+        let is_level = (0..3).any(|side| sides[side] == STRAIGHT);
+        let new = |k: usize| (if is_level { STRAIGHT } else { (first + k) as u32 }, EdgeMark::Unmarked);
         let known = out.inner.len();
         let mut push = |corners: [u32; 3], sides: [(u32, EdgeMark); 3]| {
             let facet = Facet { corners, marks: sides.map(|side| side.1), face: facet.face };
             let sides = sides.map(|side| side.0);
-            if sides == [CLOSED; 3] {
-                out.whole.push(facet);
-            } else {
+            if sides.iter().any(is_open) {
                 out.open.push(Piece { facet, sides });
+            } else {
+                out.whole.push(facet);
             }
         };
         match count {
@@ -325,22 +302,16 @@ impl<'a> Work<'a> {
                 out.inner.extend([[m(0), m(2)], [m(0), m(1)], [m(1), m(2)]].map(|[p, q]| Side::open(p, q)));
             }
         }
-    }
-}
-
-impl Piece {
-    #[inline]
-    fn turned(mut self, by: usize) -> Self {
-        self.facet.corners.rotate_left(by);
-        self.facet.marks.rotate_left(by);
-        self.sides.rotate_left(by);
-        self
+        if is_level {
+            out.straight.extend(out.inner[known..].iter().map(|side| side.ends));
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::function::{cos, sin};
     use crate::mesh::Soup;
 
     fn icosahedron() -> Mesh {
@@ -389,6 +360,43 @@ mod tests {
         for face in 0..finer.triangles.len() {
             let [a, b, c] = finer.corners(crate::mesh::FaceId(face as u32));
             assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "every face keeps its side");
+        }
+    }
+
+    /// A long bar of six sides, closed at its ends, where its normals lean out as those of bevels do.
+    fn bar(length: f64) -> Mesh {
+        let mut positions = vec![DVec3::ZERO, DVec3::new(0.0, 0.0, length)];
+        let mut normals = vec![DVec3::NEG_Z, DVec3::Z];
+        let mut triangles = Vec::new();
+        for k in 0..6u32 {
+            let turn = f64::from(k) * std::f64::consts::FRAC_PI_3;
+            let out = DVec3::new(cos(turn), sin(turn), 0.0);
+            positions.extend([out, out + DVec3::new(0.0, 0.0, length)]);
+            normals.extend([out - DVec3::Z, out + DVec3::Z].map(DVec3::normalize));
+            let [a, b] = [2 + 2 * k, 2 + 2 * ((k + 1) % 6)];
+            triangles.extend([[a, b, a + 1], [b, b + 1, a + 1], [0, b, a], [1, a + 1, b + 1]]);
+        }
+        let normals = normals.iter().map(|normal| normal.as_vec3().to_array()).collect();
+        let corner_normals = triangles.clone();
+        Mesh::build(Soup { positions, normals, corner_normals, triangles, ..Soup::default() })
+    }
+
+    #[test]
+    fn a_bar_does_not_swell_from_the_middles_of_its_short_sides() {
+        let mesh = bar(40.0);
+        let smooth = SmoothNormals::new(&mesh, |_| true, |_| false);
+        assert!(!smooth.straight.is_empty(), "normals lean out at both its ends");
+        let wanted =
+            |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
+        let Refined { mesh: finer, smooth, .. } =
+            refined(&mesh, &smooth, |_, _| true, wanted).expect("it is rounder than six sides");
+        let widest =
+            finer.positions.iter().map(|p| (*p + finer.origin).truncate().length()).fold(0.0, f64::max);
+        assert!(widest >= 1.0 && widest < 1.1, "{widest}");
+        // What is said of the curves over its edges, wherever contours may cross them, holds as well.
+        for edge in 0..finer.edges.len() {
+            let Some(ends) = smooth.across(&finer, edge) else { continue };
+            assert!(EdgeArc::over(&finer, &smooth, ends).height().length() < 0.2, "{edge}");
         }
     }
 

@@ -54,6 +54,8 @@ pub struct Cuts {
     pub(super) kept: Kept,
     /// Edges that stay straight.
     pub(super) thin: Vec<usize>,
+    /// The smooth vertices at the ends of new edges that are straight.
+    pub(super) straight: Vec<[u32; 2]>,
 }
 
 /// The faces that stay as they are.
@@ -152,7 +154,8 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cut
         Cow::Owned(mesh) => Cow::Owned(std::mem::take(&mut mesh.edges)),
     };
     let sets = [&smooth.straight, &smooth.parting].map(EdgeSet::clone);
-    let by_edges = || OfEdges::new(&edges, sets, (&cuts, old), &triangles);
+    let level: Vec<[u32; 2]> = cuts.straight.iter().map(|ends| ends.map(vertex)).collect();
+    let by_edges = || OfEdges::new(&edges, sets, (&cuts, old, &level), &triangles);
     let (of_edges, (mut mesh, mut smooth)) = if matches!(mesh, Cow::Owned(_)) && cuts.kept.of > MANY_FACES {
         let of_edges = by_edges();
         drop(edges);
@@ -180,13 +183,15 @@ impl OfEdges {
     fn new(
         edges: &Edges,
         [straight, parting]: [EdgeSet; 2],
-        (cuts, old): (&Cuts, usize),
+        (cuts, old, level): (&Cuts, usize, &[[u32; 2]]),
         triangles: &[[u32; 3]],
     ) -> Self {
         let Cuts { kept, thin, .. } = cuts;
         let (before, vertices) = (edges.len(), old + cuts.positions.len());
         let (edges, ids) = edges.spliced(&kept.renamed(), kept.count as u32, vertices, triangles);
-        let straight = straight.with(thin, before).carried(&ids, edges.len());
+        let find = |[a, b]: &[u32; 2]| edges.vertices.binary_search(&[*a.min(b), *a.max(b)]).ok();
+        let level: Vec<usize> = level.iter().filter_map(find).collect();
+        let straight = straight.with(thin, before).carried(&ids, edges.len()).with(&level, edges.len());
         let parting = parting.carried(&ids, edges.len());
         Self { edges, straight, parting, ids }
     }
