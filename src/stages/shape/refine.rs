@@ -392,7 +392,7 @@ mod tests {
             refined(&mesh, &smooth, |_, _| true, wanted).expect("it is rounder than six sides");
         let widest =
             finer.positions.iter().map(|p| (*p + finer.origin).truncate().length()).fold(0.0, f64::max);
-        assert!(widest >= 1.0 && widest < 1.1, "{widest}");
+        assert!((1.0..1.1).contains(&widest), "{widest}");
         // What is said of the curves over its edges, wherever contours may cross them, holds as well.
         for edge in 0..finer.edges.len() {
             let Some(ends) = smooth.across(&finer, edge) else { continue };
