@@ -287,13 +287,8 @@ impl<'a> Fills<'a> {
     /// What the eye sees with another mesh before it, which has the same faces but hides less.
     pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
         let lit = Lit { mesh: clear, ..self.lit() };
-        region::see(
-            &lit,
-            &PageBorders::of(map, &self.view.frame),
-            |points| self.shadowed(points),
-            self.darkened,
-            page.unit,
-        )
+        let borders = PageBorders::of(map, &self.view.frame);
+        region::see(&lit, &borders, |points| self.shadowed(points), self.darkened, page.unit)
     }
 
     /// The outlines of regions that look as `pick` says, with their colours and where they are from.

@@ -79,7 +79,7 @@ use late_shadows::LateShadows;
 use motion::Trails;
 use on_page::{centre_on_page, margin};
 use on_threads::on_threads;
-use painted::{Painted, Paintings};
+use painted::{Painted, Unpainted};
 use stages::Made;
 use welded::Welded;
 
@@ -326,12 +326,12 @@ impl<'a> Prepared<'a> {
         let mut layers: Vec<Layer> = hatch::paper(&page, &style.paper, style.seed).into_iter().collect();
         let lit = fills.filter(|_| fills::is_lit(style));
         let borders = lit.map(|_| PageBorders::of(&map, &view.frame));
-        let (whole, moved) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
+        let (whole, margin) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
         // Both have parts that one thread does alone.
         let paint = || {
             let (fills, borders) = lit.zip(borders.as_ref())?;
             let (paints, behind) = (paints.as_deref(), behind.as_ref());
-            let on = Paintings { scene, style, paints, fills, surface, lines, borders, behind };
+            let on = Unpainted { scene, style, paints, fills, surface, lines, borders, behind };
             Some(Painted::of(&on, &page, camera))
         };
         let link = || {
@@ -342,7 +342,7 @@ impl<'a> Prepared<'a> {
             let lines = image::joined(&mut map, lines, surface, view, style, page.unit);
             let joining = watch.lap_ms();
             centre_on_page(&mut map, &view.frame, &page);
-            let ahead = Ahead::new(whole, view, &lines, &map.seen_contours, moved);
+            let ahead = Ahead::new(whole, view, &lines, &map.seen_contours, margin);
             let chains = hidden::chains(&ahead, &map, style, page.unit, view.frame.perspective);
             (lines, chains, [joining, watch.lap_ms()])
         };
@@ -356,6 +356,7 @@ impl<'a> Prepared<'a> {
         report.stages_ms.hatching = hatching_ms;
         report.stages_ms.features += joining;
         let lines = &*lines;
+        // Each of both has told its own time.
         watch.lap_ms();
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
@@ -365,7 +366,6 @@ impl<'a> Prepared<'a> {
         }
         report.stages_ms.chains = linking + watch.lap_ms();
 
-        let margin = margin(&view.frame, &page);
         let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
         beside::ask(&mut chains, &beside);
         let paints = paints.as_deref();
@@ -403,7 +403,7 @@ impl<'a> Prepared<'a> {
                 layers.extend(hatch::tooth(&page, &style.paper, style.seed));
             }
             Some(stage) => {
-                let ahead = Ahead::new(whole, view, lines, &map.seen_contours, moved);
+                let ahead = Ahead::new(whole, view, lines, &map.seen_contours, margin);
                 let made = Made {
                     surface,
                     view,

@@ -24,14 +24,14 @@ pub(super) struct Painted {
     pub regions: u64,
     /// Cells in which different looks were seen.
     pub leaks: u64,
-    /// How long regions took.
+    /// How long regions took, milliseconds.
     pub regions_ms: f64,
-    /// How long hatching took.
+    /// How long hatching took, milliseconds.
     pub hatching_ms: f64,
 }
 
-/// A lit surface, cut by the lines that are seen.
-pub(super) struct Paintings<'a> {
+/// A lit surface, cut by the lines that are seen, to be painted and hatched.
+pub(super) struct Unpainted<'a> {
     pub scene: &'a Scene,
     pub style: &'a Style,
     pub paints: Option<&'a Paints>,
@@ -44,8 +44,8 @@ pub(super) struct Paintings<'a> {
 
 impl Painted {
     /// Paints and hatches a surface.
-    pub fn of(on: &Paintings, page: &Page, camera: &Camera) -> Self {
-        let Paintings { scene, style, paints, fills, surface, lines, borders, behind } = *on;
+    pub fn of(on: &Unpainted, page: &Page, camera: &Camera) -> Self {
+        let Unpainted { scene, style, paints, fills, surface, lines, borders, behind } = *on;
         let mut watch = Stopwatch::start();
         let mut painted = Self::default();
         let seen = behind.map_or_else(|| fills.see(borders, page), |behind| behind.see(fills, page));

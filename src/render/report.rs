@@ -3,7 +3,8 @@
 use kurbo::PathEl;
 use serde::Serialize;
 
-/// How long each stage took, in milliseconds; 0 for stages that did not run.
+/// How long each stage took, in milliseconds; 0 for stages that did not run. Lines are linked while surfaces are painted and hatched: each
+/// counts that time as its own.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct StagesMs {
     /// Reading the model file.

@@ -235,3 +235,40 @@ fn append(line: &mut Line, part: &Line) {
         line.push(part.points[i], part.samples[i], part.soft[i], part.silhouette[i]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::Sample;
+    use crate::math::function::{cos, sin};
+
+    #[test]
+    fn curves_are_the_same_whether_points_are_asked_for_or_not() {
+        let t = Tolerances {
+            px: 1.0,
+            smooth: 0.4,
+            simplify: 0.1,
+            tidy: 0.0,
+            clean: false,
+            fit: 0.2,
+            points: true,
+        };
+        // Smooth all round, exact all round, and with a corner and a straight stretch; closed and open.
+        let kinds: [fn(usize) -> bool; 3] = [|_| true, |_| false, |i| i > 60];
+        for (is_soft, closed) in kinds.into_iter().flat_map(|soft| [(soft, true), (soft, false)]) {
+            for n in [12, 400] {
+                let mut line = Line { closed, ..Line::default() };
+                for i in 0..n {
+                    let turn = std::f64::consts::TAU * i as f64 / n as f64;
+                    let far = 200.0 + if i > n / 2 { 40.0 } else { 0.0 };
+                    let point = Point::new(far * cos(turn), far * sin(turn));
+                    line.push(point, Sample::new(0.0, 1.0), is_soft(i), false);
+                }
+                let (points, with) = finish(&line, t);
+                let (none, without) = finish(&line, Tolerances { points: false, ..t });
+                assert_eq!(with, without, "{n} points, closed: {closed}");
+                assert!(points.len() > 1 && none.len() == 0, "{n} points, closed: {closed}");
+            }
+        }
+    }
+}

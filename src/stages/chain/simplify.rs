@@ -4,6 +4,8 @@
 //! represent a digitized line, Cartographica 1973; measured against the segment, not its line, so
 //! that a line that doubles back keeps its tip.
 
+use kurbo::{Point, Vec2};
+
 use super::line::Line;
 
 /// Points this near to the straight line between their neighbours, in user units, are rounding.
@@ -29,7 +31,7 @@ pub(super) fn straighten(line: &Line) -> Line {
         if let &[.., a, b] = &kept[..]
             && line.soft[a] == line.soft[b]
             && between(a, b, c)
-            && strength_off(line, b, a, c) <= STRENGTH
+            && Chord::new(line, a, c).off(b).1 <= STRENGTH
         {
             kept.pop();
         }
@@ -103,15 +105,12 @@ fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: 
 
 /// The first of the points between two others that is farthest off them, if that is too far.
 fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
-    let (from, strength) = (line.points[a], line.samples[a].strength);
-    let (way, change) = (line.points[b] - from, line.samples[b].strength - strength);
-    let length2 = way.hypot2();
+    let chord = Chord::new(line, a, b);
     let mut worst = (tolerance2, None);
     for i in a + 1..b {
-        let p = line.points[i];
-        let t = if length2 > 0.0 { ((p - from).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
-        let off = (line.samples[i].strength - (strength + change * t)).abs() / STRENGTH;
-        let d = (p - (from + way * t)).hypot2().max(off * off * tolerance2);
+        let (distance2, strength) = chord.off(i);
+        let strength = strength / STRENGTH;
+        let d = distance2.max(strength * strength * tolerance2);
         if d > worst.0 {
             worst = (d, Some(i));
         }
@@ -119,14 +118,78 @@ fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
     worst.1
 }
 
-/// How much the strength at point `i` differs from what lies on the way from point `a` to `b`.
-fn strength_off(line: &Line, i: usize, a: usize, b: usize) -> f64 {
-    let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);
-    if from == to {
-        return (at - from).abs();
+/// The straight way from one point of a line to another.
+struct Chord<'a> {
+    line: &'a Line,
+    from: Point,
+    way: Vec2,
+    length2: f64,
+    strength: f64,
+    /// By how much the strength changes along it.
+    change: f64,
+}
+
+impl<'a> Chord<'a> {
+    fn new(line: &'a Line, a: usize, b: usize) -> Self {
+        let (from, strength) = (line.points[a], line.samples[a].strength);
+        let (way, change) = (line.points[b] - from, line.samples[b].strength - strength);
+        Self { line, from, way, length2: way.hypot2(), strength, change }
     }
-    let way = line.points[b] - line.points[a];
-    let t =
-        ((line.points[i] - line.points[a]).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (at - (from + (to - from) * t)).abs()
+
+    /// How far a point of the line is off, squared, and by how much its strength differs from what lies on the way.
+    #[inline]
+    fn off(&self, i: usize) -> (f64, f64) {
+        let p = self.line.points[i];
+        let t = if self.length2 > 0.0 {
+            ((p - self.from).dot(self.way) / self.length2).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let strength = self.line.samples[i].strength - (self.strength + self.change * t);
+        ((p - (self.from + self.way * t)).hypot2(), strength.abs())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::Sample;
+    use crate::math::dice::Dice;
+    use crate::math::plane::distance2;
+
+    /// The same, one stretch after the other, and with nothing known of a stretch beforehand.
+    fn plain(line: &Line, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
+        let off = |i: usize| {
+            let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);
+            let (p, way) = (line.points[i] - line.points[a], line.points[b] - line.points[a]);
+            let t = if way.hypot2() > 0.0 { (p.dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+            let strength = (at - (from + (to - from) * t)).abs() / STRENGTH;
+            distance2(line.points[i], line.points[a], line.points[b]).max(strength * strength * tolerance2)
+        };
+        let far = (a + 1..b).filter(|i| off(*i) > tolerance2);
+        let Some(worst) = far.max_by(|i, k| off(*i).total_cmp(&off(*k)).then(k.cmp(i))) else { return };
+        plain(line, [a, worst], tolerance2, stays);
+        stays.push(worst);
+        plain(line, [worst, b], tolerance2, stays);
+    }
+
+    #[test]
+    fn points_stay_as_one_stretch_after_the_other_says() {
+        let mut dice = Dice::new(7);
+        for n in [2, 3, 40, 700, 5000] {
+            let mut line = Line::default();
+            let (mut p, mut strength) = (Point::ZERO, 1.0);
+            for _ in 0..n {
+                p += Vec2::new(dice.between(0.2, 1.0), dice.between(-0.6, 0.6));
+                strength = f64::clamp(strength + dice.between(-0.02, 0.02), 0.0, 1.0);
+                line.push(p, Sample::new(1.0, strength), true, false);
+            }
+            for tolerance in [0.1, 1.0, 10.0] {
+                let mut stays = vec![0];
+                plain(&line, [0, n - 1], tolerance * tolerance, &mut stays);
+                stays.push(n - 1);
+                assert_eq!(keep(&line, tolerance * tolerance), stays, "{n} points, {tolerance}");
+            }
+        }
+    }
 }

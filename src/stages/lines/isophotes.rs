@@ -10,7 +10,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::covered::in_sight;
-use super::levels::{Band, Found, Node};
+use super::levels::{Band, Found, Measures, Node};
 use super::line::segment;
 use super::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::field::SurfacePoint;
@@ -45,16 +45,6 @@ struct Tracer<'a> {
     lit: &'a Lit<'a>,
     ready: &'a Ready,
     found: Vec<Found>,
-}
-
-/// The sides of a face, each opposite the corner of its number.
-struct Measures {
-    /// Their lengths in the image.
-    sides: [f64; 3],
-    /// Their lengths in space.
-    spans: [f64; 3],
-    /// By how much normals turn along them, radians.
-    turns: [f64; 3],
 }
 
 /// What is the same for all faces.
@@ -163,7 +153,7 @@ impl<'a> Tracer<'a> {
                     if self.is_even(face, &n, levels, channel, shadow) {
                         continue;
                     }
-                    let measures = measures.get_or_insert_with(|| self.measures(face, &n));
+                    let measures = *measures.get_or_insert_with(|| self.measures(face, &n));
                     let band = self.band((face, &n), measures, channel, levels, *shadowed);
                     let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
                     band.trace(nodes, &mut self.found);
@@ -196,7 +186,7 @@ impl<'a> Tracer<'a> {
     fn band(
         &self,
         (face, normals): (u32, &[DVec3; 3]),
-        measures: &Measures,
+        measures: Measures,
         channel: usize,
         levels: &'a [f64],
         shadowed: u32,
@@ -209,7 +199,6 @@ impl<'a> Tracer<'a> {
         } else {
             (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
         };
-        let Measures { sides, spans, turns } = *measures;
         Band {
             lit: self.lit,
             px: self.ready.px,
@@ -225,9 +214,7 @@ impl<'a> Tracer<'a> {
             alike: alike(levels),
             near,
             exact,
-            sides,
-            spans,
-            turns,
+            measures,
         }
     }
 

@@ -43,7 +43,13 @@ pub(super) struct Band<'a> {
     pub near: f64,
     /// How far the value at a point of the curve may be from the level.
     pub exact: f64,
-    /// Lengths of the face's sides in the image: opposite corners 0, 1, 2.
+    pub measures: Measures,
+}
+
+/// The sides of a face, each opposite the corner of its number.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measures {
+    /// Their lengths in the image.
     pub sides: [f64; 3],
     /// Their lengths in space.
     pub spans: [f64; 3],
@@ -137,14 +143,14 @@ impl Band<'_> {
 
     /// By how much normals turn along the side of a piece opposite a corner of it, radians, at most.
     fn turn(&self, nodes: &[Node; 3], opposite: usize) -> f64 {
-        extent(&self.turns, nodes[(opposite + 1) % 3].weights, nodes[(opposite + 2) % 3].weights)
+        extent(&self.measures.turns, nodes[(opposite + 1) % 3].weights, nodes[(opposite + 2) % 3].weights)
     }
 
     /// Whether no level can be crossed anywhere on a piece, by how far normals turn along its sides.
     fn is_out_of_reach(&self, nodes: &[Node; 3], turns: [f64; 3]) -> bool {
         let turn = turns[0].max(turns[1]).max(turns[2]) * TURN_OF_CHORD;
         let (low, high) = if self.is_local {
-            let span = |a: usize, b: usize| extent(&self.spans, nodes[a].weights, nodes[b].weights);
+            let span = |a: usize, b: usize| extent(&self.measures.spans, nodes[a].weights, nodes[b].weights);
             let longest = span(0, 1).max(span(1, 2)).max(span(2, 0));
             let point = self.lit.point(self.face, nodes[0].weights);
             self.lit.shading.range(self.channel, self.paint, &point, self.shadowed, turn, longest)
@@ -159,7 +165,7 @@ impl Band<'_> {
 
     /// A side of a piece along which normals turn by so much.
     fn side(&self, a: Node, b: Node, turn: f64) -> Side {
-        let length = extent(&self.sides, a.weights, b.weights);
+        let length = extent(&self.measures.sides, a.weights, b.weights);
         // What a cosine is off its chord at most.
         let off = turn * turn / 8.0 * self.steepness;
         let is_straight = !self.is_local

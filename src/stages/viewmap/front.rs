@@ -168,6 +168,7 @@ impl<'a> PointGrid<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::dice::Dice;
     use crate::mesh::Soup;
     use crate::scene::{Camera, UpAxis};
 
@@ -208,5 +209,45 @@ mod tests {
         assert!(
             found.iter().zip(&wanted).filter(|(f, w)| f.map(|f| f.face as usize / 2) == **w).count() > 3000
         );
+    }
+
+    #[test]
+    fn what_is_in_front_is_so_among_all_faces() {
+        let mut dice = Dice::new(3);
+        for size in [0.02, 0.3, 2.0] {
+            let mut positions = Vec::new();
+            for _ in 0..300 {
+                let middle = dice.point(1.0);
+                positions.extend([0, 1, 2].map(|_| middle + dice.point(size)));
+            }
+            let triangles: Vec<[u32; 3]> = (0..300).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+            let mesh = Mesh::build(Soup { positions: positions.clone(), triangles, ..Soup::default() });
+            let camera = Camera::azimuth_elevation(30.0, 20.0, UpAxis::Z).fit_points(&positions, 0.1);
+            let view = View::new(&mesh, &camera);
+            // Anywhere, and at the very corners of faces.
+            let (width, height) = (camera.width, camera.height);
+            let anywhere = || DVec2::new(dice.between(0.0, width), dice.between(0.0, height));
+            let mut asked: Vec<DVec2> = std::iter::repeat_with(anywhere).take(2000).collect();
+            asked.extend(view.points.iter().map(|p| p.truncate()));
+            let found = front_faces(&mesh, &view, &asked);
+            let mut covered = 0;
+            for (k, (p, found)) in asked.iter().zip(&found).enumerate() {
+                let covering = mesh.triangles.iter().filter_map(|t| {
+                    let [a, b, c] = t.map(|v| view.points[v as usize]);
+                    let side = |a: DVec3, b: DVec3| (b - a).truncate().perp_dot(*p - a.truncate());
+                    let weights = [side(b, c), side(c, a), side(a, b)];
+                    let sum: f64 = weights.iter().sum();
+                    let least = weights.iter().map(|w| w / sum).fold(f64::INFINITY, f64::min);
+                    (least >= 1e-9).then(|| (a * weights[0] + b * weights[1] + c * weights[2]).z / sum)
+                });
+                let inside = covering.fold(f64::NEG_INFINITY, f64::max);
+                let corner = k.checked_sub(2000).map_or(f64::NEG_INFINITY, |v| view.points[v].z);
+                let nearest = inside.max(corner);
+                let told = found.map_or(f64::NEG_INFINITY, |front| front.nearness);
+                assert!(told == nearest || (told - nearest).abs() < 1e-9, "{p} {told} {nearest}");
+                covered += usize::from(nearest.is_finite());
+            }
+            assert!(covered > 900, "{covered}");
+        }
     }
 }
