@@ -6,6 +6,7 @@
 
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
+use super::insertion::insertion_order;
 use super::noding::{Border, GridPoint, Noded};
 
 /// In [`Triangulation::neighbours`]: beyond the page.
@@ -23,9 +24,11 @@ pub(super) struct Triangulation {
     pub borders: Vec<[Option<Border>; 3]>,
 }
 
+/// A point and its number.
 #[derive(Clone, Copy)]
 struct Corner {
     position: Point2<f64>,
+    number: u32,
 }
 
 impl HasPosition for Corner {
@@ -38,31 +41,46 @@ impl HasPosition for Corner {
 
 impl Triangulation {
     /// The Delaunay triangulation under these borders; empty where they enclose nothing.
+    ///
+    /// Triangles are in the order of their corners, each with its first corner in front: nothing of how they were
+    /// found shows in their numbers.
     pub fn new(noded: Noded) -> Self {
-        let at = |p: &GridPoint| Corner { position: Point2::new(p[0] as f64, p[1] as f64) };
-        let corners = noded.points.iter().map(at).collect();
-        let edges = noded.pieces.iter().map(|piece| piece.ends.map(|end| end as usize)).collect();
-        // Nothing crosses any more; should rounding have left a crossing, one of both is left out.
-        let built = ConstrainedDelaunayTriangulation::<Corner>::try_bulk_load_cdt(corners, edges, |_| {});
-        let Ok(built) = built else { return Self::default() };
+        let Some(built) = triangulated(&noded) else { return Self::default() };
+        let mut faces: Vec<([u32; 3], u32)> = built
+            .inner_faces()
+            .map(|face| {
+                let mut corners = face.vertices().map(|vertex| vertex.data().number);
+                let first = least(corners);
+                corners.rotate_left(first);
+                (corners, face.fix().index() as u32)
+            })
+            .collect();
+        faces.sort_unstable();
         let mut number = vec![OUTSIDE; built.num_all_faces()];
-        for (k, face) in built.inner_faces().enumerate() {
-            number[face.fix().index()] = k as u32;
+        for (k, (_, face)) in (0..).zip(&faces) {
+            number[*face as usize] = k;
         }
         let border = |a: u32, b: u32| {
             let ends = [a.min(b), a.max(b)];
             let piece = noded.pieces.binary_search_by_key(&ends, |piece| piece.ends);
             piece.map_or(Border::Hard, |k| noded.pieces[k].border)
         };
-        let mut triangulation = Self::default();
+        let mut triangulation = Self {
+            triangles: faces.iter().map(|(corners, _)| *corners).collect(),
+            neighbours: vec![[OUTSIDE; 3]; faces.len()],
+            borders: vec![[None; 3]; faces.len()],
+            points: Vec::new(),
+        };
         for face in built.inner_faces() {
-            let edges = face.adjacent_edges();
-            triangulation.triangles.push(edges.map(|edge| edge.from().fix().index() as u32));
-            triangulation.neighbours.push(edges.map(|edge| number[edge.rev().face().fix().index()]));
-            triangulation.borders.push(edges.map(|edge| {
-                let [a, b] = [edge.from(), edge.to()].map(|vertex| vertex.fix().index() as u32);
+            let triangle = number[face.fix().index()] as usize;
+            let mut edges = face.adjacent_edges();
+            let first = least(edges.map(|edge| edge.from().data().number));
+            edges.rotate_left(first);
+            triangulation.neighbours[triangle] = edges.map(|edge| number[edge.rev().face().fix().index()]);
+            triangulation.borders[triangle] = edges.map(|edge| {
+                let [a, b] = [edge.from(), edge.to()].map(|vertex| vertex.data().number);
                 edge.is_constraint_edge().then(|| border(a, b))
-            }));
+            });
         }
         triangulation.points = noded.points;
         triangulation
@@ -124,4 +142,34 @@ impl Triangulation {
         }
         (set, count as usize)
     }
+}
+
+/// The Delaunay triangulation of points under borders; `None` where a point is beyond all numbers.
+fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<Corner>> {
+    let mut built = ConstrainedDelaunayTriangulation::<Corner>::new();
+    let mut vertices = vec![None; noded.points.len()];
+    let mut last = None;
+    for number in insertion_order(&noded.points) {
+        let [x, y] = noded.points[number as usize];
+        let corner = Corner { position: Point2::new(x as f64, y as f64), number };
+        let vertex = match last {
+            Some(near) => built.insert_with_hint(corner, near),
+            None => built.insert(corner),
+        }
+        .ok()?;
+        vertices[number as usize] = Some(vertex);
+        last = Some(vertex);
+    }
+    for piece in &noded.pieces {
+        // Nothing crosses any more; should rounding have left a crossing, one of both is left out.
+        if let [Some(from), Some(to)] = piece.ends.map(|end| vertices[end as usize]) {
+            built.try_add_constraint(from, to);
+        }
+    }
+    Some(built)
+}
+
+/// Which of a triangle's corners has the least number.
+fn least([a, b, c]: [u32; 3]) -> usize {
+    if a < b && a < c { 0 } else { 1 + usize::from(c < b) }
 }

@@ -12,6 +12,7 @@ mod chart;
 pub mod decals;
 mod flat;
 pub mod ground;
+mod insertion;
 pub mod level_curves;
 mod looks;
 mod meeting;
