@@ -7,6 +7,7 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use crate::field::Cones;
 use crate::lines::{EdgeSearch, Finer, Known, LineKind, LineOptions, Surface, intersections};
 use crate::trees::finer::PairSearch;
 use crate::trees::intersect::IntersectionCurves;
@@ -25,6 +26,9 @@ pub(super) struct LateSearch {
     views: AtomicU32,
     search: OnceLock<EdgeSearch>,
     intersections: OnceLock<IntersectionCurves>,
+    /// Of views that may cut faces.
+    asked_views: AtomicU32,
+    cones: OnceLock<Cones>,
     /// Of views that cut faces.
     finer_views: AtomicU32,
     pairs: OnceLock<PairSearch>,
@@ -45,6 +49,17 @@ impl LateSearch {
             let _ = self.intersections.set(intersections::all_curves(&surface.mesh));
         }
         Known { search: self.search.get(), intersections: self.intersections.get() }
+    }
+
+    /// What bounds the edges of a surface, for one more view that may cut its faces.
+    pub fn cones_of_next_view(&self, surface: &Surface) -> Option<&Cones> {
+        let is_asked =
+            !surface.refined && surface.mesh.edges.len() >= FEW_EDGES && !surface.smooth.is_empty();
+        // A surface that is drawn but once gains nothing by it, and each further view what it took to make.
+        if is_asked && self.asked_views.fetch_add(1, Ordering::Relaxed) == 1 {
+            let _ = self.cones.set(Cones::new(&surface.mesh, &surface.smooth));
+        }
+        self.cones.get()
     }
 
     /// The intersections of one more view that cuts faces of a surface, if they are sooner found so.

@@ -234,7 +234,7 @@ impl<'a> Prepared<'a> {
     pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
         camera.validate()?;
         on_threads(|| {
-            let refined = self.surface.refined_for(camera);
+            let refined = self.surface.refined_for(camera, None);
             let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
             let view = View::new(&surface.mesh, camera);
             let maps = image::maps(surface, &view, self.style, unit);
@@ -269,7 +269,7 @@ impl<'a> Prepared<'a> {
         let mut watch = Stopwatch::start();
         [report.counts.vertices, report.counts.edges] = self.counts;
 
-        let refined = self.surface.refined_for(camera);
+        let refined = self.surface.refined_for(camera, self.search.cones_of_next_view(&self.surface));
         let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
         // Finer triangles are those of this view alone.
         let paint = || {

@@ -179,7 +179,8 @@ fn what_is_known_of_a_surface_finds_the_curves_of_its_finer_ones() {
     let mut found = [0, 0];
     for (azimuth, elevation) in DIRECTIONS {
         let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z);
-        let finer = surface.refined_for(&camera.fit_points(&all.positions, 0.05)).expect("it is coarse");
+        let finer =
+            surface.refined_for(&camera.fit_points(&all.positions, 0.05), None).expect("it is coarse");
         let (kept, faces) = (finer.kept, finer.surface.mesh.triangles.len());
         assert!(kept > 0 && faces > kept);
         let curves = all_curves(&finer.surface.mesh);

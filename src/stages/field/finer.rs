@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 
+use super::Cones;
 use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::shape::refine;
@@ -18,9 +19,14 @@ const REACH: f64 = 0.55;
 const REACH_AND_ROUNDING: f64 = REACH * (1.0 + 1e-9);
 
 /// What is cut of a mesh near the contour of a view until no edge is farther from its arc than
-/// [`tolerance::ARC_PX`]; `None` where edges are short enough already.
+/// [`tolerance::ARC_PX`]; `None` where edges are short enough already. With [`Cones`] it is the same and told sooner.
 #[must_use]
-pub fn cuts_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Option<Cuts> {
+pub fn cuts_near_contours(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    cones: Option<&Cones>,
+    frame: &Frame,
+) -> Option<Cuts> {
     let px = frame.width.max(frame.height) / 1000.0;
     // How long a world length is on the page where it is nearest to the eye, seen square on.
     let page = |[a, b]: [DVec3; 2]| {
@@ -47,7 +53,8 @@ pub fn cuts_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) ->
         }
         EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::ARC_PX
     };
-    refine::cuts(mesh, smooth, is_long, want)
+    let is_asked = |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, REACH, short));
+    refine::cuts(mesh, smooth, is_asked, is_long, want)
 }
 
 /// Whether the field is surely too far from zero at both ends of an edge to vanish in between: told without a root or a

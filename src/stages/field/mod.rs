@@ -1,5 +1,6 @@
 //! Fields: numbers that vary over the surface, from which lines and regions are traced.
 
+mod cones;
 pub mod cut;
 pub mod facing;
 pub mod finer;
@@ -19,6 +20,7 @@ mod tones;
 #[cfg(test)]
 mod tests;
 
+pub use cones::Cones;
 pub use cut::{SurfaceCut, cut};
 pub use facing::facing;
 pub use finer::cuts_near_contours;

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::LineOptions;
 use super::options::{Contours, Normals};
-use crate::field;
+use crate::field::{self, Cones};
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
 use crate::shape::bends::bent;
@@ -105,24 +105,24 @@ impl Surface {
     /// camera.
     #[must_use]
     pub fn finer_for(mut self, camera: &Camera) -> Self {
-        let Some(cuts) = self.cuts_for(camera) else { return self };
+        let Some(cuts) = self.cuts_for(camera, None) else { return self };
         let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
         self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts)).surface
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the camera; none
-    /// if no part would, or if it has them.
+    /// if no part would, or if it has them. With the [`Cones`] of this surface it is the same and made sooner.
     #[must_use]
-    pub fn refined_for(&self, camera: &Camera) -> Option<Finer> {
-        let cuts = self.cuts_for(camera)?;
+    pub fn refined_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Finer> {
+        let cuts = self.cuts_for(camera, cones)?;
         Some(self.of_finer(splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts)))
     }
 
-    fn cuts_for(&self, camera: &Camera) -> Option<Cuts> {
+    fn cuts_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Cuts> {
         if self.refined {
             return None;
         }
-        field::cuts_near_contours(&self.mesh, &self.smooth, &Frame::new(camera, self.mesh.origin))
+        field::cuts_near_contours(&self.mesh, &self.smooth, cones, &Frame::new(camera, self.mesh.origin))
     }
 
     /// The surface of a mesh that is finer than this one's.

@@ -173,3 +173,41 @@ fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<Corner
 fn least([a, b, c]: [u32; 3]) -> usize {
     if a < b && a < c { 0 } else { 1 + usize::from(c < b) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::noise::hash;
+    use crate::region::noding::NodedPiece;
+
+    #[test]
+    fn triangles_fill_the_page_in_the_order_of_their_corners() {
+        let mut points: Vec<GridPoint> =
+            (0..300).map(|k| [0, 1].map(|axis| (hash(1, &[k, axis]) % 1000 + 1) as i64)).collect();
+        points.extend([[0, 0], [0, 1001], [1001, 0], [1001, 1001]]);
+        // The diagonal meets none of them between its ends, or it would be cut there.
+        points.retain(|[x, y]| x != y || [0, 1001].contains(x));
+        points.sort_unstable();
+        points.dedup();
+        let last = points.len() as u32 - 1;
+        let diagonal = NodedPiece { ends: [0, last], border: Border::Soft };
+        let cut = Triangulation::new(Noded { points, pieces: vec![diagonal] });
+        assert!(cut.triangles.is_sorted() && cut.triangles.iter().all(|[a, b, c]| a < b && a < c));
+        assert_eq!((0..cut.triangles.len()).map(|k| cut.area2(k)).sum::<f64>(), 2.0 * 1001.0 * 1001.0);
+        let ends = |triangle: usize, side: usize| {
+            [side, (side + 1) % 3].map(|corner| cut.triangles[triangle][corner])
+        };
+        for (triangle, neighbours) in cut.neighbours.iter().enumerate() {
+            for (side, next) in neighbours.iter().enumerate() {
+                if *next == OUTSIDE {
+                    continue;
+                }
+                let [a, b] = ends(triangle, side);
+                let back = (0..3).find(|side| ends(*next as usize, *side) == [b, a]);
+                assert_eq!(cut.neighbours[*next as usize][back.unwrap()] as usize, triangle);
+                assert_eq!(cut.borders[triangle][side].is_some(), [a.min(b), a.max(b)] == [0, last]);
+            }
+        }
+        assert_eq!(cut.cells().1, 2);
+    }
+}

@@ -17,8 +17,11 @@ const FEW: usize = 500;
 /// Only what stands out so many times as far as wanted is asked for its thickness: less is not seen.
 const SWOLLEN: f64 = 6.0;
 
-/// Edges that one task looks at.
-const CHUNK: usize = 1 << 12;
+/// Edges that are asked, or passed over, together.
+pub const RUN: usize = 16;
+
+/// Runs that one task looks at.
+const CHUNK: usize = 1 << 8;
 
 /// What becomes of the edges of a mesh.
 pub(super) struct Marks {
@@ -40,10 +43,11 @@ struct Marked {
     wanted: f64,
 }
 
-/// Marks the edges for which `want` says more than 1, as [`refined`](super::refine::refined) has it.
+/// Marks the edges for which `want` says more than 1, as [`cuts`](super::refine::cuts) has it.
 pub(super) fn marks(
     mesh: &Mesh,
     smooth: &SmoothNormals,
+    is_asked: &(impl Fn(usize) -> bool + Sync),
     is_long: &(impl Fn(DVec3, DVec3) -> bool + Sync),
     want: &(impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync),
 ) -> Marks {
@@ -60,9 +64,16 @@ pub(super) fn marks(
         let wanted = want([at(a), at(b)], [normal(a), normal(b)]);
         (wanted > 1.0).then_some(Marked { edge, ends, wanted })
     };
-    let marked: Vec<Vec<Marked>> = (0..mesh.edges.len().div_ceil(CHUNK))
+    let runs = mesh.edges.len().div_ceil(RUN);
+    let marked: Vec<Vec<Marked>> = (0..runs.div_ceil(CHUNK))
         .into_par_iter()
-        .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len())).filter_map(mark).collect())
+        .map(|k| {
+            let mut marked = Vec::new();
+            for run in (k * CHUNK..((k + 1) * CHUNK).min(runs)).filter(|run| is_asked(*run)) {
+                marked.extend((run * RUN..((run + 1) * RUN).min(mesh.edges.len())).filter_map(mark));
+            }
+            marked
+        })
         .collect();
     let marked = without_dense_parts(mesh, smooth, marked.concat());
     let swollen: Vec<(usize, [u32; 2])> =

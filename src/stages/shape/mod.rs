@@ -15,7 +15,7 @@ pub mod feature_size;
 pub mod file_normals;
 mod free_forms;
 pub mod hard_edges;
-mod marking;
+pub mod marking;
 mod near_rays;
 mod normal_sum;
 mod parting;

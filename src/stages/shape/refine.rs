@@ -32,12 +32,12 @@ pub fn refined(
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<Refined> {
-    let cuts = cuts(mesh, smooth, is_long, want)?;
+    let cuts = cuts(mesh, smooth, |_| true, is_long, want)?;
     Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
 }
 
 /// What is cut of a mesh where all edges of rounded surfaces are cut that are wanted, or `None` where
-/// hardly any is. `want` is given positions and unit normals of the ends of an edge, always in the
+/// hardly any is. Only runs of [`RUN`](super::marking::RUN) edges for which `is_asked` holds are looked at. `want` is given positions and unit normals of the ends of an edge, always in the
 /// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
 /// than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
 /// cut loses the file's normals.
@@ -45,13 +45,14 @@ pub fn refined(
 pub fn cuts(
     mesh: &Mesh,
     smooth: &SmoothNormals,
+    is_asked: impl Fn(usize) -> bool + Sync,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<Cuts> {
     if smooth.is_empty() {
         return None;
     }
-    let Marks { cut, edges, thin } = marks(mesh, smooth, &is_long, &want);
+    let Marks { cut, edges, thin } = marks(mesh, smooth, &is_asked, &is_long, &want);
     if cut.is_empty() && thin.is_empty() {
         return None;
     }

@@ -18,7 +18,7 @@ const UV_STEPS: f64 = 65536.0;
 const MANY_FACES: usize = 500_000;
 
 /// A piece of a face.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Facet {
     /// Smooth vertices.
     pub corners: [u32; 3],
@@ -44,7 +44,7 @@ pub struct Refined {
 }
 
 /// What is cut of a mesh, and into what.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Cuts {
     /// The new vertices: positions and normals.
     pub(super) positions: Vec<DVec3>,
@@ -59,7 +59,7 @@ pub struct Cuts {
 }
 
 /// The faces that stay as they are.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Kept {
     runs: Vec<Range<usize>>,
     count: usize,

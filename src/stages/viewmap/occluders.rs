@@ -103,7 +103,7 @@ impl Triangles<'_> {
             if area.is_finite() { area } else { 0.0 }
         };
         // A sample is enough, and its order is fixed.
-        let step = (self.count() / 20_000).max(1);
+        let step = (self.count() / 4_000).max(1);
         let sum: f64 = (0..self.count()).step_by(step).map(|id| area(id as u32)).sum();
         let tile = self.grid.cell * self.grid.cell;
         sum * step as f64 / (tile * self.grid.len() as f64)
