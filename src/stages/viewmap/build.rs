@@ -334,7 +334,9 @@ fn visible(
     };
     let mut at = start;
     if contour {
-        for backed in seen.backed {
+        // A line that many thin things cross has many stretches, and as many others beside it.
+        let first = seen.backed.partition_point(|backed| backed.end <= start);
+        for backed in seen.backed[first..].iter().take_while(|backed| backed.start < end) {
             let (from, to) = (backed.start.max(at), backed.end.min(end));
             if to - from <= shortest {
                 continue;

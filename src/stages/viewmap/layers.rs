@@ -12,16 +12,23 @@ pub struct Layer {
     pub count: u16,
 }
 
-/// Sorts `hidden` and sweeps over it: pieces of constant count in ascending order, pieces and
-/// gaps shorter than `shortest` absorbed by their neighbours. With `counting` false all counts
-/// are 1. The result is appended to `layers`.
-pub fn sweep(hidden: &mut [Interval], shortest: f64, counting: bool, layers: &mut Vec<Layer>) {
-    if hidden.is_empty() {
+/// Sorts `hidden` and sweeps over it and over what is `known` to be hidden before: pieces of constant count in ascending order,
+/// pieces and gaps shorter than `shortest` absorbed by their neighbours. With `counting` false all counts are 1. The result is
+/// appended to `layers`.
+pub fn sweep(
+    hidden: &mut Vec<Interval>,
+    known: &[Layer],
+    shortest: f64,
+    counting: bool,
+    layers: &mut Vec<Layer>,
+) {
+    if hidden.is_empty() && known.is_empty() {
         return;
     }
     if counting {
-        sweep_counting(hidden, shortest, layers);
+        sweep_counting(hidden, known, shortest, layers);
     } else {
+        hidden.extend(known.iter().map(|layer| layer.interval));
         sweep_union(hidden, shortest, layers);
     }
 }
@@ -69,11 +76,12 @@ fn sweep_union(hidden: &mut [Interval], shortest: f64, layers: &mut Vec<Layer>) 
     push(Layer { interval: run, count: 1 }, shortest, layers);
 }
 
-fn sweep_counting(hidden: &[Interval], shortest: f64, layers: &mut Vec<Layer>) {
-    let mut events: Vec<(f64, i32, ViewVertexKind)> = Vec::with_capacity(hidden.len() * 2);
-    for h in hidden {
-        events.push((h.start, 1, h.start_kind));
-        events.push((h.end, -1, h.end_kind));
+fn sweep_counting(hidden: &[Interval], known: &[Layer], shortest: f64, layers: &mut Vec<Layer>) {
+    let mut events: Vec<(f64, i32, ViewVertexKind)> = Vec::with_capacity((hidden.len() + known.len()) * 2);
+    let known = known.iter().map(|layer| (&layer.interval, i32::from(layer.count)));
+    for (h, count) in hidden.iter().map(|h| (h, 1)).chain(known) {
+        events.push((h.start, count, h.start_kind));
+        events.push((h.end, -count, h.end_kind));
     }
     events.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
     let first = layers.len();
@@ -131,7 +139,7 @@ mod tests {
     fn swept(intervals: &[(f64, f64)], counting: bool) -> Vec<(f64, f64, u16)> {
         let mut hidden: Vec<Interval> = intervals.iter().map(|(a, b)| interval(*a, *b)).collect();
         let mut layers = Vec::new();
-        sweep(&mut hidden, 1e-6, counting, &mut layers);
+        sweep(&mut hidden, &[], 1e-6, counting, &mut layers);
         layers.iter().map(|l| (l.interval.start, l.interval.end, l.count)).collect()
     }
 

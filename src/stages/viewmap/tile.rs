@@ -1,17 +1,19 @@
 //! One tile: its segments against its triangles.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::cover::{self, OPEN};
 use super::graph::ViewVertexKind;
-use super::grid::{Grid, TileBox};
+use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
-use super::occlude::{Interval, Part, covered, hidden_interval};
+use super::long_pairs::LongPairs;
+use super::occlude::{Interval, Part, hidden_interval};
 use super::occluders::{Occluder, Reach, Triangles};
+use super::outer_side::OuterSide;
 use super::project::ImageSegment;
+use super::sides::Sides;
 use super::slope::step;
-use crate::lines::NO_FACE;
 use crate::math::grouped::grouped;
 
 /// Lists up to this long are looked through as they are.
@@ -20,6 +22,8 @@ const FEW: usize = 32;
 const CROWD: usize = 64;
 /// Finer tiles along each side of a crowded one.
 const FINER: u32 = 8;
+/// Finer tiles with so many times as many pairs are in vain.
+const IN_VAIN: usize = 2;
 
 /// The part of a segment in one tile.
 #[derive(Debug, Clone, Copy)]
@@ -49,6 +53,8 @@ pub(super) struct Context<'a> {
     pub(super) segments: &'a [ImageSegment],
     pub(super) limits: &'a Limits,
     pub(super) counting: bool,
+    /// What is known of long lines before: their items are compared with the other triangles.
+    pub(super) long: Option<&'a LongPairs>,
 }
 
 /// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole. Those of the next tile
@@ -69,6 +75,8 @@ pub(super) struct TileTriangles {
 #[derive(Debug, Default)]
 struct Found {
     hidden: Vec<Interval>,
+    /// What is known to be hidden before.
+    known: Vec<Layer>,
     layers: Vec<Layer>,
 }
 
@@ -135,8 +143,9 @@ impl Context<'_> {
         if count > FEW
             && items.len() * count > CROWD * (items.len() + count)
             && grid.cell > self.limits.beside * 64.0
+            && self.decide_finer(items, all, entries, &grid.of_tile(tile, FINER), result)
         {
-            return self.decide_finer(items, all, entries, &grid.of_tile(tile, FINER), result);
+            return;
         }
         let sorted: Vec<u32>;
         let mut entries = entries;
@@ -146,9 +155,16 @@ impl Context<'_> {
             sorted = nearest_first(&all.reaches, entries.chosen);
             entries = Entries { chosen: &sorted, ordered: true };
         }
-        let Found { mut hidden, mut layers } = std::mem::take(&mut all.found);
+        let Found { mut hidden, mut known, mut layers } = std::mem::take(&mut all.found);
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &self.segments[item.segment as usize];
+            let is_whole = |l: &Layer| l.interval.start <= item.start && l.interval.end >= item.end;
+            known.clear();
+            known.extend(self.long.iter().flat_map(|long| long.hidden(item)));
+            if !self.counting && known.iter().any(is_whole) {
+                result.whole.push(*item);
+                continue;
+            }
             hidden.clear();
             if self.gather_hidden(segment, item, all, entries, &mut hidden, &mut result.tests) {
                 result.whole.push(*item);
@@ -156,18 +172,17 @@ impl Context<'_> {
             }
             layers.clear();
             let shortest = self.limits.piece / segment.length().max(self.limits.piece);
-            sweep(&mut hidden, shortest * 1e-3, self.counting, &mut layers);
+            sweep(&mut hidden, &known, shortest * 1e-3, self.counting, &mut layers);
             result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
-            let buried = layers.iter().any(|l| l.interval.start <= item.start && l.interval.end >= item.end);
-            if segment.bounds && !buried {
+            if segment.bounds && !layers.iter().any(is_whole) {
                 self.gather_backed(segment, item, all, entries, result);
             }
         }
-        all.found = Found { hidden, layers };
+        all.found = Found { hidden, known, layers };
     }
 
-    /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over
-    /// the page does not part its lines.
+    /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over the page does not part its
+    /// lines. False, and nothing is decided, where lines and triangles lie along each other, and would only meet more often.
     fn decide_finer(
         &self,
         items: &[Item],
@@ -175,7 +190,8 @@ impl Context<'_> {
         entries: Entries,
         grid: &Grid,
         result: &mut TileResult,
-    ) {
+    ) -> bool {
+        let before = result.whole.len();
         let mut cover = vec![OPEN; grid.len()];
         if !self.counting {
             for entry in entries.chosen {
@@ -210,32 +226,55 @@ impl Context<'_> {
                 put(*tile as usize, *item);
             }
         });
-        let slack = 2.0 * self.limits.beside;
-        let boxes: Vec<(u32, TileBox)> = entries
-            .chosen
-            .iter()
-            .map(|i| {
-                let [left, right, top, bottom] = all.reaches[*i as usize].bounds.map(f64::from);
-                let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
-                (*i, grid.tile_box(low - slack, high + slack))
-            })
-            .collect();
+        let fine_pairs = self.finer_pairs(all, entries, grid, |tile, nearest| {
+            nearest >= cover[tile] && !fine_items.of(tile).is_empty()
+        });
         let fine_entries = grouped(grid.len(), |put| {
-            for (i, tiles) in &boxes {
-                let nearest = f64::from(all.reaches[*i as usize].nearest);
-                for (tile, _) in grid.tiles_of(*tiles) {
-                    if nearest >= cover[tile] && !fine_items.of(tile).is_empty() {
-                        put(tile, *i);
-                    }
-                }
+            for (tile, entry) in &fine_pairs {
+                put(*tile as usize, *entry);
             }
         });
+        let pairs = |tile: usize| fine_items.of(tile).len() * fine_entries.of(tile).len();
+        if (0..grid.len()).map(pairs).sum::<usize>() > IN_VAIN * items.len() * entries.chosen.len() {
+            result.whole.truncate(before);
+            return false;
+        }
         for tile in 0..grid.len() {
             let (items, chosen) = (fine_items.of(tile), fine_entries.of(tile));
             if !items.is_empty() {
                 self.decide(items, all, Entries { chosen, ordered: false }, (grid, tile), result);
             }
         }
+        true
+    }
+
+    /// The finer tiles that each triangle may lie over, where they are wanted for triangles as near as it.
+    fn finer_pairs(
+        &self,
+        all: &mut TileTriangles,
+        entries: Entries,
+        grid: &Grid,
+        is_wanted: impl Fn(usize, f64) -> bool,
+    ) -> Vec<(u32, u32)> {
+        let slack = 2.0 * self.limits.beside;
+        let reach = grid.cell / 2.0 * (1.0 + 1e-5) + slack;
+        let mut pairs = Vec::with_capacity(entries.chosen.len() * 2);
+        for entry in entries.chosen {
+            let Reach { bounds, nearest, .. } = all.reaches[*entry as usize];
+            let [left, right, top, bottom] = bounds.map(f64::from);
+            let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
+            let tiles = grid.tile_box(low - slack, high + slack);
+            // The box of a needle holds many tiles that it does not meet.
+            let sides = (tiles.area() > 4).then(|| Sides::new(&all.whole(*entry, self.triangles).corners));
+            for row in tiles.top..=tiles.bottom {
+                let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
+                let columns = sides.as_ref().map_or(whole, |sides| sides.columns(grid, tiles, row, reach));
+                let of_row = columns.map(|column| grid.tile(column, u32::from(row)));
+                let wanted = of_row.filter(|tile| is_wanted(*tile, f64::from(nearest)));
+                pairs.extend(wanted.map(|tile| (tile as u32, *entry)));
+            }
+        }
+        pairs
     }
 
     /// Collects what the triangles of a tile hide of an item. True if one of them, or a run of
@@ -303,64 +342,41 @@ impl Context<'_> {
         entries: Entries,
         result: &mut TileResult,
     ) {
-        let Some(outward) = self.outward(segment) else { return };
-        let shift = outward * self.limits.beside;
-        let (p, q) = (segment.a.truncate() + shift, segment.b.truncate() + shift);
-        let (from, to) = (segment.at(item.start).truncate() + shift, segment.at(item.end).truncate() + shift);
-        let (low, high) = (from.min(to), from.max(to));
+        let Some(side) = OuterSide::new(segment, self.triangles) else { return };
+        let [low, high] = side.between(segment.at(item.start), segment.at(item.end));
         let mut run = NO_RUN;
+        for interval in self.long.iter().flat_map(|long| long.backed(item)) {
+            result.backed.push((item.segment, interval));
+            run = longer(run, (interval.start, interval.end));
+        }
         for entry in entries.chosen {
+            // No other triangle tells more.
+            if run.0 <= item.start && run.1 >= item.end {
+                return;
+            }
             let b = all.reaches[*entry as usize].bounds.map(f64::from);
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
             let whole = all.whole(*entry, self.triangles);
-            if segment.ends.iter().all(|end| whole.ids.contains(end)) {
-                continue;
-            }
-            let Some((start, end)) = covered(p, q, &whole.corners, self.limits) else { continue };
+            let Some((start, end)) = side.range(whole, self.limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
                 let kind = ViewVertexKind::Backdrop;
                 let interval = Interval { start, end, start_kind: kind, end_kind: kind };
                 result.backed.push((item.segment, interval));
                 run = longer(run, (start, end));
-                // No other triangle tells more.
-                if run.0 <= item.start && run.1 >= item.end {
-                    return;
-                }
             }
         }
-    }
-
-    /// The unit vector across a segment, away from the faces that meet there.
-    fn outward(&self, segment: &ImageSegment) -> Option<DVec2> {
-        let along = (segment.b - segment.a).truncate();
-        let across = along.perp().try_normalize()?;
-        let face = *segment.hosts.iter().filter(|f| **f != NO_FACE).max_by(|a, b| {
-            let height = |f: u32| self.height(segment, across, f).abs();
-            height(**a).total_cmp(&height(**b))
-        })?;
-        let height = self.height(segment, across, face);
-        Some(if height > 0.0 { -across } else { across })
-    }
-
-    /// How far the third corner of a face lies to the side of a segment; 0 where it is cut off.
-    fn height(&self, segment: &ImageSegment, across: DVec2, face: u32) -> f64 {
-        let corners = self.triangles.mesh.triangles[face as usize];
-        let third = corners.iter().find(|v| !segment.ends.contains(v));
-        let height =
-            third.map(|v| (self.triangles.view.points[*v as usize] - segment.a).truncate().dot(across));
-        height.filter(|h| h.is_finite()).unwrap_or(0.0)
     }
 }
 
 /// A range of parameters without any.
-const NO_RUN: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+pub(super) const NO_RUN: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// Two ranges as one where they meet, the longer one where they do not.
 #[inline]
-fn longer(run: (f64, f64), found: (f64, f64)) -> (f64, f64) {
+pub(super) fn longer(run: (f64, f64), found: (f64, f64)) -> (f64, f64) {
     if found.0 <= run.1 && found.1 >= run.0 {
         (run.0.min(found.0), run.1.max(found.1))
     } else if found.1 - found.0 > run.1 - run.0 {

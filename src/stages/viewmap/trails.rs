@@ -61,7 +61,7 @@ pub fn build_beside(
     let joined = hidden.iter_mut().zip(&segments).map(|(hidden, segment)| {
         let shortest = limits.piece / segment.length().max(limits.piece);
         let mut layers: Vec<Layer> = Vec::new();
-        sweep(hidden, shortest, false, &mut layers);
+        sweep(hidden, &[], shortest, false, &mut layers);
         layers
     });
     let hidden: Vec<Vec<Layer>> = joined.collect();

@@ -21,6 +21,7 @@ use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
+use super::long_pairs::LongPairs;
 use super::occlude::Interval;
 use super::occluders::Triangles;
 use super::project::ImageSegment;
@@ -112,22 +113,38 @@ pub fn decide(
     let reaches = if several { triangles.reaches() } else { Vec::new() };
     let reach = |id: &u32| reaches.get(*id as usize).copied().unwrap_or_else(|| triangles.reach(*id));
 
-    let context = Context { triangles: &triangles, segments, limits, counting };
+    let mut context = Context { triangles: &triangles, segments, limits, counting, long: None };
+    let long = LongPairs::find(&context, &items, &occluders);
+    context.long = long.as_ref();
     const TILES: usize = 64;
     let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
         .into_par_iter()
         .map_init(TileTriangles::default, |all, k| {
             let mut result = TileResult::default();
             for tile in k * TILES..((k + 1) * TILES).min(grid.len()) {
-                if items.of(tile).iter().any(|item| item.end > item.start) {
-                    all.replace(occluders.of(tile).iter().map(reach));
-                    context.decide_tile(items.of(tile), all, &grid, tile, &mut result);
+                let mut decide = |items: &[Item], ids: &mut dyn Iterator<Item = &u32>| {
+                    if items.iter().any(|item| item.end > item.start) {
+                        all.replace(ids.map(reach));
+                        context.decide_tile(items, all, &grid, tile, &mut result);
+                    }
+                };
+                let (items, ids) = (items.of(tile), occluders.of(tile));
+                match &long {
+                    None => decide(items, &mut ids.iter()),
+                    Some(long) => {
+                        let (of_long, others): (Vec<Item>, Vec<Item>) =
+                            items.iter().partition(|item| long.has(item.segment));
+                        decide(&of_long, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
+                        decide(&others, &mut ids.iter());
+                    }
                 }
             }
             result
         })
         .collect();
-    gather(segments, limits, &buried, &results)
+    let mut told = gather(segments, limits, &buried, &results);
+    told.tests += long.map_or(0, |long| long.tests);
+    told
 }
 
 /// A grid over the box around all segments. Its tiles seldom move when lines come and go: they are a power of
@@ -224,7 +241,7 @@ fn gather(
             let mut joined = Vec::new();
             // Beside a corner the outer side may graze a face that only shares the vertex.
             let grazing = 4.0 * limits.beside / segments[segment].length().max(4.0 * limits.beside);
-            sweep(intervals, grazing, false, &mut joined);
+            sweep(intervals, &[], grazing, false, &mut joined);
             intervals.clear();
             intervals.extend(joined.iter().map(|l| l.interval));
         })
