@@ -29,6 +29,7 @@ mod rounded;
 pub mod smooth_normals;
 mod smooth_vertices;
 pub mod splice;
+mod straight;
 mod thickness;
 
 pub use curvature::Curvature;

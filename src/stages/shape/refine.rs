@@ -161,16 +161,16 @@ impl<'a> Work<'a> {
     fn affected(&self, cut: &[u32], thin: &[usize]) -> (Kept, Vec<Piece>) {
         let Self { mesh, smooth, .. } = self;
         let has_straight = !(smooth.straight.is_empty() && thin.is_empty());
-        // Whether a side of a face is straight, and the curve over it would rise by more than the face is wide.
-        let is_straight = |face: u32, [a, b]: [u32; 2]| {
+        let is_straight = |[a, b]: [u32; 2]| {
             let ends = [a, b].map(|v| smooth.vertices[v as usize]);
             let edge = mesh.edges.vertices.binary_search(&[ends[0].min(ends[1]), ends[0].max(ends[1])]);
-            let stays = |edge: usize| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok();
-            edge.is_ok_and(stays) && {
-                let at = ends.map(|v| mesh.positions[v as usize]);
-                let rise = EdgeArc::new(at, [a, b].map(|v| smooth.normals[v as usize])).height().length();
-                rise * at[0].distance(at[1]) > 2.0 * area(mesh, face)
-            }
+            edge.is_ok_and(|edge| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok())
+        };
+        // Whether the curve over a side of a face would rise by more than the face is wide.
+        let is_sliver = |face: u32, ends: [u32; 2]| {
+            let at = ends.map(|v| self.position(v));
+            let rise = EdgeArc::new(at, ends.map(|v| self.normal(v))).height().length();
+            rise * at[0].distance(at[1]) > 2.0 * area(mesh, face)
         };
         // A face with a side, of all that are cut.
         let mut at: Vec<(u32, u32)> = Vec::with_capacity(2 * cut.len());
@@ -182,12 +182,13 @@ impl<'a> Work<'a> {
             let face = at.first()?.0;
             let corners = smooth.corners_of(face)?;
             let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
+            let ends = [0, 1, 2].map(|k| Side::open(corners[k], corners[(k + 1) % 3]).ends);
+            let stay = ends.map(|ends| has_straight && is_straight(ends));
+            let is_between = stay.iter().filter(|stays| **stays).count() > 1;
             let sides = [0, 1, 2].map(|k| {
-                let ends = Side::open(corners[k], corners[(k + 1) % 3]).ends;
-                let side = at.iter().find(|(_, side)| self.sides[*side as usize].ends == ends);
-                match side {
+                match at.iter().find(|(_, side)| self.sides[*side as usize].ends == ends[k]) {
                     Some((_, side)) => *side,
-                    None if has_straight && is_straight(face, ends) => STRAIGHT,
+                    None if stay[k] && (is_between || is_sliver(face, ends[k])) => STRAIGHT,
                     None => CLOSED,
                 }
             });
@@ -257,7 +258,7 @@ impl<'a> Work<'a> {
             let is_second = end != self.sides[sides[side] as usize].ends[0];
             (cut(side).1 + u32::from(is_second), facet.marks[side])
         };
-        // Along the straight sides of a sliver the surface does not bend between them either: from the middle of its short
+        // Between two straight sides, and along one of a sliver, the surface does not bend either: from the middle of a short
         // side it would rise over all the length of the long ones.
         let is_level = (0..3).any(|side| sides[side] == STRAIGHT);
         let new = |k: usize| (if is_level { STRAIGHT } else { (first + k) as u32 }, EdgeMark::Unmarked);
@@ -384,20 +385,23 @@ mod tests {
 
     #[test]
     fn a_bar_does_not_swell_from_the_middles_of_its_short_sides() {
-        let mesh = bar(40.0);
-        let smooth = SmoothNormals::new(&mesh, |_| true, |_| false);
-        assert!(!smooth.straight.is_empty(), "normals lean out at both its ends");
-        let wanted =
-            |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
-        let Refined { mesh: finer, smooth, .. } =
-            refined(&mesh, &smooth, |_, _| true, wanted).expect("it is rounder than six sides");
-        let widest =
-            finer.positions.iter().map(|p| (*p + finer.origin).truncate().length()).fold(0.0, f64::max);
-        assert!((1.0..1.1).contains(&widest), "{widest}");
-        // What is said of the curves over its edges, wherever contours may cross them, holds as well.
-        for edge in 0..finer.edges.len() {
-            let Some(ends) = smooth.across(&finer, edge) else { continue };
-            assert!(EdgeArc::over(&finer, &smooth, ends).height().length() < 0.2, "{edge}");
+        // A long one of slivers, and one whose faces are wider than the curves over its long edges would rise.
+        for length in [40.0, 6.0] {
+            let mesh = bar(length);
+            let smooth = SmoothNormals::new(&mesh, |_| true, |_| false);
+            assert!(!smooth.straight.is_empty(), "normals lean out at both its ends");
+            let wanted =
+                |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
+            let Refined { mesh: finer, smooth, .. } =
+                refined(&mesh, &smooth, |_, _| true, wanted).expect("it is rounder than six sides");
+            let widest =
+                finer.positions.iter().map(|p| (*p + finer.origin).truncate().length()).fold(0.0, f64::max);
+            assert!((1.0..1.1).contains(&widest), "{length}: {widest}");
+            // What is said of the curves over its edges, wherever contours may cross them, holds as well.
+            for edge in 0..finer.edges.len() {
+                let Some(ends) = smooth.across(&finer, edge) else { continue };
+                assert!(EdgeArc::over(&finer, &smooth, ends).height().length() < 0.2, "{length}: {edge}");
+            }
         }
     }
 

@@ -7,6 +7,7 @@ use super::file_normals::{chosen, file_normals};
 use super::normal_sum::{FaceWeights, NormalSum};
 use super::parting;
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
+use super::straight;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, shares};
 
@@ -61,32 +62,9 @@ impl SmoothNormals {
             straight: EdgeSet::default(),
         };
         parting::part(mesh, &mut smooth);
-        smooth.straight = uneven(mesh, &smooth);
+        smooth.straight = straight::straight(mesh, &smooth);
         smooth
     }
-}
-
-/// Edges more than so many times as long as one beside them, between normals that turn by more than this
-/// (cosine, 15 degrees), are straight.
-const UNEVEN_LENGTHS: f64 = 4.0;
-const UNEVEN_COSINE: f64 = 0.966;
-
-/// Long edges beside short ones: the normals at their ends are those of a bevel or a fillet there, and what
-/// is between the ends does not bend with them.
-fn uneven(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
-    let squared = |a: u32, b: u32| mesh.positions[a as usize].distance_squared(mesh.positions[b as usize]);
-    EdgeSet::collect(mesh.edges.len(), |edge| {
-        let Some([a, b]) = smooth.across(mesh, edge) else { return false };
-        if smooth.normals[a as usize].dot(smooth.normals[b as usize]) > UNEVEN_COSINE {
-            return false;
-        }
-        let ends = mesh.edges.vertices[edge];
-        let least = squared(ends[0], ends[1]) / (UNEVEN_LENGTHS * UNEVEN_LENGTHS);
-        mesh.edges.faces(edge).list().iter().any(|face| {
-            let [a, b, c] = mesh.triangles[*face as usize];
-            [[a, b], [b, c], [c, a]].iter().any(|[a, b]| squared(*a, *b) < least)
-        })
-    })
 }
 
 /// The normal of each vertex from the faces with `counts` around it, or those that the file has
