@@ -6,13 +6,13 @@ use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
+use super::compared::Item;
 use super::graph::SeenContour;
 use super::limits::Limits;
 use super::near_tiles::NearTiles;
 use super::occlude::{Part, hidden_interval};
 use super::occluders::{Occluder, Triangles};
 use super::project::ImageSegment;
-use super::tile::Item;
 use super::visibility::grid_over;
 use super::witnesses::REACH_PX;
 use crate::lines::{FeatureLines, NO_FACE, Role};

@@ -6,13 +6,14 @@
 
 use rayon::prelude::*;
 
+use super::compared::{Compared, Item};
 use super::graph::ViewVertexKind;
 use super::layers::{Layer, sweep};
+use super::longest_run::{NO_RUN, longer};
 use super::occlude::{Interval, Part, hidden_interval};
 use super::occluders::{Occluder, Reach};
 use super::outer_side::OuterSide;
 use super::project::ImageSegment;
-use super::tile::{Context, Item, NO_RUN, longer};
 use crate::math::grouped::{Grouped, grouped};
 
 /// Lines and triangles that lie over so many tiles are long.
@@ -44,16 +45,16 @@ struct Known {
 
 impl LongPairs {
     /// Compares them; none if they are so few that it does not matter.
-    pub fn find(context: &Context, items: &Grouped<Item>, occluders: &Grouped<u32>) -> Option<Self> {
+    pub fn find(compared: &Compared, items: &Grouped<Item>, occluders: &Grouped<u32>) -> Option<Self> {
         let tiles = 0..occluders.count();
         let pairs = |tile: usize| items.of(tile).len() as u64 * occluders.of(tile).len() as u64;
         if tiles.clone().map(pairs).sum::<u64>() < MANY {
             return None;
         }
         let open = |tile: usize| items.of(tile).iter().filter(|item| item.end > item.start);
-        let segment_spans = spans(context.segments.len(), tiles.clone().flat_map(open).map(|i| i.segment));
+        let segment_spans = spans(compared.segments.len(), tiles.clone().flat_map(open).map(|i| i.segment));
         let triangle_spans =
-            spans(context.triangles.count(), tiles.clone().flat_map(|tile| occluders.of(tile)).copied());
+            spans(compared.triangles.count(), tiles.clone().flat_map(|tile| occluders.of(tile)).copied());
         let is_long: Vec<bool> = triangle_spans.iter().map(|span| *span >= TILES).collect();
         let long_items =
             |tile: usize| open(tile).filter(|item| segment_spans[item.segment as usize] >= TILES);
@@ -63,7 +64,7 @@ impl LongPairs {
             return None;
         }
         let segments = numbered(segment_spans.iter().map(|span| *span >= TILES));
-        let long = Long::new(context, &is_long, tiles.clone().map(long_ids));
+        let long = Long::new(compared, &is_long, tiles.clone().map(long_ids));
         let stays = grouped(segments.list.len(), |put| {
             for tile in tiles.clone() {
                 for &Item { segment, start, end } in long_items(tile) {
@@ -76,7 +77,7 @@ impl LongPairs {
             .map_init(
                 || Seen { marks: vec![0; long.triangles.len()], last: 0 },
                 |seen, k| {
-                    let segment = &context.segments[segments.list[k] as usize];
+                    let segment = &compared.segments[segments.list[k] as usize];
                     long.compare(segment, stays.of(k), seen)
                 },
             )
@@ -164,7 +165,7 @@ struct Stay {
 
 /// The long triangles, nearer ones first.
 struct Long<'a> {
-    context: &'a Context<'a>,
+    compared: &'a Compared<'a>,
     triangles: Vec<(Reach, Occluder)>,
     /// Their numbers in each tile, ascending.
     of_tile: Vec<Vec<u32>>,
@@ -178,11 +179,11 @@ struct Seen {
 
 impl<'a> Long<'a> {
     fn new<'i>(
-        context: &'a Context<'a>,
+        compared: &'a Compared<'a>,
         is_long: &[bool],
         tiles: impl Iterator<Item = impl Iterator<Item = &'i u32>>,
     ) -> Self {
-        let all = context.triangles;
+        let all = compared.triangles;
         let mut triangles: Vec<(Reach, Occluder)> = (0u32..)
             .zip(is_long)
             .filter(|(_, is_long)| **is_long)
@@ -199,14 +200,14 @@ impl<'a> Long<'a> {
             own
         });
         let of_tile = of_tile.collect();
-        Self { context, triangles, of_tile }
+        Self { compared, triangles, of_tile }
     }
 
     /// Compares a segment with the triangles of its tiles.
     fn compare(&self, segment: &ImageSegment, stays: &[Stay], seen: &mut Seen) -> Known {
         let mut known = Known::default();
         let mut found = self.hidden(segment, stays, seen, &mut known.tests);
-        sweep(&mut found, &[], 0.0, self.context.counting, &mut known.hidden);
+        sweep(&mut found, &[], 0.0, self.compared.counting, &mut known.hidden);
         let is_buried =
             |known: &Known| known.hidden.iter().any(|l| l.interval.start <= 0.0 && l.interval.end >= 1.0);
         if segment.bounds && !is_buried(&known) {
@@ -225,7 +226,7 @@ impl<'a> Long<'a> {
         seen: &mut Seen,
         tests: &mut u64,
     ) -> Vec<Interval> {
-        let Context { triangles, limits, counting, .. } = *self.context;
+        let Compared { triangles, limits, counting, .. } = *self.compared;
         let whole = Part::new(segment, 0.0, 1.0);
         let mut hidden = Vec::new();
         let mut run = NO_RUN;
@@ -261,7 +262,7 @@ impl<'a> Long<'a> {
         hidden: &[Layer],
         seen: &mut Seen,
     ) -> Vec<Interval> {
-        let Context { triangles, limits, .. } = *self.context;
+        let Compared { triangles, limits, .. } = *self.compared;
         let mut backed = Vec::new();
         let Some(side) = OuterSide::new(segment, triangles) else { return backed };
         let mut run = NO_RUN;

@@ -2,6 +2,7 @@
 
 pub mod ahead;
 pub mod build;
+mod compared;
 pub mod cover;
 pub mod doubles;
 mod expanse;
@@ -12,6 +13,7 @@ pub mod image;
 pub mod layers;
 pub mod limits;
 mod long_pairs;
+mod longest_run;
 mod near_tiles;
 mod needles;
 pub mod occlude;

@@ -2,12 +2,14 @@
 
 use glam::DVec3;
 
+use super::compared::{Compared, Item};
 use super::cover::{self, OPEN};
 use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
 use super::long_pairs::LongPairs;
+use super::longest_run::{NO_RUN, longer};
 use super::occlude::{Interval, Part, hidden_interval};
 use super::occluders::{Occluder, Reach, Triangles};
 use super::outer_side::OuterSide;
@@ -25,14 +27,6 @@ const FINER: u32 = 8;
 /// Finer tiles with so many times as many pairs are in vain.
 const IN_VAIN: usize = 2;
 
-/// The part of a segment in one tile.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Item {
-    pub(super) segment: u32,
-    pub(super) start: f64,
-    pub(super) end: f64,
-}
-
 /// What a run of tiles found out about segments.
 #[derive(Debug, Default)]
 pub(super) struct TileResult {
@@ -49,12 +43,19 @@ pub(super) struct TileResult {
 /// What all tiles share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'a> {
-    pub(super) triangles: &'a Triangles<'a>,
-    pub(super) segments: &'a [ImageSegment],
-    pub(super) limits: &'a Limits,
-    pub(super) counting: bool,
+    triangles: &'a Triangles<'a>,
+    segments: &'a [ImageSegment],
+    limits: &'a Limits,
+    counting: bool,
     /// What is known of long lines before: their items are compared with the other triangles.
-    pub(super) long: Option<&'a LongPairs>,
+    long: Option<&'a LongPairs>,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn new(compared: &Compared<'a>, long: Option<&'a LongPairs>) -> Self {
+        let Compared { triangles, segments, limits, counting } = *compared;
+        Self { triangles, segments, limits, counting, long }
+    }
 }
 
 /// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole. Those of the next tile
@@ -368,21 +369,6 @@ impl Context<'_> {
                 run = longer(run, (start, end));
             }
         }
-    }
-}
-
-/// A range of parameters without any.
-pub(super) const NO_RUN: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
-
-/// Two ranges as one where they meet, the longer one where they do not.
-#[inline]
-pub(super) fn longer(run: (f64, f64), found: (f64, f64)) -> (f64, f64) {
-    if found.0 <= run.1 && found.1 >= run.0 {
-        (run.0.min(found.0), run.1.max(found.1))
-    } else if found.1 - found.0 > run.1 - run.0 {
-        found
-    } else {
-        run
     }
 }
 

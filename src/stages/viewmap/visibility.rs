@@ -16,6 +16,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::compared::{Compared, Item};
 use super::cover::Covers;
 use super::graph::ViewVertexKind;
 use super::grid::Grid;
@@ -25,7 +26,7 @@ use super::long_pairs::LongPairs;
 use super::occlude::Interval;
 use super::occluders::Triangles;
 use super::project::ImageSegment;
-use super::tile::{Context, Item, TileResult, TileTriangles};
+use super::tile::{Context, TileResult, TileTriangles};
 use crate::math::grouped::{Grouped, grouped};
 use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
@@ -113,9 +114,9 @@ pub fn decide(
     let reaches = if several { triangles.reaches() } else { Vec::new() };
     let reach = |id: &u32| reaches.get(*id as usize).copied().unwrap_or_else(|| triangles.reach(*id));
 
-    let mut context = Context { triangles: &triangles, segments, limits, counting, long: None };
-    let long = LongPairs::find(&context, &items, &occluders);
-    context.long = long.as_ref();
+    let compared = Compared { triangles: &triangles, segments, limits, counting };
+    let long = LongPairs::find(&compared, &items, &occluders);
+    let context = Context::new(&compared, long.as_ref());
     const TILES: usize = 64;
     let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
         .into_par_iter()
