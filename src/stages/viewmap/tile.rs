@@ -7,7 +7,6 @@ use super::cover::{self, OPEN};
 use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::layers::{Layer, sweep};
-use super::limits::Limits;
 use super::long_pairs::LongPairs;
 use super::longest_run::{NO_RUN, longer};
 use super::occlude::{Interval, Part, hidden_interval};
@@ -43,19 +42,9 @@ pub(super) struct TileResult {
 /// What all tiles share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'a> {
-    triangles: &'a Triangles<'a>,
-    segments: &'a [ImageSegment],
-    limits: &'a Limits,
-    counting: bool,
+    pub(super) compared: Compared<'a>,
     /// What is known of long lines before: their items are compared with the other triangles.
-    long: Option<&'a LongPairs>,
-}
-
-impl<'a> Context<'a> {
-    pub(super) fn new(compared: &Compared<'a>, long: Option<&'a LongPairs>) -> Self {
-        let Compared { triangles, segments, limits, counting } = *compared;
-        Self { triangles, segments, limits, counting, long }
-    }
+    pub(super) long: Option<&'a LongPairs>,
 }
 
 /// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole. Those of the next tile
@@ -140,10 +129,11 @@ impl Context<'_> {
         (grid, tile): (&Grid, usize),
         result: &mut TileResult,
     ) {
+        let Compared { segments, limits, counting, .. } = self.compared;
         let count = entries.chosen.len();
         if count > FEW
             && items.len() * count > CROWD * (items.len() + count)
-            && grid.cell > self.limits.beside * 64.0
+            && grid.cell > limits.beside * 64.0
             && self.decide_finer(items, all, entries, &grid.of_tile(tile, FINER), result)
         {
             return;
@@ -152,17 +142,17 @@ impl Context<'_> {
         let mut entries = entries;
         // Sorting pays where many lines are asked of many triangles: hidden ones then meet what
         // hides them first.
-        if !self.counting && count > FEW && items.len() > FEW / 4 {
+        if !counting && count > FEW && items.len() > FEW / 4 {
             sorted = nearest_first(&all.reaches, entries.chosen);
             entries = Entries { chosen: &sorted, ordered: true };
         }
         let Found { mut hidden, mut known, mut layers } = std::mem::take(&mut all.found);
         for item in items.iter().filter(|item| item.end > item.start) {
-            let segment = &self.segments[item.segment as usize];
+            let segment = &segments[item.segment as usize];
             let is_whole = |l: &Layer| l.interval.start <= item.start && l.interval.end >= item.end;
             known.clear();
             known.extend(self.long.iter().flat_map(|long| long.hidden(item)));
-            if !self.counting && known.iter().any(is_whole) {
+            if !counting && known.iter().any(is_whole) {
                 result.whole.push(*item);
                 continue;
             }
@@ -172,8 +162,8 @@ impl Context<'_> {
                 continue;
             }
             layers.clear();
-            let shortest = self.limits.piece / segment.length().max(self.limits.piece);
-            sweep(&mut hidden, &known, shortest * 1e-3, self.counting, &mut layers);
+            let shortest = limits.piece / segment.length().max(limits.piece);
+            sweep(&mut hidden, &known, shortest * 1e-3, counting, &mut layers);
             result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
             if segment.bounds && !layers.iter().any(is_whole) {
                 self.gather_backed(segment, item, all, entries, result);
@@ -192,19 +182,20 @@ impl Context<'_> {
         grid: &Grid,
         result: &mut TileResult,
     ) -> bool {
+        let Compared { triangles, segments, limits, counting } = self.compared;
         let before = result.whole.len();
         let mut cover = vec![OPEN; grid.len()];
-        if !self.counting {
+        if !counting {
             for entry in entries.chosen {
-                let whole = all.whole(*entry, self.triangles);
-                let frame = &self.triangles.view.frame;
-                let step = step(&whole.corners, self.limits, &whole.slack, frame);
-                cover::add(&whole.corners, grid, step, self.limits, &mut cover);
+                let whole = all.whole(*entry, triangles);
+                let frame = &triangles.view.frame;
+                let step = step(&whole.corners, limits, &whole.slack, frame);
+                cover::add(&whole.corners, grid, step, limits, &mut cover);
             }
         }
         let mut fine: Vec<(u32, Item)> = Vec::with_capacity(items.len() * 2);
         for item in items.iter().filter(|item| item.end > item.start) {
-            let segment = &self.segments[item.segment as usize];
+            let segment = &segments[item.segment as usize];
             let (a, b) = (segment.at(item.start), segment.at(item.end));
             let span = item.end - item.start;
             let (first_fine, first_whole) = (fine.len(), result.whole.len());
@@ -257,7 +248,8 @@ impl Context<'_> {
         grid: &Grid,
         is_wanted: impl Fn(usize, f64) -> bool,
     ) -> Vec<(u32, u32)> {
-        let slack = 2.0 * self.limits.beside;
+        let Compared { triangles, limits, .. } = self.compared;
+        let slack = 2.0 * limits.beside;
         let reach = grid.cell / 2.0 * (1.0 + 1e-5) + slack;
         let mut pairs = Vec::with_capacity(entries.chosen.len() * 2);
         for entry in entries.chosen {
@@ -266,7 +258,7 @@ impl Context<'_> {
             let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
             let tiles = grid.tile_box(low - slack, high + slack);
             // The box of a needle holds many tiles that it does not meet.
-            let sides = (tiles.area() > 4).then(|| Sides::new(&all.whole(*entry, self.triangles).corners));
+            let sides = (tiles.area() > 4).then(|| Sides::new(&all.whole(*entry, triangles).corners));
             for row in tiles.top..=tiles.bottom {
                 let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
                 let columns = sides.as_ref().map_or(whole, |sides| sides.columns(grid, tiles, row, reach));
@@ -290,6 +282,7 @@ impl Context<'_> {
         hidden: &mut Vec<Interval>,
         tests: &mut u64,
     ) -> bool {
+        let Compared { triangles, limits, counting, .. } = self.compared;
         let (p, q) = (segment.at(item.start), segment.at(item.end));
         let (low, high) = (p.min(q), p.max(q));
         let bounds = [
@@ -313,17 +306,17 @@ impl Context<'_> {
             if b[0] > bounds[1] || b[1] < bounds[0] || b[2] > bounds[3] || b[3] < bounds[2] {
                 continue;
             }
-            if segment.hosts.contains(&self.triangles.face(reach.id)) {
+            if segment.hosts.contains(&triangles.face(reach.id)) {
                 continue;
             }
             *tests += 1;
-            let whole = all.whole(*entry, self.triangles);
-            let found = hidden_interval(segment, &part, whole, &self.triangles.view.frame, self.limits);
+            let whole = all.whole(*entry, triangles);
+            let found = hidden_interval(segment, &part, whole, &triangles.view.frame, limits);
             let Some(found) = found else {
                 continue;
             };
             hidden.push(found);
-            if !self.counting {
+            if !counting {
                 run = longer(run, (found.start, found.end));
                 if run.0 <= item.start && run.1 >= item.end {
                     return true;
@@ -343,7 +336,8 @@ impl Context<'_> {
         entries: Entries,
         result: &mut TileResult,
     ) {
-        let Some(side) = OuterSide::new(segment, self.triangles) else { return };
+        let Compared { triangles, limits, .. } = self.compared;
+        let Some(side) = OuterSide::new(segment, triangles) else { return };
         let [low, high] = side.between(segment.at(item.start), segment.at(item.end));
         let mut run = NO_RUN;
         for interval in self.long.iter().flat_map(|long| long.backed(item)) {
@@ -359,8 +353,8 @@ impl Context<'_> {
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
-            let whole = all.whole(*entry, self.triangles);
-            let Some((start, end)) = side.range(whole, self.limits) else { continue };
+            let whole = all.whole(*entry, triangles);
+            let Some((start, end)) = side.range(whole, limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
                 let kind = ViewVertexKind::Backdrop;

@@ -116,7 +116,7 @@ pub fn decide(
 
     let compared = Compared { triangles: &triangles, segments, limits, counting };
     let long = LongPairs::find(&compared, &items, &occluders);
-    let context = Context::new(&compared, long.as_ref());
+    let context = Context { compared, long: long.as_ref() };
     const TILES: usize = 64;
     let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
         .into_par_iter()
