@@ -13,6 +13,7 @@ mod draw;
 mod dxf;
 mod fmt;
 mod framing;
+mod heap;
 mod lod;
 mod many;
 mod pages;

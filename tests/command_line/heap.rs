@@ -1,0 +1,47 @@
+//! The program's memory is one heap in large pages, as `src/heap.rs` asks.
+#![cfg(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64"))]
+
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use super::folder::Folder;
+
+/// Bytes of the heap of a running program whose pages are to be large ones, as the system tells its mappings.
+fn in_large_pages(process: u32) -> u64 {
+    let maps = fs::read_to_string(format!("/proc/{process}/smaps")).unwrap_or_default();
+    let (mut heap, mut size, mut large) = (false, 0, 0);
+    for line in maps.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words.as_slice() {
+            [range, _, _, _, _, name @ ..] if range.contains('-') => heap = name == ["[heap]"],
+            ["Size:", kib, "kB"] => size = 1024 * kib.parse::<u64>().unwrap(),
+            ["VmFlags:", flags @ ..] if heap && flags.contains(&"hg") => large += size,
+            _ => {}
+        }
+    }
+    large
+}
+
+#[test]
+fn the_heap_is_in_large_pages() {
+    if !Path::new("/sys/kernel/mm/transparent_hugepage").exists() {
+        eprintln!("skipped: this system has no large pages");
+        return;
+    }
+    let folder = Folder::new("heap");
+    let mut command = folder.command(&["draw", "-", "a.svg", "--format", "obj"]);
+    // It waits for a model that does not come.
+    let mut child =
+        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let start = Instant::now();
+    let mut large = 0;
+    while large == 0 && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(5));
+        large = in_large_pages(child.id());
+    }
+    drop(child.stdin.take());
+    let _ = child.wait();
+    assert!(large >= 32 << 20, "{large} bytes");
+}
