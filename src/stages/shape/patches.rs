@@ -172,7 +172,7 @@ fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
 mod tests {
     use super::*;
     use crate::math::function::sin;
-    use crate::mesh::Soup;
+    use crate::mesh::{FaceId, Soup};
     use glam::DVec3;
 
     /// A lens of two caps of a ball that turn into each other by an angle (degrees), with the normals of the
@@ -274,6 +274,89 @@ mod tests {
             soup.triangles.extend([[low, far, high], [far, far + 1, high]]);
         }
         Mesh::build(soup)
+    }
+
+    /// A star of eight points that is twisted from ring to ring, but for so many of its rings that are level: each for itself,
+    /// so that no flat is more than a quad.
+    fn notched(level: u32) -> Mesh {
+        const AROUND: u32 = 16;
+        const RINGS: u32 = 30;
+        let mut soup = Soup::default();
+        let mut twist = 0.0;
+        for ring in 0..=RINGS {
+            twist += if ring % 2 == 0 && ring < 2 * level { 0.0 } else { 0.06 };
+            for step in 0..AROUND {
+                let turn = std::f64::consts::TAU * f64::from(step) / f64::from(AROUND) + twist;
+                let radius = if step % 2 == 0 { 1.0 } else { 0.6 };
+                soup.positions.push(DVec3::new(
+                    radius * cos(turn),
+                    radius * sin(turn),
+                    0.1 * f64::from(ring),
+                ));
+            }
+        }
+        for ring in 0..RINGS {
+            for step in 0..AROUND {
+                let at = |ring: u32, step: u32| ring * AROUND + step % AROUND;
+                let (a, b) = (at(ring, step), at(ring, step + 1));
+                let (c, d) = (at(ring + 1, step), at(ring + 1, step + 1));
+                soup.triangles.extend([[a, b, c], [b, d, c]]);
+            }
+        }
+        Mesh::build(soup)
+    }
+
+    /// Meshes beside each other in one part.
+    fn beside(meshes: &[(&Mesh, f64)]) -> Mesh {
+        let mut soup = Soup::default();
+        for (k, (mesh, scale)) in meshes.iter().enumerate() {
+            let first = soup.positions.len() as u32;
+            let away = DVec3::X * (100.0 * k as f64);
+            soup.positions.extend(mesh.positions.iter().map(|p| (*p + mesh.origin) * *scale + away));
+            soup.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first)));
+        }
+        Mesh::build(soup)
+    }
+
+    #[test]
+    fn flats_of_one_quad_tell_a_sharp_part_where_most_that_is_nearly_flat_is_flat() {
+        assert!(constructed(&notched(4)), "bars that lie askew, each with a quad or two");
+        assert!(!constructed(&notched(0)));
+    }
+
+    #[test]
+    fn with_flats_a_part_is_machined_though_one_edge_in_twenty_alone_is_sharp() {
+        // A flat of a twenty-fifth of its surface: what is as steep without is a scan, and what is less steep with it.
+        let found =
+            [(1.0, 4), (1.0, 0), (0.6, 4)].map(|(height, level)| constructed(&ground(height, level, 0.0)));
+        assert_eq!(found, [true, false, false]);
+    }
+
+    #[test]
+    fn small_pieces_follow_the_largest_of_their_part_unless_they_are_round_for_sure() {
+        let origins = |large: &Mesh, scale: f64, small: &Mesh| {
+            let mesh = beside(&[(large, scale), (small, 1.0)]);
+            let origins = Patches::new(&mesh, 40.0, false).origins;
+            [false, true].map(|is_small| {
+                let at = |face: &usize| (mesh.corners(FaceId(*face as u32))[0] + mesh.origin).x;
+                let mut own =
+                    (0..origins.len()).filter(|face| (at(face) > 50.0) == is_small).map(|face| origins[face]);
+                let first = own.next().expect("both have faces");
+                assert!(own.all(|origin| origin == first));
+                first
+            })
+        };
+        let (machined, rough, scan) = (ground(0.6, 6, 0.0), ground(0.8, 0, 0.0), screw(0));
+        assert_eq!(origins(&machined, 2.0, &rough), [Origin::Constructed; 2]);
+        assert_eq!(
+            origins(&rough, 2.0, &machined),
+            [Origin::Scanned, Origin::Constructed],
+            "the largest stays"
+        );
+        assert_eq!(origins(&machined, 2.0, &scan), [Origin::Constructed, Origin::Scanned], "dense");
+        // One edge in two hundred is sharp.
+        let gentle = ground(0.6, 0, 0.0);
+        assert_eq!(origins(&machined, 2.0, &gentle), [Origin::Constructed, Origin::Scanned], "gentle");
     }
 
     fn constructed(mesh: &Mesh) -> bool {

@@ -41,8 +41,19 @@ const NEARLY_FLAT_COSINE: f32 = 0.999_847_7;
 /// flat as are by chance: then flats were meant. Scans that are simplified until they are as sharp have what chance gives.
 const MEANT: f64 = 2.0;
 const BY_CHANCE: f64 = 0.1;
-/// Unless it is dense, flats must hold this part of it as well: coarse figures have a few level quads, of two faces each.
+/// Unless it is dense, flats must hold this part of it as well: coarse figures have a few level quads, of two faces each. Or
+/// more than this share of its nearly flat edges are flat: of those of figures a third are.
 const SOME_FLATS: f64 = 0.02;
+const SURELY_MEANT: f64 = 0.5;
+/// Flats that were meant tell it with more than this share of sharp edges: of scans that have such flats, as what they were cut off
+/// to stand on, no more than one edge in a hundred is sharp.
+const SHARP_BESIDE_FLATS: f64 = 0.05;
+/// Areas are as large as each other but for rounding: how sums are rounded depends on the order of faces.
+const AS_LARGE: f64 = 1.0 - 1e-9;
+/// What has fewer sharp edges than this share is round whatever it stands beside, such as the spout of a pot.
+const HARDLY_SHARP: f64 = 0.01;
+/// What has no more flat edges than these many times as many as by chance, and is dense, is a scan in any case.
+const BY_CHANCE_AT_MOST: f64 = 1.5;
 /// Where more than three of eight edges are sharp, nothing round is meant, at least without normals: figures have a sharp edge
 /// in six, the hair of coarse ones in four.
 const MOSTLY_SHARP: f64 = 0.375;
@@ -135,7 +146,9 @@ impl Count {
         let armoured = shaded && edged;
         let meant = f64::from(self.flat) > MEANT * BY_CHANCE * f64::from(self.nearly_flat);
         let some_flats = self.in_flats > SOME_FLATS * self.area;
-        let cornered = (pointed && meant && some_flats)
+        let surely = f64::from(self.flat) > SURELY_MEANT * f64::from(self.nearly_flat);
+        let has_corners = share(self.sharp, self.edges) > SHARP_BESIDE_FLATS;
+        let cornered = (has_corners && meant && (some_flats || surely))
             || self.level > MOST * self.area
             || share(self.sharp, self.edges) > MOSTLY_SHARP;
         let machined = armoured
@@ -157,6 +170,14 @@ impl Count {
             _ => Origin::Constructed,
         };
         Verdict { make, origin, believed, piece: 0 }
+    }
+
+    /// Whether it stays round whatever it stands beside: it has hardly a crease to lose, or many edges of which no more are
+    /// flat than by chance.
+    fn stays_round(&self) -> bool {
+        let by_chance = BY_CHANCE * f64::from(self.nearly_flat);
+        f64::from(self.sharp) < HARDLY_SHARP * f64::from(self.edges)
+            || (self.edges >= DENSE && f64::from(self.flat) <= BY_CHANCE_AT_MOST * by_chance)
     }
 }
 
@@ -196,7 +217,7 @@ impl Pieces {
 }
 
 /// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for
-/// statistics are judged together with those of their part and material.
+/// statistics are judged together with those of their part and material; what goes for a scan may follow the largest of these.
 pub(super) fn verdicts(
     mesh: &Mesh,
     turns: &Turns,
@@ -224,8 +245,27 @@ pub(super) fn verdicts(
         let judged = if is_small { together.get(&key(*face)).unwrap_or(count) } else { count };
         Verdict { piece: piece as u32, ..judged.verdict(all) }
     };
-    let verdicts: Vec<Verdict> = first.iter().zip(&counts).enumerate().map(verdict).collect();
+    let mut verdicts: Vec<Verdict> = first.iter().zip(&counts).enumerate().map(verdict).collect();
+    follow_largest(first.iter().map(|face| key(*face)), &counts, &mut verdicts);
     number.par_iter().with_min_len(1 << 14).map(|piece| verdicts[*piece as usize]).collect()
+}
+
+/// What goes for a scan is machined where the largest piece of its `kin` is, unless it is round for sure. Of a part and a
+/// material, most is made in one way, and a small piece by itself says less of that than a large one.
+fn follow_largest<K: Ord>(kin: impl Iterator<Item = K> + Clone, counts: &[Count], verdicts: &mut [Verdict]) {
+    // How large the largest piece is that is not machined, and the largest that is.
+    let mut largest: BTreeMap<K, [f64; 2]> = BTreeMap::new();
+    for (kin, (count, verdict)) in kin.clone().zip(counts.iter().zip(&*verdicts)) {
+        let most = &mut largest.entry(kin).or_default()[usize::from(verdict.make == Make::Machined)];
+        *most = most.max(count.area);
+    }
+    for (kin, (count, verdict)) in kin.zip(counts.iter().zip(verdicts)) {
+        let [other, machined] = largest.get(&kin).copied().unwrap_or_default();
+        let follows = machined > 0.0 && machined >= other * AS_LARGE;
+        if verdict.origin == Origin::Scanned && follows && !count.stays_round() {
+            (verdict.make, verdict.origin) = (Make::Machined, Origin::Constructed);
+        }
+    }
 }
 
 /// What is counted of items in order, summed over runs of one piece: neighbours mostly are of one.
