@@ -9,7 +9,6 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::zero_set::{self, EdgePoint, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
@@ -18,6 +17,9 @@ use crate::shape::{EdgeArc, Origin, SmoothNormals};
 use crate::view::View;
 
 const NONE: u32 = u32::MAX;
+
+/// Points or pieces that one task looks at, at least.
+const GRAIN: usize = 1 << 7;
 
 /// A piece of a contour, with the facing side of the surface on its left, seen from outside.
 #[derive(Debug, Clone, Copy)]
@@ -34,20 +36,20 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64]) ->
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = mesh.positions.len() as u32;
     let point = |p: &EdgePoint| EdgeArc::over(mesh, smooth, p.between).at(p.t);
-    let points: Vec<DVec3> = set.points.par_iter().with_min_len(1 << 10).map(point).collect();
+    let points: Vec<DVec3> = set.points.par_iter().with_min_len(GRAIN).map(point).collect();
     let mut lines = FeatureLines { points, ..FeatureLines::default() };
     let position = |end: u32| lines.position(mesh, end);
     let pieces: Vec<ContourPiece> = set
         .segments
         .par_iter()
-        .with_min_len(1 << 10)
+        .with_min_len(GRAIN)
         .map(|s| {
             let ends = s.ends.map(|end| first + end);
             let advance = advance(view, smooth, &set, s.ends, ends.map(position));
             ContourPiece { segment: segment(mesh, ends, s.face), advance }
         })
         .collect();
-    for (order, closed) in curves(&pieces) {
+    for (order, closed) in curves(&pieces, first) {
         let start = lines.segments.len() as u32;
         lines.segments.extend(order.iter().map(|p| pieces[*p as usize].segment));
         let advance = order.iter().map(|p| pieces[*p as usize].advance).collect();
@@ -88,24 +90,26 @@ fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
     }
 }
 
-/// The pieces in the order in which curves pass them, and whether each curve closes. Where more than
-/// one piece leaves a point, the earlier ones go on.
-fn curves(pieces: &[ContourPiece]) -> Vec<(Vec<u32>, bool)> {
-    let mut leaving: FxHashMap<u32, u32> = FxHashMap::default();
+/// The pieces in the order in which curves pass them, and whether each curve closes; their ends are `first` and above. Where more
+/// than one piece leaves a point, the earlier ones go on.
+fn curves(pieces: &[ContourPiece], first: u32) -> Vec<(Vec<u32>, bool)> {
+    let ends = |piece: &ContourPiece| piece.segment.ends.map(|end| (end - first) as usize);
+    let count = pieces.iter().flat_map(ends).max().map_or(0, |last| last + 1);
+    let mut leaving = vec![NONE; count];
     let mut next_leaving = vec![NONE; pieces.len()];
-    let mut arriving: FxHashMap<u32, u32> = FxHashMap::default();
+    let mut is_reached = vec![false; count];
     for (p, piece) in pieces.iter().enumerate().rev() {
-        let [from, to] = piece.segment.ends;
-        next_leaving[p] = leaving.insert(from, p as u32).unwrap_or(NONE);
-        *arriving.entry(to).or_default() += 1;
+        let [from, to] = ends(piece);
+        next_leaving[p] = std::mem::replace(&mut leaving[from], p as u32);
+        is_reached[to] = true;
     }
     let mut used = vec![false; pieces.len()];
     let mut found = Vec::new();
     // Open curves begin where nothing arrives; what they leave is closed.
     for open in [true, false] {
         for start in 0..pieces.len() as u32 {
-            let begin = pieces[start as usize].segment.ends[0];
-            if used[start as usize] || (open && arriving.contains_key(&begin)) {
+            let [begin, _] = ends(&pieces[start as usize]);
+            if used[start as usize] || (open && is_reached[begin]) {
                 continue;
             }
             let mut order = Vec::new();
@@ -113,14 +117,14 @@ fn curves(pieces: &[ContourPiece]) -> Vec<(Vec<u32>, bool)> {
             while at != NONE {
                 used[at as usize] = true;
                 order.push(at);
-                let mut next = leaving.get(&pieces[at as usize].segment.ends[1]).copied().unwrap_or(NONE);
+                let mut next = leaving[ends(&pieces[at as usize])[1]];
                 while next != NONE && used[next as usize] {
                     next = next_leaving[next as usize];
                 }
                 at = next;
             }
             let last = order[order.len() - 1];
-            found.push((order, pieces[last as usize].segment.ends[1] == begin));
+            found.push((order, ends(&pieces[last as usize])[1] == begin));
         }
     }
     found

@@ -9,7 +9,6 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use crate::math::tolerance;
 use crate::mesh::Mesh;
@@ -140,15 +139,23 @@ pub fn trace_crossings(
 /// Gives each crossed edge one point.
 fn joined(pieces: &[(u32, [EdgePoint; 2])], vertices: usize) -> ZeroSet {
     debug_assert!(vertices > 0 || pieces.is_empty());
-    let mut points: Vec<EdgePoint> = pieces.iter().flat_map(|piece| piece.1).collect();
-    points.sort_unstable_by_key(|point| point.between);
-    points.dedup_by_key(|point| point.between);
-    let ids: FxHashMap<[u32; 2], u32> =
-        points.iter().enumerate().map(|(id, point)| (point.between, id as u32)).collect();
-    let id = |point: &EdgePoint| ids.get(&point.between).copied().unwrap_or_default();
-    let segments =
-        pieces.iter().map(|(face, ends)| ZeroSegment { face: *face, ends: [id(&ends[0]), id(&ends[1])] });
-    ZeroSet { segments: segments.collect(), points }
+    let key = |[a, b]: [u32; 2]| u64::from(a) << 32 | u64::from(b);
+    let ends = || pieces.iter().flat_map(|piece| piece.1);
+    let mut order: Vec<(u64, u32)> =
+        ends().zip(0..).map(|(point, place)| (key(point.between), place)).collect();
+    order.sort_unstable();
+    let mut points: Vec<EdgePoint> = Vec::with_capacity(pieces.len() + 1);
+    let mut segments: Vec<ZeroSegment> =
+        pieces.iter().map(|(face, _)| ZeroSegment { face: *face, ends: [0; 2] }).collect();
+    let mut before = None;
+    for (key, place) in order {
+        let (piece, end) = (place as usize / 2, place as usize % 2);
+        if before.replace(key) != Some(key) {
+            points.push(pieces[piece].1[end]);
+        }
+        segments[piece].ends[end] = points.len() as u32 - 1;
+    }
+    ZeroSet { segments, points }
 }
 
 #[cfg(test)]

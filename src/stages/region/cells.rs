@@ -4,6 +4,8 @@
 //! needs no closed borders: where a line breaks off before it meets the next one, triangles close
 //! the gap.
 
+use rayon::prelude::*;
+use spade::handles::{FixedFaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
 use super::insertion::insertion_order;
@@ -11,6 +13,9 @@ use super::noding::{Border, GridPoint, Noded};
 
 /// In [`Triangulation::neighbours`]: beyond the page.
 pub(super) const OUTSIDE: u32 = u32::MAX;
+
+/// Triangles that one task looks at, at least.
+const GRAIN: usize = 1 << 9;
 
 /// Triangles between borders.
 #[derive(Debug, Clone, Default)]
@@ -46,44 +51,39 @@ impl Triangulation {
     /// found shows in their numbers.
     pub fn new(noded: Noded) -> Self {
         let Some(built) = triangulated(&noded) else { return Self::default() };
-        let mut faces: Vec<([u32; 3], u32)> = built
+        let mut faces: Vec<([u32; 3], FixedFaceHandle<InnerTag>)> = built
             .inner_faces()
             .map(|face| {
                 let mut corners = face.vertices().map(|vertex| vertex.data().number);
                 let first = least(corners);
                 corners.rotate_left(first);
-                (corners, face.fix().index() as u32)
+                (corners, face.fix())
             })
             .collect();
-        faces.sort_unstable();
+        faces.par_sort_unstable_by_key(|(corners, _)| *corners);
         let mut number = vec![OUTSIDE; built.num_all_faces()];
         for (k, (_, face)) in (0..).zip(&faces) {
-            number[*face as usize] = k;
+            number[face.index()] = k;
         }
         let border = |a: u32, b: u32| {
             let ends = [a.min(b), a.max(b)];
             let piece = noded.pieces.binary_search_by_key(&ends, |piece| piece.ends);
             piece.map_or(Border::Hard, |k| noded.pieces[k].border)
         };
-        let mut triangulation = Self {
-            triangles: faces.iter().map(|(corners, _)| *corners).collect(),
-            neighbours: vec![[OUTSIDE; 3]; faces.len()],
-            borders: vec![[None; 3]; faces.len()],
-            points: Vec::new(),
-        };
-        for face in built.inner_faces() {
-            let triangle = number[face.fix().index()] as usize;
-            let mut edges = face.adjacent_edges();
+        let sides = |(_, face): &(_, FixedFaceHandle<InnerTag>)| {
+            let mut edges = built.face(*face).adjacent_edges();
             let first = least(edges.map(|edge| edge.from().data().number));
             edges.rotate_left(first);
-            triangulation.neighbours[triangle] = edges.map(|edge| number[edge.rev().face().fix().index()]);
-            triangulation.borders[triangle] = edges.map(|edge| {
+            let neighbours = edges.map(|edge| number[edge.rev().face().fix().index()]);
+            let borders = edges.map(|edge| {
                 let [a, b] = [edge.from(), edge.to()].map(|vertex| vertex.data().number);
                 edge.is_constraint_edge().then(|| border(a, b))
             });
-        }
-        triangulation.points = noded.points;
-        triangulation
+            (neighbours, borders)
+        };
+        let (neighbours, borders) = faces.par_iter().with_min_len(GRAIN).map(sides).unzip();
+        let triangles = faces.iter().map(|(corners, _)| *corners).collect();
+        Self { triangles, neighbours, borders, points: noded.points }
     }
 
     /// Twice the area of a triangle, in steps of the grid.

@@ -64,7 +64,64 @@ impl TileBox {
     }
 }
 
+/// The columns and rows from a little before to a little behind a point, counted from one; zero and one more than there are
+/// stand for what lies beyond the grid. Those of several points are those of the box around them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Around {
+    from: [u16; 2],
+    to: [u16; 2],
+}
+
+impl Around {
+    /// A point that has no place in the image, nor has a box around it.
+    pub const CUT: Self = Self { from: [0; 2], to: [u16::MAX; 2] };
+
+    /// What is around all three of a triangle.
+    #[inline]
+    pub fn of_all([a, b, c]: [Self; 3]) -> Self {
+        let least = |k: usize| a.from[k].min(b.from[k]).min(c.from[k]);
+        let most = |k: usize| a.to[k].max(b.to[k]).max(c.to[k]);
+        Self { from: [least(0), least(1)], to: [most(0), most(1)] }
+    }
+}
+
 impl Grid {
+    /// Where a point lies, with so much to all sides.
+    #[inline]
+    pub(super) fn around(&self, point: DVec3, slack: f64) -> Around {
+        let last = self.corner(self.columns, self.rows);
+        let place = |x: f64, first: f64, last: f64, tile: u32, count: u32| {
+            if x < first {
+                0
+            } else if x > last {
+                count as u16 + 1
+            } else {
+                tile as u16 + 1
+            }
+        };
+        let column = |x: f64| place(x, self.origin.x, last.x, self.column(x), self.columns);
+        let row = |y: f64| place(y, self.origin.y, last.y, self.row(y), self.rows);
+        let (low, high) = (point - slack, point + slack);
+        Around { from: [column(low.x), row(low.y)], to: [column(high.x), row(high.y)] }
+    }
+
+    /// The tiles within: [`Self::tile_box`] of the box around the points that it is of.
+    #[inline]
+    pub(super) fn tiles_within(&self, around: Around) -> TileBox {
+        let ([left, top], [right, bottom]) = (around.from, around.to);
+        let (columns, rows) = (self.columns as u16, self.rows as u16);
+        let is_off = right == 0 || left > columns || bottom == 0 || top > rows;
+        if is_off || right == u16::MAX {
+            return TileBox::EMPTY;
+        }
+        TileBox {
+            left: left.max(1) - 1,
+            right: right.min(columns) - 1,
+            top: top.max(1) - 1,
+            bottom: bottom.min(rows) - 1,
+        }
+    }
+
     /// The tiles that the box from `low` to `high` meets.
     #[inline]
     #[must_use]

@@ -6,7 +6,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::grid::{Grid, TileBox};
+use super::grid::{Around, Grid, TileBox};
 use super::limits::{Limits, Slack};
 use super::sides::Sides;
 use crate::math::grouped::{Grouped, grouped};
@@ -78,7 +78,22 @@ impl Triangles<'_> {
     /// lie off the grid.
     #[must_use]
     pub fn tile_boxes(&self) -> Vec<TileBox> {
-        (0..self.count()).into_par_iter().with_min_len(1 << 12).map(|id| self.tile_box(id as u32)).collect()
+        // A vertex is a corner of six triangles on average: where it lies is found once.
+        let slack = self.slack();
+        let of_vertex = |p: &DVec3| if p.z.is_nan() { Around::CUT } else { self.grid.around(*p, slack) };
+        let vertices: Vec<Around> =
+            self.view.points.par_iter().with_min_len(1 << 12).map(of_vertex).collect();
+        let of_triangle = |id: usize| match self.mesh.triangles.get(id) {
+            Some(_) if self.mesh.is_degenerate(FaceId(id as u32)) => TileBox::EMPTY,
+            Some(t) => self.grid.tiles_within(Around::of_all(t.map(|v| vertices[v as usize]))),
+            None => self.tile_box(id as u32),
+        };
+        (0..self.count()).into_par_iter().with_min_len(1 << 12).map(of_triangle).collect()
+    }
+
+    /// Lines are also asked about a little beside themselves.
+    fn slack(&self) -> f64 {
+        (self.grid.cell * 1e-6).max(2.0 * self.limits.beside)
     }
 
     #[inline]
@@ -88,8 +103,7 @@ impl Triangles<'_> {
         if cut || self.mesh.is_degenerate(FaceId(face)) {
             return TileBox::EMPTY;
         }
-        // Lines are also asked about a little beside themselves.
-        let slack = (self.grid.cell * 1e-6).max(2.0 * self.limits.beside);
+        let slack = self.slack();
         let low = points[0].min(points[1]).min(points[2]) - slack;
         let high = points[0].max(points[1]).max(points[2]) + slack;
         self.grid.tile_box(low, high)
@@ -199,17 +213,24 @@ impl Triangles<'_> {
         cover: &[f64],
         pairs: &mut Vec<(u32, u32)>,
     ) {
-        if tiles.is_empty() || !wanted.has_any(tiles) {
+        if tiles.is_empty() {
             return;
         }
         // For boxes of few tiles the exact test costs more than it saves.
         if tiles.area() <= 4 {
-            for (tile, _) in self.grid.tiles_of(tiles) {
-                if wanted.tiles[tile] && (cover[tile] == f64::NEG_INFINITY || self.nearest(id) >= cover[tile])
-                {
-                    pairs.push((tile as u32, id));
+            for row in tiles.top..=tiles.bottom {
+                for column in tiles.left..=tiles.right {
+                    let tile = self.grid.tile(u32::from(column), u32::from(row));
+                    if wanted.tiles[tile]
+                        && (cover[tile] == f64::NEG_INFINITY || self.nearest(id) >= cover[tile])
+                    {
+                        pairs.push((tile as u32, id));
+                    }
                 }
             }
+            return;
+        }
+        if !wanted.has_any(tiles) {
             return;
         }
         let (points, _) = corners(self.mesh, self.view, id);
@@ -275,4 +296,42 @@ fn outward_box(points: &[DVec3; 3]) -> [f32; 4] {
         ((low.y - pad) as f32).next_down(),
         ((high.y + pad) as f32).next_up(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::math::dice::Dice;
+    use crate::mesh::Soup;
+    use crate::scene::Camera;
+
+    #[test]
+    fn boxes_by_vertices_are_those_of_each_triangle() {
+        let mut dice = Dice::new(3);
+        let mut soup = Soup::default();
+        for k in 0..3000u32 {
+            let middle = dice.point(2.0);
+            soup.positions.extend([0; 3].map(|_| middle + dice.point(0.4)));
+            soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
+        }
+        let mesh = Mesh::build(soup);
+        // Among them, so that some lie behind the eye and some are cut.
+        let camera = Camera { eye: glam::DVec3::new(0.3, -1.2, 0.4), ..Camera::three_quarter() };
+        let view = View::new(&mesh, &camera);
+        let limits = Limits::new(&view.frame);
+        assert!(!view.clipped.is_empty() && view.points.iter().any(|p| p.z.is_nan()));
+        for (low, high, across) in [(100.0, 400.0, 64), (-2000.0, 3000.0, 300), (480.0, 481.0, 7)] {
+            let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), across);
+            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let boxes = triangles.tile_boxes();
+            assert!(
+                boxes.iter().any(|tiles| !tiles.is_empty()) && boxes.iter().any(|tiles| tiles.is_empty())
+            );
+            for (id, tiles) in boxes.iter().enumerate() {
+                assert_eq!(*tiles, triangles.tile_box(id as u32), "{id} from {low} to {high}");
+            }
+        }
+    }
 }

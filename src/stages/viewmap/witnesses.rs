@@ -41,6 +41,9 @@ const STRETCH: f64 = 4.0;
 /// Tiles across the page in which curves are sought.
 const GRID: u32 = 256;
 
+/// Witnesses that one task hears.
+const CHUNK: usize = 64;
+
 /// A piece of a run that is seen or hidden beside a witness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Told {
@@ -121,12 +124,12 @@ impl Court<'_> {
     /// Asks all witnesses; hidden pieces are told only if `hidden` has them counted.
     pub fn hear(&self, seen: &Visibility, asked: &[u32], hidden: bool) -> Testimony {
         let heard: Vec<Testimony> = asked
-            .par_chunks(256)
+            .par_chunks(CHUNK)
             .enumerate()
             .map(|(chunk, ids)| {
                 let mut testimony = Testimony::default();
                 for (i, id) in ids.iter().enumerate() {
-                    self.hear_one(*id, seen, chunk * 256 + i, hidden, &mut testimony);
+                    self.hear_one(*id, seen, chunk * CHUNK + i, hidden, &mut testimony);
                 }
                 testimony
             })
