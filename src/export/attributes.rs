@@ -78,12 +78,8 @@ impl Attributes {
     }
 
     /// What is best written on a group: of each attribute the value of the most marks, the first
-    /// of equally frequent ones.
-    pub fn common(marks: &[&Mark]) -> Self {
-        let runs: Vec<(Self, usize)> = marks
-            .chunk_by(|a, b| alike(a, b))
-            .filter_map(|run| Some((Self::of(run.first()?), run.len())))
-            .collect();
+    /// of equally frequent ones. Of each run of marks that are painted alike, the attributes and how many they are.
+    pub fn common(runs: &[(Self, usize)]) -> Self {
         let mut common = INITIAL;
         for (index, best) in common.0.iter_mut().enumerate() {
             let mut counts: FxHashMap<Value, usize> = FxHashMap::default();

@@ -120,19 +120,30 @@ pub(super) fn runs(marks: &[&Mark]) -> Vec<AlikeMarks> {
     marks.chunk_by(|a, b| alike(a, b)).filter_map(run).collect()
 }
 
+/// What a mark is ordered by, but for its path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Key {
+    rank: Option<usize>,
+    start: Option<Step>,
+}
+
 /// The order that marks are written in: those of a run by name, start and path.
 pub(super) fn sorted(marks: &[&Mark], runs: &[AlikeMarks], paths: &Paths) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..marks.len()).collect();
     let ranks = ranks(marks);
-    let key = |mark: usize| (ranks.get(mark), paths.places.get(mark).map(|place| place.start));
+    let key = |mark: usize| {
+        let start = paths.places.get(mark).and_then(|place| place.start);
+        (Key { rank: ranks.get(mark).copied(), start }, mark)
+    };
+    // Keys lie beside the numbers of their marks, so that comparing seldom looks elsewhere.
+    let mut order: Vec<(Key, usize)> = (0..marks.len()).into_par_iter().map(key).collect();
     for run in runs.iter().filter(|run| run.range.len() > 1) {
         let Some(of_run) = order.get_mut(run.range.clone()) else { continue };
         // The number of the mark decides in the end, so that the sort need not be stable.
-        of_run.par_sort_unstable_by(|a, b| {
-            key(*a).cmp(&key(*b)).then_with(|| paths.data(*a).cmp(paths.data(*b))).then(a.cmp(b))
+        of_run.par_sort_unstable_by(|(key, a), (other, b)| {
+            key.cmp(other).then_with(|| paths.data(*a).cmp(paths.data(*b))).then(a.cmp(b))
         });
     }
-    order
+    order.into_iter().map(|(_, mark)| mark).collect()
 }
 
 /// The place of each mark's name among all names.
@@ -199,6 +210,20 @@ impl<'a> Called<'a> {
     fn texts(&self) -> [Option<Cow<'a, str>>; 3] {
         let classes = classes(self.classes, self.tone);
         [Some(Cow::Owned(classes)), self.part.map(read_back), self.material.map(read_back)]
+    }
+}
+
+/// Writes the classes of a mark.
+pub(super) fn write_classes(out: &mut Vec<u8>, classes: &[&str], tone: Option<u16>) {
+    for (index, class) in classes.iter().enumerate() {
+        if index > 0 {
+            out.push(b' ');
+        }
+        out.extend_from_slice(class.as_bytes());
+    }
+    if let Some(tone) = tone {
+        let blank = if classes.is_empty() { "" } else { " " };
+        out.extend_from_slice(format!("{blank}tone-{tone}").as_bytes());
     }
 }
 

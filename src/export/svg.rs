@@ -280,7 +280,10 @@ fn gradient_ids(marks: &[&Mark], ids: &mut Ids) -> FxHashMap<usize, String> {
 impl Group<'_> {
     /// The rest of a group whose start tag is open: shared attributes, `head`, marks, end tag.
     fn write(&self, out: &mut Vec<u8>, head: &[u8]) {
-        let common = Attributes::common(self.marks);
+        let runs = order::runs(self.marks);
+        let counts: Vec<(Attributes, usize)> =
+            runs.iter().map(|run| (run.attributes, run.range.len())).collect();
+        let common = Attributes::common(&counts);
         if self.ordered {
             out.extend_from_slice(b" data-order=\"travel\"");
         }
@@ -289,7 +292,6 @@ impl Group<'_> {
         out.extend_from_slice(head);
         self.write_gradients(out);
         let paths = Paths::of(self.marks, self.ordered, self.decimals);
-        let runs = order::runs(self.marks);
         let order = match self.ordered {
             true => (0..self.marks.len()).collect(),
             false => order::sorted(self.marks, &runs, &paths),
@@ -406,11 +408,16 @@ fn write_mark(
 ) {
     let provenance = &mark.provenance;
     out.extend_from_slice(b"<path");
-    let classes = order::classes(&provenance.classes, provenance.tone);
-    if !classes.is_empty() {
+    if !provenance.classes.is_empty() || provenance.tone.is_some() {
+        let before = out.len();
         out.extend_from_slice(b" class=\"");
-        out.extend_from_slice(classes.as_bytes());
-        out.push(b'"');
+        let empty = out.len();
+        order::write_classes(out, &provenance.classes, provenance.tone);
+        if out.len() == empty {
+            out.truncate(before);
+        } else {
+            out.push(b'"');
+        }
     }
     let mut named = |name: &[u8], text: &str| {
         out.extend_from_slice(name);

@@ -1,5 +1,6 @@
 //! Drops what no illustrator would draw: crumbs, spurs, tiny loops and creases that are noise.
 
+use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::raw::{Degrees, Raw};
@@ -32,7 +33,11 @@ const INSIDE_PEAK: f64 = 0.25;
 pub(super) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
     // All are judged before any goes, so that no order matters.
     let rims = Rims::of(raws);
-    let crumbs: Vec<bool> = raws.iter().map(|raw| is_crumb(raw, degrees, &rims, tidy)).collect();
+    let left: &Degrees = degrees;
+    let crumbs: Vec<bool> = raws.par_iter().map(|raw| is_crumb(raw, left, &rims, tidy)).collect();
+    if !crumbs.contains(&true) {
+        return;
+    }
     let mut crumb = crumbs.into_iter();
     raws.retain(|raw| {
         let goes = crumb.next().unwrap_or(false);
@@ -49,6 +54,10 @@ struct Rims(FxHashSet<ViewVertexId>);
 
 impl Rims {
     fn of(raws: &[Raw]) -> Self {
+        // Only such are asked about.
+        if !raws.par_iter().any(is_scanned_crease) {
+            return Self(FxHashSet::default());
+        }
         let contours = raws
             .iter()
             .filter(|raw| raw.class.kind == LineKind::Contour && !raw.class.hidden && !raw.is_ring());
@@ -64,7 +73,11 @@ impl Rims {
 /// Whether a line is a crease of a scan that turns too little for its length: it goes, unless contours go on at both
 /// its ends.
 pub(super) fn may_be_noise(raw: &Raw, tidy: f64) -> bool {
-    raw.class.origin == Origin::Scanned && raw.class.kind == LineKind::Crease && raw.pronounced < NOISE * tidy
+    is_scanned_crease(raw) && raw.pronounced < NOISE * tidy
+}
+
+fn is_scanned_crease(raw: &Raw) -> bool {
+    raw.class.origin == Origin::Scanned && raw.class.kind == LineKind::Crease
 }
 
 fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
@@ -73,7 +86,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
     }
     let length = raw.length();
     let scanned = raw.class.origin == Origin::Scanned;
-    if scanned && raw.class.kind == LineKind::Crease {
+    if is_scanned_crease(raw) {
         return may_be_noise(raw, tidy) && !(rims.holds(raw) && length >= tidy);
     }
     if raw.class.kind.is_inside() {

@@ -69,6 +69,10 @@ fn is_straight(points: &[Point], tolerance: f64) -> bool {
 /// Adds an open exact polyline, with curves in place of its tessellated stretches.
 pub(super) fn add_exact(points: &[Point], tolerance: f64, path: &mut BezPath) {
     let sides = points.len().saturating_sub(1);
+    if sides < LEAST_SIDES {
+        points.iter().skip(1).for_each(|p| path.line_to(*p));
+        return;
+    }
     let curved = curved_sides(points, false, tolerance);
     let mut i = 0;
     while i < sides {

@@ -67,7 +67,7 @@ struct Buckets {
 /// but for what of them runs by itself. A line that may go for noise stands for no other.
 pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
     let distance = DOUBLE * tidy;
-    if !raws.iter().any(is_suspect) {
+    if !raws.par_iter().any(is_suspect) {
         return;
     }
     let pieces_of = |(i, raw): (usize, &Raw)| {
@@ -317,7 +317,7 @@ impl LinePiece {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chain::link::Class;
+    use crate::chain::class::Class;
     use crate::chain::sample::Sample;
     use crate::mesh::{MaterialId, PartId};
     use crate::viewmap::ViewMap;

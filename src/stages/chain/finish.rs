@@ -43,14 +43,14 @@ const LONG: usize = 256;
 const SHARP_COSINE: f64 = 0.82;
 
 /// A finished line and its path; the line has no points where a curve is fitted and they are not asked for.
-pub(super) fn finish(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+pub(super) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
     if t.smooth <= 0.0 || !raw.is_soft() {
         return exact(raw, t);
     }
     if raw.closed {
-        let parts = |i: usize| !raw.soft[i] || is_sharp(raw, i, t);
+        let parts = |i: usize| !raw.soft[i] || is_sharp(&raw, i, t);
         return match (0..raw.len()).find(|i| parts(*i)) {
-            None => closed(raw, t),
+            None => closed(&raw, t),
             // Begins with a stretch that is not smoothed, or at a corner, so that no smooth stretch is cut.
             Some(hard) => {
                 let (mut line, mut path) = open(&raw.opened_at(hard), t);
@@ -60,7 +60,7 @@ pub(super) fn finish(raw: &Line, t: Tolerances) -> (Line, BezPath) {
             }
         };
     }
-    open(raw, t)
+    open(&raw, t)
 }
 
 /// Drops the repeated end of a line that ends where it began.
@@ -70,16 +70,17 @@ fn close(line: &mut Line) {
 }
 
 /// A line nothing of which is smoothed.
-fn exact(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+fn exact(raw: Line, t: Tolerances) -> (Line, BezPath) {
     let straightened = straighten(raw);
-    let simple = || if t.simplify > 0.0 { simplify(&straightened, t.simplify) } else { straightened.clone() };
+    // Ends stay.
+    let simple =
+        |line: Line| if t.simplify > 0.0 && line.len() > 2 { simplify(&line, t.simplify) } else { line };
     if t.fit <= 0.0 {
-        let line = simple();
+        let line = simple(straightened);
         let path = polyline(&line);
         return (line, path);
     }
-    let line = if t.points { simple() } else { Line::default() };
-    let path = if raw.closed {
+    let path = if straightened.closed {
         closed_exact(&straightened, t.fit)
     } else {
         let mut path = BezPath::new();
@@ -89,6 +90,7 @@ fn exact(raw: &Line, t: Tolerances) -> (Line, BezPath) {
         }
         path
     };
+    let line = if t.points { simple(straightened) } else { Line::default() };
     (line, path)
 }
 
@@ -141,7 +143,7 @@ fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
         let more = raw.soft[i + 1..sides].iter().enumerate();
         let run = 1 + more.take_while(|(k, s)| **s == soft && !is_sharp(raw, i + 1 + k, t)).count();
         let stretch = raw.slice(i, i + run);
-        let (part, drawn) = if soft { soft_stretch(&stretch, t) } else { exact(&stretch, t) };
+        let (part, drawn) = if soft { soft_stretch(&stretch, t) } else { exact(stretch, t) };
         append(&mut line, &part);
         path.extend(drawn.elements().iter().skip(1).copied());
         i += run;
@@ -264,8 +266,8 @@ mod tests {
                     let point = Point::new(far * cos(turn), far * sin(turn));
                     line.push(point, Sample::new(0.0, 1.0), is_soft(i), false);
                 }
-                let (points, with) = finish(&line, t);
-                let (none, without) = finish(&line, Tolerances { points: false, ..t });
+                let (points, with) = finish(line.clone(), t);
+                let (none, without) = finish(line.clone(), Tolerances { points: false, ..t });
                 assert_eq!(with, without, "{n} points, closed: {closed}");
                 assert!(points.len() > 1 && none.len() == 0, "{n} points, closed: {closed}");
             }

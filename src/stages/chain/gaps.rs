@@ -3,7 +3,11 @@
 //! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px; a pen
 //! makes one line of them.
 
-use super::link::{Class, Routes, Step};
+use rayon::prelude::*;
+
+use super::class::Class;
+use super::link::Routes;
+use super::step::Step;
 use crate::lines::LineKind;
 use crate::viewmap::{Ahead, ViewMap, Way};
 
@@ -27,7 +31,7 @@ pub(super) fn bridge(
     classes: &mut [Option<Class>],
 ) {
     let gaps: Vec<Gap> =
-        routes.iter().flat_map(|(steps, closed)| gaps(map, steps, closed, gap, classes)).collect();
+        routes.iter().flat_map_iter(|(steps, closed)| gaps(map, steps, closed, gap, classes)).collect();
     let ways: Vec<Way> = gaps.iter().map(|gap| gap.way).collect();
     let hidden = ahead.map_or_else(|| vec![false; ways.len()], |ahead| ahead.hides(&ways));
     for (gap, _) in gaps.iter().zip(hidden).filter(|(_, hidden)| !hidden) {
@@ -47,7 +51,11 @@ struct Gap {
 
 /// The hidden stretches of a route shorter than `gap` that lie in visible ones of one smooth contour.
 fn gaps(map: &ViewMap, steps: &[Step], closed: bool, gap: f64, classes: &[Option<Class>]) -> Vec<Gap> {
-    let runs = runs(map, steps, closed, |step| class(classes, step).is_none_or(|c| c.hidden));
+    let is_hidden = |step: &Step| class(classes, step).is_none_or(|c| c.hidden);
+    if !steps.iter().any(is_hidden) {
+        return Vec::new();
+    }
+    let runs = runs(map, steps, closed, is_hidden);
     let count = runs.len();
     let smooth = |step: &Step| {
         let edge = &map.edges[step.edge as usize];

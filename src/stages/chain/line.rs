@@ -3,7 +3,7 @@
 use kurbo::Point;
 
 use super::Sample;
-use super::link::Step;
+use super::step::Step;
 use crate::math::plane::length;
 use crate::viewmap::{ViewMap, ViewVertex};
 

@@ -1,5 +1,6 @@
 //! [`Chain`]: view edges joined end to end, tidied, smoothed and fitted with curves.
 
+mod class;
 mod corners;
 mod crumbs;
 mod curve;
@@ -11,6 +12,7 @@ pub(crate) mod identity;
 mod line;
 mod link;
 pub mod options;
+mod partners;
 mod raw;
 pub mod removed;
 mod resample;
@@ -18,6 +20,7 @@ mod sample;
 mod silhouette;
 mod simplify;
 mod smooth;
+mod step;
 mod stitch;
 #[cfg(test)]
 mod tests;
@@ -173,7 +176,7 @@ pub(crate) fn curve(
     for (point, soft) in points.iter().zip(soft) {
         line.push(*point, sample, *soft, false);
     }
-    finish(&simplify::simplify(&line, merge), t).1
+    finish(simplify::simplify(&line, merge), t).1
 }
 
 /// Lines inside lie where noise puts them, more than contours do: smoothing may move them this many
@@ -200,7 +203,7 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
         t.fit *= MOTION_FIT;
         t.clean = true;
     }
-    let (line, path) = finish(&raw.line, t);
+    let (line, path) = finish(raw.line, t);
     Chain {
         samples: line.samples,
         points: line.points,

@@ -1,7 +1,8 @@
 //! [`Raw`]: the line of a route with what tidying has to know of it.
 
+use super::class::Class;
 use super::line::Line;
-use super::link::{Class, Routes};
+use super::link::Routes;
 use crate::lines::LineKind;
 use crate::math::plane::length;
 use crate::shape::Origin;

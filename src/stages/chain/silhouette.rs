@@ -1,5 +1,6 @@
 //! Cuts lines where silhouette turns into inner contour, but not where it only flickers.
 
+use super::class::Class;
 use super::line::Line;
 use super::raw::Raw;
 use crate::math::plane::length;
@@ -13,36 +14,34 @@ struct Stretch {
     value: bool,
 }
 
-/// Adds the parts of a line that are silhouette throughout or nowhere, none shorter than `shortest`
-/// unless the whole line is.
-pub(super) fn cut(mut raw: Raw, shortest: f64, parts: &mut Vec<Raw>) {
+/// The parts of a line that are silhouette throughout or nowhere, none shorter than `shortest` unless the whole line is; `None` for
+/// a line that is one such part itself and then knows which.
+pub(super) fn cut(raw: &mut Raw, shortest: f64) -> Option<Vec<Raw>> {
     if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
         raw.class.silhouette = raw.line.silhouette[0];
-        parts.push(raw);
-        return;
+        return None;
     }
     // A closed line begins where the value changes, so that no run goes over its seam.
     let n = raw.line.len();
     let change = (0..n).find(|i| raw.line.silhouette[*i] != raw.line.silhouette[(i + n - 1) % n]);
-    let open = if raw.line.closed { raw.line.opened_at(change.unwrap_or(0)) } else { raw.line.clone() };
-    let runs = even(runs(&open), shortest);
+    let opened = raw.line.closed.then(|| raw.line.opened_at(change.unwrap_or(0)));
+    let open = opened.as_ref().unwrap_or(&raw.line);
+    let runs = even(runs(open), shortest);
     if let [run] = runs[..] {
-        let silhouette = run.value;
-        let line = if raw.line.closed { raw.line.clone() } else { open };
-        parts.push(with_silhouette(&raw, line, silhouette));
-        return;
+        raw.class.silhouette = run.value;
+        return None;
     }
-    for (i, run) in runs.iter().enumerate() {
-        let mut part = with_silhouette(&raw, open.slice(run.first, run.end), run.value);
+    let part = |(i, run): (usize, &Stretch)| {
+        let mut part = with_silhouette(raw, open.slice(run.first, run.end), run.value);
         part.covered = [i == 0 && raw.covered[0], i + 1 == runs.len() && raw.covered[1]];
-        parts.push(part);
-    }
+        part
+    };
+    Some(runs.iter().enumerate().map(part).collect())
 }
 
+/// A part of a line; nobody asks any more which vertices are its own.
 fn with_silhouette(raw: &Raw, line: Line, silhouette: bool) -> Raw {
-    let mut part = Raw { line, ..raw.clone() };
-    part.class.silhouette = silhouette;
-    part
+    Raw { line, class: Class { silhouette, ..raw.class }, vertices: Vec::new(), ..*raw }
 }
 
 fn runs(line: &Line) -> Vec<Stretch> {

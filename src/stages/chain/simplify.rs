@@ -20,7 +20,10 @@ const STRENGTH: f64 = 0.08;
 
 /// Leaves out the points that lie in line between their neighbours, and no others: a line that
 /// turns back stays as long as it is.
-pub(super) fn straighten(line: &Line) -> Line {
+pub(super) fn straighten(line: Line) -> Line {
+    if line.len() < 3 {
+        return line;
+    }
     let between = |a: usize, b: usize, c: usize| {
         let (to, on) = (line.points[b] - line.points[a], line.points[c] - line.points[b]);
         let whole = line.points[c] - line.points[a];
@@ -31,7 +34,7 @@ pub(super) fn straighten(line: &Line) -> Line {
         if let &[.., a, b] = &kept[..]
             && line.soft[a] == line.soft[b]
             && between(a, b, c)
-            && Chord::new(line, a, c).off(b).1 <= STRENGTH
+            && Chord::new(&line, a, c).off(b).1 <= STRENGTH
         {
             kept.pop();
         }
@@ -44,6 +47,9 @@ pub(super) fn straighten(line: &Line) -> Line {
         if kept.len() > 3 && between(kept[kept.len() - 1], kept[0], kept[1]) {
             kept.remove(0);
         }
+    }
+    if kept.len() == line.len() {
+        return line;
     }
     line.pick(&kept)
 }

@@ -6,6 +6,7 @@
 //! before the junction is a spur.
 
 use kurbo::{Point, Vec2};
+use rayon::prelude::*;
 
 use super::Sample;
 use super::line::Line;
@@ -31,6 +32,9 @@ const STUB: f64 = 8.0;
 const LONG_STUB: f64 = 4.0;
 const LONG_STUB_NEAR: f64 = 0.3;
 const WINDOW: f64 = 1.5;
+
+/// Ends that one task looks at, at least.
+const MIN_ENDS: usize = 16;
 
 /// Cosine of the sharpest turn (45 degrees) at a stitch.
 const STITCH_COSINE: f64 = 0.707;
@@ -115,7 +119,7 @@ pub(super) fn stitch(
         let closed = link[start].is_some();
         let first = std::mem::take(&mut raws[i].line);
         let vertices = std::mem::take(&mut raws[i].vertices);
-        let mut whole = Raw { vertices, ..raws[i].clone() };
+        let mut whole = Raw { line: Line::default(), vertices, ..raws[i] };
         if !closed && link[start ^ 1].is_none() {
             used[i] = true;
             sewn.push(Raw { line: first, ..whole });
@@ -165,14 +169,16 @@ fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> 
     }
     ends.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)).then(a.1.cmp(&b.1)));
     let reach = STUB * tidy;
-    let mut found = Vec::new();
-    for (k, (p, a)) in ends.iter().enumerate() {
-        for (q, b) in ends[k + 1..].iter().take_while(|(q, _)| q.x - p.x <= reach) {
-            if (q.y - p.y).abs() <= reach && raws[a / 2].class == raws[b / 2].class {
-                found.extend(best(raws, *a, *b, tidy));
-            }
-        }
-    }
+    let of_end = |(k, (p, a)): (usize, &(Point, usize))| {
+        let (p, a) = (*p, *a);
+        let near = ends[k + 1..].iter().take_while(move |(q, _)| q.x - p.x <= reach);
+        near.filter_map(move |(q, b)| {
+            let may = (q.y - p.y).abs() <= reach && raws[a / 2].class == raws[b / 2].class;
+            if may { best(raws, a, *b, tidy) } else { None }
+        })
+    };
+    let all = ends.par_iter().enumerate().with_min_len(MIN_ENDS);
+    let mut found: Vec<Stitch> = all.flat_map_iter(of_end).collect();
     if let Some(ahead) = ahead {
         let ways: Vec<Way> = found.iter().map(|stitch| stitch.way(raws)).collect();
         let mut hidden = ahead.hides(&ways).into_iter();

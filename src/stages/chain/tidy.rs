@@ -6,15 +6,16 @@
 
 use rayon::prelude::*;
 
+use super::class::Class;
 use super::crumbs::drop_crumbs;
 use super::doubles::drop_doubles;
 use super::gaps::bridge;
-use super::link::{Class, routes};
+use super::link::routes;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use super::silhouette;
 use super::stitch::stitch;
-use crate::lines::HiddenLines;
+use crate::lines::{HiddenLines, LineKind};
 use crate::shape::Origin;
 use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 
@@ -41,31 +42,38 @@ pub(super) fn tidied(
     ahead: Option<&Ahead>,
     bin: &mut Bin,
 ) -> Vec<Raw> {
-    let mut classes: Vec<Option<Class>> = map.edges.iter().map(|e| Some(Class::of(e))).collect();
+    let mut classes: Vec<Option<Class>> = map.edges.par_iter().map(|e| Some(Class::of(e))).collect();
     if tidy > 0.0 {
         leave_out_needles(map, &mut classes, bin);
-        if map.edges.iter().any(|e| e.invisibility > 0) {
-            let is_left = |(e, class): (&ViewEdge, &Option<Class>)| class.map(|_| Class::of_source(e));
-            let sources: Vec<Option<Class>> = map.edges.iter().zip(&classes).map(is_left).collect();
+        // Lines of other kinds have no gaps, and what continues a line is of its own kind.
+        let is_contour = |e: &ViewEdge| e.kind == LineKind::Contour;
+        if map.edges.par_iter().any(|e| e.invisibility > 0 && e.smooth && is_contour(e)) {
+            let source = |(e, class): (&ViewEdge, &Option<Class>)| {
+                class.filter(|_| is_contour(e)).map(|_| Class::of_source(e))
+            };
+            let sources: Vec<Option<Class>> = map.edges.par_iter().zip(&classes).map(source).collect();
             bridge(map, &routes(map, &sources, window), GAP * tidy, ahead, &mut classes);
         }
-        for class in classes.iter_mut().flatten() {
+    }
+    classes.par_iter_mut().for_each(|slot| {
+        let Some(class) = slot else { return };
+        if class.hidden && hidden == HiddenLines::None {
+            *slot = None;
+        } else if tidy > 0.0 {
             class.silhouette = false;
+        } else {
+            // Nothing is taken for noise.
+            class.origin = Origin::Constructed;
         }
-    } else {
-        // Nothing is taken for noise.
-        classes.iter_mut().flatten().for_each(|class| class.origin = Origin::Constructed);
-    }
-    if hidden == HiddenLines::None {
-        classes.iter_mut().filter(|c| c.is_some_and(|c| c.hidden)).for_each(|c| *c = None);
-    }
+    });
     let routes = routes(map, &classes, window);
     let raw = |route| Raw::of_route(map, &routes, route, &classes);
-    let mut raws: Vec<Raw> = (0..routes.len()).into_par_iter().with_min_len(64).filter_map(raw).collect();
+    let all = || (0..routes.len()).into_par_iter().with_min_len(64).map(raw).collect();
+    let (raws, mut degrees): (Vec<Option<Raw>>, Degrees) = rayon::join(all, || Degrees::new(map, &classes));
+    let mut raws: Vec<Raw> = raws.into_iter().flatten().collect();
     if tidy <= 0.0 {
         return raws;
     }
-    let mut degrees = Degrees::new(map, &classes);
     for _ in 0..ROUNDS {
         let count = raws.len();
         raws = stitch(raws, &mut degrees, tidy, ahead, bin);
@@ -75,15 +83,33 @@ pub(super) fn tidied(
             break;
         }
     }
-    let mut parts = Vec::with_capacity(raws.len());
-    for raw in raws {
-        if !raw.class.hidden && raw.length() < POINT * tidy {
-            bin.put(&raw, || Reason::Point);
-            continue;
-        }
-        silhouette::cut(raw, SILHOUETTE * tidy, &mut parts);
+    cut(raws, tidy, bin)
+}
+
+/// Lines without dots, cut where silhouette begins and ends.
+fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
+    let parts = |raw: &mut Raw| {
+        let is_dot = !raw.class.hidden && raw.length() < POINT * tidy;
+        if is_dot { Some(Vec::new()) } else { silhouette::cut(raw, SILHOUETTE * tidy) }
+    };
+    let parts: Vec<Option<Vec<Raw>>> = raws.par_iter_mut().map(parts).collect();
+    // Most lines stay whole, and then nothing is moved.
+    if parts.iter().all(Option::is_none) {
+        return raws;
     }
-    parts
+    let mut all = Vec::with_capacity(raws.len());
+    for (raw, parts) in raws.into_iter().zip(parts) {
+        match parts {
+            None => all.push(raw),
+            Some(parts) => {
+                if parts.is_empty() {
+                    bin.put(&raw, || Reason::Point);
+                }
+                all.extend(parts);
+            }
+        }
+    }
+    all
 }
 
 /// Takes the sides of folds that are thinner than a pen from the lines, but for what of them is outline.

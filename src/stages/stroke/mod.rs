@@ -73,17 +73,14 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
         }
     }
     let rank = |chain: &&Chain| (std::cmp::Reverse(chain.kind), chain.silhouette);
-    hidden.sort_by_key(rank);
-    visible.sort_by_key(rank);
-    let (behind, all) = (hidden.len(), [hidden, visible].concat());
-    let pens: Vec<Pen> = all.par_iter().map(|chain| selection.pen(chain, options.pen.clone())).collect();
-    let mut hidden = marks(&all, &pens, context);
-    let visible = hidden.split_off(behind);
-    let layers = [(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)];
-    layers
-        .into_iter()
-        .flat_map(|(kind, marks)| layers_of(kind, marks, options.layers, context.unit))
-        .collect()
+    hidden.par_sort_by_key(rank);
+    visible.par_sort_by_key(rank);
+    let behind = hidden.len();
+    let all = if hidden.is_empty() { visible } else { [hidden, visible].concat() };
+    let pen = |chain: &Chain| selection.pen(chain, options.pen.clone());
+    let layers =
+        [LayerKind::HiddenLines, LayerKind::Lines].into_iter().zip(marks(&all, behind, pen, context));
+    layers.flat_map(|(kind, marks)| layers_of(kind, marks, options.layers, context.unit)).collect()
 }
 
 /// Turns chains of motion lines into the layer `motion`, each with the pen of its own that `pen` gives, changed only by rules that
@@ -100,23 +97,36 @@ pub fn ink_motion(
     let options = StrokeOptions { rules, ..options.clone() };
     let selection = options.selection(context);
     let all: Vec<&Chain> = chains.iter().collect();
-    let pens: Vec<Pen> = all.par_iter().map(|chain| selection.pen(chain, pen(chain))).collect();
-    layers_of(LayerKind::Motion, marks(&all, &pens, context), options.layers, context.unit)
+    let pen = |chain: &Chain| selection.pen(chain, pen(chain));
+    let [marks, _] = marks(&all, all.len(), pen, context);
+    layers_of(LayerKind::Motion, marks, options.layers, context.unit)
 }
 
-/// The marks of each chain.
-fn marks(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Mark>> {
-    let tinted = chains.iter().flat_map(|chain| &chain.samples).any(|s| s.under != Under::default());
-    if tinted || pens.iter().any(Pen::has_hand) {
-        return handmade(chains, pens, context);
+/// The marks of the first so many chains, and those of the others.
+fn marks(
+    chains: &[&Chain],
+    behind: usize,
+    pen: impl Fn(&Chain) -> Pen + Sync,
+    context: &InkContext,
+) -> [Vec<Mark>; 2] {
+    let is_tinted = |chain: &Chain| chain.samples.iter().any(|s| s.under != Under::default());
+    if chains.par_iter().any(|chain| is_tinted(chain) || pen(chain).has_hand()) {
+        let pens: Vec<Pen> = chains.par_iter().map(|chain| pen(chain)).collect();
+        let mut hidden = handmade(chains, &pens, context);
+        let visible = hidden.split_off(behind);
+        return [hidden, visible].map(|marks| marks.into_iter().flatten().collect());
     }
-    let plain = chains.par_iter().zip(pens);
-    plain.map(|(chain, pen)| mark(chain, context, pen).into_iter().collect()).collect()
+    // A plain chain has one mark, but for one of no length or width: they are laid where they stay.
+    let (hidden, visible) = chains.split_at(behind);
+    [hidden, visible].map(|chains| {
+        let marks: Vec<Option<Mark>> =
+            chains.par_iter().map(|chain| mark(chain, context, &pen(chain))).collect();
+        marks.into_iter().flatten().collect()
+    })
 }
 
 /// The layers of a kind that marks make; none if there are no marks.
-fn layers_of(kind: LayerKind, marks: Vec<Vec<Mark>>, options: LayerOptions, unit: Unit) -> Vec<Layer> {
-    let marks: Vec<Mark> = marks.into_iter().flatten().collect();
+fn layers_of(kind: LayerKind, marks: Vec<Mark>, options: LayerOptions, unit: Unit) -> Vec<Layer> {
     let mut layers = match options.by {
         LayersBy::Visibility => vec![Layer { kind, pen: None, ordered: false, marks }],
         LayersBy::Pen => by_pen(kind, marks, unit),
