@@ -54,7 +54,8 @@ fn room(path: &Path) -> String {
     let mut names = path.iter().map(|name| name.to_string_lossy()).filter(|name| name != STAGES);
     let first = names.next().unwrap_or_default();
     let name = first.trim_end_matches(".rs");
-    if ["lib", "main", "mod"].contains(&name) { String::new() } else { name.to_owned() }
+    // The heap is the program's alone, beside its `main`.
+    if ["lib", "main", "mod", "heap"].contains(&name) { String::new() } else { name.to_owned() }
 }
 
 impl Source {
