@@ -208,12 +208,14 @@ impl<'a> Called<'a> {
 
     /// Classes, part and material as they read back.
     fn texts(&self) -> [Option<Cow<'a, str>>; 3] {
-        let classes = classes(self.classes, self.tone);
+        let mut classes = Vec::new();
+        write_classes(&mut classes, self.classes, self.tone);
+        let classes = String::from_utf8_lossy(&classes).into_owned();
         [Some(Cow::Owned(classes)), self.part.map(read_back), self.material.map(read_back)]
     }
 }
 
-/// Writes the classes of a mark.
+/// Writes the classes of a mark, its tone last.
 pub(super) fn write_classes(out: &mut Vec<u8>, classes: &[&str], tone: Option<u16>) {
     for (index, class) in classes.iter().enumerate() {
         if index > 0 {
@@ -225,10 +227,4 @@ pub(super) fn write_classes(out: &mut Vec<u8>, classes: &[&str], tone: Option<u1
         let blank = if classes.is_empty() { "" } else { " " };
         out.extend_from_slice(format!("{blank}tone-{tone}").as_bytes());
     }
-}
-
-/// The classes of a mark, as they are written.
-pub(super) fn classes(classes: &[&str], tone: Option<u16>) -> String {
-    let tone = tone.map(|tone| format!("tone-{tone}"));
-    classes.iter().copied().chain(tone.as_deref()).collect::<Vec<_>>().join(" ")
 }

@@ -26,7 +26,7 @@ pub(super) fn write(
     let (id, picture) = (named.mark(mark), named.picture(image));
     let provenance = &mark.provenance;
     out.extend_from_slice(b"<g class=\"");
-    out.extend_from_slice(order::classes(&provenance.classes, provenance.tone).as_bytes());
+    order::write_classes(out, &provenance.classes, provenance.tone);
     out.push(b'"');
     let names =
         [(&b" data-part=\""[..], &provenance.part), (&b" data-material=\""[..], &provenance.material)];

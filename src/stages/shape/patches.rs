@@ -216,24 +216,25 @@ mod tests {
 
     /// A star of eight points, drawn out and twisted but for so many of its rings.
     fn screw(straight: u32) -> Mesh {
+        star((0..=60u32).map(|ring| 0.04 * f64::from(ring.saturating_sub(straight))))
+    }
+
+    /// A star of eight points, ring over ring, each turned by so much.
+    fn star(turns: impl Iterator<Item = f64>) -> Mesh {
         const AROUND: u32 = 16;
-        const RINGS: u32 = 60;
         let mut soup = Soup::default();
-        for ring in 0..=RINGS {
+        for (ring, turned) in (0u32..).zip(turns) {
             for step in 0..AROUND {
-                let twist = 0.04 * f64::from(ring.saturating_sub(straight));
-                let turn = std::f64::consts::TAU * f64::from(step) / f64::from(AROUND) + twist;
+                let turn = std::f64::consts::TAU * f64::from(step) / f64::from(AROUND) + turned;
                 let radius = if step % 2 == 0 { 1.0 } else { 0.6 };
                 let z = 0.1 * f64::from(ring);
                 soup.positions.push(DVec3::new(radius * cos(turn), radius * sin(turn), z));
-            }
-        }
-        for ring in 0..RINGS {
-            for step in 0..AROUND {
-                let at = |ring: u32, step: u32| ring * AROUND + step % AROUND;
-                let (a, b) = (at(ring, step), at(ring, step + 1));
-                let (c, d) = (at(ring + 1, step), at(ring + 1, step + 1));
-                soup.triangles.extend([[a, b, c], [b, d, c]]);
+                if ring > 0 {
+                    let at = |ring: u32, step: u32| ring * AROUND + step % AROUND;
+                    let (a, b) = (at(ring - 1, step), at(ring - 1, step + 1));
+                    let (c, d) = (at(ring, step), at(ring, step + 1));
+                    soup.triangles.extend([[a, b, c], [b, d, c]]);
+                }
             }
         }
         Mesh::build(soup)
@@ -279,31 +280,10 @@ mod tests {
     /// A star of eight points that is twisted from ring to ring, but for so many of its rings that are level: each for itself,
     /// so that no flat is more than a quad.
     fn notched(level: u32) -> Mesh {
-        const AROUND: u32 = 16;
-        const RINGS: u32 = 30;
-        let mut soup = Soup::default();
-        let mut twist = 0.0;
-        for ring in 0..=RINGS {
-            twist += if ring % 2 == 0 && ring < 2 * level { 0.0 } else { 0.06 };
-            for step in 0..AROUND {
-                let turn = std::f64::consts::TAU * f64::from(step) / f64::from(AROUND) + twist;
-                let radius = if step % 2 == 0 { 1.0 } else { 0.6 };
-                soup.positions.push(DVec3::new(
-                    radius * cos(turn),
-                    radius * sin(turn),
-                    0.1 * f64::from(ring),
-                ));
-            }
-        }
-        for ring in 0..RINGS {
-            for step in 0..AROUND {
-                let at = |ring: u32, step: u32| ring * AROUND + step % AROUND;
-                let (a, b) = (at(ring, step), at(ring, step + 1));
-                let (c, d) = (at(ring + 1, step), at(ring + 1, step + 1));
-                soup.triangles.extend([[a, b, c], [b, d, c]]);
-            }
-        }
-        Mesh::build(soup)
+        star((0..=30).scan(0.0, |turned, ring| {
+            *turned += if ring % 2 == 0 && ring < 2 * level { 0.0 } else { 0.06 };
+            Some(*turned)
+        }))
     }
 
     /// Meshes beside each other in one part.
