@@ -10,7 +10,7 @@ use super::compared::Item;
 use super::graph::SeenContour;
 use super::limits::Limits;
 use super::near_tiles::NearTiles;
-use super::occlude::{Part, hidden_interval};
+use super::occlude::hidden_interval;
 use super::occluders::{Occluder, Triangles};
 use super::project::ImageSegment;
 use super::visibility::grid_over;
@@ -165,9 +165,8 @@ impl Around<'_> {
     fn hides(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
         let Self { ahead, limits, over, .. } = self;
         let is_own = |occluder: &Occluder| own.contains(&ahead.pieces[occluder.face as usize]);
-        let part = Part::new(way, part.0, part.1);
         over.iter().filter(|occluder| !is_own(occluder)).any(|other| {
-            let hidden = hidden_interval(way, &part, other, &ahead.view.frame, limits)
+            let hidden = hidden_interval(way, part, other, &ahead.view.frame, limits)
                 .filter(|hidden| (hidden.end - hidden.start) * way.length() > limits.piece);
             let Some(hidden) = hidden else { return false };
             let middle = way.at((hidden.start + hidden.end) / 2.0).truncate();

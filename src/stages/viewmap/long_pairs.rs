@@ -10,7 +10,7 @@ use super::compared::{Compared, Item};
 use super::graph::ViewVertexKind;
 use super::layers::{Layer, sweep};
 use super::longest_run::{NO_RUN, longer};
-use super::occlude::{Interval, Part, hidden_interval};
+use super::occlude::{Interval, hidden_interval};
 use super::occluders::{Occluder, Reach};
 use super::outer_side::OuterSide;
 use super::project::ImageSegment;
@@ -227,7 +227,6 @@ impl<'a> Long<'a> {
         tests: &mut u64,
     ) -> Vec<Interval> {
         let Compared { triangles, limits, counting, .. } = *self.compared;
-        let whole = Part::new(segment, 0.0, 1.0);
         let mut hidden = Vec::new();
         let mut run = NO_RUN;
         seen.last += 1;
@@ -244,7 +243,7 @@ impl<'a> Long<'a> {
                     continue;
                 }
                 *tests += 1;
-                let found = hidden_interval(segment, &whole, occluder, &triangles.view.frame, limits);
+                let found = hidden_interval(segment, (0.0, 1.0), occluder, &triangles.view.frame, limits);
                 if let Some(found) = found {
                     run = longer(run, (found.start, found.end));
                     hidden.push(found);
@@ -362,10 +361,9 @@ mod tests {
         let mut counts = [0; 3];
         // The edges across the wide ends of the needles are themselves hardly longer than what counts as rounding.
         for (i, segment) in segments.iter().enumerate().filter(|(_, s)| s.length() > 100.0 * limits.px) {
-            let part = Part::new(segment, 0.0, 1.0);
             let hiders = all.iter().filter(|triangle| !segment.hosts.contains(&triangle.face));
             let intervals: Vec<Interval> = hiders
-                .filter_map(|triangle| hidden_interval(segment, &part, triangle, &view.frame, &limits))
+                .filter_map(|triangle| hidden_interval(segment, (0.0, 1.0), triangle, &view.frame, &limits))
                 .collect();
             for k in 0..20 {
                 let t = (f64::from(k) + 0.37) / 20.0;

@@ -45,14 +45,16 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     // Most triangles that are asked lie wholly on the far side of one of their sides, and most
     // others cover all that is asked; that much is seen without a square root, since the sum of
     // its coordinates is no shorter than a vector.
+    let mut at_ends = [(0.0, 0.0); 3];
     let mut inside = true;
-    for (corner, side) in sides {
+    for ((corner, side), at) in sides.iter().zip(&mut at_ends) {
         let (at_p, at_q) = (side.perp_dot(p - corner) * sign, side.perp_dot(q - corner) * sign);
         let slack = -limits.cover * (side.x.abs() + side.y.abs());
         if at_p < slack && at_q < slack {
             return None;
         }
         inside &= at_p >= 0.0 && at_q >= 0.0;
+        *at = (at_p, at_q);
     }
     let longest = sides.iter().map(|(_, d)| d.length_squared()).fold(0.0, f64::max);
     if area * area <= limits.height * limits.height * longest {
@@ -62,10 +64,12 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
         return Some((0.0, 1.0));
     }
     let (mut start, mut end) = (0.0f64, 1.0f64);
-    for (corner, side) in sides {
-        let inward = sign / side.length().max(f64::MIN_POSITIVE);
-        let at_p = side.perp_dot(p - corner) * inward + limits.cover;
-        let at_q = side.perp_dot(q - corner) * inward + limits.cover;
+    for ((_, side), (at_p, at_q)) in sides.iter().zip(at_ends) {
+        if at_p >= 0.0 && at_q >= 0.0 {
+            continue;
+        }
+        let inward = 1.0 / side.length().max(f64::MIN_POSITIVE);
+        let (at_p, at_q) = (at_p * inward + limits.cover, at_q * inward + limits.cover);
         if at_p < 0.0 {
             if at_q < 0.0 {
                 return None;
@@ -78,31 +82,13 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     (start <= end).then_some((start, end))
 }
 
-/// The part of a segment between two parameters.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
-    from: f64,
-    to: f64,
-    /// Its ends in the image.
-    ends: [DVec2; 2],
-}
-
-impl Part {
-    /// The part of a segment from a parameter to a later one.
-    #[inline]
-    #[must_use]
-    pub fn new(segment: &ImageSegment, from: f64, to: f64) -> Self {
-        Self { from, to, ends: [from, to].map(|t| segment.at(t).truncate()) }
-    }
-}
-
-/// What a triangle hides of a part of a segment: that part of what it hides of the whole, so that it does not
-/// matter how the segment is cut.
+/// What a triangle hides of a segment between two of its parameters: that part of what it hides of the whole, so that it
+/// does not matter how the segment is cut.
 #[inline]
 #[must_use]
 pub fn hidden_interval(
     segment: &ImageSegment,
-    part: &Part,
+    (from, to): (f64, f64),
     triangle: &Occluder,
     frame: &Frame,
     limits: &Limits,
@@ -112,13 +98,10 @@ pub fn hidden_interval(
     if shared[0].is_some() && shared[1].is_some() {
         return None;
     }
-    let Part { from, to, ends: [p, q] } = *part;
-    let of_part = covered(p, q, corners, limits)?;
-    let (start, end) = if (from, to) == (0.0, 1.0) {
-        of_part
-    } else {
-        covered(segment.a.truncate(), segment.b.truncate(), corners, limits)?
-    };
+    let (start, end) = covered(segment.a.truncate(), segment.b.truncate(), corners, limits)?;
+    if start > to || end < from {
+        return None;
+    }
     // Heights over the plane are measured from the shared corner, where they vanish exactly.
     let base = corners[shared[0].or(shared[1]).unwrap_or(0)];
     let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);

@@ -24,11 +24,10 @@ impl OuterSide {
         Some(Self { ends: segment.ends, line, shift })
     }
 
-    /// The box around the part of it that lies beside two points of the segment.
+    /// The ends of the part of it that lies beside two points of the segment.
     #[inline]
-    pub(super) fn between(&self, from: DVec3, to: DVec3) -> [DVec2; 2] {
-        let (from, to) = (from.truncate() + self.shift, to.truncate() + self.shift);
-        [from.min(to), from.max(to)]
+    pub(super) fn beside(&self, from: DVec3, to: DVec3) -> [DVec2; 2] {
+        [from, to].map(|end| end.truncate() + self.shift)
     }
 
     /// The range of the segment's parameters beside which a triangle lies, that has not both its ends as corners.

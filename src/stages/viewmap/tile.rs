@@ -9,12 +9,13 @@ use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::long_pairs::LongPairs;
 use super::longest_run::{NO_RUN, longer};
-use super::occlude::{Interval, Part, hidden_interval};
-use super::occluders::{Occluder, Reach, Triangles};
+use super::occlude::{Interval, hidden_interval};
+use super::occluders::Reach;
 use super::outer_side::OuterSide;
 use super::project::ImageSegment;
 use super::sides::Sides;
 use super::slope::step;
+use super::tile_triangles::{LookedUp, TileTriangles};
 use crate::math::grouped::grouped;
 
 /// Lists up to this long are looked through as they are.
@@ -47,14 +48,11 @@ pub(super) struct Context<'a> {
     pub(super) long: Option<&'a LongPairs>,
 }
 
-/// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole. Those of the next tile
-/// take the memory over.
+/// What a worker takes from tile to tile.
 #[derive(Debug, Default)]
-pub(super) struct TileTriangles {
-    reaches: Vec<Reach>,
-    /// The place of each among those that were looked up, if it was.
-    places: Vec<u32>,
-    looked_up: Vec<Occluder>,
+pub(super) struct Memory {
+    /// The triangles of the tile.
+    pub(super) triangles: TileTriangles,
     /// 0, 1, 2 and so on.
     numbers: Vec<u32>,
     /// What is found out about one item.
@@ -70,31 +68,6 @@ struct Found {
     layers: Vec<Layer>,
 }
 
-/// Stands for no place.
-const NOWHERE: u32 = u32::MAX;
-
-impl TileTriangles {
-    /// Makes these the triangles of another tile.
-    pub(super) fn replace(&mut self, reaches: impl Iterator<Item = Reach>) {
-        self.reaches.clear();
-        self.reaches.extend(reaches);
-        self.places.clear();
-        self.places.resize(self.reaches.len(), NOWHERE);
-        self.looked_up.clear();
-    }
-
-    /// A triangle with all that the comparison needs.
-    #[inline]
-    fn whole(&mut self, entry: u32, triangles: &Triangles) -> &Occluder {
-        let place = &mut self.places[entry as usize];
-        if *place == NOWHERE {
-            *place = self.looked_up.len() as u32;
-            self.looked_up.push(triangles.occluder(self.reaches[entry as usize].id));
-        }
-        &self.looked_up[*place as usize]
-    }
-}
-
 /// Which triangles of a tile to look at.
 #[derive(Clone, Copy)]
 struct Entries<'a> {
@@ -108,23 +81,23 @@ impl Context<'_> {
     pub(super) fn decide_tile(
         &self,
         items: &[Item],
-        all: &mut TileTriangles,
+        memory: &mut Memory,
         grid: &Grid,
         tile: usize,
         result: &mut TileResult,
     ) {
-        let count = all.reaches.len();
-        let mut numbers = std::mem::take(&mut all.numbers);
+        let count = memory.triangles.reaches.len();
+        let mut numbers = std::mem::take(&mut memory.numbers);
         numbers.extend(numbers.len() as u32..count as u32);
         let entries = Entries { chosen: &numbers[..count], ordered: false };
-        self.decide(items, all, entries, (grid, tile), result);
-        all.numbers = numbers;
+        self.decide(items, memory, entries, (grid, tile), result);
+        memory.numbers = numbers;
     }
 
     fn decide(
         &self,
         items: &[Item],
-        all: &mut TileTriangles,
+        memory: &mut Memory,
         entries: Entries,
         (grid, tile): (&Grid, usize),
         result: &mut TileResult,
@@ -134,7 +107,7 @@ impl Context<'_> {
         if count > FEW
             && items.len() * count > CROWD * (items.len() + count)
             && grid.cell > limits.beside * 64.0
-            && self.decide_finer(items, all, entries, &grid.of_tile(tile, FINER), result)
+            && self.decide_finer(items, memory, entries, &grid.of_tile(tile, FINER), result)
         {
             return;
         }
@@ -143,10 +116,10 @@ impl Context<'_> {
         // Sorting pays where many lines are asked of many triangles: hidden ones then meet what
         // hides them first.
         if !counting && count > FEW && items.len() > FEW / 4 {
-            sorted = nearest_first(&all.reaches, entries.chosen);
+            sorted = nearest_first(&memory.triangles.reaches, entries.chosen);
             entries = Entries { chosen: &sorted, ordered: true };
         }
-        let Found { mut hidden, mut known, mut layers } = std::mem::take(&mut all.found);
+        let Found { mut hidden, mut known, mut layers } = std::mem::take(&mut memory.found);
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &segments[item.segment as usize];
             let is_whole = |l: &Layer| l.interval.start <= item.start && l.interval.end >= item.end;
@@ -157,7 +130,14 @@ impl Context<'_> {
                 continue;
             }
             hidden.clear();
-            if self.gather_hidden(segment, item, all, entries, &mut hidden, &mut result.tests) {
+            if self.gather_hidden(
+                segment,
+                item,
+                &mut memory.triangles,
+                entries,
+                &mut hidden,
+                &mut result.tests,
+            ) {
                 result.whole.push(*item);
                 continue;
             }
@@ -166,10 +146,10 @@ impl Context<'_> {
             sweep(&mut hidden, &known, shortest * 1e-3, counting, &mut layers);
             result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
             if segment.bounds && !layers.iter().any(is_whole) {
-                self.gather_backed(segment, item, all, entries, result);
+                self.gather_backed(segment, item, &mut memory.triangles, entries, result);
             }
         }
-        all.found = Found { hidden, known, layers };
+        memory.found = Found { hidden, known, layers };
     }
 
     /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over the page does not part its
@@ -177,7 +157,7 @@ impl Context<'_> {
     fn decide_finer(
         &self,
         items: &[Item],
-        all: &mut TileTriangles,
+        memory: &mut Memory,
         entries: Entries,
         grid: &Grid,
         result: &mut TileResult,
@@ -187,7 +167,7 @@ impl Context<'_> {
         let mut cover = vec![OPEN; grid.len()];
         if !counting {
             for entry in entries.chosen {
-                let whole = all.whole(*entry, triangles);
+                let whole = &memory.triangles.look_up(*entry, triangles).whole;
                 let frame = &triangles.view.frame;
                 let step = step(&whole.corners, limits, &whole.slack, frame);
                 cover::add(&whole.corners, grid, step, limits, &mut cover);
@@ -218,7 +198,7 @@ impl Context<'_> {
                 put(*tile as usize, *item);
             }
         });
-        let fine_pairs = self.finer_pairs(all, entries, grid, |tile, nearest| {
+        let fine_pairs = self.finer_pairs(&mut memory.triangles, entries, grid, |tile, nearest| {
             nearest >= cover[tile] && !fine_items.of(tile).is_empty()
         });
         let fine_entries = grouped(grid.len(), |put| {
@@ -234,7 +214,7 @@ impl Context<'_> {
         for tile in 0..grid.len() {
             let (items, chosen) = (fine_items.of(tile), fine_entries.of(tile));
             if !items.is_empty() {
-                self.decide(items, all, Entries { chosen, ordered: false }, (grid, tile), result);
+                self.decide(items, memory, Entries { chosen, ordered: false }, (grid, tile), result);
             }
         }
         true
@@ -258,7 +238,7 @@ impl Context<'_> {
             let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
             let tiles = grid.tile_box(low - slack, high + slack);
             // The box of a needle holds many tiles that it does not meet.
-            let sides = (tiles.area() > 4).then(|| Sides::new(&all.whole(*entry, triangles).corners));
+            let sides = (tiles.area() > 4).then(|| Sides::new(&all.look_up(*entry, triangles).whole.corners));
             for row in tiles.top..=tiles.bottom {
                 let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
                 let columns = sides.as_ref().map_or(whole, |sides| sides.columns(grid, tiles, row, reach));
@@ -292,7 +272,7 @@ impl Context<'_> {
             (high.y as f32).next_up(),
         ];
         let farthest = (low.z as f32).next_down();
-        let part = Part::new(segment, item.start, item.end);
+        let ends = all.place.both([p, q].map(DVec3::truncate));
         let mut run = NO_RUN;
         for entry in entries.chosen {
             let reach = &all.reaches[*entry as usize];
@@ -310,8 +290,12 @@ impl Context<'_> {
                 continue;
             }
             *tests += 1;
-            let whole = all.whole(*entry, triangles);
-            let found = hidden_interval(segment, &part, whole, &triangles.view.frame, limits);
+            let LookedUp { sides, whole } = all.look_up(*entry, triangles);
+            if ends.is_some_and(|[p, q]| sides.are_beyond_a_side(p, q)) {
+                continue;
+            }
+            let range = (item.start, item.end);
+            let found = hidden_interval(segment, range, whole, &triangles.view.frame, limits);
             let Some(found) = found else {
                 continue;
             };
@@ -338,7 +322,9 @@ impl Context<'_> {
     ) {
         let Compared { triangles, limits, .. } = self.compared;
         let Some(side) = OuterSide::new(segment, triangles) else { return };
-        let [low, high] = side.between(segment.at(item.start), segment.at(item.end));
+        let beside = side.beside(segment.at(item.start), segment.at(item.end));
+        let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
+        let ends = all.place.both(beside);
         let mut run = NO_RUN;
         for interval in self.long.iter().flat_map(|long| long.backed(item)) {
             result.backed.push((item.segment, interval));
@@ -353,7 +339,10 @@ impl Context<'_> {
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
-            let whole = all.whole(*entry, triangles);
+            let LookedUp { sides, whole } = all.look_up(*entry, triangles);
+            if ends.is_some_and(|[p, q]| sides.are_beyond_a_side(p, q)) {
+                continue;
+            }
             let Some((start, end)) = side.range(whole, limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {

@@ -26,7 +26,7 @@ use super::long_pairs::LongPairs;
 use super::occlude::Interval;
 use super::occluders::Triangles;
 use super::project::ImageSegment;
-use super::tile::{Context, TileResult, TileTriangles};
+use super::tile::{Context, Memory, TileResult};
 use crate::math::grouped::{Grouped, grouped};
 use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
@@ -120,13 +120,13 @@ pub fn decide(
     const TILES: usize = 64;
     let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
         .into_par_iter()
-        .map_init(TileTriangles::default, |all, k| {
+        .map_init(Memory::default, |memory, k| {
             let mut result = TileResult::default();
             for tile in k * TILES..((k + 1) * TILES).min(grid.len()) {
                 let mut decide = |items: &[Item], ids: &mut dyn Iterator<Item = &u32>| {
                     if items.iter().any(|item| item.end > item.start) {
-                        all.replace(ids.map(reach));
-                        context.decide_tile(items, all, &grid, tile, &mut result);
+                        memory.triangles.replace(ids.map(reach), &grid, tile, limits);
+                        context.decide_tile(items, memory, &grid, tile, &mut result);
                     }
                 };
                 let (items, ids) = (items.of(tile), occluders.of(tile));

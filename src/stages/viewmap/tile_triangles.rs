@@ -1,0 +1,63 @@
+//! [`TileTriangles`]: the triangles over one tile, as its lines ask for them.
+
+use super::edge_functions::{EdgeFunctions, Place};
+use super::grid::Grid;
+use super::limits::Limits;
+use super::occluders::{Occluder, Reach, Triangles};
+
+/// Stands for no place.
+const NOWHERE: u32 = u32::MAX;
+
+/// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole. Those of the next tile
+/// take the memory over.
+#[derive(Debug, Default)]
+pub(super) struct TileTriangles {
+    /// How far each reaches.
+    pub(super) reaches: Vec<Reach>,
+    /// The place of each among those that were looked up, if it was.
+    places: Vec<u32>,
+    looked_up: Vec<LookedUp>,
+    /// The tile, with what lies just beside it.
+    pub(super) place: Place,
+}
+
+/// A triangle of a tile that was looked up.
+#[derive(Debug)]
+pub(super) struct LookedUp {
+    pub(super) sides: EdgeFunctions,
+    pub(super) whole: Occluder,
+}
+
+impl TileTriangles {
+    /// Makes these the triangles of another tile of a grid.
+    pub(super) fn replace(
+        &mut self,
+        reaches: impl Iterator<Item = Reach>,
+        grid: &Grid,
+        tile: usize,
+        limits: &Limits,
+    ) {
+        let half = grid.cell / 2.0;
+        let corner = grid.corner(tile as u32 % grid.columns, tile as u32 / grid.columns);
+        // Lines are also asked about a little beside themselves.
+        self.place = Place { middle: corner + half, reach: half * (1.0 + 1e-5) + 2.0 * limits.beside };
+        self.reaches.clear();
+        self.reaches.extend(reaches);
+        self.places.clear();
+        self.places.resize(self.reaches.len(), NOWHERE);
+        self.looked_up.clear();
+    }
+
+    /// A triangle with all that the comparison needs.
+    #[inline]
+    pub(super) fn look_up(&mut self, entry: u32, triangles: &Triangles) -> &LookedUp {
+        let place = &mut self.places[entry as usize];
+        if *place == NOWHERE {
+            *place = self.looked_up.len() as u32;
+            let whole = triangles.occluder(self.reaches[entry as usize].id);
+            let sides = EdgeFunctions::new(&whole.corners, &self.place, triangles.limits);
+            self.looked_up.push(LookedUp { sides, whole });
+        }
+        &self.looked_up[*place as usize]
+    }
+}
