@@ -1,5 +1,6 @@
 //! Seams between surfaces that were each turned into triangles by itself are no lines; gaps and steps that are meant stay.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use crate::support::dice::Dice;
@@ -51,6 +52,41 @@ fn box_of_tiles() -> Solid {
     solid
 }
 
+/// A unit box of which each side is parted in its own places along its edges, and triangles without area that stitch sides to
+/// each other there: two along each edge, next to each other or one upon the other.
+fn stitched_box(upon: bool) -> Solid {
+    let mut solid = Solid { triangles: Vec::new(), ..cuboid(DVec3::ZERO, DVec3::ONE) };
+    let sides = [[0u32, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let mut stitches = BTreeMap::new();
+    for side in sides {
+        let at = |positions: &[DVec3], v: u32| positions[v as usize];
+        let middle = solid.positions.len() as u32;
+        solid.positions.push(side.iter().map(|v| at(&solid.positions, *v)).sum::<DVec3>() / 4.0);
+        for k in 0..4 {
+            let (from, to) = (side[k], side[(k + 1) % 4]);
+            let [low, high] = [from.min(to), from.max(to)];
+            let near = solid.positions.len() as u32;
+            let is_first = !stitches.contains_key(&[low, high]);
+            let near = *stitches.entry([low, high]).or_insert(near);
+            let far = near + 1;
+            if is_first {
+                let [a, b] = [low, high].map(|v| at(&solid.positions, v));
+                solid.positions.extend([a.lerp(b, 0.25), a.lerp(b, 0.75)]);
+                let needles = if upon {
+                    [[low, high, far], [low, near, high]]
+                } else {
+                    [[low, near, far], [near, high, far]]
+                };
+                let turned = |[a, b, c]: [u32; 3]| if from == low { [a, b, c] } else { [c, b, a] };
+                solid.triangles.extend(needles.map(turned));
+            }
+            let own = if is_first { far } else { near };
+            solid.triangles.extend([[from, own, middle], [own, to, middle]]);
+        }
+    }
+    solid
+}
+
 /// A tube about the z axis with its own number of sides.
 fn tube(around: u32, from: f64, to: f64) -> Solid {
     let at = |k: u32, z: f64| {
@@ -77,10 +113,8 @@ fn key(lines: &[[Point; 2]]) -> Vec<[i64; 2]> {
     ends
 }
 
-#[test]
-fn a_box_of_tiles_is_drawn_as_a_box() {
-    let tiles = box_of_tiles();
-    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 0, "every edge has two faces");
+/// Asserts that a solid is drawn as the unit box, from wherever one looks.
+fn assert_drawn_as_a_box(solid: &Solid) {
     let mut dice = Dice::new(5);
     for k in 0..12 {
         let way = dice.direction() * 6.0;
@@ -96,9 +130,25 @@ fn a_box_of_tiles_is_drawn_as_a_box() {
             assert!(drawn.visible_of(LineKind::Border).is_empty());
             drawn.visible()
         };
-        let (own, plain) = (drawn(tiles.clone()), drawn(cuboid(DVec3::ZERO, DVec3::ONE)));
+        let (own, plain) = (drawn(solid.clone()), drawn(cuboid(DVec3::ZERO, DVec3::ONE)));
         assert!((length(&own) - length(&plain)).abs() < 1e-6, "{} and {}", length(&own), length(&plain));
         assert!(key(&plain).iter().all(|end| key(&own).contains(end)));
+    }
+}
+
+#[test]
+fn a_box_of_tiles_is_drawn_as_a_box() {
+    let tiles = box_of_tiles();
+    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 0, "every edge has two faces");
+    assert_drawn_as_a_box(&tiles);
+}
+
+#[test]
+fn a_box_whose_sides_are_stitched_by_triangles_without_area_is_drawn_as_a_box() {
+    for upon in [false, true] {
+        let stitched = stitched_box(upon);
+        assert_eq!(mesh(&stitched).cleaning.degenerate, 24);
+        assert_drawn_as_a_box(&stitched);
     }
 }
 

@@ -153,6 +153,7 @@ impl<'a> Finder<'a> {
                 }
                 self.classify_pair(edge, first, second, same_way)
             }
+            EdgeFaces::One(face) if self.degenerate(face) => self.classify_beside_needle(edge, &[face]),
             EdgeFaces::One(face) => self.classify_single(edge, face),
             EdgeFaces::Many(faces) => self.classify_fan(edge, faces),
         }
@@ -208,21 +209,31 @@ impl<'a> Finder<'a> {
     }
 
     fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
-        (self.wants(LineKind::Border) && !self.degenerate(face)).then(|| FeatureSegment {
+        self.wants(LineKind::Border).then(|| FeatureSegment {
             both_seen: false,
             ..self.segment(edge, LineKind::Border, face, [face, NO_FACE])
         })
     }
 
-    fn classify_beside_needle(&self, edge: usize, faces: &[u32; 2]) -> Option<FeatureSegment> {
-        let real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
-        let needle = faces.iter().copied().find(|f| self.degenerate(*f))?;
-        let &[face] = real.as_slice() else { return None };
+    /// Where one of the faces or both have no area, what is seen through them meets.
+    fn classify_beside_needle(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
         let [lo, hi] = self.mesh.edges.vertices[edge];
-        match beyond(self.mesh, needle, lo, hi) {
-            Beyond::Face(other) => self.classify_pair(edge, face, other, false),
-            Beyond::LongEdge => None,
-            Beyond::Nothing => self.classify_single(edge, face),
+        let mut seen = Vec::with_capacity(faces.len());
+        for face in faces {
+            if !self.degenerate(*face) {
+                seen.push(*face);
+                continue;
+            }
+            match beyond(self.mesh, *face, lo, hi) {
+                Beyond::Face(other) => seen.push(other),
+                Beyond::LongEdge => return None,
+                Beyond::Nothing => {}
+            }
+        }
+        match *seen.as_slice() {
+            [first, second] if first != second => self.classify_pair(edge, first, second, false),
+            [face] => self.classify_single(edge, face),
+            _ => None,
         }
     }
 

@@ -29,11 +29,10 @@ impl Dihedral {
     pub fn at(mesh: &Mesh, edge: usize) -> Option<Self> {
         match mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way } => {
-                let flat = faces.map(|f| mesh.is_degenerate(FaceId(f)));
-                if flat == [false; 2] {
-                    return Some(Self::of(mesh, faces, same_way));
+                if faces.iter().any(|f| mesh.is_degenerate(FaceId(*f))) {
+                    return beside_needle(mesh, edge, faces);
                 }
-                beside_needle(mesh, edge, faces, flat)
+                Some(Self::of(mesh, faces, same_way))
             }
             EdgeFaces::One(_) => None,
             EdgeFaces::Many(faces) => {
@@ -76,17 +75,19 @@ pub fn turn_of(cosine: f32) -> f32 {
 
 /// Out of line: needles are rare.
 #[cold]
-fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2], flat: [bool; 2]) -> Option<Dihedral> {
-    let (face, needle) = match flat {
-        [false, true] => (faces[0], faces[1]),
-        [true, false] => (faces[1], faces[0]),
-        _ => return None,
-    };
+fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<Dihedral> {
     let [lo, hi] = mesh.edges.vertices[edge];
-    match beyond(mesh, needle, lo, hi) {
-        Beyond::Face(other) => Some(Dihedral::of(mesh, [face, other], false)),
-        Beyond::LongEdge | Beyond::Nothing => None,
-    }
+    let seen = |face: u32| {
+        if !mesh.is_degenerate(FaceId(face)) {
+            return Some(face);
+        }
+        match beyond(mesh, face, lo, hi) {
+            Beyond::Face(other) => Some(other),
+            Beyond::LongEdge | Beyond::Nothing => None,
+        }
+    };
+    let [first, second] = [seen(faces[0])?, seen(faces[1])?];
+    (first != second).then(|| Dihedral::of(mesh, [first, second], false))
 }
 
 /// Whether a face runs along one of its edges from the smaller vertex to the larger one.
