@@ -128,10 +128,13 @@ fn assert_drawn_as_a_box(solid: &Solid) {
         let drawn = |solid: Solid| {
             let drawn = stages(&scene([solid]), &camera, &exact());
             assert!(drawn.visible_of(LineKind::Border).is_empty());
-            drawn.visible()
+            [drawn.visible(), drawn.outline()]
         };
-        let (own, plain) = (drawn(solid.clone()), drawn(cuboid(DVec3::ZERO, DVec3::ONE)));
-        assert!((length(&own) - length(&plain)).abs() < 1e-6, "{} and {}", length(&own), length(&plain));
+        let ([own, outline], [plain, plain_outline]) =
+            (drawn(solid.clone()), drawn(cuboid(DVec3::ZERO, DVec3::ONE)));
+        for (own, plain) in [(&own, &plain), (&outline, &plain_outline)] {
+            assert!((length(own) - length(plain)).abs() < 1e-6, "{} and {}", length(own), length(plain));
+        }
         assert!(key(&plain).iter().all(|end| key(&own).contains(end)));
     }
 }

@@ -53,10 +53,12 @@ fn outward(segment: &ImageSegment, triangles: &Triangles) -> Option<DVec2> {
     Some(if height(face) > 0.0 { -across } else { across })
 }
 
-/// How far the third corner of a face lies to the side of a segment; 0 where it is cut off.
+/// How far a face reaches to the side of a segment, at the corner farthest from it; 0 where that is cut off. A face beyond a needle
+/// has corners on the segment's line that are no ends of it.
 fn height(segment: &ImageSegment, across: DVec2, face: u32, triangles: &Triangles) -> f64 {
-    let corners = triangles.mesh.triangles[face as usize];
-    let third = corners.iter().find(|v| !segment.ends.contains(v));
-    let height = third.map(|v| (triangles.view.points[*v as usize] - segment.a).truncate().dot(across));
-    height.filter(|h| h.is_finite()).unwrap_or(0.0)
+    let corners = triangles.mesh.triangles[face as usize].into_iter();
+    let others = corners.filter(|v| !segment.ends.contains(v));
+    let height = |v: u32| (triangles.view.points[v as usize] - segment.a).truncate().dot(across);
+    let farthest = others.map(height).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    farthest.filter(|h| h.is_finite()).unwrap_or(0.0)
 }

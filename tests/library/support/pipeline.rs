@@ -53,6 +53,12 @@ impl Stages {
         self.map.edges.iter().filter(of_kind).map(|e| self.ends(e)).collect()
     }
 
+    /// The visible view edges behind which there is background.
+    pub fn outline(&self) -> Vec<[Point; 2]> {
+        let of_outline = |e: &&ViewEdge| e.silhouette && e.invisibility == 0;
+        self.map.edges.iter().filter(of_outline).map(|e| self.ends(e)).collect()
+    }
+
     /// The hidden view edges.
     pub fn hidden(&self) -> Vec<[Point; 2]> {
         self.map.edges.iter().filter(|e| e.invisibility > 0).map(|e| self.ends(e)).collect()
