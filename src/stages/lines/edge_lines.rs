@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::mesh::dihedral::{mark, runs_up};
-use crate::mesh::needle::{Beyond, beyond};
+use crate::mesh::needle::{Beyond, seen_from};
 use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, MaterialId, Mesh};
 use crate::shape::{HardEdges, Origin, SmoothNormals};
 use crate::view::View;
@@ -217,15 +217,10 @@ impl<'a> Finder<'a> {
 
     /// Where one of the faces or both have no area, what is seen through them meets.
     fn classify_beside_needle(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
-        let [lo, hi] = self.mesh.edges.vertices[edge];
         let mut seen = Vec::with_capacity(faces.len());
         for face in faces {
-            if !self.degenerate(*face) {
-                seen.push(*face);
-                continue;
-            }
-            match beyond(self.mesh, *face, lo, hi) {
-                Beyond::Face(other) => seen.push(other),
+            match seen_from(self.mesh, *face, self.mesh.edges.vertices[edge]) {
+                Beyond::Face(face) => seen.push(face),
                 Beyond::LongEdge => return None,
                 Beyond::Nothing => {}
             }

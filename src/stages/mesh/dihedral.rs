@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::needle::{Beyond, beyond};
+use super::needle::{Beyond, seen_from};
 use super::{EdgeFaces, EdgeMark, FaceId, Mesh};
 use crate::math::function::acos;
 
@@ -76,15 +76,9 @@ pub fn turn_of(cosine: f32) -> f32 {
 /// Out of line: needles are rare.
 #[cold]
 fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<Dihedral> {
-    let [lo, hi] = mesh.edges.vertices[edge];
-    let seen = |face: u32| {
-        if !mesh.is_degenerate(FaceId(face)) {
-            return Some(face);
-        }
-        match beyond(mesh, face, lo, hi) {
-            Beyond::Face(other) => Some(other),
-            Beyond::LongEdge | Beyond::Nothing => None,
-        }
+    let seen = |face: u32| match seen_from(mesh, face, mesh.edges.vertices[edge]) {
+        Beyond::Face(seen) => Some(seen),
+        Beyond::LongEdge | Beyond::Nothing => None,
     };
     let [first, second] = [seen(faces[0])?, seen(faces[1])?];
     (first != second).then(|| Dihedral::of(mesh, [first, second], false))

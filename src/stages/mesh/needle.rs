@@ -20,9 +20,15 @@ pub enum Beyond {
     Nothing,
 }
 
+/// Looks from an edge (`lo` < `hi`) at one of its faces, and through it if it is a needle.
+#[must_use]
+pub fn seen_from(mesh: &Mesh, face: u32, [lo, hi]: [u32; 2]) -> Beyond {
+    if mesh.is_degenerate(FaceId(face)) { beyond(mesh, face, lo, hi) } else { Beyond::Face(face) }
+}
+
 /// Looks from an edge (`lo` < `hi`) through `needle`.
 #[must_use]
-pub fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
+fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
     let (mut needle, mut edge) = (needle, [lo, hi]);
     let mut long = long_edge(mesh, needle);
     if long == edge {

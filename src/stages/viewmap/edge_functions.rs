@@ -15,15 +15,15 @@ const ROUNDING: f64 = 1e-6;
 
 /// The area of the image that [`EdgeFunctions`] are asked about.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Place {
+pub(super) struct Window {
     /// Its middle, from which points are measured.
     pub(super) middle: DVec2,
     /// No coordinate of its points is farther from the middle.
     pub(super) reach: f64,
 }
 
-impl Place {
-    /// A point of the image as the functions are asked about it; none off the place.
+impl Window {
+    /// A point of the image as the functions are asked about it; none off the window.
     #[inline]
     pub(super) fn point(&self, point: DVec2) -> Option<[f32; 2]> {
         let from_middle = point - self.middle;
@@ -31,7 +31,7 @@ impl Place {
         is_here.then_some([from_middle.x as f32, from_middle.y as f32])
     }
 
-    /// Two points, if both are on the place.
+    /// Two points, if both are on the window.
     #[inline]
     pub(super) fn both(&self, points: [DVec2; 2]) -> Option<[[f32; 2]; 2]> {
         Some([self.point(points[0])?, self.point(points[1])?])
@@ -48,17 +48,17 @@ pub(super) struct EdgeFunctions {
 }
 
 impl EdgeFunctions {
-    /// Those of a triangle in image space, for the points of a place.
+    /// Those of a triangle in image space, for the points of a window.
     #[inline]
-    pub(super) fn new(corners: &[DVec3; 3], place: &Place, limits: &Limits) -> Self {
+    pub(super) fn new(corners: &[DVec3; 3], window: &Window, limits: &Limits) -> Self {
         let [a, b, c] = corners.map(DVec3::truncate);
         let sign = (b - a).perp_dot(c - a).signum();
         let mut made = Self { x: [0.0; 4], y: [0.0; 4], at_middle: [1.0; 4] };
         for (k, (corner, next)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
             let side = (next - corner) * sign;
-            let at_middle = side.perp_dot(place.middle - corner);
+            let at_middle = side.perp_dot(window.middle - corner);
             let size = side.x.abs() + side.y.abs();
-            let raised = at_middle + limits.cover * size + ROUNDING * (at_middle.abs() + place.reach * size);
+            let raised = at_middle + limits.cover * size + ROUNDING * (at_middle.abs() + window.reach * size);
             (made.x[k], made.y[k], made.at_middle[k]) = (-side.y as f32, side.x as f32, raised as f32);
         }
         made
@@ -97,11 +97,11 @@ mod tests {
         let limits = Limits::new(&view.frame);
         let mut dice = Dice::new(11);
         let [mut told, mut left, mut covering] = [0; 3];
-        // From triangles much smaller than the place to such whose corners are far off it, near the origin and away.
+        // From triangles much smaller than the window to such whose corners are far off it, near the origin and away.
         for size in [1e-3, 0.1, 3.0, 100.0, 1e5] {
             for far in [0.0, 1e3, 1e7] {
-                let place = Place { middle: DVec2::new(far, -far), reach: 2.0 };
-                let centre = place.middle.extend(0.0);
+                let window = Window { middle: DVec2::new(far, -far), reach: 2.0 };
+                let centre = window.middle.extend(0.0);
                 for round in 0..2000 {
                     let near = centre + dice.point(2.0);
                     let corners = [0; 3].map(|_| near + dice.point(size));
@@ -109,8 +109,8 @@ mod tests {
                     let anywhere = [0; 2].map(|_| (centre + dice.point(2.0)).truncate());
                     let along = [0.2, 0.7].map(|t| corners[0].lerp(corners[1], t).truncate());
                     let [p, q] = if round % 2 == 0 { anywhere } else { along };
-                    let Some([a, b]) = place.both([p, q]) else { continue };
-                    let beyond = EdgeFunctions::new(&corners, &place, &limits).are_beyond_a_side(a, b);
+                    let Some([a, b]) = window.both([p, q]) else { continue };
+                    let beyond = EdgeFunctions::new(&corners, &window, &limits).are_beyond_a_side(a, b);
                     let covers = covered(p, q, &corners, &limits).is_some();
                     assert!(!(beyond && covers), "{size} {far}: {p} {q} {corners:?}");
                     told += u32::from(beyond);

@@ -272,7 +272,7 @@ impl Context<'_> {
             (high.y as f32).next_up(),
         ];
         let farthest = (low.z as f32).next_down();
-        let ends = all.place.both([p, q].map(DVec3::truncate));
+        let ends = all.window.both([p, q].map(DVec3::truncate));
         let mut run = NO_RUN;
         for entry in entries.chosen {
             let reach = &all.reaches[*entry as usize];
@@ -324,7 +324,7 @@ impl Context<'_> {
         let Some(side) = OuterSide::new(segment, triangles) else { return };
         let beside = side.beside(segment.at(item.start), segment.at(item.end));
         let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
-        let ends = all.place.both(beside);
+        let ends = all.window.both(beside);
         let mut run = NO_RUN;
         for interval in self.long.iter().flat_map(|long| long.backed(item)) {
             result.backed.push((item.segment, interval));

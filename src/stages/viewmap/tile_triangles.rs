@@ -1,6 +1,6 @@
 //! [`TileTriangles`]: the triangles over one tile, as its lines ask for them.
 
-use super::edge_functions::{EdgeFunctions, Place};
+use super::edge_functions::{EdgeFunctions, Window};
 use super::grid::Grid;
 use super::limits::Limits;
 use super::occluders::{Occluder, Reach, Triangles};
@@ -18,7 +18,7 @@ pub(super) struct TileTriangles {
     places: Vec<u32>,
     looked_up: Vec<LookedUp>,
     /// The tile, with what lies just beside it.
-    pub(super) place: Place,
+    pub(super) window: Window,
 }
 
 /// A triangle of a tile that was looked up.
@@ -40,7 +40,7 @@ impl TileTriangles {
         let half = grid.cell / 2.0;
         let corner = grid.corner(tile as u32 % grid.columns, tile as u32 / grid.columns);
         // Lines are also asked about a little beside themselves.
-        self.place = Place { middle: corner + half, reach: half * (1.0 + 1e-5) + 2.0 * limits.beside };
+        self.window = Window { middle: corner + half, reach: half * (1.0 + 1e-5) + 2.0 * limits.beside };
         self.reaches.clear();
         self.reaches.extend(reaches);
         self.places.clear();
@@ -55,7 +55,7 @@ impl TileTriangles {
         if *place == NOWHERE {
             *place = self.looked_up.len() as u32;
             let whole = triangles.occluder(self.reaches[entry as usize].id);
-            let sides = EdgeFunctions::new(&whole.corners, &self.place, triangles.limits);
+            let sides = EdgeFunctions::new(&whole.corners, &self.window, triangles.limits);
             self.looked_up.push(LookedUp { sides, whole });
         }
         &self.looked_up[*place as usize]
