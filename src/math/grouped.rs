@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 /// Values by the groups they belong to, in each in the order in which they came.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grouped<T> {
@@ -38,6 +40,30 @@ pub fn grouped<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -
     starts.truncate(count + 1);
     Grouped { starts, values }
 }
+
+/// Sorts pairs of group and value into `count` groups; of the same pairs twice as fast as [`grouped`], which has them called for.
+pub fn grouped_pairs<T: Copy>(count: usize, pairs: impl Iterator<Item = (usize, T)> + Clone) -> Grouped<T> {
+    let Some((_, blank)) = pairs.clone().next() else {
+        return Grouped { starts: vec![0; count + 1], values: Vec::new() };
+    };
+    // As above.
+    let mut starts = vec![0u32; count + 2];
+    pairs.clone().for_each(|(group, _)| starts[group + 2] += 1);
+    for group in 0..count {
+        starts[group + 2] += starts[group + 1];
+    }
+    let mut values = vec![blank; starts[count + 1] as usize];
+    for (group, value) in pairs {
+        let next = &mut starts[group + 1];
+        values[*next as usize] = value;
+        *next += 1;
+    }
+    starts.truncate(count + 1);
+    Grouped { starts, values }
+}
+
+/// So many groups one task tidies.
+const CHUNK: usize = 1 << 13;
 
 impl<T: Copy> Grouped<T> {
     /// How many groups there are.
@@ -78,23 +104,40 @@ impl<T: Copy> Grouped<T> {
         self.starts[group] as usize..self.starts[group + 1] as usize
     }
 
-    /// These groups after `tidy` has ordered and joined the values of each that is not empty.
-    pub fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>)) -> Self {
-        let mut tidied = Self {
-            starts: Vec::with_capacity(self.starts.len()),
-            values: Vec::with_capacity(self.values.len()),
-        };
-        tidied.starts.push(0);
-        let mut own: Vec<T> = Vec::new();
-        for group in 0..self.count() {
-            let found = self.of(group);
-            if !found.is_empty() {
-                own.clear();
-                own.extend_from_slice(found);
-                tidy(group, &mut own);
-                tidied.values.extend_from_slice(&own);
+    /// These groups after `tidy` has ordered and joined the values of each that is not empty; of many groups several threads
+    /// tidy some each.
+    pub fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>) + Sync) -> Self
+    where
+        T: Send + Sync,
+    {
+        let count = self.count();
+        let chunks = (count / CHUNK).max(1);
+        let of_chunk = |chunk: usize| {
+            let groups = chunk * count / chunks..(chunk + 1) * count / chunks;
+            let mut ends = Vec::with_capacity(groups.len());
+            let mut values = Vec::with_capacity(self.of_all(groups.clone()).len());
+            let mut own: Vec<T> = Vec::new();
+            for group in groups {
+                let found = self.of(group);
+                if !found.is_empty() {
+                    own.clear();
+                    own.extend_from_slice(found);
+                    tidy(group, &mut own);
+                    values.extend_from_slice(&own);
+                }
+                ends.push(values.len() as u32);
             }
-            tidied.starts.push(tidied.values.len() as u32);
+            (ends, values)
+        };
+        let found: Vec<(Vec<u32>, Vec<T>)> =
+            (0..chunks).into_par_iter().with_max_len(1).map(of_chunk).collect();
+        let mut tidied = Self { starts: Vec::with_capacity(count + 1), values: Vec::new() };
+        tidied.starts.push(0);
+        tidied.values.reserve_exact(found.iter().map(|(_, values)| values.len()).sum());
+        for (ends, values) in found {
+            let before = tidied.values.len() as u32;
+            tidied.starts.extend(ends.iter().map(|end| before + end));
+            tidied.values.extend_from_slice(&values);
         }
         tidied
     }
@@ -123,6 +166,24 @@ mod tests {
         let none = of_words(&[]);
         assert_eq!((none.count(), none.of(3).len()), (4, 0));
         assert_eq!(Grouped::<u32>::default().count(), 0);
+    }
+
+    #[test]
+    fn pairs_are_sorted_as_what_is_called_for_is_and_many_groups_are_tidied_like_few() {
+        let count = 3 * CHUNK + 17;
+        let pairs =
+            |items: usize| (0..items).map(move |item| (item.wrapping_mul(2_654_435_761) % count, item));
+        for items in [0, 1, 100, 5 * CHUNK] {
+            let plain = grouped(count, |put| pairs(items).for_each(|(group, value)| put(group, value)));
+            assert_eq!(grouped_pairs(count, pairs(items)), plain, "{items} items");
+            let kept = |_: usize, own: &mut Vec<usize>| own.retain(|value| value % 7 < 3);
+            let tidied = plain.clone().tidied(kept);
+            for group in 0..count {
+                let mut own = plain.of(group).to_vec();
+                kept(group, &mut own);
+                assert_eq!(tidied.of(group), own, "{group}");
+            }
+        }
     }
 
     #[test]

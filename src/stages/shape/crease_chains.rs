@@ -9,7 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::math::function::cos;
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::dihedral::{Dihedral, turn_of};
 use crate::mesh::{FaceId, Mesh, Turns};
 
@@ -79,13 +79,11 @@ impl<'a> Folds<'a> {
     /// Sorts the ends of folds by vertex.
     pub fn new(mesh: &'a Mesh, folds: Vec<Fold>) -> Self {
         let vertices = |f: &Fold| mesh.edges.vertices[f.edge as usize];
-        let ends = grouped(mesh.positions.len(), |put| {
-            for (i, fold) in folds.iter().enumerate() {
-                for (side, v) in vertices(fold).into_iter().enumerate() {
-                    put(v as usize, (i << 1 | side) as u32);
-                }
-            }
-        });
+        let of_fold = |(fold, id): (&Fold, u32)| {
+            let [a, b] = vertices(fold);
+            [(a as usize, id << 1), (b as usize, id << 1 | 1)]
+        };
+        let ends = grouped_pairs(mesh.positions.len(), folds.iter().zip(0..).flat_map(of_fold));
         Self { mesh, folds, ends }
     }
 
@@ -127,25 +125,21 @@ impl<'a> Folds<'a> {
         let meets = |end: u32| {
             self.ends.of(self.vertex(end)).iter().any(|other| other >> 1 != end >> 1 && is_high(other))
         };
-        let loose = (0..2 * self.folds.len() as u32).filter(|end| is_high(end) && !meets(*end));
-        let (mut more, mut pairs) = (Vec::new(), Vec::new());
-        for from in loose {
-            let (first, mut end) = (more.len(), from);
-            let arrives = loop {
+        let walked_from = |from: u32| -> Vec<usize> {
+            let (mut walked, mut pairs, mut end) = (Vec::new(), Vec::new(), from);
+            loop {
                 pairs.clear();
                 self.pair_up(self.vertex(end), &mut pairs);
-                let Some(next) = pairs.iter().find_map(|pair| pair.other(end)) else { break false };
-                more.push(self.folds[(next >> 1) as usize].edge as usize);
+                let Some(next) = pairs.iter().find_map(|pair| pair.other(end)) else { return Vec::new() };
+                walked.push(self.folds[(next >> 1) as usize].edge as usize);
                 end = next ^ 1;
                 if meets(end) {
-                    break true;
+                    return walked;
                 }
-            };
-            if !arrives {
-                more.truncate(first);
             }
-        }
-        more
+        };
+        let ends = (0..2 * self.folds.len() as u32).into_par_iter().with_min_len(1 << 10);
+        ends.filter(|end| is_high(end) && !meets(*end)).flat_map_iter(walked_from).collect()
     }
 
     /// Which ends continue each other: for each end the other one and the cosine of the bend

@@ -84,14 +84,15 @@ impl HardEdges {
         mesh: &Mesh,
         turns: &Turns,
         [crease_deg, low_deg]: [f64; 2],
-        goes_on: impl Fn(usize) -> bool,
+        goes_on: impl Fn(usize) -> bool + Sync,
     ) -> Self {
-        let mut folds = folds(mesh, turns, low_deg);
+        let folds = folds(mesh, turns, low_deg);
         let cosine = cos(crease_deg.to_radians()) as f32;
         // As sharp as `above` has it, by cosine and angle.
         let is_above = |f: &Fold| f.turn > crease_deg as f32 && turns.at(mesh, f.edge as usize) < cosine;
-        let mut edges: Vec<usize> = folds.iter().filter(|f| is_above(f)).map(|f| f.edge as usize).collect();
-        folds.retain(|f| goes_on(f.edge as usize));
+        let all = folds.par_iter().with_min_len(1 << 10);
+        let mut edges: Vec<usize> = all.clone().filter(|f| is_above(f)).map(|f| f.edge as usize).collect();
+        let folds = all.filter(|f| goes_on(f.edge as usize)).copied().collect();
         edges.extend(Folds::new(mesh, folds).going_on(crease_deg));
         Self::of_edges(mesh, edges.into_iter()).with_marks(mesh)
     }

@@ -232,8 +232,8 @@ pub(super) fn verdicts(
         let (face, count) = of_edge(mesh, turns, planes, edge)?;
         Some((number[face as usize], count))
     });
-    for (piece, count) in of_faces.into_iter().chain(of_edges) {
-        counts[piece as usize].add(&count);
+    for (piece, count) in of_faces.iter().chain(&of_edges).flatten() {
+        counts[*piece as usize].add(count);
     }
     let key = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
     let mut together: BTreeMap<_, Count> = BTreeMap::new();
@@ -268,10 +268,10 @@ fn follow_largest<K: Ord>(kin: impl Iterator<Item = K> + Clone, counts: &[Count]
     }
 }
 
-/// What is counted of items in order, summed over runs of one piece: neighbours mostly are of one.
-fn runs(items: usize, count: impl Fn(usize) -> Option<(u32, Count)> + Sync) -> Vec<(u32, Count)> {
+/// What is counted of items, in lists in order, summed over runs of one piece: neighbours mostly are of one.
+fn runs(items: usize, count: impl Fn(usize) -> Option<(u32, Count)> + Sync) -> Vec<Vec<(u32, Count)>> {
     const CHUNK: usize = 1 << 15;
-    let chunks: Vec<Vec<(u32, Count)>> = (0..items.div_ceil(CHUNK))
+    (0..items.div_ceil(CHUNK))
         .into_par_iter()
         .map(|k| {
             let mut runs: Vec<(u32, Count)> = Vec::new();
@@ -283,8 +283,7 @@ fn runs(items: usize, count: impl Fn(usize) -> Option<(u32, Count)> + Sync) -> V
             }
             runs
         })
-        .collect();
-    chunks.concat()
+        .collect()
 }
 
 /// What is counted of an edge between two faces with area, and one of them.

@@ -7,6 +7,8 @@
 //! lies on a triangle is one of its borders, or in contact with it, and so never strictly behind a
 //! square that the triangle fills.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -26,8 +28,8 @@ pub(super) const OPEN: f64 = f64::NEG_INFINITY;
 const LAYERS: f64 = 3.0;
 /// Covers of the whole page are made by no more tasks than this at a time.
 const MOST_SHARES: usize = 8;
-/// Triangles that one task takes together.
-const BLOCK: usize = 64;
+/// Triangles, or expanses, that are taken together.
+const BLOCK: usize = 32;
 
 /// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
 #[derive(Debug, Clone)]
@@ -55,26 +57,35 @@ impl Covers {
             .filter(|id| is_large(triangles, *id, squares.cell))
             .collect();
         let expanses = Expanses::new(triangles, squares.cell);
-        let shares = rayon::current_num_threads().min(MOST_SHARES);
-        let mut covers: Vec<Vec<f64>> = (0..shares)
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|share| {
-                let mut cover = vec![OPEN; squares.len()];
-                // Blocks in turn: triangles of one part of a model are as large as each other.
-                for id in large.chunks(BLOCK).skip(share).step_by(shares).flatten() {
+        // Who is free takes the next few of them. Expanses come first, as one may be as large as all the rest.
+        let (of_expanses, of_large) = (expanses.count().div_ceil(BLOCK), large.len().div_ceil(BLOCK));
+        let next = AtomicUsize::new(0);
+        let of_share = |_: usize| {
+            let (mut cover, mut buffer) = (Vec::new(), Vec::new());
+            loop {
+                let block = next.fetch_add(1, Ordering::Relaxed);
+                if block >= of_expanses + of_large {
+                    break;
+                }
+                cover.resize(squares.len(), OPEN);
+                if block < of_expanses {
+                    for expanse in block * BLOCK..((block + 1) * BLOCK).min(expanses.count()) {
+                        expanses.add(expanse, triangles, &squares, &mut buffer, &mut cover);
+                    }
+                    continue;
+                }
+                for id in large[(block - of_expanses) * BLOCK..].iter().take(BLOCK) {
                     let (points, face) = corners(triangles.mesh, triangles.view, *id);
                     let slack = Slack::of(triangles.mesh.extent(crate::mesh::FaceId(face)));
                     let (frame, limits) = (&triangles.view.frame, triangles.limits);
                     add(&points, &squares, step(&points, limits, &slack, frame), limits, &mut cover);
                 }
-                let mut buffer = Vec::new();
-                for expanse in (share..expanses.count()).step_by(shares) {
-                    expanses.add(expanse, triangles, &squares, &mut buffer, &mut cover);
-                }
-                cover
-            })
-            .collect();
+            }
+            (!cover.is_empty()).then_some(cover)
+        };
+        let shares = rayon::current_num_threads().min(MOST_SHARES);
+        let mut covers: Vec<Vec<f64>> =
+            (0..shares).into_par_iter().with_max_len(1).filter_map(of_share).collect();
         let Some(mut of_square) = covers.pop() else { return Self::none(triangles.grid) };
         // A row of tiles and the rows of squares in it.
         let of_row = |(row, own): (usize, &mut [f64])| {

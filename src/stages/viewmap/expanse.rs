@@ -13,7 +13,8 @@ use super::limits::{Limits, Slack};
 use super::occluders::Triangles;
 use super::sides::Sides;
 use super::slope::{Slope, step};
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped, grouped_pairs};
+use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::view::View;
 
@@ -51,8 +52,9 @@ impl Expanses {
             }
             _ => None,
         };
+        let inner = EdgeSet::collect(mesh.edges.len(), |edge| runs_on(edge).is_some());
         let mut parents: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
-        for [a, b] in (0..mesh.edges.len()).filter_map(runs_on) {
+        for [a, b] in inner.iter().filter_map(runs_on) {
             let (a, b) = (root(&mut parents, a), root(&mut parents, b));
             // The least face of an expanse is its root.
             parents[a.max(b) as usize] = a.min(b);
@@ -63,23 +65,22 @@ impl Expanses {
         let ids = Self::large(view, mesh, &turns, &parents, cell);
         let count = ids.iter().filter(|id| **id != NONE).max().map_or(0, |id| *id as usize + 1);
         let of = |face: u32| Some(ids[parents[face as usize] as usize]).filter(|id| *id != NONE);
-        let faces = grouped(count, |put| {
-            for face in 0..parents.len() as u32 {
-                if let Some(id) = of(face) {
-                    put(id as usize, face);
-                }
-            }
-        });
-        let ends = grouped(count, |put| {
-            for edge in (0..mesh.edges.len()).filter(|edge| runs_on(*edge).is_none()) {
-                let mut last = None;
-                for id in mesh.edges.faces(edge).list().iter().filter_map(|face| of(*face)) {
-                    if last.replace(id) != Some(id) {
-                        put(id as usize, edge as u32);
+        let of_face = |face: u32| of(face).map(|id| (id as usize, face));
+        let (faces, ends) = rayon::join(
+            || grouped_pairs(count, (0..parents.len() as u32).filter_map(of_face)),
+            || {
+                grouped(count, |put| {
+                    for edge in (0..mesh.edges.len()).filter(|edge| !inner.contains(*edge)) {
+                        let mut last = None;
+                        for id in mesh.edges.faces(edge).list().iter().filter_map(|face| of(*face)) {
+                            if last.replace(id) != Some(id) {
+                                put(id as usize, edge as u32);
+                            }
+                        }
                     }
-                }
-            }
-        });
+                })
+            },
+        );
         Self { faces, ends }
     }
 

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::grid::{Around, Grid, TileBox};
 use super::limits::{Limits, Slack};
 use super::sides::Sides;
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -196,11 +196,7 @@ impl Triangles<'_> {
     /// Pairs of tile and triangle by their tiles.
     fn by_tile(&self, found: &[Vec<(u32, u32)>]) -> Grouped<u32> {
         // Chunks follow the order of the triangles, so tiles do too.
-        grouped(self.grid.len(), |put| {
-            for (tile, id) in found.iter().flatten() {
-                put(*tile as usize, *id);
-            }
-        })
+        grouped_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
     }
 
     /// Adds a pair of tile and triangle for each wanted tile in which the triangle may matter.

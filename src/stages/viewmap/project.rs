@@ -60,21 +60,30 @@ impl ImageSegment {
 /// All feature segments of which something lies on the page, in order.
 #[must_use]
 pub fn project(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<ImageSegment> {
-    const CHUNK: usize = 1 << 10;
-    let found: Vec<Vec<ImageSegment>> = lines
-        .segments
-        .par_chunks(CHUNK)
-        .enumerate()
-        .map(|(chunk, segments)| {
-            let numbered = segments.iter().zip((chunk * CHUNK) as u32..);
-            // Most are on the page.
-            let mut found = Vec::with_capacity(segments.len());
-            found.extend(numbered.filter_map(|(s, source)| project_one(mesh, view, lines, s, source)));
-            found
-        })
-        .collect();
-    found.concat()
+    let one = |(segment, source): (&FeatureSegment, u32)| {
+        project_one(mesh, view, lines, segment, source).unwrap_or(OFF_PAGE)
+    };
+    let count = lines.segments.len() as u32;
+    // Mostly all are on the page.
+    let mut found: Vec<ImageSegment> =
+        lines.segments.par_iter().zip(0..count).with_min_len(1 << 10).map(one).collect();
+    if found.par_iter().any(|segment| segment.source == OFF_PAGE.source) {
+        found.retain(|segment| segment.source != OFF_PAGE.source);
+    }
+    found
 }
+
+/// Stands for a segment of which nothing is on the page: no segment has that number.
+const OFF_PAGE: ImageSegment = ImageSegment {
+    a: DVec3::ZERO,
+    b: DVec3::ZERO,
+    ends: [u32::MAX; 2],
+    cut: [false; 2],
+    hosts: [u32::MAX; 2],
+    source: u32::MAX,
+    bounds: false,
+    role: Role::Line,
+};
 
 fn project_one(
     mesh: &Mesh,

@@ -27,7 +27,7 @@ use super::occlude::Interval;
 use super::occluders::Triangles;
 use super::project::ImageSegment;
 use super::tile::{Context, Memory, TileResult};
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped, grouped_pairs};
 use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -222,22 +222,16 @@ fn gather(
     let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - WHOLE_SLACK).collect();
     let open = |segment: u32| !buried[segment as usize];
     let hidden = || {
-        let hidden = grouped(segments.len(), |put| {
-            for item in wholes().filter(|item| open(item.segment)) {
-                put(item.segment as usize, whole(item.start, item.end));
-            }
-            for (segment, layer) in results.iter().flat_map(|r| &r.hidden).filter(|(s, _)| open(*s)) {
-                put(*segment as usize, *layer);
-            }
-        });
+        let of_item = |item: &Item| (item.segment, whole(item.start, item.end));
+        let pieces = results.iter().flat_map(|r| &r.hidden).copied();
+        let found = wholes().map(of_item).chain(pieces).filter(|(segment, _)| open(*segment));
+        let hidden = grouped_pairs(segments.len(), found.map(|(segment, layer)| (segment as usize, layer)));
         hidden.tidied(|segment, layers| join_layers(layers, shortest(segment)))
     };
     let backed = || {
-        let backed = grouped(segments.len(), |put| {
-            for (segment, interval) in results.iter().flat_map(|r| &r.backed) {
-                put(*segment as usize, *interval);
-            }
-        });
+        let pairs = results.iter().flat_map(|r| &r.backed);
+        let backed =
+            grouped_pairs(segments.len(), pairs.map(|(segment, interval)| (*segment as usize, *interval)));
         backed.tidied(|segment, intervals| {
             let mut joined = Vec::new();
             // Beside a corner the outer side may graze a face that only shares the vertex.
