@@ -5,12 +5,14 @@
 //! no view changes, so the first one finds it for all; for views that cut faces into finer ones, what is left whole is known.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use crate::field::Cones;
-use crate::lines::{EdgeSearch, Finer, Known, LineKind, LineOptions, Surface, intersections};
+use crate::lines::{EdgeSearch, Finer, HiddenLines, Known, LineKind, LineOptions, Surface, intersections};
 use crate::trees::finer::PairSearch;
 use crate::trees::intersect::IntersectionCurves;
+use crate::view::View;
+use crate::viewmap::ViewCovers;
 
 /// The search is made for this view of a surface. It takes as long as it saves in 40 to 240 views, in the middle
 /// of the models of `cargo bench --bench dual_tree` in about 100 (last column). Made when as many views have
@@ -25,6 +27,8 @@ const FEW_EDGES: usize = 20_000;
 pub(super) struct LateSearch {
     views: AtomicU32,
     search: OnceLock<EdgeSearch>,
+    /// Whether a view has them found, or is about to.
+    is_found: AtomicBool,
     intersections: OnceLock<IntersectionCurves>,
     /// Of views that may cut faces.
     asked_views: AtomicU32,
@@ -39,16 +43,39 @@ impl LateSearch {
     ///
     /// Views may be drawn side by side: one thread makes what is missing while the others go without, so that none
     /// ever waits.
-    pub fn of_next_view(&self, surface: &Surface, options: &LineOptions) -> Known<'_> {
+    ///
+    /// With `finds` it finds all intersections if none has before.
+    pub fn of_next_view(&self, surface: &Surface, options: &LineOptions, finds: bool) -> Known<'_> {
         // No other view has this number.
         let view = self.views.fetch_add(1, Ordering::Relaxed);
         if view + 1 == MADE_FOR_VIEW && surface.mesh.edges.len() >= FEW_EDGES {
             let _ = self.search.set(EdgeSearch::new(surface));
         }
-        if view == 0 && is_wanted(surface, options) {
+        if finds && is_wanted(surface, options) && !self.is_found.swap(true, Ordering::Relaxed) {
             let _ = self.intersections.set(intersections::all_curves(&surface.mesh));
         }
         Known { search: self.search.get(), intersections: self.intersections.get() }
+    }
+
+    /// Intersections of all that is in sight of one more view, with the covers that say what is: where it has to find them by
+    /// itself and draws nothing hidden, and covers save more than they cost. The first view has to, and all that follow are told;
+    /// where there are too many faces to find all, each has to.
+    pub fn in_sight(
+        &self,
+        surface: &Surface,
+        view: &View,
+        finer: Option<&IntersectionCurves>,
+        options: &LineOptions,
+    ) -> Option<(ViewCovers, IntersectionCurves)> {
+        let is_told = is_wanted(surface, options)
+            && if surface.refined { finer.is_some() } else { self.views.load(Ordering::Relaxed) > 0 };
+        if is_told || options.hidden != HiddenLines::None || !has_intersections(options) {
+            return None;
+        }
+        let covers = ViewCovers::of(&surface.mesh, view)?;
+        let out_of_sight = covers.out_of_sight(&surface.mesh, view);
+        let curves = intersections::curves_in_sight(&surface.mesh, out_of_sight);
+        Some((covers, curves))
     }
 
     /// What bounds the edges of a surface, for one more view that may cut its faces.
@@ -82,7 +109,9 @@ impl LateSearch {
 
 /// Whether all intersections are sought, seen or not.
 fn is_wanted(surface: &Surface, options: &LineOptions) -> bool {
-    options.enabled
-        && options.kinds.contains(&LineKind::Intersection)
-        && intersections::is_searched_in_full(&surface.mesh, options.hidden)
+    has_intersections(options) && intersections::is_searched_in_full(&surface.mesh, options.hidden)
+}
+
+fn has_intersections(options: &LineOptions) -> bool {
+    options.enabled && options.kinds.contains(&LineKind::Intersection)
 }

@@ -283,18 +283,24 @@ impl<'a> Prepared<'a> {
         let paintable = own.as_ref().or(self.paintable.as_ref());
         report.stages_ms.topology = watch.lap_ms();
 
-        let known = if surface.refined {
+        let panes = glass::Panes::of(surface, scene, style);
+        // Through glass one sees more.
+        let is_clear = panes.is_none();
+        let in_sight =
+            is_clear.then(|| self.search.in_sight(surface, &view, finer.as_ref(), sought)).flatten();
+        let (covers, in_sight) = in_sight.unzip();
+        let mut known = if surface.refined {
             Known { intersections: finer.as_ref(), ..Known::default() }
         } else {
-            self.search.of_next_view(surface, sought)
+            self.search.of_next_view(surface, sought, in_sight.is_none())
         };
+        known.intersections = known.intersections.or(in_sight.as_ref());
         let mut lines = lines::extract_with(surface, known, &view, sought);
         let mut warnings = Vec::new();
         let px = Length::px(1.0).in_unit(unit);
         let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
         let textures = paints.as_deref().map(of);
         let colours = paints.as_deref().zip(textures.as_ref());
-        let panes = glass::Panes::of(surface, scene, style);
         // What one sees through casts no shadow.
         let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
         // Shadows on faces that this view has cut are its own.
@@ -312,7 +318,7 @@ impl<'a> Prepared<'a> {
         }
         report.stages_ms.features = watch.lap_ms();
 
-        let map = viewmap::build(&surface.mesh, &view, &lines, sought);
+        let map = viewmap::build_with(&surface.mesh, &view, &lines, sought, covers.as_ref());
         report.stages_ms.visibility = watch.lap_ms();
         let behind = panes.as_ref().map(|panes| panes.look_behind(&surface.mesh, &view, &lines, sought));
         let (view, lines, fills, textures) = (&view, &lines, fills.as_ref(), textures.as_ref());

@@ -4,7 +4,9 @@ use crate::support::models;
 use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
 use ligne::scene::{Camera, Scene, UpAxis};
-use ligne::stages::lines::intersections::{all_curves, curves_of_finer, search, visible_curves};
+use ligne::stages::lines::intersections::{
+    all_curves, curves_in_sight, curves_of_finer, search, visible_curves,
+};
 use ligne::stages::lines::{
     self, Contours, FeatureLines, FeatureSegment, Known, LineKind, LineOptions, Role, Surface,
 };
@@ -12,7 +14,7 @@ use ligne::stages::mesh::{Mesh, Soup};
 use ligne::stages::shape::Origin;
 use ligne::stages::trees::intersect::IntersectionCurves;
 use ligne::stages::view::View;
-use ligne::stages::viewmap;
+use ligne::stages::viewmap::{self, ViewCovers};
 
 /// Directions to the eye: azimuth and elevation in degrees.
 const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0), (-60.0, -20.0)];
@@ -60,9 +62,47 @@ fn compare(name: &str, mesh: &Mesh, fit: impl Fn(Camera) -> Camera, up: UpAxis) 
             (expected - found).abs() <= (1e-3 * expected).max(1.0),
             "{name} from {azimuth}°, {elevation}°: {found} px of {expected} px"
         );
+        if let Some(covers) = ViewCovers::of(mesh, &view) {
+            let out = covers.out_of_sight(mesh, &view);
+            assert_hidden(name, mesh, &view, &out);
+            let in_sight = curves_in_sight(mesh, out);
+            assert!(
+                pairs(&in_sight).iter().all(|f| known.binary_search(f).is_ok()),
+                "{name}: an unknown pair"
+            );
+            let found = visible_length(mesh, &view, &in_sight);
+            assert!(
+                (expected - found).abs() <= 1e-6 * expected,
+                "{name}: {found} px in sight of {expected} px"
+            );
+        }
         greatest = greatest.max(expected);
     }
     greatest
+}
+
+/// Of faces that are said to be out of sight no ray finds a point that no other face is before.
+fn assert_hidden(name: &str, mesh: &Mesh, view: &View, out: &[bool]) {
+    let corners = |face: usize| mesh.triangles[face].map(|v| view.points[v as usize]);
+    let hidden: Vec<usize> = (0..out.len()).filter(|face| out[*face]).collect();
+    // A few hundred of them say enough.
+    for face in hidden.iter().step_by((hidden.len() / 300).max(1)) {
+        let [a, b, c] = corners(*face);
+        for [s, t] in [[0.01, 0.01], [0.98, 0.01], [0.01, 0.98], [0.33, 0.34]] {
+            let p = a + (b - a) * s + (c - a) * t;
+            let is_before = |other: usize| {
+                let [a, b, c] = corners(other);
+                let [u, v, w] = [b - a, c - a, p - a].map(DVec3::truncate);
+                let area = u.perp_dot(v);
+                let (s, t) = (w.perp_dot(v) / area, u.perp_dot(w) / area);
+                s >= 0.0 && t >= 0.0 && s + t <= 1.0 && (a + (b - a) * s + (c - a) * t).z > p.z
+            };
+            assert!(
+                (0..out.len()).any(|other| other != *face && is_before(other)),
+                "{name}: {face} shows at {p}"
+            );
+        }
+    }
 }
 
 fn compare_solids(name: &str, solids: impl IntoIterator<Item = Solid>) -> f64 {
@@ -107,6 +147,70 @@ fn a_field_of_sunken_boxes_shows_all_its_seams() {
         cuboid(DVec3::ZERO, DVec3::new(0.9, 0.7, 0.3 + (i * 7 % 17) as f64 / 10.0)).moved(turned)
     };
     assert!(compare_solids("field", std::iter::once(ground).chain((0..900).map(house))) > 1000.0);
+}
+
+/// Upright plates one behind the other, and rods through all of them.
+fn pierced_plates() -> Solid {
+    let mut all = Solid::default();
+    for k in 0..9 {
+        let y = f64::from(k);
+        // Lower ones in front, so that the upper edge of each is seen.
+        all.add(cuboid(DVec3::new(-8.0, y, -4.0), DVec3::new(8.0, y + 0.2, 4.0 + 0.3 * y)));
+        // Many small faces, behind and before.
+        let ball = sphere(24, 0.7).moved(|p| p + DVec3::new(1.7 * y - 7.0, y + 0.3, 3.9 + 0.3 * y));
+        all.add(ball);
+    }
+    for k in 0..24 {
+        let (x, z) = (f64::from(k % 8) * 2.0 - 7.0, f64::from(k / 8) * 2.5 - 2.0);
+        all.add(cuboid(DVec3::new(x, -1.0, z), DVec3::new(x + 0.6, 10.0, z + 0.5)));
+    }
+    all
+}
+
+#[test]
+fn faces_behind_covers_are_hidden_to_every_ray() {
+    let solid = pierced_plates();
+    let mesh = mesh_of(&solid);
+    let mut told = 0;
+    for (azimuth, elevation) in DIRECTIONS {
+        let camera =
+            Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z).fit_points(&solid.positions, 0.05);
+        // Whole on the page, and larger than it.
+        for camera in [camera, Camera { width: 400.0, ..camera }] {
+            let view = View::new(&mesh, &camera);
+            let covers = ViewCovers::of(&mesh, &view).expect("there are many layers");
+            let out = covers.out_of_sight(&mesh, &view);
+            told += out.iter().filter(|out| **out).count();
+            assert!(curves_in_sight(&mesh, out).segments.len() < all_curves(&mesh).segments.len());
+        }
+    }
+    assert!(told > mesh.triangles.len(), "{told}");
+    assert!(compare_solids("plates", [solid]) > 1000.0);
+}
+
+/// The first view asks only what is in sight, later ones are told all.
+#[test]
+fn the_second_drawing_of_a_view_is_the_first() {
+    let solid = pierced_plates();
+    let corners = solid.positions.iter().map(|p| p.to_array());
+    let scene = Scene::from_triangles(corners, solid.triangles.iter().copied()).expect("a scene");
+    for style in ["ink", "toon", "technical"] {
+        let style = ligne::Style::load(style, &[]).expect("a style");
+        let prepared = ligne::render::Prepared::new(&scene, &style);
+        for turn in [30.0, 200.0] {
+            let camera = Camera::azimuth_elevation(turn, 20.0, UpAxis::Z).fit_points(&solid.positions, 0.05);
+            let page = ligne::drawing::Page {
+                width: camera.width,
+                height: camera.height,
+                unit: ligne::drawing::Unit::Px,
+                background: None,
+            };
+            let draw =
+                |prepared: &ligne::render::Prepared| prepared.draw(&camera, page, None).expect("a drawing").0;
+            let alone = draw(&ligne::render::Prepared::new(&scene, &style));
+            assert!(draw(&prepared) == alone && draw(&prepared) == alone, "{turn}");
+        }
+    }
 }
 
 #[test]

@@ -1,10 +1,13 @@
 //! Feature lines where surfaces pass through each other.
 //!
 //! All intersections of a large mesh take long to find, and most are out of sight. Where only
-//! visible lines are drawn, a buffer of the faces in sight proposes those that may meet others;
+//! visible lines are drawn and it is known which faces surely are out of sight, the others alone are
+//! searched. Else small meshes, and drawings with hidden lines, get the full search, which no view changes; in
+//! large ones a buffer of the faces in sight proposes those that may meet others, and
 //! from the pairs found among them the curves are followed over the mesh, so that every visible
-//! curve is whole, its hidden parts included. Small meshes, and drawings with hidden
-//! lines, get the full search, which no view changes.
+//! curve is whole, its hidden parts included.
+
+use rayon::prelude::*;
 
 use super::surface::Finer;
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
@@ -74,6 +77,16 @@ fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
 #[must_use]
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
+    intersections_of_parts(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+}
+
+/// The curves of a mesh between faces that are not `out_of_sight`: of [`all_curves`] every segment of which something shows.
+#[must_use]
+pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> IntersectionCurves {
+    out_of_sight.par_iter_mut().enumerate().with_min_len(1 << 12).for_each(|(face, out)| {
+        *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
+    });
+    let active = out_of_sight;
     intersections_of_parts(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
 }
 

@@ -13,7 +13,8 @@ use super::needles;
 use super::occlude::Interval;
 use super::project::{ImageSegment, project};
 use super::rounded::{self, Rounded, Smooth};
-use super::visibility::{self, Visibility, decide};
+use super::view_covers::ViewCovers;
+use super::visibility::{self, Visibility, decide_with};
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -33,8 +34,20 @@ enum HiddenPieces {
 /// Builds the view map of all feature lines.
 #[must_use]
 pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptions) -> ViewMap {
+    build_with(mesh, view, lines, options, None)
+}
+
+/// The same with the help of covers that were made of the view before.
+#[must_use]
+pub fn build_with(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    options: &LineOptions,
+    covers: Option<&ViewCovers>,
+) -> ViewMap {
     let asked = Asked::new(mesh, view, lines, options);
-    let told = asked.decide(mesh);
+    let told = asked.decide(mesh, covers);
     asked.map(&told, None)
 }
 
@@ -50,7 +63,7 @@ pub fn build_through(
 ) -> [ViewMap; 2] {
     let options = LineOptions { hidden: HiddenLines::None, ..options.clone() };
     let asked = Asked::new(mesh, view, lines, &options);
-    let (front, behind) = (asked.decide(mesh), asked.decide(clear));
+    let (front, behind) = (asked.decide(mesh, None), asked.decide(clear, None));
     [asked.map(&behind, None), asked.map(&behind, Some(&front))]
 }
 
@@ -100,7 +113,7 @@ impl<'a> Asked<'a> {
         Self { mesh, view, lines, limits: Limits::new(&view.frame), segments, questions, hidden }
     }
 
-    fn decide(&self, mesh: &Mesh) -> Told {
+    fn decide(&self, mesh: &Mesh, covers: Option<&ViewCovers>) -> Told {
         let Self { view, lines, limits, segments, questions, .. } = self;
         let counting = self.hidden == HiddenPieces::All;
         // Where no contour is smooth all of them are asked.
@@ -111,7 +124,7 @@ impl<'a> Asked<'a> {
         };
         let is_round = segments.iter().any(|s| s.role != Role::Line);
         let (seen, smooth) = rayon::join(
-            || decide(mesh, view, &asked, limits, counting),
+            || decide_with(mesh, view, &asked, limits, counting, covers),
             || is_round.then(|| Smooth::new(lines, segments, limits)),
         );
         let rounded = smooth.map_or_else(Rounded::default, |smooth| {

@@ -9,7 +9,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::expanse::Expanses;
@@ -26,6 +26,12 @@ const SQUARES_ACROSS: u32 = 1024;
 pub(super) const OPEN: f64 = f64::NEG_INFINITY;
 /// With fewer layers of surface than this over the page on average, covers hide less than they cost.
 const LAYERS: f64 = 3.0;
+/// What big triangles cover pays with so many triangles or more: of fewer the intersections are found as soon.
+const MANY: usize = 100_000;
+/// A triangle is big if it is as large as so many squares.
+const BIG_FACE: f64 = 32.0;
+/// With so many layers of large triangles alone what they cover saves more than that where it is known before all lines are.
+const BIG_LAYERS: f64 = 1.0;
 /// Covers of the whole page are made by no more tasks than this at a time.
 const MOST_SHARES: usize = 8;
 /// Triangles, or expanses, that are taken together.
@@ -41,7 +47,7 @@ pub struct Covers {
 }
 
 impl Covers {
-    /// Finds the covers.
+    /// Finds the covers, if they hide more than they cost.
     ///
     /// The result does not depend on the number of threads: the nearest of all covers is taken.
     #[must_use]
@@ -49,16 +55,39 @@ impl Covers {
         if triangles.mean_layers() < LAYERS {
             return Self::none(triangles.grid);
         }
-        let per_tile = (SQUARES_ACROSS / triangles.grid.columns.max(triangles.grid.rows)).clamp(1, 8);
-        let squares = triangles.grid.refined(per_tile);
+        let squares = squares_of(triangles.grid);
+        let expanses = Expanses::new(triangles, squares.cell);
+        Self::of(triangles, squares, &large_ones(triangles, squares.cell), Some(&expanses))
+    }
+
+    /// The same where they save more than the time of [`find`](Self::find): with fewer layers, what large triangles hide alone.
+    #[must_use]
+    pub fn find_soon(triangles: &Triangles) -> Self {
+        if triangles.mean_layers() >= LAYERS {
+            return Self::find(triangles);
+        }
+        if triangles.count() < MANY {
+            return Self::none(triangles.grid);
+        }
+        let squares = squares_of(triangles.grid);
+        let area = BIG_FACE * squares.cell * squares.cell;
         let large: Vec<u32> = (0..triangles.count() as u32)
             .into_par_iter()
             .with_min_len(1 << 12)
-            .filter(|id| is_large(triangles, *id, squares.cell))
+            .filter(|id| is_large(triangles, *id, squares.cell) && triangles.area(*id) >= area)
             .collect();
-        let expanses = Expanses::new(triangles, squares.cell);
+        if triangles.layers_of(large.iter().copied()) < BIG_LAYERS {
+            return Self::none(triangles.grid);
+        }
+        Self::of(triangles, squares, &large, None)
+    }
+
+    /// The covers of large triangles and of expanses.
+    fn of(triangles: &Triangles, squares: Grid, large: &[u32], expanses: Option<&Expanses>) -> Self {
+        let per_tile = squares_per_tile(triangles.grid);
         // Who is free takes the next few of them. Expanses come first, as one may be as large as all the rest.
-        let (of_expanses, of_large) = (expanses.count().div_ceil(BLOCK), large.len().div_ceil(BLOCK));
+        let expanse_count = expanses.map_or(0, Expanses::count);
+        let (of_expanses, of_large) = (expanse_count.div_ceil(BLOCK), large.len().div_ceil(BLOCK));
         let next = AtomicUsize::new(0);
         let of_share = |_: usize| {
             let (mut cover, mut buffer) = (Vec::new(), Vec::new());
@@ -68,8 +97,8 @@ impl Covers {
                     break;
                 }
                 cover.resize(squares.len(), OPEN);
-                if block < of_expanses {
-                    for expanse in block * BLOCK..((block + 1) * BLOCK).min(expanses.count()) {
+                if let Some(expanses) = expanses.filter(|_| block < of_expanses) {
+                    for expanse in block * BLOCK..((block + 1) * BLOCK).min(expanse_count) {
                         expanses.add(expanse, triangles, &squares, &mut buffer, &mut cover);
                     }
                     continue;
@@ -114,6 +143,23 @@ impl Covers {
         Self { squares: *grid, of_square: Vec::new(), of_tile: vec![OPEN; grid.len()] }
     }
 
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.of_square.is_empty()
+    }
+
+    /// Whether a triangle lies behind the covers of all squares that the box around it meets, of which there are at most so many;
+    /// also where it meets none.
+    #[must_use]
+    pub fn hide(&self, points: &[DVec3; 3], most: u32) -> bool {
+        let [a, b, c] = points;
+        let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
+        let squares = self.squares.tile_box(low, high);
+        let is_behind = |(square, _): (usize, DVec2)| high.z < self.of_square[square];
+        squares.area() <= most && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
+    }
+
     /// Whether the part of a segment between two parameters lies behind the covers of all squares
     /// it passes.
     #[must_use]
@@ -129,6 +175,23 @@ impl Covers {
         });
         buried
     }
+}
+
+/// How many squares are along each side of a tile.
+fn squares_per_tile(tiles: &Grid) -> u32 {
+    (SQUARES_ACROSS / tiles.columns.max(tiles.rows)).clamp(1, 8)
+}
+
+fn squares_of(tiles: &Grid) -> Grid {
+    tiles.refined(squares_per_tile(tiles))
+}
+
+fn large_ones(triangles: &Triangles, cell: f64) -> Vec<u32> {
+    (0..triangles.count() as u32)
+        .into_par_iter()
+        .with_min_len(1 << 12)
+        .filter(|id| is_large(triangles, *id, cell))
+        .collect()
 }
 
 /// Whether a triangle is large enough in the image to fill a square, and whole.

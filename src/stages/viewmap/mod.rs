@@ -30,11 +30,13 @@ mod teeth;
 mod tile;
 mod tile_triangles;
 pub mod trails;
+mod view_covers;
 pub mod visibility;
 mod witnesses;
 
 pub use ahead::{Ahead, Way};
-pub use build::{build, build_through};
+pub use build::{build, build_through, build_with};
 pub use front::{Front, front_faces};
 pub use graph::{ContourCounts, SeenContour, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 pub use trails::{Beside, build_beside};
+pub use view_covers::ViewCovers;

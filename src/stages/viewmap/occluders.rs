@@ -111,16 +111,22 @@ impl Triangles<'_> {
 
     /// How many triangles lie over each other on average, over the grid.
     pub(super) fn mean_layers(&self) -> f64 {
-        let area = |id: u32| {
-            let ([a, b, c], _) = corners(self.mesh, self.view, id);
-            let area = (b - a).truncate().perp_dot((c - a).truncate()).abs() / 2.0;
-            if area.is_finite() { area } else { 0.0 }
-        };
         // A sample is enough, and its order is fixed.
         let step = (self.count() / 4_000).max(1);
-        let sum: f64 = (0..self.count()).step_by(step).map(|id| area(id as u32)).sum();
+        step as f64 * self.layers_of((0..self.count() as u32).step_by(step))
+    }
+
+    /// The area of a triangle in the image; 0 where the near plane cuts it.
+    pub(super) fn area(&self, id: u32) -> f64 {
+        let ([a, b, c], _) = corners(self.mesh, self.view, id);
+        let area = (b - a).truncate().perp_dot((c - a).truncate()).abs() / 2.0;
+        if area.is_finite() { area } else { 0.0 }
+    }
+
+    /// How many of these triangles lie over each other on average, over the grid.
+    pub(super) fn layers_of(&self, ids: impl Iterator<Item = u32>) -> f64 {
         let tile = self.grid.cell * self.grid.cell;
-        sum * step as f64 / (tile * self.grid.len() as f64)
+        ids.map(|id| self.area(id)).sum::<f64>() / (tile * self.grid.len() as f64)
     }
 
     /// The triangle with this id: a face, or beyond those, an entry of [`View::clipped`].

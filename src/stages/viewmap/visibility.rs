@@ -13,7 +13,9 @@
 //! three-edge-projection; deciding in the image is after Arthur Appel, "The notion of
 //! quantitative invisibility and the machine rendering of solids", 1967.
 
-use glam::DVec3;
+use std::borrow::Cow;
+
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::compared::{Compared, Item};
@@ -27,6 +29,7 @@ use super::occlude::Interval;
 use super::occluders::Triangles;
 use super::project::ImageSegment;
 use super::tile::{Context, Memory, TileResult};
+use super::view_covers::ViewCovers;
 use crate::math::grouped::{Grouped, grouped, grouped_pairs};
 use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
@@ -80,6 +83,19 @@ pub fn decide(
     limits: &Limits,
     counting: bool,
 ) -> Visibility {
+    decide_with(mesh, view, segments, limits, counting, None)
+}
+
+/// The same with the help of covers of the view, where they fit.
+#[must_use]
+pub(super) fn decide_with(
+    mesh: &Mesh,
+    view: &View,
+    segments: &[ImageSegment],
+    limits: &Limits,
+    counting: bool,
+    known: Option<&ViewCovers>,
+) -> Visibility {
     if segments.is_empty() {
         return gather(segments, limits, &[], &[]);
     }
@@ -93,7 +109,12 @@ pub fn decide(
         })
     };
     let of_triangles = || {
-        let covers = if counting { Covers::none(&grid) } else { Covers::find(&triangles) };
+        let known = known.filter(|known| known.grid == grid);
+        let covers = match known {
+            _ if counting => Cow::Owned(Covers::none(&grid)),
+            Some(known) => Cow::Borrowed(&known.covers),
+            None => Cow::Owned(Covers::find(&triangles)),
+        };
         (covers, triangles.tile_boxes())
     };
     let (mut items, (covers, boxes)) = rayon::join(in_tiles, of_triangles);
@@ -155,7 +176,11 @@ pub(super) fn grid_over(segments: &[ImageSegment], across: u32) -> Grid {
     let (low, high) =
         segments.iter().fold(nothing, |(low, high), s| (low.min(s.a).min(s.b), high.max(s.a).max(s.b)));
     let (low, high) = if segments.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (low, high) };
-    let (low, high) = (low.truncate(), high.truncate());
+    grid_over_box(low.truncate(), high.truncate(), across)
+}
+
+/// The same over a box.
+pub(super) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> Grid {
     let size = (high - low).max_element();
     if !(size > 0.0 && size.is_finite()) {
         return Grid::new(low, high, across);
@@ -166,7 +191,7 @@ pub(super) fn grid_over(segments: &[ImageSegment], across: u32) -> Grid {
 }
 
 /// Denser meshes want smaller tiles; crowded tiles are cut further.
-fn tiles_across(triangles: usize) -> u32 {
+pub(super) fn tiles_across(triangles: usize) -> u32 {
     match triangles {
         0..=2_000 => 64,
         2_001..=30_000 => 128,
