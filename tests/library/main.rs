@@ -73,3 +73,4 @@ mod turning_strokes;
 mod visibility;
 mod visible_intersections;
 mod without;
+mod wrinkles;

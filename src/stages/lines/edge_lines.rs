@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::mesh::dihedral::{mark, runs_up};
+use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::needle::{Beyond, seen_from};
 use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, MaterialId, Mesh};
 use crate::shape::{HardEdges, Origin, SmoothNormals};
@@ -36,6 +37,7 @@ pub fn find_among(
 struct Finder<'a> {
     mesh: &'a Mesh,
     hard: &'a HardEdges,
+    wrinkles: &'a EdgeSet,
     view: &'a View,
     smooth: &'a SmoothNormals,
     wanted: u32,
@@ -46,10 +48,11 @@ struct Finder<'a> {
 
 impl<'a> Finder<'a> {
     fn new(surface: &'a Surface, view: &'a View, options: &LineOptions) -> Self {
-        let Surface { mesh, hard, smooth, .. } = surface;
+        let Surface { mesh, hard, wrinkles, smooth, .. } = surface;
         Self {
             mesh,
             hard,
+            wrinkles,
             view,
             smooth,
             wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
@@ -196,7 +199,7 @@ impl<'a> Finder<'a> {
         let nearer = if facing[first as usize] { first } else { second };
         Some(FeatureSegment {
             both_seen: !contour,
-            smooth: !hard,
+            smooth: !hard && !self.wrinkles.contains(edge),
             strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
             ..self.segment(edge, kind, nearer, [first, second])
         })

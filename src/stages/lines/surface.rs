@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::LineOptions;
 use super::options::{Contours, Normals};
 use crate::field::{self, Cones};
+use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
 use crate::shape::bends::bent;
@@ -25,6 +26,8 @@ pub struct Surface {
     pub mesh: Mesh,
     /// Where the surface is creased.
     pub hard: HardEdges,
+    /// Sharp edges that are no creases and where the surface is not round either.
+    pub wrinkles: EdgeSet,
     /// The normals of its rounded parts, whose contours are smooth; none with
     /// [`Contours::Mesh`].
     pub smooth: SmoothNormals,
@@ -61,6 +64,7 @@ impl Surface {
         let surface = Self {
             mesh,
             hard: patches.hard.clone(),
+            wrinkles: patches.wrinkles.clone(),
             smooth,
             origins: patches.origins.clone(),
             pieces: patches.pieces.clone(),
@@ -93,6 +97,7 @@ impl Surface {
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches, &folds));
         Self {
             hard: hard.clone().with(&mesh, &folds),
+            wrinkles: self.wrinkles.clone(),
             mesh,
             smooth,
             origins: self.origins.clone(),
@@ -130,6 +135,7 @@ impl Surface {
         let Refined { mesh, smooth, hosts, kept, edges } = finer;
         let surface = Self {
             hard: self.hard.carried(&edges, mesh.edges.len()),
+            wrinkles: self.wrinkles.carried(&edges, mesh.edges.len()),
             mesh,
             smooth,
             origins: hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect(),
@@ -160,7 +166,7 @@ pub(super) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> Smooth
 /// Whether an edge parts two rounded surfaces: by its angle and what is around it, or where the file's
 /// normals have it creased. Figures are shaded round over edges that by themselves would be creases.
 fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
-    if patches.rims.contains(edge) {
+    if patches.rims.contains(edge) || patches.wrinkles.contains(edge) {
         return true;
     }
     let hard = patches.hard.is_hard(edge);

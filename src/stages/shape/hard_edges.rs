@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::crease_chains::{Chain, Fold, Folds, folds};
 use super::roughness::Roughness;
+use super::wrinkles::wrinkles;
 use crate::math::function::cos;
 use crate::mesh::dihedral::{Dihedral, mark};
 use crate::mesh::edge_set::EdgeSet;
@@ -79,13 +80,13 @@ impl HardEdges {
 
     /// Every edge whose faces turn by more than `crease_deg` degrees, those that the file marks, and of those edges
     /// of which `goes_on` says so the ones on which a crease goes on to the next line while it turns by more
-    /// than `low_deg` degrees.
+    /// than `low_deg` degrees; and the sharp ones among the latter that are none, since they are wrinkles alone.
     pub(super) fn above_and_on(
         mesh: &Mesh,
         turns: &Turns,
         [crease_deg, low_deg]: [f64; 2],
         goes_on: impl Fn(usize) -> bool + Sync,
-    ) -> Self {
+    ) -> (Self, EdgeSet) {
         let folds = folds(mesh, turns, low_deg);
         let cosine = cos(crease_deg.to_radians()) as f32;
         // As sharp as `above` has it, by cosine and angle.
@@ -94,7 +95,13 @@ impl HardEdges {
         let mut edges: Vec<usize> = all.clone().filter(|f| is_above(f)).map(|f| f.edge as usize).collect();
         let folds = all.filter(|f| goes_on(f.edge as usize)).copied().collect();
         edges.extend(Folds::new(mesh, folds).going_on(crease_deg));
-        Self::of_edges(mesh, edges.into_iter()).with_marks(mesh)
+        edges.par_sort_unstable();
+        edges.dedup();
+        let mut wrinkles = wrinkles(mesh, turns, crease_deg, &edges);
+        wrinkles.retain(|edge| goes_on(*edge));
+        edges.retain(|edge| wrinkles.binary_search(edge).is_err());
+        let wrinkles = EdgeSet::default().with(&wrinkles, mesh.edges.len());
+        (Self::of_edges(mesh, edges.into_iter()).with_marks(mesh), wrinkles)
     }
 
     /// No edge.

@@ -31,6 +31,7 @@ mod smooth_vertices;
 pub mod splice;
 mod straight;
 mod thickness;
+mod wrinkles;
 
 pub use curvature::Curvature;
 pub use cylinders::{Cylinder, cylinders};

@@ -28,6 +28,8 @@ const STRIP: f64 = 6.0;
 pub struct Patches {
     /// Edges that are drawn as creases.
     pub hard: HardEdges,
+    /// Sharp edges of machined parts that are no creases: slivers that lean by themselves. They part surfaces all the same.
+    pub wrinkles: EdgeSet,
     /// Edges that part surfaces though they turn too little for a crease: rims of flats, strips beside
     /// wide faces.
     pub rims: EdgeSet,
@@ -52,16 +54,16 @@ impl Patches {
         let turns = &turns;
         let believed = verdicts.iter().map(|verdict| verdict.believed).collect();
         let makes: Vec<Make> = verdicts.iter().map(|verdict| verdict.make).collect();
-        let hard = hard_edges(mesh, turns, &verdicts, crease_deg);
+        let (hard, wrinkles) = hard_edges(mesh, turns, &verdicts, crease_deg);
         let rims = rims(mesh, turns, &planes, &makes);
         let mut rounded: Vec<bool> = makes.iter().map(|make| all || *make == Make::Round).collect();
         if !all && makes.contains(&Make::Machined) {
-            let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge);
+            let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
             add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
         }
         let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
-        Self { hard, rims, rounded, figure, origins, pieces, believed }
+        Self { hard, wrinkles, rims, rounded, figure, origins, pieces, believed }
     }
 }
 
@@ -101,11 +103,11 @@ fn pieces_in(verdicts: &[Verdict]) -> Vec<u32> {
 }
 
 /// Every sharp edge, and on machined pieces what a crease goes on along that would end inside the surface: flats and
-/// strips that are cut out of it turn by more here and by less there.
-fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
+/// strips that are cut out of it turn by more here and by less there. But for wrinkles of machined pieces, which come second.
+fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> (HardEdges, EdgeSet) {
     let is_machined = |face: &u32| verdicts[*face as usize].make == Make::Machined;
     if !(0..verdicts.len() as u32).any(|face| is_machined(&face)) {
-        return HardEdges::above_with(mesh, turns, crease_deg);
+        return (HardEdges::above_with(mesh, turns, crease_deg), EdgeSet::default());
     }
     let low_deg = ROUND * LOW_OF_HIGH * crease_deg;
     HardEdges::above_and_on(mesh, turns, [crease_deg, low_deg], |edge| {
@@ -114,8 +116,9 @@ fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64
 }
 
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
-/// which the file's normals turn as well, and chains that turn by more and stand out from what is around them.
-fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> HardEdges {
+/// which the file's normals turn as well, and chains that turn by more and stand out from what is around them. Wrinkles of
+/// machined pieces come second.
+fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> (HardEdges, EdgeSet) {
     let is_round = |face: u32| verdicts[face as usize].make == Make::Round;
     let round = (0..verdicts.len() as u32).filter(|face| is_round(*face)).count();
     let above = || sharp_edges(mesh, turns, verdicts, crease_deg);
@@ -124,20 +127,21 @@ fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64)
     }
     let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0));
     if round == verdicts.len() && mesh.corner_normals.is_empty() {
-        return chains;
+        return (chains, EdgeSet::default());
     }
-    let above = above();
+    let (above, wrinkles) = above();
     let least = cos(crease_deg.to_radians()) as f32;
     let shaded_sharp = |edge: usize, faces: [u32; 2]| {
         faces.iter().all(|face| verdicts[*face as usize].believed)
             && file_cosines(mesh, edge, faces).is_some_and(|[a, b]| a.min(b) < least)
     };
-    HardEdges::of(mesh, |edge| match mesh.edges.faces(edge) {
+    let hard = HardEdges::of(mesh, |edge| match mesh.edges.faces(edge) {
         EdgeFaces::Two { faces, .. } if faces.iter().all(|face| is_round(*face)) => {
             chains.is_hard(edge) || (above.is_hard(edge) && shaded_sharp(edge, faces))
         }
         _ => above.is_hard(edge),
-    })
+    });
+    (hard, wrinkles)
 }
 
 /// Where flats and wide faces end.

@@ -1,0 +1,101 @@
+//! `wrinkles`: slivers that lean by themselves between faces that go on into each other.
+//!
+//! Where two surfaces were cut along one curve at different steps, slivers close the gaps between both polygons. They lean
+//! by whatever the gap is deep, one edge of them turning as far as the others turn back, and the surface across them does not turn.
+
+use rayon::prelude::*;
+
+use crate::math::function::cos;
+use crate::mesh::groups::Groups;
+use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
+
+/// A sliver is more than so many times as long as wide.
+const SLIVER: f64 = 6.0;
+/// The cosine (a degree) above which two faces are of one sliver.
+const FLAT_COSINE: f32 = 0.999_85;
+/// More faces than so many are no sliver.
+const MOST: usize = 8;
+
+/// Those of the edges of creases, in order, that are of slivers around which the surface turns by less than `crease_deg` degrees,
+/// where no other crease goes on from them: what goes on is a line, whatever lies beside it.
+pub(super) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[usize]) -> Vec<usize> {
+    let least = cos(crease_deg.to_radians()) as f32;
+    let beside = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, .. } => faces.map(|face| wrinkle(mesh, turns, least, face)),
+        _ => [None; 2],
+    };
+    let at: Vec<[Option<u32>; 2]> = creases.par_iter().map(|edge| beside(*edge)).collect();
+    if at.iter().all(|at| *at == [None; 2]) {
+        return Vec::new();
+    }
+    let mut ends: Vec<(u32, u32)> = (0u32..)
+        .zip(creases)
+        .flat_map(|(k, edge)| mesh.edges.vertices[*edge].map(|vertex| (vertex, k)))
+        .collect();
+    ends.sort_unstable();
+    let lines = Groups::new(creases.len(), |join| {
+        for pair in ends.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            join(pair[0].1, pair[1].1);
+        }
+    });
+    // The wrinkles at which all edges of a line lie; the least edge of a line comes first.
+    let mut shared = at.clone();
+    for (k, at) in (0u32..).zip(&at) {
+        for own in &mut shared[lines.of(k) as usize] {
+            *own = own.filter(|own| at.contains(&Some(*own)));
+        }
+    }
+    (0u32..)
+        .zip(creases)
+        .filter(|(k, _)| shared[lines.of(*k) as usize] != [None; 2])
+        .map(|(_, edge)| *edge)
+        .collect()
+}
+
+/// The least face of the sliver that a face is of, if all that is around it turns into each other by less than a cosine has it.
+fn wrinkle(mesh: &Mesh, turns: &Turns, least: f32, face: u32) -> Option<u32> {
+    let mut own = vec![face];
+    // What is beyond, with its normal as seen from the side from which the sliver is seen.
+    let mut around: Vec<[f32; 3]> = Vec::new();
+    let mut area = 0.0;
+    let mut at = 0;
+    while at < own.len() {
+        let face = own[at];
+        at += 1;
+        if mesh.is_degenerate(FaceId(face)) {
+            return None;
+        }
+        let [a, b, c] = mesh.corners(FaceId(face));
+        area += (b - a).cross(c - a).length() / 2.0;
+        let [a, b, c] = mesh.triangles[face as usize];
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            let Ok(edge) = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]) else { return None };
+            let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return None };
+            let other = faces[usize::from(faces[0] == face)];
+            if own.contains(&other) {
+                continue;
+            }
+            if turns.of_two(edge) > FLAT_COSINE && !same_way {
+                if own.len() == MOST {
+                    return None;
+                }
+                own.push(other);
+                continue;
+            }
+            if mesh.is_degenerate(FaceId(other)) {
+                return None;
+            }
+            let normal = mesh.face_normals[other as usize];
+            let normal = if same_way { normal.map(|x| -x) } else { normal };
+            let dot = |m: &[f32; 3]| m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2];
+            if around.iter().any(|m| dot(m) < least) {
+                return None;
+            }
+            around.push(normal);
+        }
+    }
+    let corners =
+        || own.iter().flat_map(|face| mesh.triangles[*face as usize]).map(|v| mesh.positions[v as usize]);
+    let longest = corners().flat_map(|p| corners().map(move |q| p.distance_squared(q))).fold(0.0, f64::max);
+    (longest > SLIVER * 2.0 * area).then(|| own.iter().copied().min()).flatten()
+}
