@@ -296,7 +296,8 @@ mod tests {
 
     use super::super::limits::Limits;
     use super::super::occluders::Triangles;
-    use super::super::visibility::{decide, grid_over};
+    use super::super::page_grid::grid_over;
+    use super::super::visibility::decide;
     use super::*;
     use crate::lines::{NO_FACE, Role};
     use crate::mesh::{Mesh, Soup};

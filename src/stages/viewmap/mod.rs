@@ -20,6 +20,7 @@ mod needles;
 pub mod occlude;
 pub mod occluders;
 mod outer_side;
+mod page_grid;
 pub mod precedence;
 pub mod project;
 mod rounded;

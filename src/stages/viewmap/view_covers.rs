@@ -10,7 +10,7 @@ use super::cover::Covers;
 use super::grid::Grid;
 use super::limits::Limits;
 use super::occluders::Triangles;
-use super::visibility::{grid_over_box, tiles_across};
+use super::page_grid::{grid_over_box, tiles_across};
 use crate::mesh::Mesh;
 use crate::view::View;
 

@@ -15,23 +15,21 @@
 
 use std::borrow::Cow;
 
-use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::compared::{Compared, Item};
 use super::cover::Covers;
 use super::graph::ViewVertexKind;
-use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
 use super::long_pairs::LongPairs;
 use super::occlude::Interval;
 use super::occluders::Triangles;
+use super::page_grid::{grid_over, tiles_across};
 use super::project::ImageSegment;
 use super::tile::{Context, Memory, TileResult};
 use super::view_covers::ViewCovers;
 use crate::math::grouped::{Grouped, grouped, grouped_pairs};
-use crate::math::power::power_of_two_above;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -167,37 +165,6 @@ pub(super) fn decide_with(
     let mut told = gather(segments, limits, &buried, &results);
     told.tests += long.map_or(0, |long| long.tests);
     told
-}
-
-/// A grid over the box around all segments. Its tiles seldom move when lines come and go: they are a power of
-/// two wide, and lie on multiples of that.
-pub(super) fn grid_over(segments: &[ImageSegment], across: u32) -> Grid {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) =
-        segments.iter().fold(nothing, |(low, high), s| (low.min(s.a).min(s.b), high.max(s.a).max(s.b)));
-    let (low, high) = if segments.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (low, high) };
-    grid_over_box(low.truncate(), high.truncate(), across)
-}
-
-/// The same over a box.
-pub(super) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> Grid {
-    let size = (high - low).max_element();
-    if !(size > 0.0 && size.is_finite()) {
-        return Grid::new(low, high, across);
-    }
-    // Between 0.7 and 1.4 times as many as asked for.
-    let cell = power_of_two_above(size / f64::from(across) * std::f64::consts::FRAC_1_SQRT_2);
-    Grid::of_cells((low / cell).floor() * cell, high, cell)
-}
-
-/// Denser meshes want smaller tiles; crowded tiles are cut further.
-pub(super) fn tiles_across(triangles: usize) -> u32 {
-    match triangles {
-        0..=2_000 => 64,
-        2_001..=30_000 => 128,
-        30_001..=200_000 => 256,
-        _ => 512,
-    }
 }
 
 /// The items that lie behind covers, tile by tile; tiles all of whose items do are wanted no more.
