@@ -24,32 +24,39 @@ pub(super) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
         EdgeFaces::Two { faces, .. } => faces.map(|face| wrinkle(mesh, turns, least, face)),
         _ => [None; 2],
     };
-    let at: Vec<[Option<u32>; 2]> = creases.par_iter().map(|edge| beside(*edge)).collect();
-    if at.iter().all(|at| *at == [None; 2]) {
-        return Vec::new();
-    }
     let mut ends: Vec<(u32, u32)> = (0u32..)
         .zip(creases)
         .flat_map(|(k, edge)| mesh.edges.vertices[*edge].map(|vertex| (vertex, k)))
         .collect();
-    ends.sort_unstable();
+    ends.par_sort_unstable();
     let lines = Groups::new(creases.len(), |join| {
         for pair in ends.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             join(pair[0].1, pair[1].1);
         }
     });
-    // The wrinkles at which all edges of a line lie; the least edge of a line comes first.
-    let mut shared = at.clone();
-    for (k, at) in (0u32..).zip(&at) {
-        for own in &mut shared[lines.of(k) as usize] {
-            *own = own.filter(|own| at.contains(&Some(*own)));
+    let mut by_line: Vec<(u32, u32)> = (0..creases.len() as u32).map(|k| (lines.of(k), k)).collect();
+    by_line.par_sort_unstable();
+    // All edges of a line have to lie at one wrinkle, which has no more than three for each of its faces.
+    let is_wrinkle = |line: &&[(u32, u32)]| {
+        let mut edges = line.iter().map(|(_, k)| creases[*k as usize]);
+        let Some(first) = edges.next().filter(|_| line.len() <= 3 * MOST) else { return false };
+        let mut shared = beside(first);
+        for edge in edges {
+            if shared == [None; 2] {
+                break;
+            }
+            let at = beside(edge);
+            shared = shared.map(|own| own.filter(|own| at.contains(&Some(*own))));
         }
-    }
-    (0u32..)
-        .zip(creases)
-        .filter(|(k, _)| shared[lines.of(*k) as usize] != [None; 2])
-        .map(|(_, edge)| *edge)
-        .collect()
+        shared != [None; 2]
+    };
+    let mut found: Vec<usize> = by_line
+        .par_chunk_by(|a, b| a.0 == b.0)
+        .filter(is_wrinkle)
+        .flat_map_iter(|line| line.iter().map(|(_, k)| creases[*k as usize]))
+        .collect();
+    found.par_sort_unstable();
+    found
 }
 
 /// The least face of the sliver that a face is of, if all that is around it turns into each other by less than a cosine has it.
