@@ -78,6 +78,50 @@ fn creases_beside_slivers_stay_and_so_do_lines_that_go_on() {
     assert_eq!(creases(shaft(0.073, |_| true)), 2 * CORNERS);
 }
 
+/// A mound like a roof with round ends on a plate, steep on both sides; its ridge is a sliver.
+fn mound() -> Solid {
+    const ROUND: usize = 12;
+    let tips = [DVec3::new(-3.0, 0.0, 2.0), DVec3::new(3.0, 0.0, 2.0)];
+    let mut solid = Solid::default();
+    solid.positions.extend(tips);
+    solid.positions.extend([DVec3::new(0.0, -0.05, 2.0), DVec3::new(0.0, 0.05, 2.0)]);
+    // Around both ends at its foot, and the rim of the plate.
+    let foot: Vec<DVec3> = (0..2 * (ROUND + 1))
+        .map(|k| {
+            let (end, step) = (k / (ROUND + 1), k % (ROUND + 1));
+            let turn = (0.25 + 0.5 * end as f64 + 0.5 * step as f64 / ROUND as f64) * TAU;
+            tips[end] + DVec3::new(0.84 * cos(turn), 0.84 * sin(turn), -1.0)
+        })
+        .collect();
+    solid.positions.extend(&foot);
+    solid.positions.extend(foot.iter().map(|p| DVec3::new(3.0 * p.x, 8.0 * p.y, p.z)));
+    let count = foot.len() as u32;
+    let (at, rim) = (|k: u32| 4 + k % count, |k: u32| 4 + count + k % count);
+    let round = ROUND as u32;
+    for k in 0..count {
+        solid.triangles.extend([[at(k), rim(k), rim(k + 1)], [at(k), rim(k + 1), at(k + 1)]]);
+        if k % (round + 1) < round {
+            solid.triangles.push([k / (round + 1), at(k), at(k + 1)]);
+        }
+    }
+    // The two sides from the foot to the ridge, and the ridge.
+    for [from, near, to, far] in [[round, 0, 1, 2], [2 * round + 1, 1, 0, 3]] {
+        solid.triangles.extend([
+            [near, at(from), far],
+            [at(from), at(from + 1), far],
+            [at(from + 1), to, far],
+        ]);
+    }
+    solid.triangles.extend([[0, 2, 1], [0, 1, 3]]);
+    solid
+}
+
+#[test]
+fn a_ridge_is_a_crease_however_thin() {
+    // Around it the surface turns by a hundred degrees.
+    assert_eq!(creases(mound()), 4);
+}
+
 #[test]
 fn an_outline_along_a_sliver_has_its_corners() {
     // From above and from one side: of the slivers those of the far side have their lower edges on the outline.
