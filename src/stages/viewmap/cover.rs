@@ -26,12 +26,13 @@ const SQUARES_ACROSS: u32 = 1024;
 pub(super) const OPEN: f64 = f64::NEG_INFINITY;
 /// With fewer layers of surface than this over the page on average, covers hide less than they cost.
 const LAYERS: f64 = 3.0;
-/// What big triangles cover pays with so many triangles or more: of fewer the intersections are found as soon.
-const MANY: usize = 100_000;
 /// A triangle is big if it is as large as so many squares.
 const BIG_FACE: f64 = 32.0;
-/// With so many layers of large triangles alone what they cover saves more than that where it is known before all lines are.
+/// Big triangles that lie in so many layers over the page on average hide enough for the search for intersections to be worth
+/// their covers, by themselves.
 const BIG_LAYERS: f64 = 1.0;
+/// In a mesh of fewer triangles than this all intersections are found as soon as big ones are covered.
+const MANY: usize = 100_000;
 /// Covers of the whole page are made by no more tasks than this at a time.
 const MOST_SHARES: usize = 8;
 /// Triangles, or expanses, that are taken together.
@@ -60,7 +61,8 @@ impl Covers {
         Self::of(triangles, squares, &large_ones(triangles, squares.cell), Some(&expanses))
     }
 
-    /// The same where they save more than the time of [`find`](Self::find): with fewer layers, what large triangles hide alone.
+    /// Finds the covers that also spare the search for intersections: those of [`find`](Self::find), and of big triangles
+    /// alone where there are fewer layers.
     #[must_use]
     pub fn find_soon(triangles: &Triangles) -> Self {
         if triangles.mean_layers() >= LAYERS {
@@ -71,15 +73,12 @@ impl Covers {
         }
         let squares = squares_of(triangles.grid);
         let area = BIG_FACE * squares.cell * squares.cell;
-        let large: Vec<u32> = (0..triangles.count() as u32)
-            .into_par_iter()
-            .with_min_len(1 << 12)
-            .filter(|id| is_large(triangles, *id, squares.cell) && triangles.area(*id) >= area)
-            .collect();
-        if triangles.layers_of(large.iter().copied()) < BIG_LAYERS {
+        let mut big = large_ones(triangles, squares.cell);
+        big.retain(|id| triangles.area(*id) >= area);
+        if triangles.layers_of(big.iter().copied()) < BIG_LAYERS {
             return Self::none(triangles.grid);
         }
-        Self::of(triangles, squares, &large, None)
+        Self::of(triangles, squares, &big, None)
     }
 
     /// The covers of large triangles and of expanses.

@@ -1,0 +1,143 @@
+//! Models of the examples as their files have them, read without the library.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+/// Coordinates.
+pub type Point = [f64; 3];
+
+/// A part as read: its name, its points, and triangles between them.
+pub struct Part {
+    pub name: String,
+    pub points: Vec<Point>,
+    pub faces: Vec<[usize; 3]>,
+}
+
+pub fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
+}
+
+pub fn bytes(name: &str) -> Vec<u8> {
+    std::fs::read(path(name)).unwrap()
+}
+
+/// The objects of an OBJ file; faces fanned, indices kept as the file shares them.
+pub fn read_obj(name: &str) -> Vec<Part> {
+    let mut points: Vec<Point> = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
+    for line in String::from_utf8(bytes(name)).unwrap().lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[0] {
+            "o" => parts.push(Part { name: words[1].to_owned(), points: Vec::new(), faces: Vec::new() }),
+            "v" => points.push([1, 2, 3].map(|k| words[k].parse().unwrap())),
+            "f" => {
+                let id = |word: &str| word.split('/').next().unwrap().parse::<usize>().unwrap() - 1;
+                let corners: Vec<usize> = words[1..].iter().map(|word| id(word)).collect();
+                let fan = corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]);
+                parts.last_mut().unwrap().faces.extend(fan);
+            }
+            _ => {}
+        }
+    }
+    parts.iter_mut().for_each(|part| part.points = points.clone());
+    parts
+}
+
+fn float(bytes: &[u8]) -> f64 {
+    f64::from(f32::from_le_bytes(bytes[..4].try_into().unwrap()))
+}
+
+fn int(bytes: &[u8]) -> usize {
+    u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize
+}
+
+pub fn read_stl(name: &str) -> Part {
+    let bytes = bytes(name);
+    let count = int(&bytes[80..]);
+    assert_eq!(bytes.len(), 84 + 50 * count);
+    let corners = (0..3 * count).map(|i| {
+        let start = 84 + 50 * (i / 3) + 12 + 12 * (i % 3);
+        [0, 4, 8].map(|k| float(&bytes[start + k..]))
+    });
+    let faces = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    Part { name: name.to_owned(), points: corners.collect(), faces }
+}
+
+pub fn read_ply(name: &str) -> Part {
+    let bytes = bytes(name);
+    let mark = b"end_header\n";
+    let end = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len();
+    let header = String::from_utf8(bytes[..end].to_vec()).unwrap();
+    let count = |what: &str| -> usize {
+        header.lines().find_map(|line| line.strip_prefix(what)).unwrap().trim().parse().unwrap()
+    };
+    let (vertices, faces) = (count("element vertex"), count("element face"));
+    let stride = if header.contains("property float nx") { 24 } else { 12 };
+    assert_eq!(bytes.len(), end + stride * vertices + 13 * faces);
+    let points = (0..vertices).map(|i| [0, 4, 8].map(|k| float(&bytes[end + stride * i + k..]))).collect();
+    let start = end + stride * vertices;
+    let faces = (0..faces).map(|i| [1, 5, 9].map(|k| int(&bytes[start + 13 * i + k..]))).collect();
+    Part { name: name.to_owned(), points, faces }
+}
+
+/// The same part with equal points made one.
+pub fn welded(part: &Part) -> Part {
+    let mut known: BTreeMap<[u64; 3], usize> = BTreeMap::new();
+    let mut points = Vec::new();
+    let ids: Vec<usize> = part
+        .points
+        .iter()
+        .map(|point| {
+            *known.entry(point.map(|value| (value + 0.0).to_bits())).or_insert_with(|| {
+                points.push(*point);
+                points.len() - 1
+            })
+        })
+        .collect();
+    let faces = part.faces.iter().map(|face| face.map(|corner| ids[corner])).collect();
+    Part { name: part.name.clone(), points, faces }
+}
+
+/// A GLB file as it was written: its document and its one buffer.
+pub struct Glb {
+    pub document: Value,
+    buffer: Vec<u8>,
+}
+
+impl Glb {
+    pub fn read(name: &str) -> Self {
+        let bytes = bytes(name);
+        assert_eq!(&bytes[..4], b"glTF");
+        let end = 20 + int(&bytes[12..]);
+        let document = serde_json::from_slice(&bytes[20..end]).unwrap();
+        Self { document, buffer: bytes[end + 8..].to_vec() }
+    }
+
+    pub fn list(&self, name: &str) -> &[Value] {
+        self.document[name].as_array().unwrap()
+    }
+
+    /// The values of an accessor, each so many bytes wide.
+    pub fn values(&self, accessor: &Value, width: usize) -> impl Iterator<Item = &[u8]> {
+        let accessor = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
+        let view = &self.list("bufferViews")[accessor["bufferView"].as_u64().unwrap() as usize];
+        assert!(view["byteStride"].is_null(), "values lie close");
+        let offset = |of: &Value| of["byteOffset"].as_u64().unwrap_or(0) as usize;
+        let start = offset(accessor) + offset(view);
+        self.buffer[start..].chunks_exact(width).take(accessor["count"].as_u64().unwrap() as usize)
+    }
+
+    pub fn points(&self, accessor: &Value) -> impl Iterator<Item = Point> {
+        self.values(accessor, 12).map(|point| [0, 4, 8].map(|at| float(&point[at..])))
+    }
+
+    pub fn indices(&self, accessor: &Value) -> Vec<usize> {
+        match self.list("accessors")[accessor.as_u64().unwrap() as usize]["componentType"].as_u64().unwrap() {
+            5121 => self.values(accessor, 1).map(|id| usize::from(id[0])).collect(),
+            5123 => self.values(accessor, 2).map(|id| usize::from(id[0]) | usize::from(id[1]) << 8).collect(),
+            _ => self.values(accessor, 4).map(int).collect(),
+        }
+    }
+}
