@@ -274,7 +274,7 @@ fn a_crease_of_a_machined_part_goes_on_to_the_next_line() {
     let [drawn, sharp] = drawn_and_sharp(&house(24, |i| 60.0 - f64::from(i) * 1.6));
     assert!(sharp.len() > 8 && sharp.len() < 16, "{sharp:?}");
     assert_eq!(drawn, sharp);
-    let [drawn, _] = drawn_and_sharp(&house(24, |_| 36.0));
+    let [drawn, _] = drawn_and_sharp(&house(24, |_| 14.0));
     assert!(drawn.is_empty());
 }
 

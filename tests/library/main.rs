@@ -60,6 +60,7 @@ mod seams;
 mod section_areas;
 mod sections;
 mod shadows;
+mod shallow_creases;
 mod sheets;
 mod smooth_contours;
 mod stability;

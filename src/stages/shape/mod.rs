@@ -2,6 +2,7 @@
 //! finer faces where it does.
 
 pub mod bends;
+mod beyond;
 mod crease_chains;
 pub mod curvature;
 mod curvature_derivative;
@@ -26,6 +27,7 @@ pub mod refine;
 mod rims;
 mod roughness;
 mod rounded;
+mod shallow;
 pub mod smooth_normals;
 mod smooth_vertices;
 pub mod splice;

@@ -10,6 +10,7 @@ use super::free_forms::add_free_forms;
 use super::hard_edges::LOW_OF_HIGH;
 use super::planes::{Planes, area};
 use super::rounded::{Make, Origin, Pieces, Verdict, verdicts};
+use super::shallow::shallow_creases;
 use crate::math::function::cos;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, Turns};
@@ -61,6 +62,12 @@ impl Patches {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
             add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
         }
+        // A figure that its file means to be seen as planes bends at all edges.
+        let is_exact = |face: &u32| !rounded[*face as usize] && verdicts[*face as usize].believed;
+        let may =
+            |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
+        let shallow = shallow_creases(mesh, turns, crease_deg, &hard, may);
+        let hard = hard.with(mesh, &shallow);
         let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
         Self { hard, wrinkles, rims, rounded, figure, origins, pieces, believed }

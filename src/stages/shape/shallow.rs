@@ -1,0 +1,102 @@
+//! [`shallow_creases`]: edges of machined parts that turn by less than a crease, where the surfaces on both sides of them end.
+//!
+//! The chamfer of a plate, a ramp, the point of a drill and its shank meet at angles at which a coarse cylinder has its
+//! facets as well. What tells them apart is how the surface goes on straight across: facets of a curve turn again by as much, the
+//! same way; what was cut at an angle does not.
+
+use rayon::prelude::*;
+
+use super::HardEdges;
+use super::beyond::Walk;
+use crate::math::function::cos;
+use crate::mesh::{EdgeFaces, Mesh, Turns};
+
+/// A shallow crease turns by more than this share of the angle of a crease: 16 degrees of 40.
+const SHALLOW: f64 = 0.4;
+
+/// Who asks for creases that are sharper than by default, degrees, gets these alone.
+const MOST_DEG: f64 = 40.0;
+
+/// The smallest piece of work for a thread, in edges.
+const GRAIN: usize = 1 << 12;
+
+/// An edge that may be a shallow crease, with those at which the surfaces on both sides have to turn back for that.
+type Candidate = (usize, [Option<usize>; 2]);
+
+/// The edges, ascending, that turn by less than `crease_deg` degrees and part surfaces that end there. `may` says which are asked, and
+/// those that are `hard` are creases already.
+pub(super) fn shallow_creases(
+    mesh: &Mesh,
+    turns: &Turns,
+    crease_deg: f64,
+    hard: &HardEdges,
+    may: impl Fn(usize) -> bool + Sync,
+) -> Vec<usize> {
+    if crease_deg > MOST_DEG {
+        return Vec::new();
+    }
+    let [least, most] = [SHALLOW * crease_deg, crease_deg].map(|deg| cos(deg.to_radians()) as f32);
+    let is_asked = |edge: &usize| {
+        let cosine = turns.of_two(*edge);
+        cosine < least && cosine >= most && !hard.is_hard(*edge) && may(*edge)
+    };
+    let walk = Walk { mesh, turns, most, hard };
+    let found: Vec<Candidate> = (0..mesh.edges.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .filter(is_asked)
+        .filter_map(|edge| Some((edge, walk.ends_at(edge)?)))
+        .collect();
+    if found.is_empty() {
+        return Vec::new();
+    }
+    settled(mesh, &found, hard)
+}
+
+/// Those of the candidates, which are in order, that hold each other: where the surface has to turn back is a shallow
+/// crease as well, and no line of them ends inside the surface.
+fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
+    let vertices = |k: usize| mesh.edges.vertices[found[k].0];
+    // Candidates by the vertices at which they end, and by the edges where they need another.
+    let mut ends: Vec<(u32, usize)> = (0..found.len()).flat_map(|k| vertices(k).map(|v| (v, k))).collect();
+    let mut needs: Vec<(usize, usize)> = Vec::new();
+    needs.extend((0..found.len()).flat_map(|k| found[k].1.into_iter().flatten().map(move |edge| (edge, k))));
+    ends.sort_unstable();
+    needs.sort_unstable();
+    let at = |vertex: u32| {
+        &ends[ends.partition_point(|end| end.0 < vertex)..ends.partition_point(|end| end.0 <= vertex)]
+    };
+    let of = |edge: usize| {
+        &needs[needs.partition_point(|need| need.0 < edge)..needs.partition_point(|need| need.0 <= edge)]
+    };
+    // Where other lines end, none of these does inside the surface.
+    let is_line =
+        |edge: &usize| hard.is_hard(*edge) || !matches!(mesh.edges.faces(*edge), EdgeFaces::Two { .. });
+    let mut held: Vec<u32> = (0..mesh.edges.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .filter(is_line)
+        .flat_map_iter(|edge| mesh.edges.vertices[edge])
+        .filter(|vertex| !at(*vertex).is_empty())
+        .collect();
+    held.par_sort_unstable();
+    let mut stays = vec![true; found.len()];
+    let mut asked: Vec<usize> = (0..found.len()).collect();
+    while let Some(k) = asked.pop() {
+        let goes_on = |vertex: u32| {
+            held.binary_search(&vertex).is_ok()
+                || at(vertex).iter().any(|(_, other)| *other != k && stays[*other])
+        };
+        let is_held = |edge: usize| {
+            found.binary_search_by_key(&edge, |candidate| candidate.0).is_ok_and(|at| stays[at])
+        };
+        if !stays[k] || vertices(k).into_iter().all(goes_on) && found[k].1.into_iter().flatten().all(is_held)
+        {
+            continue;
+        }
+        stays[k] = false;
+        asked.extend(vertices(k).into_iter().flat_map(at).map(|(_, other)| *other));
+        asked.extend(of(found[k].0).iter().map(|(_, other)| *other));
+    }
+    found.iter().zip(stays).filter(|(_, stays)| *stays).map(|((edge, _), _)| *edge).collect()
+}
