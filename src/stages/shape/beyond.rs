@@ -69,14 +69,36 @@ struct Bend {
 
 /// What a walk over the surface needs.
 pub(super) struct Walk<'a> {
-    pub mesh: &'a Mesh,
-    pub turns: &'a Turns,
+    mesh: &'a Mesh,
+    turns: &'a Turns,
     /// The cosine of a crease.
-    pub most: f32,
-    pub hard: &'a HardEdges,
+    most: f32,
+    hard: &'a HardEdges,
+    /// For each vertex the first edge that has no lower one.
+    first: Vec<u32>,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    /// Made ready to look edges up, by one pass over them.
+    pub fn new(mesh: &'a Mesh, turns: &'a Turns, most: f32, hard: &'a HardEdges) -> Self {
+        let mut first = vec![0u32; mesh.positions.len() + 1];
+        for [a, _] in &mesh.edges.vertices {
+            first[*a as usize + 1] += 1;
+        }
+        for v in 1..first.len() {
+            first[v] += first[v - 1];
+        }
+        Self { mesh, turns, most, hard, first }
+    }
+
+    /// The edge between two vertices, ascending.
+    fn edge(&self, ends: [u32; 2]) -> Option<usize> {
+        let vertex = ends[0] as usize;
+        let [from, to] = [self.first[vertex], self.first[vertex + 1]].map(|edge| edge as usize);
+        let of_vertex = &self.mesh.edges.vertices[from..to];
+        of_vertex.binary_search_by_key(&ends[1], |[_, b]| *b).ok().map(|at| from + at)
+    }
+
     /// Whether the surfaces on both sides of an edge end at it, with the edges at which they have to turn back for that.
     pub fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
         let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else { return None };
@@ -91,8 +113,12 @@ impl Walk<'_> {
         if !is_end(beyond) {
             return None;
         }
-        let [first, second] = [0, 1].map(|k| self.seen_around(&bend, faces[k], beyond[k]));
-        let beyond = [first?, second?];
+        let first = self.seen_around(&bend, faces[0], beyond[0])?;
+        // Whatever is around the other facet, it makes no end of what is none.
+        if !is_end([first, beyond[1]]) {
+            return None;
+        }
+        let beyond = [first, self.seen_around(&bend, faces[1], beyond[1])?];
         is_end(beyond).then_some(beyond.map(|beyond| match beyond {
             Beyond::TurnsBack(edge) => Some(edge),
             _ => None,
@@ -238,7 +264,7 @@ impl Walk<'_> {
             // The side of the entry that the plane square to the edge passes between, with the apex.
             let kept = *entry.iter().find(|v| side(**v) != side(apex))?;
             entry = [kept.min(apex), kept.max(apex)];
-            let crossed = mesh.edges.vertices.binary_search(&entry).ok()?;
+            let crossed = self.edge(entry)?;
             let [p, q] = entry.map(|v| mesh.positions[v as usize]);
             let [s, t] = [p, q].map(|x| (x - middle).dot(along));
             let reach = p.lerp(q, (s / (s - t)).clamp(0.0, 1.0)).distance(middle);

@@ -40,11 +40,15 @@ pub(super) fn shallow_creases(
         let cosine = turns.of_two(*edge);
         cosine < least && cosine >= most && !hard.is_hard(*edge) && may(*edge)
     };
-    let walk = Walk { mesh, turns, most, hard };
-    let found: Vec<Candidate> = (0..mesh.edges.len())
+    let asked: Vec<usize> =
+        (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).filter(is_asked).collect();
+    if asked.is_empty() {
+        return Vec::new();
+    }
+    let walk = Walk::new(mesh, turns, most, hard);
+    let found: Vec<Candidate> = asked
         .into_par_iter()
-        .with_min_len(GRAIN)
-        .filter(is_asked)
+        .with_min_len(GRAIN >> 4)
         .filter_map(|edge| Some((edge, walk.ends_at(edge)?)))
         .collect();
     if found.is_empty() {
