@@ -9,6 +9,7 @@ use glam::{DVec3, Vec3};
 
 use super::HardEdges;
 use crate::math::function::{acos, cos};
+use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 
 /// A surface turns again if it does by more than this share of the turn.
@@ -25,8 +26,6 @@ const TWICE: f64 = 2.2;
 const MOST: usize = 64;
 /// A facet of no more faces is looked at all around.
 const FACET: usize = 16;
-/// The cosine (a tenth of a degree) above which two faces are of one facet.
-const FLAT_COSINE: f32 = 0.999_998_5;
 /// The cosine (a quarter of a degree) above which two sides of a facet lie on one line, if they are aside from it by no more than
 /// this share of the way between.
 const STRAIGHT: f64 = 0.999_99;
@@ -71,16 +70,23 @@ struct Bend {
 pub(super) struct Walk<'a> {
     mesh: &'a Mesh,
     turns: &'a Turns,
+    /// Edges at which faces are of one facet.
+    flat: &'a EdgeSet,
+    hard: &'a HardEdges,
     /// The cosine of a crease.
     most: f32,
-    hard: &'a HardEdges,
     /// For each vertex the first edge that has no lower one.
     first: Vec<u32>,
 }
 
 impl<'a> Walk<'a> {
     /// Made ready to look edges up, by one pass over them.
-    pub fn new(mesh: &'a Mesh, turns: &'a Turns, most: f32, hard: &'a HardEdges) -> Self {
+    pub fn new(
+        mesh: &'a Mesh,
+        (turns, flat): (&'a Turns, &'a EdgeSet),
+        hard: &'a HardEdges,
+        most: f32,
+    ) -> Self {
         let mut first = vec![0u32; mesh.positions.len() + 1];
         for [a, _] in &mesh.edges.vertices {
             first[*a as usize + 1] += 1;
@@ -88,7 +94,7 @@ impl<'a> Walk<'a> {
         for v in 1..first.len() {
             first[v] += first[v - 1];
         }
-        Self { mesh, turns, most, hard, first }
+        Self { mesh, turns, flat, hard, most, first }
     }
 
     /// The edge between two vertices, ascending.
@@ -179,10 +185,8 @@ impl<'a> Walk<'a> {
             at += 1;
             let [a, b, c] = self.mesh.triangles[face as usize];
             for [a, b] in [[a, b], [b, c], [c, a]] {
-                let Ok(edge) = self.mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]) else {
-                    continue;
-                };
-                match self.over(edge, face).filter(|_| self.turns.of_two(edge) > FLAT_COSINE) {
+                let Some(edge) = self.edge([a.min(b), a.max(b)]) else { continue };
+                match self.over(edge, face).filter(|_| self.flat.contains(edge)) {
                     Some(other) if own.contains(&other) => {}
                     Some(_) if own.len() == FACET => return None,
                     Some(other) => own.push(other),
@@ -214,24 +218,23 @@ impl<'a> Walk<'a> {
     fn bends_beside(&self, bend: &Bend, around: &[usize]) -> Option<f64> {
         let ends = |edge: usize| self.mesh.edges.vertices[edge].map(|v| self.mesh.positions[v as usize]);
         let [from, to] = ends(bend.edge);
-        let along = (to - from).normalize_or_zero();
         let again = cos(AGAIN * bend.turn) as f32;
         let bends = |edge: usize| {
             let cosine = self.turns.of_two(edge);
             cosine < again && cosine >= self.most && self.is_convex(edge) == Some(bend.convex)
         };
+        let way = |edge: usize| {
+            let [p, q] = ends(edge);
+            (q - p).normalize_or_zero()
+        };
+        let along = way(bend.edge);
         let apart = |edge: usize| {
             let [p, q] = ends(edge);
             let away = (p + q) / 2.0 - (from + to) / 2.0;
             let apart = away.reject_from(along).length();
             // What goes on along the edge itself is the same crease.
-            let is_beside =
-                (q - p).normalize_or_zero().dot(along).abs() > PARALLEL && apart > SAME_LINE * away.length();
+            let is_beside = way(edge).dot(along).abs() > PARALLEL && apart > SAME_LINE * away.length();
             is_beside.then_some(apart)
-        };
-        let way = |edge: usize| {
-            let [p, q] = ends(edge);
-            (q - p).normalize_or_zero()
         };
         // What goes on from end to end around the facet is the same crease as well.
         let mut others: Vec<usize> =

@@ -66,7 +66,7 @@ impl Patches {
         let is_exact = |face: &u32| !rounded[*face as usize] && verdicts[*face as usize].believed;
         let may =
             |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
-        let shallow = shallow_creases(mesh, turns, crease_deg, &hard, may);
+        let shallow = shallow_creases(mesh, (turns, &planes.flat), crease_deg, &hard, may);
         let hard = hard.with(mesh, &shallow);
         let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
         let figure = makes.iter().map(|make| *make == Make::Round).collect();

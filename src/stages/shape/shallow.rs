@@ -4,11 +4,14 @@
 //! facets as well. What tells them apart is how the surface goes on straight across: facets of a curve turn again by as much, the
 //! same way; what was cut at an angle does not.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::HardEdges;
 use super::beyond::Walk;
 use crate::math::function::cos;
+use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, Turns};
 
 /// A shallow crease turns by more than this share of the angle of a crease: 16 degrees of 40.
@@ -23,11 +26,11 @@ const GRAIN: usize = 1 << 12;
 /// An edge that may be a shallow crease, with those at which the surfaces on both sides have to turn back for that.
 type Candidate = (usize, [Option<usize>; 2]);
 
-/// The edges, ascending, that turn by less than `crease_deg` degrees and part surfaces that end there. `may` says which are asked, and
-/// those that are `hard` are creases already.
+/// The edges, ascending, that turn by less than `crease_deg` degrees and part surfaces that end there. `may` says which are asked;
+/// at `flat` ones the surface does not turn, and `hard` ones are creases already.
 pub(super) fn shallow_creases(
     mesh: &Mesh,
-    turns: &Turns,
+    (turns, flat): (&Turns, &EdgeSet),
     crease_deg: f64,
     hard: &HardEdges,
     may: impl Fn(usize) -> bool + Sync,
@@ -45,7 +48,7 @@ pub(super) fn shallow_creases(
     if asked.is_empty() {
         return Vec::new();
     }
-    let walk = Walk::new(mesh, turns, most, hard);
+    let walk = Walk::new(mesh, (turns, flat), hard, most);
     let found: Vec<Candidate> = asked
         .into_par_iter()
         .with_min_len(GRAIN >> 4)
@@ -67,40 +70,48 @@ fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
     needs.extend((0..found.len()).flat_map(|k| found[k].1.into_iter().flatten().map(move |edge| (edge, k))));
     ends.sort_unstable();
     needs.sort_unstable();
-    let at = |vertex: u32| {
-        &ends[ends.partition_point(|end| end.0 < vertex)..ends.partition_point(|end| end.0 <= vertex)]
-    };
-    let of = |edge: usize| {
-        &needs[needs.partition_point(|need| need.0 < edge)..needs.partition_point(|need| need.0 <= edge)]
-    };
-    // Where other lines end, none of these does inside the surface.
+    let at = |vertex: u32| equal_range(&ends, vertex);
+    // How many lines end at each vertex: those that stay, and others, at which none ends inside the surface.
     let is_line =
         |edge: &usize| hard.is_hard(*edge) || !matches!(mesh.edges.faces(*edge), EdgeFaces::Two { .. });
-    let mut held: Vec<u32> = (0..mesh.edges.len())
+    let of_others: Vec<usize> = (0..mesh.edges.len())
         .into_par_iter()
         .with_min_len(GRAIN)
         .filter(is_line)
         .flat_map_iter(|edge| mesh.edges.vertices[edge])
-        .filter(|vertex| !at(*vertex).is_empty())
+        .map(|vertex| at(vertex))
+        .filter(|range| !range.is_empty())
+        .map(|range| range.start)
         .collect();
-    held.par_sort_unstable();
+    let mut lines = vec![0usize; ends.len()];
+    of_others.into_iter().for_each(|first| lines[first] += 1);
+    ends.iter().for_each(|(vertex, _)| lines[at(*vertex).start] += 1);
     let mut stays = vec![true; found.len()];
     let mut asked: Vec<usize> = (0..found.len()).collect();
     while let Some(k) = asked.pop() {
-        let goes_on = |vertex: u32| {
-            held.binary_search(&vertex).is_ok()
-                || at(vertex).iter().any(|(_, other)| *other != k && stays[*other])
-        };
         let is_held = |edge: usize| {
             found.binary_search_by_key(&edge, |candidate| candidate.0).is_ok_and(|at| stays[at])
         };
+        let goes_on = |vertex: u32| lines[at(vertex).start] > 1;
         if !stays[k] || vertices(k).into_iter().all(goes_on) && found[k].1.into_iter().flatten().all(is_held)
         {
             continue;
         }
         stays[k] = false;
-        asked.extend(vertices(k).into_iter().flat_map(at).map(|(_, other)| *other));
-        asked.extend(of(found[k].0).iter().map(|(_, other)| *other));
+        for range in vertices(k).map(at) {
+            lines[range.start] -= 1;
+            // The last one at a vertex is asked once more, and whoever else is there need not be.
+            if lines[range.start] == 1 {
+                asked.extend(ends[range].iter().map(|(_, other)| *other));
+            }
+        }
+        asked.extend(needs[equal_range(&needs, found[k].0)].iter().map(|(_, other)| *other));
     }
     found.iter().zip(stays).filter(|(_, stays)| *stays).map(|((edge, _), _)| *edge).collect()
+}
+
+/// Where in sorted pairs those of a key lie.
+fn equal_range<K: Ord>(pairs: &[(K, usize)], key: K) -> Range<usize> {
+    let first = pairs.partition_point(|pair| pair.0 < key);
+    first..first + pairs[first..].partition_point(|pair| pair.0 <= key)
 }
