@@ -61,6 +61,7 @@ mod section_areas;
 mod sections;
 mod shadows;
 mod shallow_creases;
+mod sheet_lengths;
 mod sheets;
 mod smooth_contours;
 mod stability;

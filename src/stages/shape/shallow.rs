@@ -79,7 +79,7 @@ fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
         .with_min_len(GRAIN)
         .filter(is_line)
         .flat_map_iter(|edge| mesh.edges.vertices[edge])
-        .map(|vertex| at(vertex))
+        .map(at)
         .filter(|range| !range.is_empty())
         .map(|range| range.start)
         .collect();

@@ -27,6 +27,7 @@ pub mod scenes;
 pub mod seen;
 pub mod segments;
 pub mod shadow_rays;
+pub mod sheets;
 pub mod solids;
 pub mod strokes;
 pub mod torus_truth;

@@ -1,0 +1,163 @@
+//! Lengths on technical sheets: between places that are named, of holes by themselves, in rows that do not cross.
+
+use std::fs;
+
+use ligne::kurbo::{Point, Rect, Shape};
+use ligne::page::sheet::rows::{Side, Told, rows};
+use ligne::page::{Composed, PageFile};
+
+use crate::support::dice::Dice;
+use crate::support::sheets::{bounds, folder, item, marks, obj, words};
+use crate::support::solids::Solid;
+
+/// A plate of 80 x 50 x 10 with two holes of 8 mm and one of 20 mm, as OBJ, z up.
+fn plate() -> String {
+    use ligne::math::function::{cos, sin};
+    let mut plate = Solid::default();
+    let holes = [([15.0, 10.0], 4.0), ([65.0, 10.0], 4.0), ([40.0, 30.0], 10.0)];
+    let corner = |x: f64, y: f64, z: f64| glam::DVec3::new(x, y, z);
+    // Each hole in a box of its own; boxes side by side make up the plate.
+    for ([x, y], radius, [x0, x1, y0, y1]) in [
+        (holes[0].0, holes[0].1, [0.0, 27.5, 0.0, 20.0]),
+        (holes[1].0, holes[1].1, [52.5, 80.0, 0.0, 20.0]),
+        (holes[2].0, holes[2].1, [0.0, 80.0, 20.0, 50.0]),
+    ] {
+        let first = plate.positions.len() as u32;
+        let count = 48u32;
+        for k in 0..count {
+            let turn = std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(count);
+            let (c, s) = (cos(turn), sin(turn));
+            let far = |d: f64, low: f64, high: f64, at: f64| match d {
+                d if d > 1e-12 => (high - at) / d,
+                d if d < -1e-12 => (low - at) / d,
+                _ => f64::INFINITY,
+            };
+            let out = far(c, x0, x1, x).min(far(s, y0, y1, y));
+            for z in [0.0, 10.0] {
+                plate.positions.push(corner(x + radius * c, y + radius * s, z));
+                plate.positions.push(corner(x + out * c, y + out * s, z));
+            }
+        }
+        for k in 0..count {
+            let [a, b] = [first + 4 * k, first + 4 * ((k + 1) % count)];
+            let mut quad = |a: u32, b: u32, c: u32, d: u32| plate.triangles.extend([[a, b, c], [a, c, d]]);
+            // The wall of the hole, and the faces above and below.
+            quad(b, a, a + 2, b + 2);
+            quad(a + 2, a + 3, b + 3, b + 2);
+            quad(b, b + 1, a + 1, a);
+        }
+    }
+    // The strip between the small holes, and walls all round.
+    let mut quad = |points: [[f64; 3]; 4]| {
+        let first = plate.positions.len() as u32;
+        plate.positions.extend(points.map(glam::DVec3::from));
+        plate.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    };
+    for z in [0.0, 10.0] {
+        let strip = [[27.5, 0.0, z], [52.5, 0.0, z], [52.5, 20.0, z], [27.5, 20.0, z]];
+        quad(if z > 0.0 { strip } else { [strip[0], strip[3], strip[2], strip[1]] });
+    }
+    for [[a, b], [c, d]] in [
+        [[0.0, 0.0], [80.0, 0.0]],
+        [[80.0, 0.0], [80.0, 50.0]],
+        [[80.0, 50.0], [0.0, 50.0]],
+        [[0.0, 50.0], [0.0, 0.0]],
+    ] {
+        quad([[a, b, 0.0], [c, d, 0.0], [c, d, 10.0], [a, b, 10.0]]);
+    }
+    obj(&[("plate".into(), plate)])
+}
+
+fn sheet_of_plate(name: &str, keys: &str) -> Result<Composed, ligne::Error> {
+    let folder = folder(name);
+    fs::write(folder.join("plate.obj"), plate()).expect("written");
+    let text = format!("[page]\nkind = 'sheet'\nmodel = {{ file = 'plate.obj', up = 'z' }}\n{keys}");
+    let composed = PageFile::from_text(&text, folder.join("sheet.toml"))?.compose()?;
+    fs::remove_dir_all(&folder).expect("removed");
+    Ok(composed.into_iter().next().expect("a page"))
+}
+
+#[test]
+fn views_tell_their_holes_by_themselves() {
+    let composed =
+        sheet_of_plate("auto", "views = ['front', 'top']\ndimensions = 'auto'\n").expect("a sheet");
+    let mut told = words(item(&composed, "notes"));
+    told.sort();
+    // Length, height and depth; the holes and where they are from the left and from below.
+    assert_eq!(told, ["10", "10", "15", "2× ⌀8", "30", "40", "50", "65", "80", "⌀20"]);
+    // No text lies on another one, nor on a view.
+    let views = ["front", "top"].map(|name| bounds(item(&composed, name)));
+    let texts: Vec<Rect> = marks(item(&composed, "notes"))
+        .filter(|(_, mark)| mark.provenance.text.is_some())
+        .map(|(place, mark)| (place * mark.path.clone()).bounding_box())
+        .collect();
+    let apart = |a: Rect, b: Rect| {
+        let both = a.intersect(b);
+        both.width() <= 0.0 || both.height() <= 0.0
+    };
+    for (k, text) in texts.iter().enumerate() {
+        assert!(views.iter().all(|view| apart(*view, *text)), "{text:?} {views:?}");
+        assert!(texts[..k].iter().all(|other| apart(*other, *text)), "{texts:?}");
+    }
+    let none = sheet_of_plate("none", "views = ['front']\ndimensions = 'none'\ncentre_lines = false\n");
+    assert!(words(item(&none.expect("a sheet"), "notes")).is_empty());
+}
+
+#[test]
+fn lengths_go_between_named_places_and_diameters_are_those_of_cylinders() {
+    let keys = "views = ['front', 'top']\noverall = false\ncentre_lines = false\npoints = { corner = [0, 0, 10], hole = [15, 10, 10] }\n\
+        [[page.dimension]]\nof = 'top'\nfrom = 'corner'\nto = 'hole'\nmeasure = 'horizontal'\nside = 'above'\n\
+        [[page.dimension]]\nof = 'top'\nfrom = 'hole'\nto = 'plate.right'\nmeasure = 'horizontal'\n\
+        [[page.dimension]]\nfrom = 'bottom'\nto = 'top'\nmeasure = 'vertical'\n\
+        [[page.dimension]]\nof = 'top'\nat = [50, 30, 5]\nmeasure = 'diameter'\n\
+        [[page.dimension]]\nof = 'top'\nat = 'hole'\nmeasure = 'radius'\n";
+    let composed = sheet_of_plate("named", keys).expect("a sheet");
+    let mut told = words(item(&composed, "notes"));
+    told.sort();
+    assert_eq!(told, ["10", "15", "65", "R4", "⌀20"]);
+    for (keys, wanted) in [
+        ("from = 'cornr'\nto = [0,0,0]", "no place `cornr`"),
+        ("from = 'plat.left'\nto = [0,0,0]", "no part `plat`"),
+        ("from = [0,0,0]", "no `to`"),
+        ("measure = 'diameter'", "no `at`"),
+        ("measure = 'diameter'\nat = [0,0,0]", "no cylinder in this view"),
+        ("from = [0,0,0]\nto = [1,0,0]\nside = 'beside'", "unknown value `beside`"),
+    ] {
+        let error =
+            sheet_of_plate("named-wrong", &format!("views = ['front']\n[[page.dimension]]\n{keys}\n"));
+        let error = error.expect_err(keys);
+        assert!(error.to_string().contains(wanted) && error.file.is_some(), "{keys}: {error}");
+    }
+    let error = sheet_of_plate("set-wrong", "dimensions = 'all'\n").expect_err("wrong");
+    assert!(error.to_string().contains("no set of dimensions `all`"), "{error}");
+}
+
+#[test]
+fn lengths_in_rows_neither_overlap_nor_are_crossed() {
+    let mut dice = Dice::new(8);
+    for round in 0..300 {
+        let count = 1 + dice.below(12);
+        let told: Vec<Told> = (0..count)
+            .map(|_| {
+                let (a, b) = (dice.between(0.0, 120.0), dice.between(0.0, 120.0));
+                let side = Side::ALL[dice.below(4)];
+                let at = |x: f64| if side.is_across() { Point::new(x, 0.0) } else { Point::new(0.0, x) };
+                Told { ends: [at(a), at(b)], side, text: String::new(), wide: dice.between(2.0, 20.0) }
+            })
+            .collect();
+        let rows = rows(&told);
+        let span = |k: usize| {
+            let of = |p: Point| p.x + p.y;
+            let [a, b] = told[k].ends.map(of);
+            [a.min(b), a.max(b)]
+        };
+        for a in 0..count {
+            for b in (0..count).filter(|b| *b != a && told[*b].side == told[a].side) {
+                let ([low, high], [from, to]) = (span(a), span(b));
+                assert!(rows[a] != rows[b] || high <= from || to <= low, "round {round}");
+                // A length within another one is nearer to the view, so that no line that leads to the other crosses it.
+                assert!(low < from || high > to || rows[a] <= rows[b], "round {round}");
+            }
+        }
+    }
+}
