@@ -38,6 +38,7 @@ struct Finder<'a> {
     mesh: &'a Mesh,
     hard: &'a HardEdges,
     wrinkles: &'a EdgeSet,
+    roundings: &'a EdgeSet,
     view: &'a View,
     smooth: &'a SmoothNormals,
     wanted: u32,
@@ -48,11 +49,12 @@ struct Finder<'a> {
 
 impl<'a> Finder<'a> {
     fn new(surface: &'a Surface, view: &'a View, options: &LineOptions) -> Self {
-        let Surface { mesh, hard, wrinkles, smooth, .. } = surface;
+        let Surface { mesh, hard, wrinkles, roundings, smooth, .. } = surface;
         Self {
             mesh,
             hard,
             wrinkles,
+            roundings,
             view,
             smooth,
             wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
@@ -78,8 +80,8 @@ impl<'a> Finder<'a> {
         self.wanted & (1 << kind as u32) != 0
     }
 
-    /// An edge across which a rounded surface runs on: a turn between its faces is no crease, and where
-    /// one of them is averted, the contour of the surface is near.
+    /// An edge across which a rounded surface runs on: a turn between its faces is no crease but in the middle of a narrow rounding,
+    /// and where one of them is averted, the contour of the surface is near.
     #[inline]
     fn on_rounded(&self, edge: usize, [first, second]: [u32; 2]) -> Option<FeatureSegment> {
         let facing = &self.view.facing;
@@ -91,6 +93,12 @@ impl<'a> Finder<'a> {
                 role: Role::Witness { convex: self.is_convex(edge, [first, second]), fold: false },
                 strength: Dihedral::of(self.mesh, [first, second], false).turn(),
                 ..self.segment(edge, LineKind::Contour, nearer, [first, second])
+            });
+        }
+        if self.roundings.contains(edge) && self.wants(LineKind::Crease) {
+            return Some(FeatureSegment {
+                strength: Dihedral::of(self.mesh, [first, second], false).turn(),
+                ..self.segment(edge, LineKind::Crease, nearer, [first, second])
             });
         }
         let material = |face: u32| self.mesh.face_material[face as usize];
@@ -168,7 +176,13 @@ impl<'a> Finder<'a> {
         let (first, second) = (first as usize, second as usize);
         self.view.facing[first] == self.view.facing[second]
             && self.mesh.face_material[first] == self.mesh.face_material[second]
-            && !self.hard.is_hard(edge)
+            && !self.is_crease(edge)
+    }
+
+    /// Whether an edge is drawn for its shape, from wherever it is seen.
+    #[inline]
+    fn is_crease(&self, edge: usize) -> bool {
+        self.hard.is_hard(edge) || self.roundings.contains(edge)
     }
 
     fn degenerate(&self, face: u32) -> bool {
@@ -184,12 +198,13 @@ impl<'a> Finder<'a> {
         let contour = (facing[first as usize] != facing[second as usize]) != same_way;
         let hard = self.hard.is_hard(edge);
         let other_material = self.other_material(edge, [first, second]);
-        if !contour && !hard && !other_material {
+        let crease = self.is_crease(edge);
+        if !contour && !crease && !other_material {
             return None;
         }
         let kind = if contour && self.wants(LineKind::Contour) {
             LineKind::Contour
-        } else if hard && self.wants(LineKind::Crease) {
+        } else if crease && self.wants(LineKind::Crease) {
             LineKind::Crease
         } else if other_material && self.wants(LineKind::Material) {
             LineKind::Material

@@ -78,9 +78,10 @@ impl EdgeSearch {
 
 /// What an edge may be; the cases are those of `edge_lines`.
 fn chance(surface: &Surface, edge: usize) -> Chance {
-    let Surface { mesh, hard, smooth, .. } = surface;
+    let Surface { mesh, hard, roundings, smooth, .. } = surface;
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return Chance::Other };
-    if hard.is_hard(edge) || faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
+    let is_drawn = hard.is_hard(edge) || roundings.contains(edge);
+    if is_drawn || faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
         return Chance::Other;
     }
     let [first, second] = faces.map(|f| mesh.face_material[f as usize]);

@@ -28,6 +28,8 @@ pub struct Surface {
     pub hard: HardEdges,
     /// Sharp edges that are no creases and where the surface is not round either.
     pub wrinkles: EdgeSet,
+    /// The middle edges of narrow roundings: they are drawn as creases, and the surface goes on over them.
+    pub roundings: EdgeSet,
     /// The normals of its rounded parts, whose contours are smooth; none with
     /// [`Contours::Mesh`].
     pub smooth: SmoothNormals,
@@ -65,6 +67,7 @@ impl Surface {
             mesh,
             hard: patches.hard.clone(),
             wrinkles: patches.wrinkles.clone(),
+            roundings: patches.roundings.clone(),
             smooth,
             origins: patches.origins.clone(),
             pieces: patches.pieces.clone(),
@@ -98,6 +101,7 @@ impl Surface {
         Self {
             hard: hard.clone().with(&mesh, &folds),
             wrinkles: self.wrinkles.clone(),
+            roundings: self.roundings.clone(),
             mesh,
             smooth,
             origins: self.origins.clone(),
@@ -111,8 +115,9 @@ impl Surface {
     #[must_use]
     pub fn finer_for(mut self, camera: &Camera) -> Self {
         let Some(cuts) = self.cuts_for(camera, None) else { return self };
+        let sides = self.sides_of_roundings();
         let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
-        self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts)).surface
+        self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface
     }
 
     /// The surface with more triangles where a coarse rounded part would show its corners to the camera; none
@@ -120,7 +125,8 @@ impl Surface {
     #[must_use]
     pub fn refined_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Finer> {
         let cuts = self.cuts_for(camera, cones)?;
-        Some(self.of_finer(splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts)))
+        let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
+        Some(self.of_finer(finer, &self.sides_of_roundings()))
     }
 
     fn cuts_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Cuts> {
@@ -130,12 +136,16 @@ impl Surface {
         field::cuts_near_contours(&self.mesh, &self.smooth, cones, &Frame::new(camera, self.mesh.origin))
     }
 
-    /// The surface of a mesh that is finer than this one's.
-    fn of_finer(&self, finer: Refined) -> Finer {
+    /// The surface of a mesh that is finer than this one's, with the [`Self::sides_of_roundings`].
+    fn of_finer(&self, finer: Refined, sides: &[[u32; 2]]) -> Finer {
         let Refined { mesh, smooth, hosts, kept, edges } = finer;
         let surface = Self {
             hard: self.hard.carried(&edges, mesh.edges.len()),
             wrinkles: self.wrinkles.carried(&edges, mesh.edges.len()),
+            roundings: self
+                .roundings
+                .carried(&edges, mesh.edges.len())
+                .with(&pieces_between(&mesh, (&hosts, kept), sides), mesh.edges.len()),
             mesh,
             smooth,
             origins: hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect(),
@@ -144,6 +154,37 @@ impl Surface {
         };
         Finer { surface, hosts, kept }
     }
+
+    /// The faces on both sides of each middle edge of a narrow rounding, in order.
+    fn sides_of_roundings(&self) -> Vec<[u32; 2]> {
+        let sides = |edge| match self.mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, .. } => Some(ascending(faces)),
+            _ => None,
+        };
+        let mut found: Vec<[u32; 2]> = self.roundings.iter().filter_map(sides).collect();
+        found.sort_unstable();
+        found
+    }
+}
+
+/// Two numbers in order.
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The edges of a finer mesh at which pieces of faces meet that were on both sides of an edge: what that edge was cut into. `sides` are
+/// ascending.
+fn pieces_between(mesh: &Mesh, (hosts, kept): (&[u32], usize), sides: &[[u32; 2]]) -> Vec<usize> {
+    if sides.is_empty() {
+        return Vec::new();
+    }
+    let is_piece = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, .. } if faces.iter().all(|face| *face as usize >= kept) => {
+            sides.binary_search(&ascending(faces.map(|face| hosts[face as usize]))).is_ok()
+        }
+        _ => false,
+    };
+    EdgeSet::collect(mesh.edges.len(), is_piece).iter().collect()
 }
 
 /// A surface some of whose faces were cut for a camera.

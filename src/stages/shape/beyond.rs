@@ -5,12 +5,11 @@
 
 use std::f64::consts::PI;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
-use super::HardEdges;
-use crate::math::function::{acos, cos};
-use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
+use super::walk::{Bend, Crossing, Walk};
+use crate::math::function::cos;
+use crate::mesh::{EdgeFaces, FaceId};
 
 /// A surface turns again if it does by more than this share of the turn.
 const AGAIN: f64 = 0.35;
@@ -22,8 +21,6 @@ const ALIKE: f64 = 1.5;
 /// In its middle a rounding turns by twice as much as at its ends, and by rounding a little more.
 const TWICE: f64 = 2.2;
 
-/// Faces that are crossed in search of the next turn: what is level for longer is taken to end.
-const MOST: usize = 64;
 /// A facet of no more faces is looked at all around.
 const FACET: usize = 16;
 /// The cosine (a quarter of a degree) above which two sides of a facet lie on one line, if they are aside from it by no more than
@@ -57,62 +54,10 @@ fn is_end(beyond: [Beyond; 2]) -> bool {
     }
 }
 
-/// An edge that is asked.
-#[derive(Clone, Copy)]
-struct Bend {
-    edge: usize,
-    convex: bool,
-    /// Radians.
-    turn: f64,
-}
-
-/// What a walk over the surface needs.
-pub(super) struct Walk<'a> {
-    mesh: &'a Mesh,
-    turns: &'a Turns,
-    /// Edges at which faces are of one facet.
-    flat: &'a EdgeSet,
-    hard: &'a HardEdges,
-    /// The cosine of a crease.
-    most: f32,
-    /// For each vertex the first edge that has no lower one.
-    first: Vec<u32>,
-}
-
-impl<'a> Walk<'a> {
-    /// Made ready to look edges up, by one pass over them.
-    pub fn new(
-        mesh: &'a Mesh,
-        (turns, flat): (&'a Turns, &'a EdgeSet),
-        hard: &'a HardEdges,
-        most: f32,
-    ) -> Self {
-        let mut first = vec![0u32; mesh.positions.len() + 1];
-        for [a, _] in &mesh.edges.vertices {
-            first[*a as usize + 1] += 1;
-        }
-        for v in 1..first.len() {
-            first[v] += first[v - 1];
-        }
-        Self { mesh, turns, flat, hard, most, first }
-    }
-
-    /// The edge between two vertices, ascending.
-    fn edge(&self, ends: [u32; 2]) -> Option<usize> {
-        let vertex = ends[0] as usize;
-        let [from, to] = [self.first[vertex], self.first[vertex + 1]].map(|edge| edge as usize);
-        let of_vertex = &self.mesh.edges.vertices[from..to];
-        of_vertex.binary_search_by_key(&ends[1], |[_, b]| *b).ok().map(|at| from + at)
-    }
-
+impl Walk<'_> {
     /// Whether the surfaces on both sides of an edge end at it, with the edges at which they have to turn back for that.
     pub fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
-        let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else { return None };
-        if same_way || faces.iter().any(|face| self.mesh.is_degenerate(FaceId(*face))) {
-            return None;
-        }
-        let bend =
-            Bend { edge, convex: self.is_convex(edge)?, turn: acos(f64::from(self.turns.of_two(edge))) };
+        let (bend, faces) = self.bend(edge)?;
         let [first, second] = faces.map(|face| self.beyond(&bend, face));
         let beyond = [first?, second?];
         // Facets of curves are mostly told by a few faces; all around them is asked of what is left.
@@ -167,14 +112,6 @@ impl<'a> Walk<'a> {
             _ => return false,
         };
         far < ALIKE * near && near < ALIKE * far
-    }
-
-    /// The face on the other side of an edge.
-    fn over(&self, edge: usize, face: u32) -> Option<u32> {
-        match self.mesh.edges.faces(edge) {
-            EdgeFaces::Two { faces, same_way: false } => Some(faces[usize::from(faces[0] == face)]),
-            _ => None,
-        }
     }
 
     /// The edges around the facet that a face is of; none of a large one.
@@ -256,51 +193,28 @@ impl<'a> Walk<'a> {
 
     /// How the surface goes on from the middle of an edge, square to it, and the edge where that is, with the face before it.
     fn across(&self, bend: &Bend, face: u32) -> Option<(Beyond, Option<(usize, u32)>)> {
-        let mesh = self.mesh;
-        let [from, to] = mesh.edges.vertices[bend.edge].map(|v| mesh.positions[v as usize]);
-        let (middle, along) = ((from + to) / 2.0, to - from);
-        let side = |v: u32| (mesh.positions[v as usize] - middle).dot(along) > 0.0;
         let again = cos(AGAIN * bend.turn) as f32;
-        let (mut entry, mut face) = (mesh.edges.vertices[bend.edge], face);
-        for _ in 0..MOST {
-            let apex = *mesh.triangles[face as usize].iter().find(|v| !entry.contains(v))?;
-            // The side of the entry that the plane square to the edge passes between, with the apex.
-            let kept = *entry.iter().find(|v| side(**v) != side(apex))?;
-            entry = [kept.min(apex), kept.max(apex)];
-            let crossed = self.edge(entry)?;
-            let [p, q] = entry.map(|v| mesh.positions[v as usize]);
-            let [s, t] = [p, q].map(|x| (x - middle).dot(along));
-            let reach = p.lerp(q, (s / (s - t)).clamp(0.0, 1.0)).distance(middle);
-            let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(crossed) else {
+        for crossing in self.crossings(bend.edge, face) {
+            let Crossing { edge, before, reach } = crossing?;
+            let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else {
                 return Some((Beyond::Ends(reach), None));
             };
-            let other = faces[usize::from(faces[0] == face)];
-            if mesh.is_degenerate(FaceId(other)) {
+            let other = faces[usize::from(faces[0] == before)];
+            if self.mesh.is_degenerate(FaceId(other)) {
                 return None;
             }
-            let cosine = self.turns.of_two(crossed);
-            if self.hard.is_hard(crossed) || cosine < self.most {
-                return Some((Beyond::Ends(reach), Some((crossed, face))));
+            let cosine = self.turns.of_two(edge);
+            if self.hard.is_hard(edge) || cosine < self.most {
+                return Some((Beyond::Ends(reach), Some((edge, before))));
             }
             if cosine < again {
-                let same = self.is_convex(crossed)? == bend.convex;
-                return Some((if same { Beyond::Bends(reach) } else { Beyond::TurnsBack(crossed) }, None));
+                let same = self.is_convex(edge)? == bend.convex;
+                return Some((if same { Beyond::Bends(reach) } else { Beyond::TurnsBack(edge) }, None));
             }
             if same_way {
                 return None;
             }
-            face = other;
         }
         Some((Beyond::Ends(f64::INFINITY), None))
-    }
-
-    /// Whether the surface bends away at an edge as seen from the front of its faces.
-    fn is_convex(&self, edge: usize) -> Option<bool> {
-        let mesh = self.mesh;
-        let EdgeFaces::Two { faces: [a, b], same_way: false } = mesh.edges.faces(edge) else { return None };
-        let ends = mesh.edges.vertices[edge];
-        let apex = *mesh.triangles[b as usize].iter().find(|v| !ends.contains(v))?;
-        let normal = Vec3::from_array(mesh.face_normals[a as usize]).as_dvec3();
-        Some((mesh.positions[apex as usize] - mesh.positions[ends[0] as usize]).dot(normal) < 0.0)
     }
 }

@@ -10,7 +10,9 @@ use super::free_forms::add_free_forms;
 use super::hard_edges::LOW_OF_HIGH;
 use super::planes::{Planes, area};
 use super::rounded::{Make, Origin, Pieces, Verdict, verdicts};
-use super::shallow::shallow_creases;
+use super::roundings::narrow_roundings;
+use super::shallow::{shallow_creases, shallow_edges};
+use super::walk::Walk;
 use crate::math::function::cos;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, Turns};
@@ -31,6 +33,8 @@ pub struct Patches {
     pub hard: HardEdges,
     /// Sharp edges of machined parts that are no creases: slivers that lean by themselves. They part surfaces all the same.
     pub wrinkles: EdgeSet,
+    /// The middle edges of narrow roundings, drawn as creases: the surface goes on over them.
+    pub roundings: EdgeSet,
     /// Edges that part surfaces though they turn too little for a crease: rims of flats, strips beside
     /// wide faces.
     pub rims: EdgeSet,
@@ -67,10 +71,15 @@ impl Patches {
         let may =
             |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
         let shallow = shallow_creases(mesh, (turns, &planes.flat), crease_deg, &hard, may);
+        let roundings = if all {
+            EdgeSet::default()
+        } else {
+            roundings(mesh, (turns, &planes), &verdicts, (&hard, &wrinkles), crease_deg)
+        };
         let hard = hard.with(mesh, &shallow);
         let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
         let figure = makes.iter().map(|make| *make == Make::Round).collect();
-        Self { hard, wrinkles, rims, rounded, figure, origins, pieces, believed }
+        Self { hard, wrinkles, roundings, rims, rounded, figure, origins, pieces, believed }
     }
 }
 
@@ -149,6 +158,27 @@ fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64)
         _ => above.is_hard(edge),
     });
     (hard, wrinkles)
+}
+
+/// The middle edges of narrow roundings of machined pieces, where `hard` edges and wrinkles are none.
+fn roundings(
+    mesh: &Mesh,
+    (turns, planes): (&Turns, &Planes),
+    verdicts: &[Verdict],
+    (hard, wrinkles): (&HardEdges, &EdgeSet),
+    crease_deg: f64,
+) -> EdgeSet {
+    let is_machined = |face: &u32| {
+        let verdict = &verdicts[*face as usize];
+        verdict.make == Make::Machined && verdict.believed
+    };
+    let may = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_machined) && !wrinkles.contains(edge);
+    let asked = shallow_edges(mesh, turns, crease_deg, hard, may);
+    if asked.is_empty() {
+        return EdgeSet::default();
+    }
+    let walk = Walk::new(mesh, (turns, &planes.flat), hard, crease_deg);
+    EdgeSet::default().with(&narrow_roundings(&walk, &asked), mesh.edges.len())
 }
 
 /// Where flats and wide faces end.

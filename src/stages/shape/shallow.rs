@@ -9,7 +9,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::HardEdges;
-use super::beyond::Walk;
+use super::walk::Walk;
 use crate::math::function::cos;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, Turns};
@@ -35,20 +35,11 @@ pub(super) fn shallow_creases(
     hard: &HardEdges,
     may: impl Fn(usize) -> bool + Sync,
 ) -> Vec<usize> {
-    if crease_deg > MOST_DEG {
-        return Vec::new();
-    }
-    let [least, most] = [SHALLOW * crease_deg, crease_deg].map(|deg| cos(deg.to_radians()) as f32);
-    let is_asked = |edge: &usize| {
-        let cosine = turns.of_two(*edge);
-        cosine < least && cosine >= most && !hard.is_hard(*edge) && may(*edge)
-    };
-    let asked: Vec<usize> =
-        (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).filter(is_asked).collect();
+    let asked = shallow_edges(mesh, turns, crease_deg, hard, may);
     if asked.is_empty() {
         return Vec::new();
     }
-    let walk = Walk::new(mesh, (turns, flat), hard, most);
+    let walk = Walk::new(mesh, (turns, flat), hard, crease_deg);
     let found: Vec<Candidate> = asked
         .into_par_iter()
         .with_min_len(GRAIN >> 4)
@@ -58,6 +49,26 @@ pub(super) fn shallow_creases(
         return Vec::new();
     }
     settled(mesh, &found, hard)
+}
+
+/// The edges, ascending, that turn by less than `crease_deg` degrees and by more than the facets of a fine curve; `may` says which are
+/// asked.
+pub(super) fn shallow_edges(
+    mesh: &Mesh,
+    turns: &Turns,
+    crease_deg: f64,
+    hard: &HardEdges,
+    may: impl Fn(usize) -> bool + Sync,
+) -> Vec<usize> {
+    if crease_deg > MOST_DEG {
+        return Vec::new();
+    }
+    let [least, most] = [SHALLOW * crease_deg, crease_deg].map(|deg| cos(deg.to_radians()) as f32);
+    let is_asked = |edge: &usize| {
+        let cosine = turns.of_two(*edge);
+        cosine < least && cosine >= most && !hard.is_hard(*edge) && may(*edge)
+    };
+    (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).filter(is_asked).collect()
 }
 
 /// Those of the candidates, which are in order, that hold each other: where the surface has to turn back is a shallow
