@@ -40,6 +40,7 @@ mod lod;
 mod marked_edges;
 mod models;
 mod motion;
+mod narrow_roundings;
 mod needles;
 mod pages;
 mod painted_surfaces;

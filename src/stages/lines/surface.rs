@@ -222,3 +222,74 @@ fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
     Some(file_cosines(mesh, edge, faces)?.iter().any(|cosine| *cosine < SAME_NORMAL_COSINE))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use glam::DVec3;
+
+    use super::*;
+    use crate::math::function::{cos, sin};
+    use crate::mesh::Soup;
+    use crate::scene::Projection;
+
+    /// A ball of 16 meridians and so many rings between its poles.
+    fn ball(rings: u32) -> Mesh {
+        const AROUND: u32 = 16;
+        let mut soup = Soup { positions: vec![DVec3::NEG_Z, DVec3::Z], ..Soup::default() };
+        for ring in 1..=rings {
+            let up = TAU / 2.0 * (f64::from(ring) / f64::from(rings + 1) - 0.5);
+            let turns = (0..AROUND).map(|step| TAU * f64::from(step) / f64::from(AROUND));
+            soup.positions
+                .extend(turns.map(|turn| DVec3::new(cos(up) * cos(turn), cos(up) * sin(turn), sin(up))));
+        }
+        let at = |ring: u32, step: u32| 2 + ring * AROUND + step % AROUND;
+        for step in 0..AROUND {
+            soup.triangles.extend([
+                [0, at(0, step + 1), at(0, step)],
+                [1, at(rings - 1, step), at(rings - 1, step + 1)],
+            ]);
+            for ring in 0..rings - 1 {
+                let [a, b] = [at(ring, step), at(ring, step + 1)];
+                soup.triangles.extend([[a, b, b + AROUND], [a, b + AROUND, a + AROUND]]);
+            }
+        }
+        Mesh::build(soup)
+    }
+
+    #[test]
+    fn middle_edges_are_whole_where_faces_are_cut() {
+        let options = LineOptions { contours: Contours::Smooth, ..LineOptions::default() };
+        let mut surface = Surface::new(ball(7), &options);
+        let is_level = |mesh: &Mesh, edge: usize| {
+            mesh.edges.vertices[edge]
+                .iter()
+                .all(|v| (mesh.positions[*v as usize] + mesh.origin).z.abs() < 1e-6)
+        };
+        let edges = surface.mesh.edges.len();
+        surface.roundings = EdgeSet::collect(edges, |edge| is_level(&surface.mesh, edge));
+        assert_eq!(surface.roundings.iter().count(), 16);
+        let camera = Camera {
+            eye: DVec3::new(3.0, 1.0, 2.0),
+            up: DVec3::Z,
+            target: DVec3::ZERO,
+            projection: Projection::Orthographic { height: 2.5 },
+            width: 1000.0,
+            height: 1000.0,
+            near: None,
+        };
+        let finer = surface.finer_for(&camera);
+        let mesh = &finer.mesh;
+        let place = |v: u32| mesh.positions[v as usize] + mesh.origin;
+        let angle = |edge: usize| {
+            let [a, b] = mesh.edges.vertices[edge].map(place);
+            a.angle_between(b)
+        };
+        let found: Vec<usize> = finer.roundings.iter().collect();
+        assert!(found.len() > 16, "none of them was cut");
+        assert!(found.iter().all(|edge| is_level(mesh, *edge)));
+        let around: f64 = found.iter().map(|edge| angle(*edge)).sum();
+        assert!((around - TAU).abs() < 1e-6, "{around}");
+    }
+}

@@ -160,7 +160,7 @@ fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64)
     (hard, wrinkles)
 }
 
-/// The middle edges of narrow roundings of machined pieces, where `hard` edges and wrinkles are none.
+/// The middle edges of narrow roundings of what is no figure or scan, where `hard` edges and wrinkles are none.
 fn roundings(
     mesh: &Mesh,
     (turns, planes): (&Turns, &Planes),
@@ -168,11 +168,11 @@ fn roundings(
     (hard, wrinkles): (&HardEdges, &EdgeSet),
     crease_deg: f64,
 ) -> EdgeSet {
-    let is_machined = |face: &u32| {
+    let is_made = |face: &u32| {
         let verdict = &verdicts[*face as usize];
-        verdict.make == Make::Machined && verdict.believed
+        verdict.make != Make::Round && verdict.believed
     };
-    let may = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_machined) && !wrinkles.contains(edge);
+    let may = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_made) && !wrinkles.contains(edge);
     let asked = shallow_edges(mesh, turns, crease_deg, hard, may);
     if asked.is_empty() {
         return EdgeSet::default();

@@ -1,5 +1,6 @@
 //! What tests share: scenes, references that are slow and obvious, and measures.
 
+pub mod bars;
 pub mod board;
 pub mod dice;
 pub mod eye;
