@@ -64,7 +64,8 @@ struct Buckets {
 }
 
 /// Leaves out smooth contours and noisy creases that double a longer visible line within so many tidy lengths,
-/// but for what of them runs by itself. A line that may go for noise stands for no other.
+/// but for what of them runs by itself. A line that may go for noise stands for no other; the middle line of a rounding gives way
+/// to any other line, and none to it.
 pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
     let distance = DOUBLE * tidy;
     if !raws.par_iter().any(is_suspect) {
@@ -86,6 +87,7 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
     let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
     let rims = Rims::of(raws, &lengths);
     let may_go: Vec<bool> = raws.iter().map(|raw| may_be_noise(raw, tidy)).collect();
+    let roundings: Vec<bool> = raws.iter().map(is_rounding).collect();
     // Which sides of a line run by themselves, if it is a double. Only longer lines make it one, so that it does not matter which of
     // those are doubles themselves: of lines beside each other the longest is left.
     let alone = |i: usize| -> Option<Vec<bool>> {
@@ -107,8 +109,16 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
             let before = bare;
             for k in 0..parts as usize {
                 let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
-                let is_longer = |other: u32| lengths[other as usize] > total && !may_go[other as usize];
-                if !buckets.beside(&pieces, point, piece.direction, distance, is_longer) {
+                let stands = |other: u32| {
+                    let other = other as usize;
+                    let goes_before = match [roundings[i], roundings[other]] {
+                        [true, false] => true,
+                        [false, true] => false,
+                        _ => lengths[other] > total,
+                    };
+                    goes_before && !may_go[other]
+                };
+                if !buckets.beside(&pieces, point, piece.direction, distance, stands) {
                     bare += side / parts;
                 }
                 if bare > allowed {
@@ -203,9 +213,14 @@ fn is_suspect(raw: &Raw) -> bool {
     !raw.class.hidden
         && match raw.class.kind {
             LineKind::Contour => raw.smooth,
-            LineKind::Crease => raw.class.origin == Origin::Scanned,
+            LineKind::Crease => raw.class.origin == Origin::Scanned || is_rounding(raw),
             _ => false,
         }
+}
+
+/// Whether it is the middle line of a rounding: a crease on a surface that goes on over it.
+fn is_rounding(raw: &Raw) -> bool {
+    raw.class.kind == LineKind::Crease && raw.smooth && raw.class.origin != Origin::Scanned
 }
 
 /// The pieces of a line, with the direction each has over a few distances.
@@ -378,5 +393,21 @@ mod tests {
         };
         assert_eq!(left(100.0), [2], "a sharp crease beside a contour");
         assert_eq!(left(3.0), [0, 2], "one that turns too little for its length");
+    }
+    #[test]
+    fn the_middle_line_of_a_rounding_gives_way_to_a_contour() {
+        let left = |is_rounding: bool| {
+            let outline = contour(&[(50.0, 3.0), (120.0, 3.0)], [0, 1]);
+            let mut crease = contour(&[(50.0, 2.5), (119.0, 2.5), (123.0, 2.5)], [2, 3]);
+            crease.class.kind = LineKind::Crease;
+            (crease.class.origin, crease.smooth, crease.pronounced) =
+                (Origin::Constructed, is_rounding, 100.0);
+            let mut raws = vec![outline, crease];
+            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
+        };
+        assert_eq!(left(true), [0]);
+        assert_eq!(left(false), [2], "a crease that is longer");
     }
 }

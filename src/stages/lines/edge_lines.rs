@@ -97,6 +97,7 @@ impl<'a> Finder<'a> {
         }
         if self.roundings.contains(edge) && self.wants(LineKind::Crease) {
             return Some(FeatureSegment {
+                smooth: true,
                 strength: Dihedral::of(self.mesh, [first, second], false).turn(),
                 ..self.segment(edge, LineKind::Crease, nearer, [first, second])
             });
