@@ -4,6 +4,7 @@
 //! rounding does, but for a corner at its ends.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::walk::Walk;
 use crate::mesh::EdgeFaces;
@@ -17,6 +18,8 @@ const LONG: f64 = 3.0;
 const WHOLE: f64 = 2.0;
 /// Edges that are followed from the end of a line: what takes more of them is no corner.
 const MOST: usize = 64;
+/// The smallest piece of work for a thread, in edges.
+const GRAIN: usize = 1 << 12;
 /// The cosine (40 degrees) of the turn by which a line goes on from one edge to another, and beyond its end in all.
 const ONWARD: f64 = 0.766;
 
@@ -85,10 +88,13 @@ impl<'a> Lines<'a> {
         let mut is_on_line = vec![false; walk.mesh.positions.len()];
         let is_line =
             |edge: &usize| walk.hard.is_hard(*edge) || !matches!(edges.faces(*edge), EdgeFaces::Two { .. });
-        (0..edges.len())
+        let of_lines: Vec<u32> = (0..edges.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
             .filter(is_line)
-            .flat_map(|edge| edges.vertices[edge])
-            .for_each(|v| is_on_line[v as usize] = true);
+            .flat_map_iter(|edge| edges.vertices[edge])
+            .collect();
+        of_lines.into_iter().for_each(|v| is_on_line[v as usize] = true);
         Self { walk, found, found_at, asked_at, is_on_line }
     }
 

@@ -49,44 +49,55 @@ struct Step {
     face: u32,
 }
 
-/// What is on one side of an edge: itself and the edges after it at which the surface turns the same way, nearest first, and how far it
-/// is to where the surface behind the last of them ends.
+/// What is on one side of an edge: the edges after it at which the surface turns the same way in steps as wide as each other, nearest
+/// first, and how far it is to where the surface behind the last of them ends.
 struct Side {
-    steps: Vec<Step>,
+    steps: [Step; MOST_STEPS],
+    count: usize,
     end: f64,
 }
 
 impl Side {
-    /// What is straight across a face from an edge that is so long.
+    /// What is straight across a face from an edge that is so long; none if no rounding ends there.
     fn new(walk: &Walk, bend: &Bend, length: f64, face: u32) -> Option<Self> {
         let again = cos(AGAIN * bend.turn) as f32;
         let mut last = Step { reach: 0.0, turned: 0.0, face };
-        let mut steps = vec![last];
+        let mut side = Self { steps: [last; MOST_STEPS], count: 0, end: f64::INFINITY };
         for crossing in walk.crossings(bend.edge, face) {
             let crossing = crossing?;
-            let (edge, reach) = (crossing.edge, crossing.reach);
+            let (edge, wide) = (crossing.edge, crossing.reach - last.reach);
+            side.end = crossing.reach;
             // What is beside a rounding is wide enough, or this is none that is as narrow as the edge is long.
-            if reach - last.reach > NARROW[1] * length {
-                return Some(Self { steps, end: reach });
+            if wide > NARROW[1] * length {
+                break;
             }
             let cosine = walk.turns.of_two(edge);
             let next = walk.bend(edge).filter(|_| cosine >= walk.most && !walk.hard.is_hard(edge));
-            match next {
-                Some(_) if cosine >= again => {}
-                Some((next, _)) if next.convex == bend.convex && steps.len() <= MOST_STEPS => {
-                    let face = walk.over(edge, crossing.before)?;
-                    last = Step { reach, turned: last.turned + next.turn, face };
-                    steps.push(last);
-                }
-                _ => return Some(Self { steps, end: reach }),
+            if next.is_some() && cosine >= again {
+                continue;
             }
+            // The first strip tells how wide the others are.
+            let is_strip = side.count == 0 || wide <= REGULAR * side.steps[0].reach;
+            let Some((next, _)) = next.filter(|(next, _)| next.convex == bend.convex && is_strip) else {
+                break;
+            };
+            let turned = last.turned + next.turn;
+            if side.count == MOST_STEPS || crossing.reach > length || turned > TURN_DEG[1].to_radians() {
+                break;
+            }
+            last = Step { reach: crossing.reach, turned, face: walk.over(edge, crossing.before)? };
+            side.steps[side.count] = last;
+            side.count += 1;
+            side.end = f64::INFINITY;
         }
-        Some(Self { steps, end: f64::INFINITY })
+        let ends = |step: usize| side.width(step) >= NARROW[0] * side.steps[step].reach;
+        (0..side.count).any(ends).then_some(side)
     }
 
     /// How far the surface behind a step reaches.
     fn width(&self, step: usize) -> f64 {
-        self.steps.get(step + 1).map_or(self.end, |next| next.reach) - self.steps[step].reach
+        let end = if step + 1 < self.count { self.steps[step + 1].reach } else { self.end };
+        end - self.steps[step].reach
     }
 }
 
@@ -102,38 +113,43 @@ impl Bent {
         let (bend, [a, b]) = walk.bend(edge)?;
         let [p, q] = walk.mesh.edges.vertices[edge].map(|v| walk.mesh.positions[v as usize]);
         let length = p.distance(q);
+        // Facets of cylinders, which are most that is asked, are told by one side.
         let sides = [Side::new(walk, &bend, length, a)?, Side::new(walk, &bend, length, b)?];
         Some(Self { turn: bend.turn, sides, length })
     }
 
-    /// The narrowest rounding that the edge is of: how many steps there are on each side.
+    /// The narrowest rounding that the edge is in, by its last step on each side.
     fn rounding(&self) -> Option<[usize; 2]> {
         let [near, far] = &self.sides;
-        let runs = (0..near.steps.len()).flat_map(|i| (0..far.steps.len()).map(move |j| [i, j]));
+        let runs = (0..near.count).flat_map(|i| (0..far.count).map(move |j| [i, j]));
         let wide = |[i, j]: [usize; 2]| near.steps[i].reach + far.steps[j].reach;
         let is_one = |run: &[usize; 2]| {
             let (wide, beside) = (wide(*run), [near.width(run[0]), far.width(run[1])]);
             let (least, most) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
-            *run != [0, 0] && wide <= self.length && least >= NARROW[0] * wide && most >= NARROW[1] * wide
+            wide <= self.length && least >= NARROW[0] * wide && most >= NARROW[1] * wide
         };
         runs.filter(is_one).min_by(|a, b| wide(*a).total_cmp(&wide(*b)))
     }
 
-    /// Whether the steps of a rounding are those of an arc: there are two at least, all as wide as each other, and the surface turns by as
-    /// much between them.
+    /// Whether the steps of a rounding are those of an arc: as wide as each other, and the surface turns by as much between them.
     fn is_arc(&self, run: [usize; 2]) -> bool {
-        let steps = |k: usize| self.sides[k].steps[..=run[k]].windows(2);
-        let wide = [0, 1].into_iter().flat_map(|k| steps(k).map(|two| two[1].reach - two[0].reach));
-        let [narrow, wide] = range(wide);
-        // The turns at both ends are those of the surfaces beside as well.
-        let turns = |k: usize| steps(k).map(|two| two[1].turned - two[0].turned);
-        let inner = [0, 1].into_iter().flat_map(|k| turns(k).take(run[k].saturating_sub(1)));
-        let [gentle, steep] = range(inner.chain([self.turn]));
-        let most_at_end = [0, 1].into_iter().filter_map(|k| turns(k).last()).fold(0.0, f64::max);
-        run[0] + run[1] > 1
-            && wide <= REGULAR * narrow
-            && steep <= REGULAR * gentle
-            && most_at_end <= MOST_AT_END * gentle
+        let (mut strips, mut inner, mut most_at_end) =
+            (Range::default(), Range::default().with(self.turn), 0.0f64);
+        for (side, last) in self.sides.iter().zip(run) {
+            let mut before = Step { reach: 0.0, turned: 0.0, face: 0 };
+            for (k, step) in side.steps[..=last].iter().enumerate() {
+                strips = strips.with(step.reach - before.reach);
+                let turn = step.turned - before.turned;
+                // The turns at both ends are those of the surfaces beside as well.
+                if k < last {
+                    inner = inner.with(turn);
+                } else {
+                    most_at_end = most_at_end.max(turn);
+                }
+                before = *step;
+            }
+        }
+        strips.is_within(REGULAR) && inner.is_within(REGULAR) && most_at_end <= MOST_AT_END * inner.least
     }
 
     /// How wide the narrow rounding is that the edge is the middle of; of two edges it is the one beside the wider surface.
@@ -172,6 +188,24 @@ impl Bent {
 }
 
 /// The least and the greatest of numbers.
-fn range(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
-    numbers.fold([f64::INFINITY, 0.0], |[least, most], x| [x.min(least), x.max(most)])
+struct Range {
+    least: f64,
+    most: f64,
+}
+
+impl Default for Range {
+    fn default() -> Self {
+        Self { least: f64::INFINITY, most: 0.0 }
+    }
+}
+
+impl Range {
+    fn with(self, number: f64) -> Self {
+        Self { least: self.least.min(number), most: self.most.max(number) }
+    }
+
+    /// Whether they differ by no more than a factor.
+    fn is_within(&self, factor: f64) -> bool {
+        self.most <= factor * self.least
+    }
 }
