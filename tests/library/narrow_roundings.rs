@@ -65,29 +65,23 @@ fn steps_of_other_widths_are_no_rounding() {
     assert!(drawn(&profile).is_empty());
 }
 
-/// A plate with a rounding in four steps, whose second corner is moved up by so much from one place along it to another.
+/// A plate with a rounding in four steps, whose second corner lies farther along the arc by so much, but for one stretch of the plate.
 fn uneven(from: f64, to: f64, by: f64) -> Solid {
+    const CHANGE: f64 = 0.6;
     let profile = plate(4, 0.3);
     let mut solid = Solid::default();
-    let places = [0.0, from, from, to, to, 6.0];
+    let places = [0.0, from - CHANGE, from, to, to + CHANGE, 6.0];
     let count = profile.len() as u32;
     for (ring, z) in places.into_iter().enumerate() {
         let moved = |(k, [x, y]): (usize, &[f64; 2])| {
-            let is_moved = k == 1 && (ring < 2 || ring > 3);
-            DVec3::new(*x, y + if is_moved { by } else { 0.0 }, z)
+            let by = if k == 1 && !(2..4).contains(&ring) { by } else { 0.0 };
+            DVec3::new(x - by * sin(TAU / 16.0), y + by * cos(TAU / 16.0), z)
         };
         solid.positions.extend(profile.iter().enumerate().map(moved));
     }
-    for ring in [0, 2, 4] {
-        for k in 0..count {
-            let [a, b] = [k, (k + 1) % count].map(|k| ring * count + k);
-            solid.triangles.extend([[a, b, a + count], [b, b + count, a + count]]);
-        }
-    }
-    // Between the sections the corner that was moved stands out.
-    for first in [1, 3].map(|ring| ring * count) {
-        let [before, moved, after, other] = [first, first + 1, first + 2, first + count + 1];
-        solid.triangles.extend([[before, moved, other], [moved, after, other]]);
+    for (ring, k) in (0..5).flat_map(|ring| (0..count).map(move |k| (ring, k))) {
+        let [a, b] = [k, (k + 1) % count].map(|k| ring * count + k);
+        solid.triangles.extend([[a, b, a + count], [b, b + count, a + count]]);
     }
     let last = 5 * count;
     for k in 1..count - 1 {
@@ -99,8 +93,9 @@ fn uneven(from: f64, to: f64, by: f64) -> Solid {
 #[test]
 fn a_piece_of_a_middle_line_is_not_drawn() {
     let length = |solid: Solid| middles(solid).iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
-    assert_eq!(length(uneven(2.5, 3.5, 0.06)), 0.0, "a sixth of the rounding");
-    assert!(length(uneven(0.5, 5.5, 0.06)) > 4.9, "most of it");
+    assert_eq!(length(uneven(2.0, 3.6, 0.04)), 0.0, "a quarter of the rounding, longer than it is wide");
+    assert!(length(uneven(0.7, 5.3, 0.04)) > 4.5, "most of it");
+    assert!(length(uneven(2.0, 3.6, 0.0)) > 5.9, "a rounding that is the same all along");
 }
 
 /// A tube along a way of so many straight pieces, each turned by 30 degrees from the one before; the first and the last are long.
