@@ -7,7 +7,7 @@ use kurbo::Point;
 use ligne::math::function::{cos, sin};
 use ligne::scene::Camera;
 use ligne::stages::lines::{LineKind, LineOptions};
-use ligne::stages::mesh::{Mesh, Soup};
+use ligne::stages::mesh::{EdgeMark, Mesh, Soup};
 use ligne::stages::shape::Patches;
 
 use crate::support::bars::bar;
@@ -50,6 +50,25 @@ fn drawn(profile: &[[f64; 2]]) -> Vec<usize> {
 fn a_narrow_rounding_is_one_line_in_its_middle() {
     // Of two steps the middle is a crease anyway; an odd number has none in the middle, and one beside the wider surface.
     assert_eq!([2, 3, 4, 5].map(|steps| drawn(&plate(steps, 0.3))), [vec![], vec![2], vec![2], vec![3]]);
+}
+
+#[test]
+fn edges_that_the_file_hides_are_no_lines() {
+    let hidden = |solid: Solid| {
+        let edge_marks = vec![[EdgeMark::Hidden; 3]; solid.triangles.len()];
+        let mesh = Mesh::build(Soup {
+            positions: solid.positions,
+            triangles: solid.triangles,
+            edge_marks,
+            ..Soup::default()
+        });
+        let patches = Patches::new(&mesh, 40.0, false);
+        patches.hard.count() + patches.roundings.iter().count()
+    };
+    assert_eq!(hidden(bar(&plate(4, 0.3))), 0, "a narrow rounding");
+    let low = 1.0 - 0.5 / 3f64.sqrt();
+    let chamfered = [[-3.0, -1.0], [3.0, -1.0], [3.0, low], [2.5, 1.0], [-2.5, 1.0], [-3.0, low]];
+    assert_eq!(hidden(bar(&chamfered)), 0, "chamfers");
 }
 
 #[test]

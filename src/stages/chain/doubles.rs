@@ -394,6 +394,7 @@ mod tests {
         assert_eq!(left(100.0), [2], "a sharp crease beside a contour");
         assert_eq!(left(3.0), [0, 2], "one that turns too little for its length");
     }
+
     #[test]
     fn the_middle_line_of_a_rounding_gives_way_to_a_contour() {
         let left = |is_rounding: bool| {

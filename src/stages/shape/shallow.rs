@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use super::HardEdges;
 use super::walk::Walk;
 use crate::math::function::cos;
+use crate::mesh::dihedral::mark;
 use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, Mesh, Turns};
+use crate::mesh::{EdgeFaces, EdgeMark, Mesh, Turns};
 
 /// A shallow crease turns by more than this share of the angle of a crease: 16 degrees of 40.
 const SHALLOW: f64 = 0.4;
@@ -52,7 +53,7 @@ pub(super) fn shallow_creases(
 }
 
 /// The edges, ascending, that turn by less than `crease_deg` degrees and by more than the facets of a fine curve; `may` says which are
-/// asked.
+/// asked. Of what the file says something about it is not asked.
 pub(super) fn shallow_edges(
     mesh: &Mesh,
     turns: &Turns,
@@ -64,9 +65,13 @@ pub(super) fn shallow_edges(
         return Vec::new();
     }
     let [least, most] = [SHALLOW * crease_deg, crease_deg].map(|deg| cos(deg.to_radians()) as f32);
+    let is_unmarked = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, .. } => mark(mesh, edge, faces) == EdgeMark::Unmarked,
+        _ => true,
+    };
     let is_asked = |edge: &usize| {
         let cosine = turns.of_two(*edge);
-        cosine < least && cosine >= most && !hard.is_hard(*edge) && may(*edge)
+        cosine < least && cosine >= most && !hard.is_hard(*edge) && is_unmarked(*edge) && may(*edge)
     };
     (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).filter(is_asked).collect()
 }
