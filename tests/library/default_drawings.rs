@@ -12,7 +12,7 @@ use crate::support::pipeline::scene;
 use crate::support::properties::bound::Bound;
 use crate::support::properties::option_set::{INK, INK_MESH};
 use crate::support::properties::subject::Subject;
-use crate::support::solids::{cuboid, tube};
+use crate::support::solids::{Solid, cuboid, tube};
 use crate::support::truth::{State, Truth};
 use glam::DVec3;
 use ligne::math::function::{cos, sin};
@@ -161,6 +161,32 @@ fn flat_faces_are_drawn_by_default_as_along_the_mesh() {
             assert!(auto.bytes().contains("<path"), "{name}: nothing is drawn");
             Bound::Bytes.check(&auto, &mesh).unwrap_or_else(|words| panic!("{name} {words}"));
         }
+    }
+}
+
+/// The hull of a barrel with steep lids: its faces reach from rim to rim and from there to the tips, and no two lie in a plane.
+fn hull() -> Solid {
+    const AROUND: u32 = 40;
+    let mut hull = Solid { positions: vec![DVec3::Z * -3.4, DVec3::Z * 3.4], ..Solid::default() };
+    for (k, end) in (0..AROUND).flat_map(|k| [(k, -1.0), (k, 1.0)]) {
+        let turn = std::f64::consts::TAU * (f64::from(k) + 0.25 * end) / f64::from(AROUND);
+        hull.positions.push(DVec3::new(cos(turn), sin(turn), 2.0 * end));
+    }
+    for k in 0..AROUND {
+        let [a, b, c, d] = [0, 2, 1, 3].map(|corner| 2 + (2 * k + corner) % (2 * AROUND));
+        hull.triangles.extend([[0, b, a], [1, c, d], [a, b, c], [b, d, c]]);
+    }
+    hull
+}
+
+#[test]
+fn hulls_keep_the_outline_of_their_faces() {
+    let model = scene([hull(), hull().moved(|p| DVec3::new(p.z, p.y - 1.5, p.x - 1.0))]);
+    for view in VIEWS {
+        let camera = camera(&model, view);
+        let drawing = render(&model, &camera, &ink_style(Contours::Auto)).unwrap();
+        let words = EXACT.short(&judge(&Truth::of(&model, &camera), &drawing, EXACT.tolerance));
+        assert!(words.is_empty(), "{view:?}: {}", words.join(", "));
     }
 }
 

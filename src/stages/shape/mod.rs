@@ -30,6 +30,7 @@ mod roughness;
 mod rounded;
 mod roundings;
 mod shallow;
+mod slender;
 pub mod smooth_normals;
 mod smooth_vertices;
 pub mod splice;
