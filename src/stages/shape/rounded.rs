@@ -60,7 +60,9 @@ const BY_CHANCE_AT_MOST: f64 = 1.5;
 const MOSTLY_SHARP: f64 = 0.375;
 /// What goes for a scan is machined if more than this part of its faces' lengths bends over an end of a slender face. Of 300 models looked
 /// at scans and figures have a hundredth at most, a teapot two for the points of its lids; hulls and tessellated fillets four and more.
+/// A few long faces alone say nothing: more than one short side in a hundred bends.
 const BENT: f64 = 0.03;
+const FEW_BENDS: f64 = 0.01;
 /// Fewer edges than this are no statistics: such a group is a block or a plate.
 pub(super) const LEAST_EDGES: u32 = 60;
 /// The cosine above which a corner's normal is that of its face.
@@ -124,8 +126,9 @@ struct Count {
     /// The longest sides of all faces, and of those that are slender.
     longest: f64,
     slender: f64,
-    /// Of the latter, as much as bends over a short side, for each of two.
+    /// Of the latter, as much as bends over a short side, for each of two; and how many sides these are.
     bent: f64,
+    bends: u32,
 }
 
 impl Count {
@@ -144,6 +147,7 @@ impl Count {
         self.longest += other.longest;
         self.slender += other.slender;
         self.bent += other.bent;
+        self.bends += other.bends;
     }
 
     /// With `all`, nothing is a block.
@@ -281,16 +285,15 @@ fn tessellated(mesh: &Mesh, turns: &Turns, pieces: &[u32], counts: &mut [Count],
     let bent = runs(mesh.triangles.len(), |face| {
         let piece = pieces[face];
         let slender = asked[piece as usize].then(|| Slender::of(mesh, face as u32))??;
-        Some((
-            piece,
-            Count { bent: bends_over_its_ends(mesh, turns, face as u32, slender), ..Count::default() },
-        ))
+        let bends = bends_over_its_ends(mesh, turns, face as u32, slender);
+        Some((piece, Count { bends, bent: f64::from(bends) * slender.length, ..Count::default() }))
     });
     for (piece, count) in bent.iter().flatten() {
         counts[*piece as usize].add(count);
     }
-    for ((verdict, count), _) in verdicts.iter_mut().zip(&*counts).zip(&asked).filter(|(_, asked)| **asked) {
-        if count.bent > BENT * 2.0 * count.longest {
+    for (verdict, count) in verdicts.iter_mut().zip(&*counts) {
+        let are_many = f64::from(count.bends) > FEW_BENDS * 2.0 * f64::from(count.faces);
+        if are_many && count.bent > BENT * 2.0 * count.longest {
             (verdict.make, verdict.origin) = (Make::Machined, Origin::Constructed);
         }
     }

@@ -46,8 +46,8 @@ pub(super) fn longest_side(mesh: &Mesh, face: u32) -> f64 {
     a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
 }
 
-/// The length of a slender face for each of its two short sides over which the surface bends along it.
-pub(super) fn bends_over_its_ends(mesh: &Mesh, turns: &Turns, face: u32, slender: Slender) -> f64 {
+/// Over how many of its two short sides the surface bends along a slender face.
+pub(super) fn bends_over_its_ends(mesh: &Mesh, turns: &Turns, face: u32, slender: Slender) -> u32 {
     let least = cos(BEND * slender.width / slender.length) as f32;
     let [a, b, c] = mesh.triangles[face as usize];
     let bends = |[a, b]: [u32; 2]| {
@@ -56,7 +56,7 @@ pub(super) fn bends_over_its_ends(mesh: &Mesh, turns: &Turns, face: u32, slender
         let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]);
         is_short && edge.is_ok_and(|edge| (CORNER_COSINE..least).contains(&turns.of_two(edge)))
     };
-    [[a, b], [b, c], [c, a]].into_iter().filter(|side| bends(*side)).count() as f64 * slender.length
+    [[a, b], [b, c], [c, a]].into_iter().filter(|side| bends(*side)).count() as u32
 }
 
 #[cfg(test)]
