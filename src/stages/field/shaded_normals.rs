@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh, Share, shares};
 use crate::shape::{HardEdges, SmoothNormals};
 
 /// The normals by which light falls on a mesh. Inside a face they are interpolated and made unit
@@ -30,9 +30,9 @@ impl ShadedNormals {
             shaded.mend(mesh);
             return shaded;
         }
-        let all = SmoothNormals::new(mesh, |_| true, |edge| hard.is_hard(edge));
+        let all = SmoothNormals::parted(mesh, |_| true, |edge| hard.is_hard(edge));
         let mut shaded = Self { normals: all.normals, corners: all.corners };
-        shaded.weigh_by_area(mesh);
+        shaded.weigh_by_area(mesh, smooth);
         if !mesh.corner_normals.is_empty() {
             shaded.take_from_file(mesh);
         }
@@ -60,21 +60,37 @@ impl ShadedNormals {
     }
 
     /// Gives each normal the direction of the faces that share it, weighed by their area: large faces
-    /// are shaded as what they are, and the narrow ones of a rim do not bend the light on them.
-    fn weigh_by_area(&mut self, mesh: &Mesh) {
-        let mut sums = vec![DVec3::ZERO; self.normals.len()];
-        for (face, ids) in self.corners.iter().enumerate() {
-            let [a, b, c] = mesh.corners(FaceId(face as u32));
-            let cross = (b - a).cross(c - a);
-            for id in ids {
-                if let Some(sum) = sums.get_mut(*id as usize) {
-                    *sum += cross;
-                }
+    /// are shaded as what they are, and the narrow ones of a rim do not bend the light on them. Normals that stand at
+    /// `rounded` faces alone are left as they are, since these have their own.
+    fn weigh_by_area(&mut self, mesh: &Mesh, rounded: &SmoothNormals) {
+        let mut is_asked = vec![false; self.normals.len()];
+        for (face, ids) in (0..).zip(&self.corners) {
+            if rounded.corners_of(face).is_none() {
+                ids.iter().for_each(|id| is_asked[*id as usize] = true);
             }
         }
-        for (normal, sum) in self.normals.iter_mut().zip(sums) {
-            *normal = sum.try_normalize().unwrap_or(*normal);
-        }
+        let workers =
+            if self.normals.len() < FACES_PER_TASK { 1 } else { rayon::current_num_threads().min(8) };
+        let shares = shares(self.normals.len(), &self.corners, workers);
+        let of_share = |share: &Share| {
+            let mut sums = vec![DVec3::ZERO; share.vertices.len()];
+            for face in share.faces.iter().flat_map(Clone::clone) {
+                let ids = self.corners[face];
+                let own = |id: u32| share.vertices.contains(&(id as usize)) && is_asked[id as usize];
+                if !ids.iter().any(|id| own(*id)) {
+                    continue;
+                }
+                let [a, b, c] = mesh.corners(FaceId(face as u32));
+                let cross = (b - a).cross(c - a);
+                for id in ids.into_iter().filter(|id| own(*id)) {
+                    sums[id as usize - share.vertices.start] += cross;
+                }
+            }
+            let normals = &self.normals[share.vertices.clone()];
+            sums.iter().zip(normals).map(|(sum, own)| sum.try_normalize().unwrap_or(*own)).collect::<Vec<_>>()
+        };
+        let weighed: Vec<Vec<DVec3>> = shares.par_iter().with_max_len(1).map(of_share).collect();
+        self.normals = weighed.concat();
     }
 
     /// Puts the file's normals where it has some, on the side of their face that most of them are on.

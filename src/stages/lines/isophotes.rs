@@ -35,8 +35,8 @@ pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut Feature
             tracer.found
         })
         .collect();
-    let found = found.into_iter().flatten().map(|(face, ends)| (face, LineKind::Isophote, ends));
-    lines.append_in_faces(lit.mesh, found, |face, kind, ends| {
+    let piece = |(face, ends): Found| (face, LineKind::Isophote, ends);
+    lines.append_in_faces(lit.mesh, &found, piece, |face, kind, ends| {
         segment(lit.mesh, face, [face, NO_FACE], kind, ends)
     });
 }

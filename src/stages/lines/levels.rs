@@ -155,7 +155,9 @@ impl Band<'_> {
             let point = self.lit.point(self.face, nodes[0].weights);
             self.lit.shading.range(self.channel, self.paint, &point, self.shadowed, turn, longest)
         } else {
-            let off = turn * self.steepness;
+            // What lies between the corners differs from them by no more than normals turn, and from what is straight between
+            // them by a part of the square of that: a cosine bends no more, and below none there is no light.
+            let off = turn.min(turn * turn) * self.steepness;
             let [a, b, c] = [nodes[0].value, nodes[1].value, nodes[2].value];
             (a.min(b).min(c) - off, a.max(b).max(c) + off)
         };

@@ -51,9 +51,12 @@ pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
             pieces
         })
         .collect();
-    let mut ids = lines.append_in_faces(lit.mesh, found.into_iter().flatten(), |face, kind, ends| {
-        segment(lit.mesh, face, [face, NO_FACE], kind, ends)
-    });
+    let mut ids = lines.append_in_faces(
+        lit.mesh,
+        &found,
+        |piece| piece,
+        |face, kind, ends| segment(lit.mesh, face, [face, NO_FACE], kind, ends),
+    );
     for Seam { segment, pieces } in seams {
         for (places, kind) in pieces {
             let ends = [0, 1].map(|k| match places[k] {

@@ -33,7 +33,7 @@ pub use extents::{Extent, Extents};
 pub use groups::Groups;
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use posed::Sources;
-pub(crate) use shares::shares;
+pub(crate) use shares::{Share, shares};
 pub use soup::{EdgeMark, Soup, Wire};
 pub use turns::Turns;
 

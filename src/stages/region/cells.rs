@@ -146,8 +146,9 @@ impl Triangulation {
 
 /// The Delaunay triangulation of points under borders; `None` where a point is beyond all numbers.
 fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<Corner>> {
-    let mut built = ConstrainedDelaunayTriangulation::<Corner>::new();
-    let mut vertices = vec![None; noded.points.len()];
+    let points = noded.points.len();
+    let mut built = ConstrainedDelaunayTriangulation::<Corner>::with_capacity(points, 3 * points, 2 * points);
+    let mut vertices = vec![None; points];
     let mut last = None;
     for number in insertion_order(&noded.points) {
         let [x, y] = noded.points[number as usize];

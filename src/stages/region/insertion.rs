@@ -1,5 +1,7 @@
 //! [`insertion_order`]: in which order points are put into a triangulation.
 
+use rayon::prelude::*;
+
 use super::noding::GridPoint;
 use crate::math::noise::hash;
 use crate::mesh::space_curve::spread;
@@ -28,15 +30,17 @@ pub(super) fn insertion_order(points: &[GridPoint]) -> Vec<u32> {
         let [x, y] = [0, 1].map(|axis| spread(point[axis].abs_diff(low[axis]) >> shift));
         x | y << 1
     };
-    let mut keys: Vec<(u32, u64, u32)> = (0u32..)
-        .zip(points)
+    let mut keys: Vec<(u32, u64, u32)> = points
+        .par_iter()
+        .with_min_len(1 << 12)
+        .enumerate()
         .map(|(number, point)| {
             // Half of all are in the last round, a quarter in the one before.
-            let lot = hash(0, &[u64::from(number)]).trailing_zeros();
-            (u64::BITS - lot, along(point), number)
+            let lot = hash(0, &[number as u64]).trailing_zeros();
+            (u64::BITS - lot, along(point), number as u32)
         })
         .collect();
-    keys.sort_unstable();
+    keys.par_sort_unstable();
     keys.into_iter().map(|(_, _, number)| number).collect()
 }
 

@@ -63,7 +63,7 @@ const MOST_ROUNDS: u32 = 16;
 /// led on to it: tone borders end at the faces' own contour, which lies a little inside or outside of
 /// the smooth one.
 pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
-    let mut noded = Noder::default();
+    let mut noded = Noder::with_capacity(segments.len());
     for ([a, b], border) in segments {
         let ends = [noded.point(*a), noded.point(*b)];
         noded.add(ends, *border, noded.pieces.len() as u32);
@@ -74,7 +74,7 @@ pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
     noded.cut_all(touched);
     // Points are numbered by where they are, so that what follows does not depend on what else there is.
     let mut sorted: Vec<(GridPoint, u32)> = noded.points.iter().copied().zip(0..).collect();
-    sorted.sort_unstable();
+    sorted.par_sort_unstable();
     let mut numbers = vec![0; sorted.len()];
     for (number, (_, old)) in sorted.iter().enumerate() {
         numbers[*old as usize] = number as u32;
@@ -86,7 +86,7 @@ pub(super) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
         piece.ends.sort_unstable();
     }
     // Where two pieces coincide, the stronger border stays.
-    pieces.sort_unstable();
+    pieces.par_sort_unstable();
     pieces.dedup_by_key(|piece| piece.ends);
     Noded { points, pieces }
 }
@@ -106,6 +106,17 @@ struct Noder {
 }
 
 impl Noder {
+    /// With room for so many pieces that hang together.
+    fn with_capacity(pieces: usize) -> Self {
+        let mut noder = Self::default();
+        noder.points.reserve(pieces);
+        noder.number.reserve(pieces);
+        noder.pieces.reserve(pieces);
+        noder.origins.reserve(pieces);
+        noder.is_cut.reserve(pieces);
+        noder
+    }
+
     fn point(&mut self, p: GridPoint) -> u32 {
         let next = self.points.len() as u32;
         let number = *self.number.entry(p).or_insert(next);
@@ -222,7 +233,7 @@ impl Noder {
             cuts
         };
         let mut cuts: Vec<(u32, GridPoint)> = touched.par_chunks(TILES).flat_map_iter(in_tiles).collect();
-        cuts.sort_unstable();
+        cuts.par_sort_unstable();
         cuts.dedup();
         let first_new = self.pieces.len() as u32;
         for cuts in cuts.chunk_by(|one, other| one.0 == other.0) {

@@ -4,6 +4,7 @@
 //! represent a digitized line or its caricature", 1973. What the borders are cut into costs more than
 //! all that is done before, and a hundredth of a px is not seen.
 
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::noding::{Border, GridPoint};
@@ -38,7 +39,7 @@ pub(super) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) ->
     }
     // Neither sense nor order of the lines shows.
     out.iter_mut().for_each(|(ends, _)| ends.sort_unstable());
-    out.sort_unstable();
+    out.par_sort_unstable();
     out
 }
 
@@ -75,6 +76,7 @@ struct Lines<'a> {
 impl<'a> Lines<'a> {
     fn new(segments: &'a Segments) -> Self {
         let mut number: FxHashMap<GridPoint, u32> = FxHashMap::default();
+        number.reserve(segments.len());
         let mut lines =
             Self { segments, ends: Vec::with_capacity(segments.len()), at: Vec::new(), count: Vec::new() };
         for (k, (points, _)) in segments.iter().enumerate() {

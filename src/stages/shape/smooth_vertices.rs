@@ -33,6 +33,20 @@ impl SmoothNormals {
         is_rounded: impl Fn(u32) -> bool + Sync,
         is_hard: impl Fn(usize) -> bool + Sync,
     ) -> Self {
+        let mut smooth = Self::parted(mesh, is_rounded, is_hard);
+        if !smooth.is_empty() {
+            smooth.straight = straight::straight(mesh, &smooth);
+        }
+        smooth
+    }
+
+    /// The same without a look at which edges are straight: light does not ask for them.
+    #[must_use]
+    pub fn parted(
+        mesh: &Mesh,
+        is_rounded: impl Fn(u32) -> bool + Sync,
+        is_hard: impl Fn(usize) -> bool + Sync,
+    ) -> Self {
         let faces = 0..mesh.triangles.len() as u32;
         let rounded: Vec<bool> = faces.into_par_iter().with_min_len(1 << 14).map(&is_rounded).collect();
         if !rounded.contains(&true) {
@@ -62,7 +76,6 @@ impl SmoothNormals {
             straight: EdgeSet::default(),
         };
         parting::part(mesh, &mut smooth);
-        smooth.straight = straight::straight(mesh, &smooth);
         smooth
     }
 }

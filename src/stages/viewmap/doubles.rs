@@ -120,8 +120,8 @@ impl Among<'_> {
         covered
     }
 
-    /// Finds the lines before one that may be within reach of it, ascending: what is lies in a tile of the line or of one of its
-    /// neighbours at that distance, since tiles are convex.
+    /// Finds the lines before one that may run along it within reach, ascending: what does lies in a tile of the line or of one of
+    /// its neighbours at that distance, since tiles are convex.
     fn find_near(&self, number: usize, Near { tiles, lines }: &mut Near) {
         let (_, line) = &self.lines[number];
         let across = Vec2::new(-line.along.y, line.along.x) * self.within;
@@ -139,7 +139,9 @@ impl Among<'_> {
             own[..own.partition_point(|other| (*other as usize) < number)].iter().copied()
         };
         lines.clear();
-        lines.extend(tiles.iter().flat_map(before));
+        // Few run along it, and are put in order.
+        let runs_along = |other: &u32| line.runs_along(&self.lines[*other as usize].1, self.within);
+        lines.extend(tiles.iter().flat_map(before).filter(runs_along));
         if tiles.len() > 1 {
             lines.sort_unstable();
             lines.dedup();
