@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::Slope;
 use super::lamp::{EXTENT_TO_TURN, LARGEST_EXTENT, Lamp, Reach};
 use super::light_options::{LightOptions, LightSource, SourceKind, Space};
 use super::specular;
@@ -180,10 +181,11 @@ impl Lighting {
         self.occlusion > 0.0 || self.lamps.iter().any(|lamp| !matches!(lamp.reach, Reach::Parallel { .. }))
     }
 
-    /// By how much parallel light changes with the angle of the normal, at most, per radian.
+    /// By how much parallel light changes with the normal.
     #[must_use]
-    pub fn steepness(&self) -> f64 {
-        self.lamps.iter().map(|lamp| lamp.weight / (1.0 + self.wrap)).sum()
+    pub fn slope(&self) -> Slope {
+        let most = self.lamps.iter().map(|lamp| lamp.weight / (1.0 + self.wrap)).sum();
+        Slope { most, dips: self.lamps.len() > 1 }
     }
 
     /// The tint that all lights give together: their colours, weighed by brightness (Ishaya 2003:

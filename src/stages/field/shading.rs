@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::ShadeOptions;
 use super::light_options::LightOptions;
 use super::lighting::{Caster, Lighting, Of, SurfacePoint};
 use super::tone_options::{Scale, ToneOptions};
 use super::tones::{Channel, Look, Tones};
+use super::{ShadeOptions, Slope};
 use crate::math::colour::Colour;
 use crate::mesh::{Mesh, PaintId};
 use crate::scene::{Material, Paint, Scene};
@@ -188,11 +188,10 @@ impl Shading {
         }
     }
 
-    /// By how much the value of a channel that is not local changes with the angle of the normal, at
-    /// most, per radian.
+    /// By how much the value of a channel that is not local changes with the normal.
     #[must_use]
-    pub fn steepness(&self) -> f64 {
-        self.lighting.steepness()
+    pub fn slope(&self) -> Slope {
+        self.lighting.slope()
     }
 
     /// The rising levels of a channel on a paint.

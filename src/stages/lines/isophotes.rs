@@ -13,7 +13,7 @@ use super::covered::in_sight;
 use super::levels::{Band, Found, Measures, Node};
 use super::line::segment;
 use super::{FeatureLines, LineKind, Lit, NO_FACE};
-use crate::field::SurfacePoint;
+use crate::field::{Slope, SurfacePoint};
 use crate::math::tolerance;
 use crate::mesh::{FaceId, PaintId};
 
@@ -56,8 +56,8 @@ struct Ready {
     values: Vec<Vec<[Vec<f64>; 2]>>,
     /// For each channel whether it varies from place to place.
     is_local: Vec<bool>,
-    /// By how much other channels change with the angle of the normal at most, per radian.
-    steepness: f64,
+    /// By how much other channels change with the normal.
+    slope: Slope,
     /// Where there are gradients, which faces may be seen; empty if all of them.
     in_sight: Vec<bool>,
 }
@@ -88,7 +88,7 @@ impl Ready {
         Self {
             px: page_px(lit),
             is_local: channels.clone().map(|channel| lit.shading.is_local(channel)).collect(),
-            steepness: lit.shading.steepness(),
+            slope: lit.shading.slope(),
             values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
             in_sight: if lit.shading.most_levels() > tolerance::FEW_LEVELS && !sees_through {
                 in_sight(lit.mesh, lit.view)
@@ -104,8 +104,7 @@ impl<'a> Tracer<'a> {
         Self { lit, ready, found: Vec::new() }
     }
 
-    /// Whether no level can be crossed on a face, told from the values at its corners: inside, they
-    /// differ from what lies between by no more than the normals turn.
+    /// Whether no level can be crossed on a face, told from the values at its corners.
     fn is_even(
         &self,
         face: u32,
@@ -123,8 +122,7 @@ impl<'a> Tracer<'a> {
         let (a, b, c) = (values[a as usize], values[b as usize], values[c as usize]);
         let [n, m, o] = normals;
         let turn2 = n.distance_squared(*m).max(m.distance_squared(*o)).max(o.distance_squared(*n));
-        let off = turn2 * self.ready.steepness;
-        let (low, high) = (a.min(b).min(c) - off, a.max(b).max(c) + off);
+        let [low, high] = self.ready.slope.between([a.min(b).min(c), a.max(b).max(c)], turn2.sqrt());
         levels.partition_point(|level| *level < low) == levels.partition_point(|level| *level <= high)
     }
 
@@ -207,7 +205,7 @@ impl<'a> Tracer<'a> {
             normals: *normals,
             channel,
             is_local: self.ready.is_local[channel],
-            steepness: self.ready.steepness,
+            slope: self.ready.slope,
             shadowed,
             levels,
             stride: self.lit.stride(face, channel, levels, shadowed),

@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::Lit;
-use crate::field::SurfacePoint;
+use crate::field::{Slope, SurfacePoint};
 use crate::mesh::PaintId;
 
 /// A piece of a level, and the face it lies on. The brighter side is on its left.
@@ -31,8 +31,8 @@ pub(super) struct Band<'a> {
     pub channel: usize,
     /// Whether its value varies from place to place and not with the normal alone.
     pub is_local: bool,
-    /// By how much its value changes with the angle of the normal at most, per radian, where it is not local.
-    pub steepness: f64,
+    /// By how much its value changes with the normal, where it is not local.
+    pub slope: Slope,
     pub shadowed: u32,
     pub levels: &'a [f64],
     /// One in so many of them is drawn: the others are too near to it to be seen.
@@ -148,18 +148,16 @@ impl Band<'_> {
 
     /// Whether no level can be crossed anywhere on a piece, by how far normals turn along its sides.
     fn is_out_of_reach(&self, nodes: &[Node; 3], turns: [f64; 3]) -> bool {
-        let turn = turns[0].max(turns[1]).max(turns[2]) * TURN_OF_CHORD;
+        let turn = turns[0].max(turns[1]).max(turns[2]);
         let (low, high) = if self.is_local {
             let span = |a: usize, b: usize| extent(&self.measures.spans, nodes[a].weights, nodes[b].weights);
             let longest = span(0, 1).max(span(1, 2)).max(span(2, 0));
             let point = self.lit.point(self.face, nodes[0].weights);
+            let turn = turn * TURN_OF_CHORD;
             self.lit.shading.range(self.channel, self.paint, &point, self.shadowed, turn, longest)
         } else {
-            // What lies between the corners differs from them by no more than normals turn, and from what is straight between
-            // them by a part of the square of that: a cosine bends no more, and below none there is no light.
-            let off = turn.min(turn * turn) * self.steepness;
             let [a, b, c] = [nodes[0].value, nodes[1].value, nodes[2].value];
-            (a.min(b).min(c) - off, a.max(b).max(c) + off)
+            self.slope.between([a.min(b).min(c), a.max(b).max(c)], turn).into()
         };
         self.levels.partition_point(|level| *level < low)
             == self.levels.partition_point(|level| *level <= high)
@@ -169,7 +167,7 @@ impl Band<'_> {
     fn side(&self, a: Node, b: Node, turn: f64) -> Side {
         let length = extent(&self.measures.sides, a.weights, b.weights);
         // What a cosine is off its chord at most.
-        let off = turn * turn / 8.0 * self.steepness;
+        let off = turn * turn / 8.0 * self.slope.most;
         let is_straight = !self.is_local
             && turn <= MOST_TURN
             && off * length <= self.near * self.px * (a.value - b.value).abs();

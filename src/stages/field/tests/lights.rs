@@ -50,6 +50,45 @@ fn one_white_light_gives_the_cosine() {
 }
 
 #[test]
+fn light_between_normals_lies_within_its_slope() {
+    let sky = [DVec3::X, DVec3::NEG_X, DVec3::new(0.3, 0.9, 0.2), DVec3::new(-0.5, 0.1, -0.8)];
+    let mut within = 0;
+    for (lamps, wrap) in [(1, 0.0), (1, 0.4), (2, 0.0), (4, 0.0), (4, 0.3)] {
+        let sources = sky[..lamps].iter().map(|towards| directional(*towards)).collect();
+        let light = LightOptions { wrap, ..lit_by(sources) };
+        let (shading, _) = shading(&Scene::default(), &light, &ToneOptions::default());
+        let at = |normal: DVec3| shading.value(0, ANY, &point(DVec3::ZERO, normal), 0);
+        for k in 0..400 {
+            // Triangles of unit vectors, most of them small, on the terminators of the first two lights every other one.
+            let unit = |axis: u64| crate::math::noise::hash(k, &[axis]) as f64 / u64::MAX as f64 - 0.5;
+            let middle = DVec3::new(if k % 2 == 0 { 0.0 } else { unit(0) }, unit(1), unit(2)).normalize();
+            let size = [0.01, 0.05, 0.3, 1.0][k as usize % 4];
+            let corners = [3, 6, 9].map(|axis| {
+                (middle + size * DVec3::new(unit(axis), unit(axis + 1), unit(axis + 2))).normalize()
+            });
+            let [a, b, c] = corners;
+            let turn = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            let (low, high) = corners
+                .map(at)
+                .iter()
+                .fold((f64::MAX, 0.0_f64), |(low, high), value| (low.min(*value), high.max(*value)));
+            let [low, high] = shading.slope().between([low, high], turn);
+            for (i, j) in
+                (0..=12).flat_map(|i| (0..=12 - i).map(move |j| (f64::from(i) / 12.0, f64::from(j) / 12.0)))
+            {
+                let value = at((a * i + b * j + c * (1.0 - i - j)).normalize());
+                assert!(
+                    (low - 1e-12..=high + 1e-12).contains(&value),
+                    "{value} not in {low}..{high}, {lamps} lamps"
+                );
+                within += 1;
+            }
+        }
+    }
+    assert_eq!(within, 5 * 400 * 91);
+}
+
+#[test]
 fn lights_add_up_by_brightness_whatever_their_colour() {
     let red = LightSource {
         brightness: 0.5,
