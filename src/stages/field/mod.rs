@@ -32,5 +32,6 @@ pub use shade_options::ShadeOptions;
 pub use shaded_normals::ShadedNormals;
 pub use shading::Shading;
 pub use slope::Slope;
+pub(crate) use slope::TURN_OF_CHORD;
 pub use smoothing::smooth_near_zero;
 pub use tone_options::ToneOptions;

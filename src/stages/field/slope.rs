@@ -1,7 +1,7 @@
 //! [`Slope`]: how much parallel light may change with the normal.
 
 /// The angle between two unit normals is no more than so many times their distance (up to a quarter turn).
-const TURN_OF_CHORD: f64 = 1.12;
+pub(crate) const TURN_OF_CHORD: f64 = 1.12;
 
 /// How much light that follows from the normal alone may change with it.
 ///

@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::Lit;
-use crate::field::{Slope, SurfacePoint};
+use crate::field::{Slope, SurfacePoint, TURN_OF_CHORD};
 use crate::mesh::PaintId;
 
 /// A piece of a level, and the face it lies on. The brighter side is on its left.
@@ -264,9 +264,6 @@ const MOST_ROUNDS: u32 = 30;
 
 /// Pieces turn by no more than this, radians, so that no peak hides between their corners.
 const MOST_TURN: f64 = 0.25;
-
-/// The angle between two normals is no more than so many times their distance (up to a quarter turn).
-const TURN_OF_CHORD: f64 = 1.12;
 
 /// Where light varies from place to place, pieces are no longer than this.
 const LONGEST_PX: f64 = 40.0;
