@@ -171,6 +171,50 @@ fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
     assert!(!across.is_empty() && across.iter().flatten().all(|p| (p.x - middle).abs() > 100.0));
 }
 
+/// A square plate with a round hole of so many chords, four times a number, whose corners are joined to the four of the plate; and
+/// the wall of the hole with a number of chords of its own, that is wider by what chords stand off a circle.
+fn plate_with_a_hole(chords: u32, wall: u32, turned: f64) -> Solid {
+    let at = |count: u32, k: u32, from: f64| {
+        let angle = from + f64::from(k % count) / f64::from(count) * TAU;
+        DVec3::new(cos(angle), sin(angle), 0.0)
+    };
+    let mut solid = Solid::default();
+    // The last chords of each quarter are seen from its corner at a low angle.
+    let corner = |quarter: u32| at(4, quarter, 0.05) * 20.0;
+    let quarter = |k: u32| k * 4 / chords;
+    for k in 0..chords {
+        let [from, to] = [k, k + 1].map(|k| at(chords, k, 0.0));
+        let own = corner(quarter(k));
+        solid.add(Solid { positions: vec![from, own, to], triangles: vec![[0, 1, 2]] });
+        if quarter(k + 1) != quarter(k) {
+            solid.add(Solid { positions: vec![to, own, corner(quarter(k) + 1)], triangles: vec![[0, 1, 2]] });
+        }
+    }
+    for k in 0..wall {
+        let wider = 2.0 - cos(TAU / f64::from(chords * 2));
+        let [from, to] = [k, k + 1].map(|k| at(wall, k, turned) * wider);
+        tile(&mut solid, from, to - from, DVec3::NEG_Z);
+    }
+    solid
+}
+
+#[test]
+fn what_is_sewn_neither_turns_over_nor_leans() {
+    let mut sewn = 0;
+    for (chords, wall) in [(12, 16), (16, 12), (8, 20), (20, 9), (24, 7), (40, 11), (12, 31)] {
+        for turned in [0.02, 0.05, 0.11, 0.2] {
+            let solid = plate_with_a_hole(chords, wall, turned);
+            let mesh = mesh(&solid);
+            sewn += mesh.triangles.len() - solid.triangles.len();
+            for (face, normal) in mesh.triangles.iter().zip(&mesh.face_normals) {
+                let is_plate = face.iter().all(|v| mesh.positions[*v as usize].z + mesh.origin.z > -1e-9);
+                assert!(!is_plate || normal[2] > 0.9, "{chords} {wall} {turned}: {normal:?}");
+            }
+        }
+    }
+    assert!(sewn > 50, "{sewn}");
+}
+
 #[test]
 fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
     // A plate whose long side ends in the rounding of a corner.

@@ -1,5 +1,7 @@
 //! [`cut_faces`]: faces cut at corners that lie on their sides, into triangles round the opposite corner.
 
+use glam::DVec3;
+
 use super::EdgeMark;
 use super::soup::Soup;
 
@@ -8,6 +10,10 @@ pub(super) type Cut = (f64, u32);
 
 /// A face and what cuts its sides 0-1, 1-2 and 2-0, in order along each.
 pub(super) type CutFace = (u32, [Vec<Cut>; 3]);
+
+/// Pieces lean from their face by less than the angle of this cosine (20 degrees): two of them bend together by less
+/// than makes a crease.
+const UPRIGHT: f64 = 0.94;
 
 /// No normal or texture coordinate.
 const NONE: u32 = u32::MAX;
@@ -27,12 +33,19 @@ struct Corner {
     colour: [f32; 3],
 }
 
-/// Cuts faces of a soup; the first piece of each stands where the face stood, the others behind all.
+/// Cuts faces of a soup; the first piece of each stands where the face stood, the others behind all. A face of which a
+/// piece would turn over or lean stays whole.
 pub(super) fn cut_faces(soup: &mut Soup, faces: &[CutFace]) {
     for (face, cuts) in faces {
         let face = *face as usize;
-        let mut pieces = Vec::new();
+        let (mut pieces, uvs) = (Vec::new(), soup.uvs.len());
         split(soup, piece(soup, face), [&cuts[0], &cuts[1], &cuts[2]], &mut pieces);
+        let upright = normal(soup, soup.triangles[face]);
+        let cosine = |piece: &Piece| normal(soup, piece.corners.map(|corner| corner.vertex)).dot(upright);
+        if pieces.iter().any(|piece| cosine(piece) < UPRIGHT) {
+            soup.uvs.truncate(uvs);
+            continue;
+        }
         for (k, piece) in pieces.into_iter().enumerate() {
             put(&mut soup.triangles, face, k, |_| piece.corners.map(|corner| corner.vertex));
             put(&mut soup.triangle_part, face, k, |part| part);
@@ -44,6 +57,11 @@ pub(super) fn cut_faces(soup: &mut Soup, faces: &[CutFace]) {
             put(&mut soup.edge_marks, face, k, |_| piece.marks);
         }
     }
+}
+
+fn normal(soup: &Soup, corners: [u32; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(|v| soup.positions[v as usize]);
+    (b - a).cross(c - a).normalize_or_zero()
 }
 
 /// Puts what a piece has in the place of what its face had, or behind all; where nothing is known of any face, nothing.
@@ -109,8 +127,6 @@ fn between(soup: &mut Soup, [a, b]: [Corner; 2], t: f64, vertex: u32) -> Corner 
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
 
     #[test]
@@ -146,5 +162,28 @@ mod tests {
         // Of the file's sides there are three, two and one pieces.
         let hard = soup.edge_marks.as_flattened().iter().filter(|mark| **mark == EdgeMark::Hard);
         assert_eq!(hard.count(), 6);
+    }
+
+    #[test]
+    fn no_piece_turns_over_or_leans() {
+        // The last corner lies beyond the long side of a narrow face, as seen from the side that it cuts.
+        let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let mut soup = Soup {
+            positions: vec![
+                at(0.0, 0.0),
+                at(22.0, 0.0),
+                at(20.0, 1.0),
+                at(21.0, -0.1),
+                DVec3::new(10.0, 0.0, 0.3),
+            ],
+            triangles: vec![[0, 1, 2]],
+            uvs: vec![[0.0, 0.0], [22.0, 0.0], [20.0, 1.0]],
+            corner_uvs: vec![[0, 1, 2]],
+            ..Soup::default()
+        };
+        cut_faces(&mut soup, &[(0, [vec![], vec![(0.5, 3)], vec![]])]);
+        assert_eq!((&soup.triangles, soup.uvs.len()), (&vec![[0, 1, 2]], 3));
+        cut_faces(&mut soup, &[(0, [vec![(0.5, 4)], vec![], vec![]])]);
+        assert_eq!((&soup.triangles, soup.uvs.len()), (&vec![[0, 1, 2]], 3));
     }
 }

@@ -251,10 +251,13 @@ impl<'a> Seams<'a> {
         let own = &self.open[edge];
         let third = self.soup.triangles[own.face as usize].into_iter().find(|v| !own.ends.contains(v));
         let start = self.soup.positions[own.ends[0] as usize];
-        let height = third.map_or(0.0, |v| {
-            let way = self.soup.positions[v as usize] - start;
-            (way - own.along * way.dot(own.along)).length()
-        });
+        let opposite = third.map_or(DVec3::ZERO, |v| self.soup.positions[v as usize] - start);
+        let height = (opposite - own.along * opposite.dot(own.along)).length();
+        // As seen from the opposite corner, what cuts the side lies between its ends: no piece turns over.
+        let is_between = |way: DVec3| {
+            let [from, to, at] = [-opposite, own.along * own.length - opposite, way - opposite];
+            from.cross(at).dot(own.normal) > 0.0 && at.cross(to).dot(own.normal) > 0.0
+        };
         let sagitta = self.sagitta(own);
         let reach = least.max(sagitta.length()).min(height / NEARER);
         let aside = least.max(sagitta.length() / TWIST);
@@ -275,6 +278,7 @@ impl<'a> Seams<'a> {
                 && way_off.length() <= aside
                 && clear
                 && !is_own
+                && is_between(way)
                 && self.is_of_seam(own, along / own.length, corner)
             {
                 cuts.push((along / own.length, vertex));
