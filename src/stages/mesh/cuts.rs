@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn no_piece_turns_over_or_leans() {
-        // The last corner lies beyond the long side of a narrow face, as seen from the side that it cuts.
+        // The last corner but one lies beyond the long side of a narrow face, as seen from the side that it cuts; the last above it.
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let mut soup = Soup {
             positions: vec![
