@@ -12,6 +12,7 @@
 //! ```
 
 pub mod gltf;
+mod large_file;
 pub mod obj;
 pub mod ply;
 mod polygon;
@@ -151,7 +152,7 @@ pub(super) fn read_with(
     path: &Path,
     reader: impl FnOnce(&[u8], &str) -> Result<Scene, Error>,
 ) -> Result<Scene, Error> {
-    let bytes = fs::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
+    let bytes = large_file::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut scene = reader(&bytes, &stem).map_err(|error| error.in_file(path))?;
     scene.file = Some(path.to_path_buf());

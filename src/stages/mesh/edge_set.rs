@@ -40,6 +40,17 @@ impl EdgeSet {
         self.words
     }
 
+    /// Does something with each of its edges, on all threads.
+    pub fn par_for_each(&self, does: impl Fn(usize) + Sync) {
+        self.words.par_iter().enumerate().with_min_len(256).for_each(|(k, word)| {
+            let mut word = *word;
+            while word != 0 {
+                does(64 * k + word.trailing_zeros() as usize);
+                word &= word - 1;
+            }
+        });
+    }
+
     /// Its edges, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {

@@ -27,7 +27,17 @@ pub enum EdgeFaces<'a> {
     Many(&'a [u32]),
 }
 
-impl EdgeFaces<'_> {
+impl<'a> EdgeFaces<'a> {
+    /// Each of them, in mesh order.
+    pub fn each(self) -> impl Iterator<Item = u32> + use<'a> {
+        let (few, many): ([Option<u32>; 2], &[u32]) = match self {
+            Self::One(face) => ([Some(face), None], &[]),
+            Self::Two { faces, .. } => (faces.map(Some), &[]),
+            Self::Many(faces) => ([None; 2], faces),
+        };
+        few.into_iter().flatten().chain(many.iter().copied())
+    }
+
     /// All of them, in mesh order.
     #[must_use]
     pub fn list(&self) -> &[u32] {

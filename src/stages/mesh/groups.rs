@@ -1,4 +1,17 @@
 //! [`Groups`]: which faces hang together, by whatever joins them.
+//!
+//! Pairs may be told from several threads at once: faces stand in trees, of which the least face is the root, and two trees
+//! are joined by hanging the root that is greater below the other. Whoever comes first, the least face of a group is its
+//! root in the end. Source: Jayanti and Tarjan, "Concurrent disjoint set union", 2021, with the order of faces in the place of
+//! a random one.
+
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use rayon::prelude::*;
+
+/// The smallest piece of work for a thread, in faces.
+const GRAIN: usize = 1 << 14;
 
 /// Faces in groups, each known by the least face in it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -7,19 +20,17 @@ pub struct Groups {
 }
 
 impl Groups {
-    /// The groups of `count` faces of which `joins` tells pairs.
+    /// The groups of `count` faces of which `joins` tells pairs, on any threads and in any order.
     #[must_use]
-    pub fn new(count: usize, joins: impl FnOnce(&mut dyn FnMut(u32, u32))) -> Self {
-        let mut first: Vec<u32> = (0..count as u32).collect();
-        joins(&mut |a, b| {
-            let (a, b) = (root(&mut first, a), root(&mut first, b));
-            first[a.max(b) as usize] = a.min(b);
-        });
-        // The least face of a group comes before all others, so that one pass is enough.
-        for face in 0..count {
-            first[face] = first[first[face] as usize];
-        }
-        Self { first }
+    pub fn new(count: usize, joins: impl FnOnce(&(dyn Fn(u32, u32) + Sync))) -> Self {
+        let parents: Vec<AtomicU32> =
+            (0..count as u32).into_par_iter().with_min_len(GRAIN).map(AtomicU32::new).collect();
+        joins(&|a, b| join(&parents, a, b));
+        (0..count as u32)
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .for_each(|face| parents[face as usize].store(root(&parents, face), Relaxed));
+        Self { first: parents.into_iter().map(AtomicU32::into_inner).collect() }
     }
 
     /// The least face of the group that a face is in.
@@ -28,16 +39,68 @@ impl Groups {
     pub fn of(&self, face: u32) -> u32 {
         self.first[face as usize]
     }
+
+    /// The groups of the faces with `counts`, numbered in the order of their first faces; of a group either all faces count or
+    /// none. What does not count has the number `u32::MAX`.
+    #[must_use]
+    pub fn numbered(&self, counts: impl Fn(u32) -> bool + Sync) -> Numbered {
+        let first_in = |(chunk, of): (usize, &[u32])| -> Vec<u32> {
+            let faces = (chunk * GRAIN) as u32..;
+            faces
+                .zip(of)
+                .filter(|(face, first)| face == *first && counts(*face))
+                .map(|(face, _)| face)
+                .collect()
+        };
+        let first = self.first.par_chunks(GRAIN).enumerate().map(first_in).collect::<Vec<_>>().concat();
+        // Only what the first faces have is ever read: the rest costs neither memory nor time.
+        let mut at_first = vec![0; self.first.len()];
+        (0..).zip(&first).for_each(|(number, face)| at_first[*face as usize] = number);
+        let number = |(face, first): (usize, &u32)| {
+            if counts(face as u32) { at_first[*first as usize] } else { u32::MAX }
+        };
+        let of_face = self.first.par_iter().enumerate().with_min_len(GRAIN).map(number).collect();
+        Numbered { of_face, first }
+    }
 }
 
-/// The least face known of a group; the way there is halved for those who come after.
-fn root(first: &mut [u32], mut face: u32) -> u32 {
-    while first[face as usize] != face {
-        let next = first[first[face as usize] as usize];
-        first[face as usize] = next;
-        face = next;
+/// Groups with numbers in place of faces.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Numbered {
+    /// The number of the group of each face.
+    pub of_face: Vec<u32>,
+    /// The least face of each group.
+    pub first: Vec<u32>,
+}
+
+/// Makes one tree of those of two faces.
+fn join(parents: &[AtomicU32], mut a: u32, mut b: u32) {
+    loop {
+        (a, b) = (root(parents, a), root(parents, b));
+        let (least, most) = (a.min(b), a.max(b));
+        // Another thread may have hung it somewhere meanwhile.
+        if a == b || parents[most as usize].compare_exchange(most, least, Relaxed, Relaxed).is_ok() {
+            return;
+        }
     }
-    face
+}
+
+/// The least face known of a group; the way there is halved for those who come after. Whatever other threads do meanwhile, above
+/// a face stand faces of its group alone, each less than the one below.
+fn root(parents: &[AtomicU32], mut face: u32) -> u32 {
+    let above = |face: u32| parents[face as usize].load(Relaxed);
+    loop {
+        let next = above(face);
+        if next == face {
+            return face;
+        }
+        let after = above(next);
+        if after == next {
+            return next;
+        }
+        parents[face as usize].store(after, Relaxed);
+        face = after;
+    }
 }
 
 #[cfg(test)]
@@ -55,6 +118,34 @@ mod tests {
                 }
             });
             assert_eq!(groups.first, [0, 1, 2, 1, 2, 1, 1, 7]);
+            let numbered = groups.numbered(|face| face != 0);
+            assert_eq!(numbered.first, [1, 2, 7]);
+            assert_eq!(numbered.of_face, [u32::MAX, 0, 1, 0, 1, 0, 0, 2]);
         }
+    }
+
+    #[test]
+    fn threads_may_join_at_once() {
+        // Steps that meet all over; multiples of seven stay alone.
+        let count = 100_000_u32;
+        let pairs: Vec<[u32; 2]> = (0..count)
+            .map(|k| if k % 2 == 0 { k } else { count - k })
+            .map(|k| [k, (u64::from(k) * 48_271 % u64::from(count)) as u32])
+            .filter(|pair| pair.iter().all(|k| k % 7 != 0))
+            .collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("a pool");
+        let groups = pool
+            .install(|| Groups::new(count as usize, |join| pairs.par_iter().for_each(|[a, b]| join(*a, *b))));
+        // As slow and plain as can be: the least number is handed on until nothing changes.
+        let mut plain: Vec<u32> = (0..count).collect();
+        let mut before = Vec::new();
+        while before != plain {
+            before.clone_from(&plain);
+            for pair in &pairs {
+                let least = pair.map(|k| plain[k as usize]).into_iter().min().unwrap_or_default();
+                pair.iter().for_each(|k| plain[*k as usize] = least);
+            }
+        }
+        assert_eq!(groups.first, plain);
     }
 }

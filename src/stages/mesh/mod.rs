@@ -2,6 +2,7 @@
 
 pub mod build;
 pub mod clean;
+mod counting_sort;
 mod cuts;
 pub mod dihedral;
 pub mod edge_set;
@@ -30,7 +31,7 @@ pub use dihedral::Dihedral;
 pub use edge_set::EdgeSet;
 pub use edges::{EdgeFaces, Edges};
 pub use extents::{Extent, Extents};
-pub use groups::Groups;
+pub use groups::{Groups, Numbered};
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use posed::Sources;
 pub(crate) use shares::{Share, shares};

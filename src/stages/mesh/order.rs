@@ -9,9 +9,13 @@
 //! The curve is that of the whole space, not of the model's box: which of two places comes first depends on
 //! nothing but these two, so that parts that come and go leave all others in their order.
 
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::counting_sort::counting_sort;
 use super::space_curve::{CELLS, along_curve, along_exact_curve};
 use super::{MaterialId, PartId, Soup};
 use crate::math::power::power_of_two_above;
@@ -89,24 +93,49 @@ fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
     let depth = (positions.len() / 8).max(1).ilog2().div_ceil(2).min(7);
     let bits = (3 * depth).min(used);
     let large = |key: u64| (key >> (used - bits)) as u32 & ((1 << bits) - 1);
-    let mut keyed = counting_sort(&keyed, 1 << bits, |(key, _)| large(*key));
+    let mut keyed = counting_sort(keyed, 1 << bits, |(key, _)| large(*key));
     let place = |id: u32| positions[id as usize];
     let at_one_cell = |a: &(u64, u32), b: &(u64, u32)| large(a.0) == large(b.0);
     for_each_run(&mut keyed, at_one_cell, |cell| {
         cell.sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| along_exact_curve(place(a.1), place(b.1))));
     });
 
-    let mut new_id = vec![0; positions.len()];
-    let mut places: Vec<DVec3> = Vec::with_capacity(positions.len());
-    for (_, old) in keyed {
-        let p = positions[old as usize];
-        if places.last() != Some(&p) {
-            places.push(p);
-        }
-        new_id[old as usize] = places.len() as u32 - 1;
+    numbered(positions, &keyed)
+}
+
+/// Leaves each place once, in the order of `keyed`; returns the new id of each old vertex.
+fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
+    let place = |k: usize| positions[keyed[k].1 as usize];
+    let is_new = |k: usize| k == 0 || place(k - 1) != place(k);
+    let chunks = keyed.len().div_ceil(GRAIN);
+    let chunk = |c: usize| c * GRAIN..((c + 1) * GRAIN).min(keyed.len());
+    let counts: Vec<usize> =
+        (0..chunks).into_par_iter().map(|c| chunk(c).filter(|k| is_new(*k)).count()).collect();
+    let mut places = vec![DVec3::ZERO; counts.iter().sum()];
+    let mut free = places.as_mut_slice();
+    let mut before = 0;
+    let mut each = Vec::with_capacity(chunks);
+    for (c, count) in counts.into_iter().enumerate() {
+        let own;
+        (own, free) = free.split_at_mut(count);
+        each.push((c, before, own));
+        before += count as u32;
     }
+    let new_id: Vec<AtomicU32> =
+        (0..positions.len()).into_par_iter().with_min_len(GRAIN).map(|_| AtomicU32::new(0)).collect();
+    each.into_par_iter().for_each(|(c, before, own)| {
+        let mut count = 0;
+        for k in chunk(c) {
+            if is_new(k) {
+                own[count] = place(k);
+                count += 1;
+            }
+            // What a chunk begins with may stand at the last place of the one before.
+            new_id[keyed[k].1 as usize].store(before + count as u32 - 1, Relaxed);
+        }
+    });
     *positions = places;
-    new_id
+    new_id.into_iter().map(AtomicU32::into_inner).collect()
 }
 
 /// Gives the faces their new vertices and order.
@@ -114,12 +143,11 @@ fn order_faces(soup: &mut Soup, new_id: &[u32]) {
     let renamed = |t: &[u32; 3]| t.map(|v| new_id[v as usize]);
     let entry = |(face, t): (usize, &[u32; 3])| Entry::new(face, renamed(t));
     let of_file: Vec<Entry> = soup.triangles.par_iter().enumerate().with_min_len(GRAIN).map(entry).collect();
-    let mut entries = counting_sort(&of_file, soup.positions.len(), |e| e.corners[0]);
-    drop(of_file);
+    let mut entries = counting_sort(of_file, soup.positions.len(), |e| e.corners[0]);
     let groups = groups(soup);
     let group = |e: &Entry| groups.as_ref().map_or(0, |groups| groups.of_face[e.face()]);
     if let Some(groups) = &groups {
-        entries = counting_sort(&entries, groups.count, group);
+        entries = counting_sort(entries, groups.count, group);
     }
     let at_one_corner = |a: &Entry, b: &Entry| a.corners[0] == b.corners[0] && group(a) == group(b);
     for_each_run(&mut entries, at_one_corner, |faces| {
@@ -147,24 +175,6 @@ fn turned<T: Copy>([a, b, c]: [T; 3], turn: u32) -> [T; 3] {
         1 => [b, c, a],
         _ => [c, a, b],
     }
-}
-
-/// The items by a key below `keys`, those with the same key as they were.
-fn counting_sort<T: Copy + Default>(items: &[T], keys: usize, key: impl Fn(&T) -> u32) -> Vec<T> {
-    let mut starts = vec![0u32; keys + 1];
-    items.iter().for_each(|item| starts[key(item) as usize + 1] += 1);
-    let mut total = 0;
-    for start in &mut starts {
-        total += *start;
-        *start = total;
-    }
-    let mut sorted = vec![T::default(); items.len()];
-    for item in items {
-        let next = &mut starts[key(item) as usize];
-        sorted[*next as usize] = *item;
-        *next += 1;
-    }
-    sorted
 }
 
 /// Changes each run of neighbours that belong together.

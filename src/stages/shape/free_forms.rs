@@ -3,11 +3,25 @@
 //! Source for curvature by angles: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry
 //! operators for triangulated 2-manifolds", 2002, section 4.
 
+use std::ops::AddAssign;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
+
+use rayon::prelude::*;
+
 use super::planes::{Planes, area};
 use super::rounded::{LEAST_EDGES, Make};
+use super::sums::sums;
 use crate::math::function::acos;
 use crate::mesh::groups::Groups;
-use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
+
+use crate::mesh::{EdgeFaces, FaceId, Mesh, Share, Turns, shares};
+
+/// The smallest piece of work for a thread, in faces or edges.
+const GRAIN: usize = 1 << 14;
+/// Vertices whose curvature is summed as one piece of work, and how many such are done before it is asked whether it is enough.
+const BLOCK: usize = 1 << 15;
+const AT_ONCE: usize = 16;
 
 /// The least total curvature of a patch that bends both ways, radians: a twelfth of a ball's.
 const FREE_FORM: f64 = 1.0;
@@ -35,7 +49,17 @@ struct Count {
     area: f64,
     in_flats: f64,
     in_long: f64,
-    curvature: f64,
+}
+
+impl AddAssign<&Count> for Count {
+    fn add_assign(&mut self, other: &Self) {
+        self.edges += other.edges;
+        self.flat += other.flat;
+        self.coarse += other.coarse;
+        self.area += other.area;
+        self.in_flats += other.in_flats;
+        self.in_long += other.in_long;
+    }
 }
 
 impl Count {
@@ -54,7 +78,7 @@ pub(super) fn add_free_forms(
     mesh: &Mesh,
     (turns, planes): (&Turns, &Planes),
     makes: &[Make],
-    parts: impl Fn(usize) -> bool,
+    parts: impl Fn(usize) -> bool + Sync,
     rounded: &mut [bool],
 ) {
     let machined = |face: u32| makes[face as usize] == Make::Machined;
@@ -62,92 +86,108 @@ pub(super) fn add_free_forms(
         EdgeFaces::Two { faces, same_way: false } if machined(faces[0]) && !parts(edge) => Some(faces),
         _ => None,
     };
+    let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
     let groups = Groups::new(mesh.triangles.len(), |join| {
-        for [a, b] in (0..mesh.edges.len()).filter_map(inner) {
-            join(a, b);
-        }
+        edges.clone().filter_map(inner).for_each(|[a, b]| join(a, b));
     });
-    let patches = Patches::of(&groups, makes);
-    let mut counts = vec![Count::default(); patches.count];
-    // Whether a patch ends at each vertex.
-    let mut ends = vec![false; mesh.positions.len()];
-    for edge in 0..mesh.edges.len() {
-        match inner(edge) {
-            Some([face, _]) => {
-                let count = &mut counts[patches.of_face(face)];
-                count.edges += 1;
-                count.flat += u32::from(planes.flat.contains(edge));
-                count.coarse += u32::from(turns.of_two(edge) < COARSE_COSINE);
-            }
-            None => mesh.edges.vertices[edge].iter().for_each(|v| ends[*v as usize] = true),
+    let patches = groups.numbered(machined);
+    let patch = |face: u32| patches.of_face[face as usize];
+    let mut counts: Vec<Count> = sums(patches.first.len(), mesh.edges.len(), |edge| {
+        let [face, _] = inner(edge)?;
+        let flat = u32::from(planes.flat.contains(edge));
+        let coarse = u32::from(turns.of_two(edge) < COARSE_COSINE);
+        Some((patch(face), Count { edges: 1, flat, coarse, ..Count::default() }))
+    });
+    let of_faces: Vec<Count> = sums(patches.first.len(), mesh.triangles.len(), |face| {
+        let face = face as u32;
+        machined(face).then(|| (patch(face), of_face(mesh, planes, face)))
+    });
+    counts.iter_mut().zip(&of_faces).for_each(|(count, of_faces)| *count += of_faces);
+    let asked: Vec<bool> = counts.iter().map(Count::may_be_free_form).collect();
+    if !asked.contains(&true) {
+        return;
+    }
+    // Where a patch ends nothing is known of its curvature.
+    let ends: Vec<AtomicBool> = (0..mesh.positions.len()).map(|_| AtomicBool::new(false)).collect();
+    edges.filter(|edge| inner(*edge).is_none()).for_each(|edge| {
+        mesh.edges.vertices[edge].iter().for_each(|vertex| ends[*vertex as usize].store(true, Relaxed));
+    });
+    let of_patch = |face: u32| Some(patch(face)).filter(|patch| asked.get(*patch as usize) == Some(&true));
+    let bent = bent(mesh, of_patch, |vertex| !ends[vertex].load(Relaxed), &asked);
+    rounded.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, rounded)| {
+        *rounded |= bent.get(patch(face as u32) as usize) == Some(&true);
+    });
+}
+
+/// What is counted of one face.
+fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {
+    let area = area(mesh, face);
+    let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
+    let corners = mesh.corners(FaceId(face));
+    let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
+    let in_long = if longest > LONG * 2.0 * area { area } else { 0.0 };
+    Count { area, in_flats, in_long, ..Count::default() }
+}
+
+/// Which of the patches that are asked for have the curvature of a free form, summed over their inner vertices.
+///
+/// It is summed vertex by vertex, some thousands of them at a time, until all that are asked for have enough: as it is never
+/// negative, more of it changes nothing.
+fn bent(
+    mesh: &Mesh,
+    of_patch: impl Fn(u32) -> Option<u32> + Sync,
+    is_inner: impl Fn(usize) -> bool + Sync,
+    asked: &[bool],
+) -> Vec<bool> {
+    let blocks = shares(mesh.positions.len(), &mesh.triangles, mesh.positions.len().div_ceil(BLOCK));
+    let mut curvature = vec![0.0; asked.len()];
+    let mut open = asked.iter().filter(|asked| **asked).count();
+    for some in blocks.chunks(AT_ONCE) {
+        let found: Vec<Vec<(u32, f64)>> = some
+            .par_iter()
+            .with_max_len(1)
+            .map(|share| curvatures(mesh, share, &of_patch, &is_inner))
+            .collect();
+        for (patch, own) in found.into_iter().flatten() {
+            let sum: &mut f64 = &mut curvature[patch as usize];
+            open -= usize::from(*sum < FREE_FORM && *sum + own >= FREE_FORM);
+            *sum += own;
+        }
+        if open == 0 {
+            break;
         }
     }
-    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
-        let count = &mut counts[patches.of_face(face)];
-        let area = area(mesh, face);
-        count.area += area;
-        count.in_flats += if planes.of(face).is_some() { area } else { 0.0 };
-        let corners = mesh.corners(FaceId(face));
-        let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
-        count.in_long += if longest > LONG * 2.0 * area { area } else { 0.0 };
-    }
-    let may_be: Vec<bool> = counts.iter().map(Count::may_be_free_form).collect();
-    let asked = |face: &u32| machined(*face) && may_be[patches.of_face(*face)];
-    if may_be.contains(&true) {
-        // Angles are asked for where they count: around vertices inside such patches.
-        let mut counts_at = vec![false; mesh.positions.len()];
-        for face in (0..mesh.triangles.len() as u32).filter(asked) {
-            mesh.triangles[face as usize].iter().for_each(|v| counts_at[*v as usize] = !ends[*v as usize]);
-        }
-        let mut angles = vec![0.0; mesh.positions.len()];
-        for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
-            let triangle = mesh.triangles[face as usize];
-            let corners = mesh.corners(FaceId(face));
-            for (k, vertex) in triangle.iter().enumerate().filter(|(_, v)| counts_at[**v as usize]) {
+    curvature.into_iter().map(|curvature| curvature >= FREE_FORM).collect()
+}
+
+/// The curvature at some vertices, in runs of one patch: by how much the angles around each miss a whole turn.
+fn curvatures(
+    mesh: &Mesh,
+    share: &Share,
+    of_patch: impl Fn(u32) -> Option<u32>,
+    is_inner: impl Fn(usize) -> bool,
+) -> Vec<(u32, f64)> {
+    // The first patch at each vertex, if it is asked for, and the sum of angles.
+    let mut at: Vec<(Option<u32>, f64)> = vec![(None, 0.0); share.vertices.len()];
+    for face in share.faces.iter().flat_map(Clone::clone) {
+        let Some(patch) = of_patch(face as u32) else { continue };
+        let corners = mesh.corners(FaceId(face as u32));
+        for (k, vertex) in mesh.triangles[face].iter().map(|vertex| *vertex as usize).enumerate() {
+            if share.vertices.contains(&vertex) && is_inner(vertex) {
                 let [a, b] = [1, 2].map(|step| (corners[(k + step) % 3] - corners[k]).normalize_or_zero());
-                angles[*vertex as usize] += acos(a.dot(b).clamp(-1.0, 1.0));
-            }
-        }
-        for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
-            for vertex in mesh.triangles[face as usize] {
-                let vertex = vertex as usize;
-                if std::mem::replace(&mut counts_at[vertex], false) {
-                    let missing = (std::f64::consts::TAU - angles[vertex]).abs();
-                    counts[patches.of_face(face)].curvature += (missing - ROUNDING).max(0.0);
-                }
+                let (first, angles) = &mut at[vertex - share.vertices.start];
+                first.get_or_insert(patch);
+                *angles += acos(a.dot(b).clamp(-1.0, 1.0));
             }
         }
     }
-    for face in (0..mesh.triangles.len() as u32).filter(|face| machined(*face)) {
-        let patch = patches.of_face(face);
-        rounded[face as usize] = may_be[patch] && counts[patch].curvature >= FREE_FORM;
-    }
-}
-
-/// The patches of machined pieces, numbered densely: counting needs no more room than there are patches.
-struct Patches {
-    numbers: Vec<u32>,
-    count: usize,
-}
-
-impl Patches {
-    fn of(groups: &Groups, makes: &[Make]) -> Self {
-        let mut numbers = vec![u32::MAX; makes.len()];
-        let mut count = 0;
-        for face in (0..makes.len()).filter(|face| makes[*face] == Make::Machined) {
-            // The least face of a group comes first; it is machined as all of its group are.
-            let first = groups.of(face as u32) as usize;
-            if first == face {
-                numbers[face] = count as u32;
-                count += 1;
-            }
-            numbers[face] = numbers[first];
+    let mut runs: Vec<(u32, f64)> = Vec::new();
+    for (patch, angles) in at.into_iter().filter_map(|(patch, angles)| Some((patch?, angles))) {
+        let own = ((std::f64::consts::TAU - angles).abs() - ROUNDING).max(0.0);
+        match runs.last_mut() {
+            Some((last, sum)) if *last == patch => *sum += own,
+            _ => runs.push((patch, own)),
         }
-        Self { numbers, count }
     }
-
-    #[inline]
-    fn of_face(&self, face: u32) -> usize {
-        self.numbers[face as usize] as usize
-    }
+    runs
 }

@@ -35,6 +35,7 @@ pub mod smooth_normals;
 mod smooth_vertices;
 pub mod splice;
 mod straight;
+mod sums;
 mod thickness;
 mod walk;
 mod wrinkles;

@@ -9,7 +9,7 @@ use super::file_normals::file_cosines;
 use super::free_forms::add_free_forms;
 use super::hard_edges::LOW_OF_HIGH;
 use super::planes::{Planes, area};
-use super::rounded::{Make, Origin, Pieces, Verdict, verdicts};
+use super::rounded::{Make, Origin, Verdict, pieces, verdicts};
 use super::roundings::narrow_roundings;
 use super::shallow::{shallow_creases, shallow_edges};
 use super::walk::Walk;
@@ -94,15 +94,9 @@ pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u3
 
 /// How the surface turns, its flats, and what each face belongs to.
 fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Vec<Verdict>) {
-    // Pieces are followed from face to face, on one thread.
-    let (pieces, (turns, planes)) = rayon::join(
-        || Pieces::of(mesh),
-        || {
-            let turns = Turns::of(mesh);
-            let planes = Planes::new(mesh, &turns);
-            (turns, planes)
-        },
-    );
+    let turns = Turns::of(mesh);
+    let planes = Planes::new(mesh, &turns);
+    let pieces = pieces(mesh);
     let verdicts = verdicts(mesh, &turns, (&planes, &pieces), all);
     (turns, planes, verdicts)
 }

@@ -3,12 +3,20 @@
 //! Machined parts have them, scans and figures do not: their triangles turn a little at almost every
 //! edge.
 
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use rayon::prelude::*;
+
+use super::sums::sums;
 use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::groups::Groups;
+use crate::mesh::groups::{Groups, Numbered};
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 
 /// The cosine above which an edge counts as flat: a tenth of a degree.
 const FLAT_COSINE: f32 = 0.999_998_5;
+/// The smallest piece of work for a thread, in faces or edges.
+const GRAIN: usize = 1 << 14;
 /// Fewer faces than this in one plane are chance: two halves of a quad, three where a corner was cut.
 const LEAST_FACES: u32 = 4;
 /// The least area of a compact flat, as a part of its outline squared: a circle has 0.08, a square
@@ -36,43 +44,33 @@ impl Planes {
         let faces = mesh.triangles.len();
         let flat = EdgeSet::collect(mesh.edges.len(), |edge| turns.of_two(edge) > FLAT_COSINE);
         let groups = Groups::new(faces, |join| {
-            for edge in flat.iter() {
+            flat.par_for_each(|edge| {
                 if let EdgeFaces::Two { faces: [a, b], .. } = mesh.edges.faces(edge) {
                     join(a, b);
                 }
+            });
+        });
+        let sizes = sizes(&groups, faces);
+        let size = |face: u32| sizes[groups.of(face) as usize].load(Relaxed);
+        let Numbered { mut of_face, first } = groups.numbered(|face| size(face) >= LEAST_FACES);
+        of_face.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, flat)| {
+            if *flat == NONE && size(face as u32) > 1 {
+                *flat = FEW;
             }
         });
-        let mut sizes = vec![0u32; faces];
-        (0..faces as u32).for_each(|face| sizes[groups.of(face) as usize] += 1);
-        // The least face of a group comes first, and its flat is numbered there.
-        let mut of_face = vec![NONE; faces];
-        let mut areas: Vec<f64> = Vec::new();
-        for face in 0..faces as u32 {
-            let first = groups.of(face) as usize;
-            if sizes[first] < LEAST_FACES {
-                if sizes[first] > 1 {
-                    of_face[face as usize] = FEW;
-                }
-                continue;
-            }
-            if first == face as usize {
-                of_face[first] = areas.len() as u32;
-                areas.push(0.0);
-            }
-            of_face[face as usize] = of_face[first];
-            areas[of_face[first] as usize] += area(mesh, face);
-        }
-        let mut outlines = vec![0.0; areas.len()];
-        if !areas.is_empty() {
-            for edge in (0..mesh.edges.len()).filter(|edge| !flat.contains(*edge)) {
-                for face in mesh.edges.faces(edge).list() {
-                    if let Some(outline) = outlines.get_mut(of_face[*face as usize] as usize) {
-                        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
-                        *outline += a.distance(b);
-                    }
-                }
-            }
-        }
+        let in_flat = |face: u32| Some(of_face[face as usize]).filter(|flat| *flat < FEW);
+        let areas: Vec<f64> =
+            sums(first.len(), faces, |face| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32))));
+        let length = |edge: usize| {
+            let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+            a.distance(b)
+        };
+        let bounding = if first.is_empty() { 0 } else { mesh.edges.len() };
+        let outlines: Vec<f64> = sums(first.len(), bounding, |edge| {
+            let (in_flat, length, turns) = (&in_flat, &length, !flat.contains(edge));
+            let bounds = move |face| in_flat(face).filter(|_| turns).map(|flat| (flat, length(edge)));
+            mesh.edges.faces(edge).each().filter_map(bounds)
+        });
         let is_compact = |(area, outline): (f64, f64)| area >= COMPACT * outline * outline;
         let compact = areas.into_iter().zip(outlines).map(is_compact).collect();
         Self { flat, of_face, compact }
@@ -95,6 +93,32 @@ impl Planes {
     pub fn compact(&self, face: u32) -> Option<u32> {
         self.of(face).filter(|flat| self.compact[*flat as usize])
     }
+}
+
+/// How many faces each group has, at its least face.
+fn sizes(groups: &Groups, faces: usize) -> Vec<AtomicU32> {
+    let faces = (0..faces as u32).into_par_iter().with_min_len(GRAIN);
+    let sizes: Vec<AtomicU32> = faces.clone().map(|_| AtomicU32::new(0)).collect();
+    // Neighbours mostly are of one group, so that a whole run of them is added at once.
+    let add = |(group, size): (u32, u32)| {
+        if size > 0 {
+            sizes[group as usize].fetch_add(size, Relaxed);
+        }
+    };
+    let last_run = faces.fold(
+        || (0, 0),
+        |(group, size), face| {
+            let own = groups.of(face);
+            if own == group {
+                (group, size + 1)
+            } else {
+                add((group, size));
+                (own, 1)
+            }
+        },
+    );
+    last_run.for_each(add);
+    sizes
 }
 
 /// The area of a face, world units squared.

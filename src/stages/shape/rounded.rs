@@ -6,13 +6,15 @@
 //! a little at almost every edge.
 
 use std::collections::BTreeMap;
+use std::ops::AddAssign;
 
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::planes::{Planes, area};
 use super::slender::{Slender, bends_over_its_ends, longest_side};
-use crate::mesh::groups::Groups;
+use super::sums::sums;
+use crate::mesh::groups::{Groups, Numbered};
 use crate::mesh::{EdgeFaces, Mesh, Turns};
 
 /// A piece is machined if flats hold this part of its surface, without normals and with them. Of 160 models looked at scans have 0 to
@@ -131,8 +133,8 @@ struct Count {
     bends: u32,
 }
 
-impl Count {
-    fn add(&mut self, other: &Self) {
+impl AddAssign<&Count> for Count {
+    fn add_assign(&mut self, other: &Self) {
         self.edges += other.edges;
         self.flat += other.flat;
         self.nearly_flat += other.nearly_flat;
@@ -149,7 +151,9 @@ impl Count {
         self.bent += other.bent;
         self.bends += other.bends;
     }
+}
 
+impl Count {
     /// With `all`, nothing is a block.
     fn verdict(&self, all: bool) -> Verdict {
         let share = |of: u32, all: u32| f64::from(of) / f64::from(all.max(1));
@@ -197,39 +201,17 @@ impl Count {
     }
 }
 
-/// The connected pieces of a mesh, numbered in the order of their first faces.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Pieces {
-    /// The piece of each face.
-    of_face: Vec<u32>,
-    /// The least face of each piece.
-    first: Vec<u32>,
-}
-
-impl Pieces {
-    /// Those of a mesh. Needs nothing but its edges, so that it can be done beside all else.
-    pub fn of(mesh: &Mesh) -> Self {
-        let groups = Groups::new(mesh.triangles.len(), |join| {
-            for edge in 0..mesh.edges.len() {
-                let list = mesh.edges.faces(edge);
-                for pair in list.list().windows(2) {
-                    join(pair[0], pair[1]);
-                }
+/// The connected pieces of a mesh. Needs nothing but its edges, so that it can be done beside all else.
+pub(super) fn pieces(mesh: &Mesh) -> Numbered {
+    let groups = Groups::new(mesh.triangles.len(), |join| {
+        (0..mesh.edges.len()).into_par_iter().with_min_len(1 << 14).for_each(|edge| {
+            let list = mesh.edges.faces(edge);
+            for pair in list.list().windows(2) {
+                join(pair[0], pair[1]);
             }
         });
-        // Numbered densely, so that counting needs no search.
-        let mut pieces = Self { of_face: vec![0; mesh.triangles.len()], first: Vec::new() };
-        for face in 0..mesh.triangles.len() as u32 {
-            let first = groups.of(face);
-            pieces.of_face[face as usize] = if first == face {
-                pieces.first.push(face);
-                pieces.first.len() as u32 - 1
-            } else {
-                pieces.of_face[first as usize]
-            };
-        }
-        pieces
-    }
+    });
+    groups.numbered(|_| true)
 }
 
 /// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for
@@ -237,24 +219,22 @@ impl Pieces {
 pub(super) fn verdicts(
     mesh: &Mesh,
     turns: &Turns,
-    (planes, pieces): (&Planes, &Pieces),
+    (planes, pieces): (&Planes, &Numbered),
     all: bool,
 ) -> Vec<Verdict> {
     let faces = mesh.triangles.len();
-    let Pieces { of_face: number, first } = pieces;
-    let mut counts = vec![Count::default(); first.len()];
-    let of_faces = runs(faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
-    let of_edges = runs(mesh.edges.len(), |edge| {
+    let Numbered { of_face: number, first } = pieces;
+    let mut counts: Vec<Count> =
+        sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
+    let of_edges: Vec<Count> = sums(first.len(), mesh.edges.len(), |edge| {
         let (face, count) = of_edge(mesh, turns, planes, edge)?;
         Some((number[face as usize], count))
     });
-    for (piece, count) in of_faces.iter().chain(&of_edges).flatten() {
-        counts[*piece as usize].add(count);
-    }
+    counts.iter_mut().zip(&of_edges).for_each(|(count, of_edges)| *count += of_edges);
     let key = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
     let mut together: BTreeMap<_, Count> = BTreeMap::new();
     for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges < LEAST_EDGES) {
-        together.entry(key(*face)).or_default().add(count);
+        *together.entry(key(*face)).or_default() += count;
     }
     let verdict = |(piece, (face, count)): (usize, (&u32, &Count))| {
         let is_small = count.edges < LEAST_EDGES;
@@ -282,15 +262,13 @@ fn tessellated(mesh: &Mesh, turns: &Turns, pieces: &[u32], counts: &mut [Count],
     if !asked.contains(&true) {
         return;
     }
-    let bent = runs(mesh.triangles.len(), |face| {
+    let bent: Vec<Count> = sums(counts.len(), mesh.triangles.len(), |face| {
         let piece = pieces[face];
         let slender = asked[piece as usize].then(|| Slender::of(mesh, face as u32))??;
         let bends = bends_over_its_ends(mesh, turns, face as u32, slender);
         Some((piece, Count { bends, bent: f64::from(bends) * slender.length, ..Count::default() }))
     });
-    for (piece, count) in bent.iter().flatten() {
-        counts[*piece as usize].add(count);
-    }
+    counts.iter_mut().zip(&bent).for_each(|(count, bent)| *count += bent);
     for (verdict, count) in verdicts.iter_mut().zip(&*counts) {
         let are_many = f64::from(count.bends) > FEW_BENDS * 2.0 * f64::from(count.faces);
         if are_many && count.bent > BENT * 2.0 * count.longest {
@@ -315,24 +293,6 @@ fn follow_largest<K: Ord>(kin: impl Iterator<Item = K> + Clone, counts: &[Count]
             (verdict.make, verdict.origin) = (Make::Machined, Origin::Constructed);
         }
     }
-}
-
-/// What is counted of items, in lists in order, summed over runs of one piece: neighbours mostly are of one.
-fn runs(items: usize, count: impl Fn(usize) -> Option<(u32, Count)> + Sync) -> Vec<Vec<(u32, Count)>> {
-    const CHUNK: usize = 1 << 15;
-    (0..items.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|k| {
-            let mut runs: Vec<(u32, Count)> = Vec::new();
-            for (piece, own) in (k * CHUNK..((k + 1) * CHUNK).min(items)).filter_map(&count) {
-                match runs.last_mut() {
-                    Some((last, sum)) if *last == piece => sum.add(&own),
-                    _ => runs.push((piece, own)),
-                }
-            }
-            runs
-        })
-        .collect()
 }
 
 /// What is counted of an edge between two faces with area, and one of them.
