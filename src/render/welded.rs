@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::{fills, glass, under};
 use crate::mesh::Mesh;
 use crate::scene::paint::Paints;
-use crate::scene::{Geometry, Scene, Warnings, cutout};
+use crate::scene::{Scene, Warnings, cutout};
 use crate::style::Style;
 
 /// The paints of what a style leaves of a scene, if it asks for any.
@@ -29,21 +29,29 @@ pub(super) struct Welded<'a> {
 
 impl<'a> Welded<'a> {
     pub fn of(scene: &'a Scene, style: &Style) -> Self {
-        let left = glass::left(scene, style);
-        let mut paints = paints_of(&left, style);
-        let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
-        paints.iter_mut().for_each(|paints| paints.carry(&origins));
+        let (scene, paints, warnings) = left(scene, style);
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         Self { scene, warnings, paints, mesh }
     }
+
     /// Does so with a scene that nobody else needs: its shapes go when the mesh is made of them.
     pub fn of_all(scene: Scene, style: &Style) -> Self {
-        let Welded { scene: left, warnings, paints, mesh } = Welded::of(&scene, style);
-        let mut left = match left {
-            Cow::Owned(left) => left,
-            Cow::Borrowed(_) => scene,
+        let (left, paints, warnings) = left(&scene, style);
+        let left = match left {
+            Cow::Owned(left) => Some(left),
+            Cow::Borrowed(_) => None,
         };
-        left.geometries.iter_mut().for_each(|geometry| *geometry = Geometry::default());
+        let mut left = left.unwrap_or(scene);
+        let mesh = Mesh::build(left.take_soup(paints.as_ref()));
         Self { scene: Cow::Owned(left), warnings, paints, mesh }
     }
+}
+
+/// What a style and the pictures of materials leave of a scene, its paints, and what could not be cut.
+fn left<'a>(scene: &'a Scene, style: &Style) -> (Cow<'a, Scene>, Option<Paints>, Warnings) {
+    let left = glass::left(scene, style);
+    let mut paints = paints_of(&left, style);
+    let cutout::Cut { scene, origins, warnings } = glass::cut(scene, &left);
+    paints.iter_mut().for_each(|paints| paints.carry(&origins));
+    (scene, paints, warnings)
 }

@@ -1,8 +1,11 @@
 //! Flattening: all instances of a scene into one [`Soup`] in world space, and what can be known of it before.
 
 use std::borrow::Cow;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
 
 use glam::{DAffine3, DMat3, DVec3};
+use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
 use super::coordinate::is_drawable;
@@ -10,6 +13,8 @@ use super::{Geometry, Paints, Part, Scene};
 use crate::mesh::{EdgeMark, MaterialId, PaintId, PartId, Soup, Wire};
 
 const NONE: u32 = u32::MAX;
+/// The smallest piece of work for a thread, in triangles.
+const GRAIN: usize = 1 << 14;
 
 impl Scene {
     /// All triangles and wires in world space.
@@ -26,6 +31,38 @@ impl Scene {
     #[must_use]
     pub fn to_painted_soup(&self, paints: &Paints) -> Soup {
         self.flattened(Some(paints))
+    }
+
+    /// The same of a scene whose shapes nobody asks for any more: they are gone afterwards, and a shape that is all there is
+    /// becomes the soup without a copy.
+    pub(crate) fn take_soup(&mut self, paints: Option<&Paints>) -> Soup {
+        let soup = match self.only_one().filter(|_| paints.is_none()) {
+            Some(only) => {
+                let mut from = std::mem::take(&mut self.geometries[only]);
+                let (positions, triangles) =
+                    (std::mem::take(&mut from.positions), std::mem::take(&mut from.triangles));
+                let mut soup = Soup { positions, triangles, ..Soup::default() };
+                let appended = Appended { part: PartId::default(), vertex: 0, triangle: 0 };
+                append_attributes(
+                    &mut soup,
+                    &from,
+                    &DAffine3::IDENTITY,
+                    appended,
+                    self.materials.len() as u32,
+                );
+                soup
+            }
+            None => self.flattened(paints),
+        };
+        self.geometries.iter_mut().for_each(|geometry| *geometry = Geometry::default());
+        soup
+    }
+
+    /// The geometry of the only part, if it stands in the world as it is.
+    fn only_one(&self) -> Option<usize> {
+        let [part] = self.parts.as_slice() else { return None };
+        let geometry = self.geometry_of(part).filter(|_| part.world_from_part == DAffine3::IDENTITY)?;
+        (geometry.positions.len() < NONE as usize).then_some(part.geometry)
     }
 
     fn flattened(&self, paints: Option<&Paints>) -> Soup {
@@ -109,17 +146,18 @@ impl Scene {
 
 /// The positions that triangles or wires use, each once; usually all.
 pub(crate) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
-    let mut used = vec![false; geometry.positions.len()];
-    let corners = geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened());
-    for &corner in corners {
-        if let Some(used) = used.get_mut(corner as usize) {
-            *used = true;
+    let used: Vec<AtomicBool> = geometry.positions.iter().map(|_| AtomicBool::new(false)).collect();
+    let mark = |corner: &u32| {
+        if let Some(used) = used.get(*corner as usize) {
+            used.store(true, Relaxed);
         }
-    }
-    if used.iter().all(|used| *used) {
+    };
+    geometry.triangles.par_iter().with_min_len(GRAIN).for_each(|corners| corners.iter().for_each(mark));
+    geometry.wires.as_flattened().iter().for_each(mark);
+    if used.iter().all(|used| used.load(Relaxed)) {
         return Cow::Borrowed(&geometry.positions);
     }
-    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.then_some(p)).collect()
+    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.into_inner().then_some(p)).collect()
 }
 
 fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, default_material: u32) {
@@ -141,12 +179,33 @@ fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, defa
     let turned = place.matrix3.determinant() < 0.0;
     let first_triangle = soup.triangles.len();
     append_corners(&mut soup.triangles, &from.triangles, first as u32, turned);
+    let appended = Appended { part, vertex: first, triangle: first_triangle };
+    append_attributes(soup, from, place, appended, default_material);
+}
+
+/// The part whose shape was appended last, and the first vertex and triangle of it.
+struct Appended {
+    part: PartId,
+    vertex: usize,
+    triangle: usize,
+}
+
+/// Appends what belongs to the vertices and triangles that were appended last.
+fn append_attributes(
+    soup: &mut Soup,
+    from: &Geometry,
+    place: &DAffine3,
+    appended: Appended,
+    default_material: u32,
+) {
+    let Appended { part, vertex: first, triangle: first_triangle } = appended;
+    let turned = place.matrix3.determinant() < 0.0;
     let count = soup.triangles.len();
 
+    fill(&mut soup.triangle_part, count, part);
     let material = from.material.unwrap_or(default_material);
-    soup.triangle_part.resize(count, part);
     if from.triangle_material.is_empty() {
-        soup.triangle_material.resize(count, MaterialId(material));
+        fill(&mut soup.triangle_material, count, MaterialId(material));
     } else {
         soup.triangle_material.extend(from.triangle_material.iter().map(|&m| MaterialId(m)));
         soup.triangle_material.resize(count, MaterialId(material));
@@ -173,6 +232,15 @@ fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, defa
         material: MaterialId(material),
     }));
     soup.single_precision |= from.single_precision;
+}
+
+/// Makes a list of triangles' own so long, on all threads where much is missing.
+fn fill<T: Copy + Send + Sync>(list: &mut Vec<T>, count: usize, value: T) {
+    let missing = count.saturating_sub(list.len());
+    if missing > GRAIN {
+        list.par_extend(repeat_n(value, missing));
+    }
+    list.resize(count, value);
 }
 
 /// Appends the paints of the triangles that were appended last; without any, those of their materials.
@@ -285,6 +353,17 @@ mod tests {
         assert_eq!(soup.normals[0], [0.0, 0.0, 1.0]);
         assert_eq!(soup.corner_normals, [[0, 0, NONE]]);
         assert_eq!(soup.triangle_material, [MaterialId(1)]);
+    }
+
+    #[test]
+    fn what_is_taken_is_what_would_be_copied() {
+        let mirror = DAffine3::from_scale(DVec3::new(1.0, 1.0, -4.0));
+        for places in [&[DAffine3::IDENTITY][..], &[mirror], &[mirror, DAffine3::IDENTITY]] {
+            let mut model = scene(places);
+            let copied = model.to_soup();
+            assert_eq!(format!("{:?}", model.take_soup(None)), format!("{copied:?}"));
+            assert!(model.geometries[0].positions.is_empty());
+        }
     }
 
     #[test]
