@@ -26,11 +26,9 @@ impl Groups {
         let parents: Vec<AtomicU32> =
             (0..count as u32).into_par_iter().with_min_len(GRAIN).map(AtomicU32::new).collect();
         joins(&|a, b| join(&parents, a, b));
-        (0..count as u32)
-            .into_par_iter()
-            .with_min_len(GRAIN)
-            .for_each(|face| parents[face as usize].store(root(&parents, face), Relaxed));
-        Self { first: parents.into_iter().map(AtomicU32::into_inner).collect() }
+        // Into a list of its own: a thread that halves a way may write what it read before another found the root.
+        let root = |face| root(&parents, face);
+        Self { first: (0..count as u32).into_par_iter().with_min_len(GRAIN).map(root).collect() }
     }
 
     /// The least face of the group that a face is in.
@@ -147,5 +145,23 @@ mod tests {
             }
         }
         assert_eq!(groups.first, plain);
+    }
+
+    #[test]
+    fn a_root_that_several_threads_hang_at_once_is_hung_below_all() {
+        // Whoever comes next has a lesser face for the group of the last one than all before.
+        let (threads, each) = (4, 50_000_u32);
+        let last = threads * each;
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build().expect("a pool");
+        // Often enough that two of them surely meet.
+        for _ in 0..40 {
+            let groups = pool.install(|| {
+                Groups::new(last as usize + 1, |join| {
+                    let joins = |own: u32| (0..each).rev().for_each(|k| join(threads * k + own, last));
+                    (0..threads).into_par_iter().with_max_len(1).for_each(joins);
+                })
+            });
+            assert!(groups.first.iter().all(|first| *first == 0));
+        }
     }
 }
