@@ -53,7 +53,7 @@ mod tests {
             let bytes: Vec<u8> = (0..size).map(|k| ((k * 31) % 251) as u8).collect();
             fs::write(&path, &bytes).expect("a file");
             assert!(read_from(&path, 1).expect("its bytes") == bytes, "{size}");
-            // What has become shorter is read to its end.
+            // What has become shorter is an error here, and is then read in one go.
             assert!(in_chunks(&path, size + 1).is_err());
         }
         fs::remove_file(&path).expect("the file goes");
