@@ -67,7 +67,7 @@ impl Paths {
             }
             (text, places)
         };
-        let chunks: Vec<(Vec<u8>, Vec<Place>)> = marks.par_chunks(CHUNK).map(write).collect();
+        let chunks: Vec<(Vec<u8>, Vec<Place>)> = marks.par_chunks(CHUNK).with_max_len(1).map(write).collect();
         let mut paths = Self { texts: Vec::new(), places: Vec::with_capacity(marks.len()) };
         for (text, places) in chunks {
             paths.texts.push(text);

@@ -301,7 +301,7 @@ impl Group<'_> {
             self.write_chunk(&mut out, chunk, index * CHUNK, &Shared { common, paths: &paths, runs: &runs });
             out
         };
-        let pieces: Vec<Vec<u8>> = order.par_chunks(CHUNK).enumerate().map(write).collect();
+        let pieces: Vec<Vec<u8>> = order.par_chunks(CHUNK).with_max_len(1).enumerate().map(write).collect();
         out.reserve(pieces.iter().map(Vec::len).sum::<usize>() + 16);
         for piece in pieces {
             out.extend_from_slice(&piece);

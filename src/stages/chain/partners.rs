@@ -115,7 +115,7 @@ pub(super) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) ->
     let mut partner = vec![NONE; 2 * map.edges.len()];
     let count = map.vertices.len();
     let chunk = |k: usize| Met::at(k * CHUNK..count.min((k + 1) * CHUNK), &ends, classes);
-    let met: Vec<Met> = (0..count.div_ceil(CHUNK)).into_par_iter().map(chunk).collect();
+    let met: Vec<Met> = (0..count.div_ceil(CHUNK)).into_par_iter().with_max_len(1).map(chunk).collect();
     let mut join = |[a, b]: [u32; 2]| {
         partner[a as usize] = b;
         partner[b as usize] = a;

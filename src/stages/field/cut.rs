@@ -67,6 +67,7 @@ pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) 
     let faces = smooth.corners.len();
     let chunks: Vec<Vec<(u32, u16, Vec<Corner>)>> = (0..faces.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|k| {
             let mut found = Vec::new();
             for face in (k * CHUNK..((k + 1) * CHUNK).min(faces)).map(|face| face as u32) {

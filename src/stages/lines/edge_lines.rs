@@ -68,6 +68,7 @@ impl<'a> Finder<'a> {
         const CHUNK: usize = 1 << 12;
         let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(CHUNK))
             .into_par_iter()
+            .with_max_len(1)
             .map(|chunk| {
                 let edges = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
                 edges.filter_map(|k| self.classify(edge(k))).collect()

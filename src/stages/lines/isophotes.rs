@@ -25,6 +25,7 @@ pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut Feature
     let ready = Ready::new(lit, shadowed, sees_through);
     let found: Vec<Vec<Found>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|chunk| {
             let mut tracer = Tracer::new(lit, &ready);
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {

@@ -20,6 +20,7 @@ pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
     let count = lit.mesh.triangles.len();
     let found: Vec<Vec<(u32, LineKind, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|chunk| {
             let mut pieces = Vec::new();
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {

@@ -131,6 +131,7 @@ pub fn trace_crossings(
     let faces = smooth.corners.len();
     let found: Vec<Vec<(u32, [EdgePoint; 2])>> = (0..faces.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(faces)).filter_map(|f| piece(f as u32)).collect())
         .collect();
     joined(&found.concat(), mesh.positions.len())

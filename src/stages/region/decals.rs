@@ -88,6 +88,7 @@ pub fn decals(
     let faces = mesh.triangles.len();
     let anchors: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|chunk| {
             let mut found = Vec::new();
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
@@ -106,6 +107,7 @@ pub fn decals(
     let mut anchors: Vec<Anchor> = anchors.into_iter().flatten().collect();
     let outer: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|chunk| {
             let own = chunk * CHUNK..((chunk + 1) * CHUNK).min(faces);
             own.flat_map(|face| walker.beyond_border(face as u32, figures, &middles)).collect()

@@ -51,6 +51,7 @@ pub fn level_curves(
     let count = lit.mesh.triangles.len();
     let found: Vec<Vec<LevelPiece>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|chunk| {
             let mut pieces = Vec::new();
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {

@@ -232,7 +232,8 @@ impl Noder {
             }
             cuts
         };
-        let mut cuts: Vec<(u32, GridPoint)> = touched.par_chunks(TILES).flat_map_iter(in_tiles).collect();
+        let mut cuts: Vec<(u32, GridPoint)> =
+            touched.par_chunks(TILES).with_max_len(1).flat_map_iter(in_tiles).collect();
         cuts.par_sort_unstable();
         cuts.dedup();
         let first_new = self.pieces.len() as u32;

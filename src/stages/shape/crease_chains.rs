@@ -70,6 +70,7 @@ pub(super) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
     let chunks = mesh.edges.len().div_ceil(CHUNK);
     let found: Vec<Vec<Fold>> = (0..chunks)
         .into_par_iter()
+        .with_max_len(1)
         .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len())).filter_map(fold).collect())
         .collect();
     found.concat()
@@ -149,6 +150,7 @@ impl<'a> Folds<'a> {
         let vertices = self.ends.count();
         let found: Vec<Vec<Pair>> = (0..vertices.div_ceil(CHUNK))
             .into_par_iter()
+            .with_max_len(1)
             .map(|k| {
                 let mut pairs = Vec::new();
                 (k * CHUNK..((k + 1) * CHUNK).min(vertices)).for_each(|v| self.pair_up(v, &mut pairs));

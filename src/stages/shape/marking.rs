@@ -67,6 +67,7 @@ pub(super) fn marks(
     let runs = mesh.edges.len().div_ceil(RUN);
     let marked: Vec<Vec<Marked>> = (0..runs.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|k| {
             let mut marked = Vec::new();
             for run in (k * CHUNK..((k + 1) * CHUNK).min(runs)).filter(|run| is_asked(*run)) {

@@ -79,6 +79,7 @@ fn corners(mesh: &Mesh, smooth: &SmoothNormals, is_parted: &[bool]) -> Vec<Corne
     let found: Vec<Vec<Corner>> = mesh
         .triangles
         .par_chunks(CHUNK)
+        .with_max_len(1)
         .enumerate()
         .map(|(chunk, triangles)| {
             let mut found = Vec::new();

@@ -218,7 +218,7 @@ impl<'a> Work<'a> {
         let inner = |pieces: &[Piece]| {
             pieces.iter().map(|piece| self.cuts(piece).iter().flatten().count()).sum::<usize>()
         };
-        let counts: Vec<usize> = pieces.par_chunks(CHUNK).map(inner).collect();
+        let counts: Vec<usize> = pieces.par_chunks(CHUNK).with_max_len(1).map(inner).collect();
         let mut first = self.sides.len();
         let of_chunk = |(pieces, count): (_, usize)| {
             first += count;
@@ -235,7 +235,7 @@ impl<'a> Work<'a> {
             pieces.iter().for_each(|piece| self.split(piece, first, &mut parted));
             parted
         };
-        chunks.into_par_iter().map(part).collect()
+        chunks.into_par_iter().with_max_len(1).map(part).collect()
     }
 
     /// Cuts a piece by the pattern of its cut sides; `first` is the number of the first new side of all that are parted with it.

@@ -27,6 +27,7 @@ where
     };
     let runs: Vec<Vec<(u32, T)>> = (0..items.div_ceil(CHUNK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|k| runs_of(k * CHUNK..((k + 1) * CHUNK).min(items)))
         .collect();
     let mut sums = vec![T::default(); groups];

@@ -49,6 +49,7 @@ impl BoxTree {
 
         let mut entries: Vec<u64> = triangles
             .par_chunks(FACES_PER_TASK)
+            .with_max_len(1)
             .enumerate()
             .flat_map_iter(|(chunk, corners)| {
                 let first = chunk * FACES_PER_TASK;

@@ -73,7 +73,8 @@ impl NearTiles {
             let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && wanted.has_any(**tiles);
             boxes.iter().enumerate().filter(is_near).map(|(i, _)| (k * CHUNK + i) as u32).collect()
         };
-        let found: Vec<Vec<u32>> = self.boxes.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+        let found: Vec<Vec<u32>> =
+            self.boxes.par_chunks(CHUNK).with_max_len(1).enumerate().map(of_chunk).collect();
         found.concat()
     }
 }

@@ -173,6 +173,7 @@ impl Triangles<'_> {
         let wanted = &Wanted::new(self.grid, wanted);
         let found: Vec<Vec<(u32, u32)>> = boxes
             .par_chunks(chunk)
+            .with_max_len(1)
             .enumerate()
             .map(|(k, boxes)| {
                 let mut pairs = Vec::new();
@@ -195,7 +196,7 @@ impl Triangles<'_> {
             ids.iter().for_each(|id| self.add_tiles(*id, self.tile_box(*id), wanted, cover, &mut pairs));
             pairs
         };
-        let found: Vec<Vec<(u32, u32)>> = ids.par_chunks(1 << 12).map(of_chunk).collect();
+        let found: Vec<Vec<(u32, u32)>> = ids.par_chunks(1 << 12).with_max_len(1).map(of_chunk).collect();
         self.by_tile(&found)
     }
 

@@ -177,6 +177,7 @@ fn bury(
     const TILES: usize = 256;
     wanted
         .par_chunks_mut(TILES)
+        .with_max_len(1)
         .enumerate()
         .map(|(k, wanted)| {
             let mut buried = Vec::new();
