@@ -18,4 +18,5 @@ pub mod picture;
 pub mod plane;
 pub mod power;
 pub mod shades;
+pub(crate) mod spare;
 pub mod tolerance;

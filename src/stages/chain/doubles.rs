@@ -75,8 +75,13 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
         let pieces = if raw.class.hidden { Vec::new() } else { collect(i as u32, &raw.line, distance) };
         (pieces, raw.length())
     };
-    let (found, lengths): (Vec<Vec<LinePiece>>, Vec<f64>) =
-        raws.par_iter().enumerate().with_min_len(MIN_LINES).map(pieces_of).unzip();
+    let (found, lengths): (Vec<Vec<LinePiece>>, Vec<f64>) = raws
+        .par_iter()
+        .enumerate()
+        .with_min_len(MIN_LINES)
+        .with_max_len(2 * MIN_LINES)
+        .map(pieces_of)
+        .unzip();
     let mut ends = 0;
     let end = |pieces: &Vec<LinePiece>| {
         ends += pieces.len();
@@ -129,8 +134,12 @@ pub(super) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
         }
         (total > 0.0).then_some(alone)
     };
-    let gone: Vec<Option<Vec<bool>>> =
-        (0..raws.len()).into_par_iter().with_min_len(MIN_LINES).map(alone).collect();
+    let gone: Vec<Option<Vec<bool>>> = (0..raws.len())
+        .into_par_iter()
+        .with_min_len(MIN_LINES)
+        .with_max_len(2 * MIN_LINES)
+        .map(alone)
+        .collect();
     if gone.iter().all(Option::is_none) {
         return;
     }

@@ -53,7 +53,7 @@ impl Routes {
             rest = after;
             tasks.push((steps, spans));
         }
-        tasks.into_par_iter().for_each(|(mut steps, spans)| {
+        tasks.into_par_iter().with_max_len(1).for_each(|(mut steps, spans)| {
             for span in spans {
                 let (own, after) = steps.split_at_mut((span.end - span.first) as usize);
                 change(own, span);

@@ -147,7 +147,7 @@ fn link_with(
         points: true,
     };
     let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, ahead, bin);
-    raws.into_par_iter().map(|raw| chain(raw, t)).collect()
+    raws.into_par_iter().with_max_len(8).map(|raw| chain(raw, t)).collect()
 }
 
 /// The curve through a line that is drawn like chains are: smooth and fitted where `soft` says that

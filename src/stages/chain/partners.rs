@@ -123,7 +123,7 @@ pub(super) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) ->
     met.iter().flat_map(|met| &met.pairs).for_each(|pair| join(*pair));
     // Directions are all taken before any junction is paired, so that no order matters.
     let matched: Vec<Vec<[u32; 2]>> =
-        met.into_par_iter().map(|met| met.matched(map, &partner, window)).collect();
+        met.into_par_iter().with_max_len(1).map(|met| met.matched(map, &partner, window)).collect();
     for [a, b] in matched.into_iter().flatten() {
         partner[a as usize] = b;
         partner[b as usize] = a;

@@ -68,7 +68,7 @@ pub(super) fn tidied(
     });
     let routes = routes(map, &classes, window);
     let raw = |route| Raw::of_route(map, &routes, route, &classes);
-    let all = || (0..routes.len()).into_par_iter().with_min_len(64).map(raw).collect();
+    let all = || (0..routes.len()).into_par_iter().with_min_len(64).with_max_len(128).map(raw).collect();
     let (raws, mut degrees): (Vec<Option<Raw>>, Degrees) = rayon::join(all, || Degrees::new(map, &classes));
     let mut raws: Vec<Raw> = raws.into_iter().flatten().collect();
     if tidy <= 0.0 {
@@ -92,7 +92,7 @@ fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
         let is_dot = !raw.class.hidden && raw.length() < POINT * tidy;
         if is_dot { Some(Vec::new()) } else { silhouette::cut(raw, SILHOUETTE * tidy) }
     };
-    let parts: Vec<Option<Vec<Raw>>> = raws.par_iter_mut().map(parts).collect();
+    let parts: Vec<Option<Vec<Raw>>> = raws.par_iter_mut().with_max_len(16).map(parts).collect();
     // Most lines stay whole, and then nothing is moved.
     if parts.iter().all(Option::is_none) {
         return raws;

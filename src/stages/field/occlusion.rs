@@ -52,7 +52,8 @@ pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync
         }
         Some(bits)
     };
-    let mut blocked: Vec<Option<Vec<u64>>> = directions.par_iter().map(|d| ask(*d, None)).collect();
+    let mut blocked: Vec<Option<Vec<u64>>> =
+        directions.par_iter().with_max_len(1).map(|d| ask(*d, None)).collect();
     if blocked.iter().any(Option::is_none) {
         let tree = RayTree::new(mesh);
         let left = blocked.par_iter_mut().zip(&directions).filter(|(blocked, _)| blocked.is_none());

@@ -33,7 +33,12 @@ pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
                 .into_iter()
                 .any(|row| columns.clone().any(|column| in_front(row * buffer.columns + column)))
     };
-    (0..mesh.triangles.len()).into_par_iter().with_min_len(1 << 10).map(is_in_sight).collect()
+    (0..mesh.triangles.len())
+        .into_par_iter()
+        .with_min_len(1 << 10)
+        .with_max_len(1 << 11)
+        .map(is_in_sight)
+        .collect()
 }
 
 /// Nearness from 0 to 1 is off by no more than this in single precision.

@@ -23,7 +23,7 @@ pub(super) fn tell(
     segments: &mut [FeatureSegment],
 ) {
     let surface = FoldedSurface { mesh, view, smooth, facing };
-    segments.par_iter_mut().with_min_len(1 << 7).for_each(|segment| {
+    segments.par_iter_mut().with_min_len(1 << 7).with_max_len(1 << 8).for_each(|segment| {
         let hosts = segment.hosts;
         if let Role::Witness { convex, fold } = &mut segment.role {
             // On a convex edge the eye sees the outside of the facing face, on a hollow one the inside

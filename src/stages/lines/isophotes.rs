@@ -20,7 +20,7 @@ use crate::mesh::{FaceId, PaintId};
 /// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow. With `sees_through` gradients have
 /// steps behind other faces too.
 pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) {
-    const CHUNK: usize = 1 << 11;
+    const CHUNK: usize = 1 << 9;
     let count = lit.mesh.triangles.len();
     let ready = Ready::new(lit, shadowed, sees_through);
     let found: Vec<Vec<Found>> = (0..count.div_ceil(CHUNK))

@@ -165,6 +165,7 @@ impl FeatureLines {
         // Most points are of one run alone, whose table is small: only what it knows no more of is looked up among all.
         let own: Vec<(Vec<DVec3>, Vec<[u32; 2]>)> = runs
             .par_iter()
+            .with_max_len(1)
             .map(|run| {
                 let (mut points, mut known) = (Vec::new(), PointIds::default());
                 let ends = run.iter().map(|p| piece(*p).2.map(|p| known.among(&mut points, p))).collect();

@@ -71,8 +71,12 @@ pub struct Seam {
 /// shadow, and are no lines yet; gives those that are several lines, which are left to be added.
 pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) -> Vec<Seam> {
     let edges: Vec<usize> = candidates.iter().collect();
-    let mut found: Vec<Seam> =
-        edges.par_iter().with_min_len(1 << 9).filter_map(|edge| parting(lit, *edge, shadowed)).collect();
+    let mut found: Vec<Seam> = edges
+        .par_iter()
+        .with_min_len(1 << 9)
+        .with_max_len(1 << 10)
+        .filter_map(|edge| parting(lit, *edge, shadowed))
+        .collect();
     if found.is_empty() {
         return found;
     }

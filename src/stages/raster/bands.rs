@@ -40,7 +40,10 @@ impl<'a> Bands<'a> {
                 }
             })
         };
-        Self { screen, triangles: (0..count.div_ceil(TASK)).into_par_iter().map(of_task).collect() }
+        Self {
+            screen,
+            triangles: (0..count.div_ceil(TASK)).into_par_iter().with_max_len(1).map(of_task).collect(),
+        }
     }
 
     /// Pixels of a band; the last one may have fewer.

@@ -35,7 +35,7 @@ impl FaceBuffer {
     pub fn of(screen: &Screen, draws: impl Fn(u32) -> bool + Sync) -> Self {
         let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
         let count = screen.triangle_count();
-        (0..count.div_ceil(TASK)).into_par_iter().for_each(|task| {
+        (0..count.div_ceil(TASK)).into_par_iter().with_max_len(1).for_each(|task| {
             for id in task * TASK..((task + 1) * TASK).min(count) {
                 let (corners, face) = screen.triangle(id);
                 if !draws(face) {

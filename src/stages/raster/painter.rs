@@ -27,6 +27,7 @@ pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
     type Task = (Vec<(usize, u32)>, Vec<[u32; 2]>);
     let tasks: Vec<Task> = (0..count.div_ceil(TASK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|task| {
             let (mut near, mut over) = (Vec::new(), Vec::new());
             for id in task * TASK..((task + 1) * TASK).min(count) {

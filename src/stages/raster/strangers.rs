@@ -30,7 +30,7 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
     let mark = |marks: &[AtomicBool], face: u32| marks[face as usize].store(true, Ordering::Relaxed);
 
     let strangers = unmarked();
-    (0..buffer.rows.div_ceil(ROWS)).into_par_iter().for_each(|task| {
+    (0..buffer.rows.div_ceil(ROWS)).into_par_iter().with_max_len(1).for_each(|task| {
         for row in task * ROWS..((task + 1) * ROWS).min(buffer.rows) {
             for_each_pair(mesh, buffer, row, |a, b| {
                 mark(&strangers, a);
@@ -41,7 +41,7 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
 
     let near = unmarked();
     let edges = mesh.edges.len();
-    (0..edges.div_ceil(EDGES)).into_par_iter().for_each(|task| {
+    (0..edges.div_ceil(EDGES)).into_par_iter().with_max_len(1).for_each(|task| {
         for edge in task * EDGES..((task + 1) * EDGES).min(edges) {
             let spread = |faces: &[u32]| {
                 if faces.iter().any(|face| is_marked(&strangers, *face)) {

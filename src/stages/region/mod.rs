@@ -164,6 +164,7 @@ fn regions(
     let borders = traced
         .arcs
         .par_iter()
+        .with_max_len(4)
         .map(|arc| Border { path: curve(cut, arc, drawn), sides: arc.sides.map(of), closed: arc.closed })
         .collect();
     Regions { regions, borders, leaks: drawn.leaks }

@@ -51,6 +51,7 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
     let marks: Vec<(bool, Mark)> = order
         .par_iter()
         .with_min_len(4)
+        .with_max_len(8)
         .map(|k| {
             let region = &regions.regions[*k as usize];
             let mut path = outline(regions, *k, &rank, reach);

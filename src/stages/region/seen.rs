@@ -181,6 +181,7 @@ fn looks_at(
     let looks: Vec<(usize, Look)> = hits
         .par_iter()
         .with_min_len(256)
+        .with_max_len(512)
         .enumerate()
         .map(|(i, (k, face, at))| {
             (*k, look(lit, *face, *at, masks.get(i).copied().unwrap_or_default(), darkened))

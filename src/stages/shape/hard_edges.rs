@@ -61,8 +61,11 @@ impl HardEdges {
         let folds = Folds::new(mesh, folds(mesh, turns, LOW_OF_HIGH * crease_deg));
         let chains = folds.chains(crease_deg);
         let roughness = Roughness::new(mesh, turns, crease_deg);
-        let kept: Vec<&Chain> =
-            chains.par_iter().filter(|c| stands_out(mesh, c, crease_deg, &roughness)).collect();
+        let kept: Vec<&Chain> = chains
+            .par_iter()
+            .with_max_len(8)
+            .filter(|c| stands_out(mesh, c, crease_deg, &roughness))
+            .collect();
         let edges = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize));
         Self::of_edges(mesh, edges).with_marks(mesh)
     }

@@ -65,7 +65,12 @@ pub(super) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
             (q.rise + swelling(mesh, smooth, near[face as usize])).abs() > HALF * thickness
         })
     };
-    questions.par_iter().filter(|question| is_thin(question)).map(|question| question.edge).collect()
+    questions
+        .par_iter()
+        .with_max_len(256)
+        .filter(|question| is_thin(question))
+        .map(|question| question.edge)
+        .collect()
 }
 
 /// Some faces of a mesh, enough of it for rays to meet them.

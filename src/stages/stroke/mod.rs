@@ -120,7 +120,7 @@ fn marks(
     let (hidden, visible) = chains.split_at(behind);
     [hidden, visible].map(|chains| {
         let marks: Vec<Option<Mark>> =
-            chains.par_iter().map(|chain| mark(chain, context, &pen(chain))).collect();
+            chains.par_iter().with_max_len(16).map(|chain| mark(chain, context, &pen(chain))).collect();
         marks.into_iter().flatten().collect()
     })
 }

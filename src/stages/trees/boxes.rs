@@ -98,6 +98,7 @@ impl BoxTree {
         let tasks = groups.div_ceil(GROUPS_PER_TASK);
         let found: Vec<Vec<T>> = (0..tasks)
             .into_par_iter()
+            .with_max_len(1)
             .map(|task| {
                 let mut found = Vec::new();
                 let mut search = Search::default();

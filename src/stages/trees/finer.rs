@@ -90,7 +90,7 @@ impl PairSearch {
             }
             found
         };
-        pairs.par_extend(cut.faces.par_chunks(FACES_PER_TASK).with_max_len(1).flat_map_iter(found));
+        pairs.par_extend(cut.faces.par_chunks(FACES_PER_TASK).with_max_len(8).flat_map_iter(found));
         pairs.par_sort_unstable_by_key(|pair| pair.faces);
         join(&pairs)
     }

@@ -131,7 +131,7 @@ impl Covers {
             of_tile
         };
         let rows = of_square.par_chunks_mut((per_tile * squares.columns) as usize).enumerate();
-        let of_tile: Vec<Vec<f64>> = rows.with_min_len(4).map(of_row).collect();
+        let of_tile: Vec<Vec<f64>> = rows.with_min_len(4).with_max_len(8).map(of_row).collect();
         let of_tile = of_tile.concat();
         Self { squares, of_square, of_tile }
     }

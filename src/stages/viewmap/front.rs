@@ -45,6 +45,7 @@ pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Fro
     let count = whole + view.clipped.len();
     let tasks: Vec<Vec<(u32, Front)>> = (0..count.div_ceil(TASK))
         .into_par_iter()
+        .with_max_len(1)
         .map(|task| {
             let mut hits = Vec::new();
             for id in task * TASK..((task + 1) * TASK).min(count) {

@@ -14,6 +14,7 @@
 //! quantitative invisibility and the machine rendering of solids", 1967.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -30,6 +31,7 @@ use super::project::ImageSegment;
 use super::tile::{Context, Memory, TileResult};
 use super::view_covers::ViewCovers;
 use crate::math::grouped::{Grouped, grouped, grouped_pairs};
+use crate::math::spare::Spare;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -137,30 +139,34 @@ pub(super) fn decide_with(
     let long = LongPairs::find(&compared, &items, &occluders);
     let context = Context { compared, long: long.as_ref() };
     const TILES: usize = 64;
-    let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
-        .into_par_iter()
-        .map_init(Memory::default, |memory, k| {
-            let mut result = TileResult::default();
-            for tile in k * TILES..((k + 1) * TILES).min(grid.len()) {
-                let mut decide = |items: &[Item], ids: &mut dyn Iterator<Item = &u32>| {
-                    if items.iter().any(|item| item.end > item.start) {
-                        memory.triangles.replace(ids.map(reach), &grid, tile, limits);
-                        context.decide_tile(items, memory, &grid, tile, &mut result);
-                    }
-                };
-                let (items, ids) = (items.of(tile), occluders.of(tile));
-                match &long {
-                    None => decide(items, &mut ids.iter()),
-                    Some(long) => {
-                        let (of_long, others): (Vec<Item>, Vec<Item>) =
-                            items.iter().partition(|item| long.has(item.segment));
-                        decide(&of_long, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
-                        decide(&others, &mut ids.iter());
-                    }
+    let decided = |memory: &mut Memory, tiles: Range<usize>| {
+        let mut result = TileResult::default();
+        for tile in tiles {
+            let mut decide = |items: &[Item], ids: &mut dyn Iterator<Item = &u32>| {
+                if items.iter().any(|item| item.end > item.start) {
+                    memory.triangles.replace(ids.map(reach), &grid, tile, limits);
+                    context.decide_tile(items, memory, &grid, tile, &mut result);
+                }
+            };
+            let (items, ids) = (items.of(tile), occluders.of(tile));
+            match &long {
+                None => decide(items, &mut ids.iter()),
+                Some(long) => {
+                    let (of_long, others): (Vec<Item>, Vec<Item>) =
+                        items.iter().partition(|item| long.has(item.segment));
+                    decide(&of_long, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
+                    decide(&others, &mut ids.iter());
                 }
             }
-            result
-        })
+        }
+        result
+    };
+    // Some tiles are crowded and most are not.
+    let memories = Spare::default();
+    let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|k| memories.lend(|memory| decided(memory, k * TILES..((k + 1) * TILES).min(grid.len()))))
         .collect();
     let mut told = gather(segments, limits, &buried, &results);
     told.tests += long.map_or(0, |long| long.tests);
