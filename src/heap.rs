@@ -1,4 +1,4 @@
-//! How the program asks Linux for memory: one heap, in large pages, that does not shrink.
+//! How the program asks Linux for memory: one heap that does not shrink, the first of it in large pages.
 //!
 //! A drawing makes and drops arrays of many megabytes at every stage. By default glibc gives each back to the system
 //! and asks anew for the next, and the system hands out, and clears, four kilobytes at a time: a tenth to a sixth of
@@ -11,17 +11,11 @@
 use std::ffi::c_int;
 
 /// How much is promised large pages, which is what a drawing of a million faces takes. Nothing of it is taken before it
-/// is written to. With more, a model of ten million faces would take a fifth more memory, in holes between its arrays.
+/// is written to. More of it was seen to gain much in one run and to lose as much in the next.
 const RESERVE: usize = 256 << 20;
 
 /// Less than this is not worth the trouble.
 const LEAST_RESERVE: usize = 32 << 20;
-
-/// Beyond the reserve, arrays of at least so many bytes go back to the system as soon as they are dropped.
-const HUGE: c_int = 32 << 20;
-
-/// So many of these may there be, as glibc has it.
-const MOST_HUGE: c_int = 65536;
 
 /// Pages are at least, and start at multiples of, so many bytes on all machines that Linux runs on with glibc.
 const PAGE: usize = 64 << 10;
@@ -40,17 +34,12 @@ pub fn keep() {
         libc::mallopt(libc::M_ARENA_MAX, 1);
         // The heap does not shrink.
         libc::mallopt(libc::M_TRIM_THRESHOLD, NEVER);
-        libc::mallopt(libc::M_MMAP_THRESHOLD, HUGE);
-        // The reserve is to be of the heap.
+        // And no array has a place outside of it, which would go back to the system as soon as it is dropped.
         libc::mallopt(libc::M_MMAP_MAX, 0);
     }
     let mut size = RESERVE;
     while size >= LEAST_RESERVE && !reserve(size) {
         size /= 2;
-    }
-    // SAFETY: as above.
-    unsafe {
-        libc::mallopt(libc::M_MMAP_MAX, MOST_HUGE);
     }
 }
 

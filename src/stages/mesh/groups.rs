@@ -38,27 +38,51 @@ impl Groups {
         self.first[face as usize]
     }
 
-    /// The groups of the faces with `counts`, numbered in the order of their first faces; of a group either all faces count or
-    /// none. What does not count has the number `u32::MAX`.
+    /// The groups numbered in the order of their first faces, but for those of which `instead` tells by the first face what stands
+    /// in the place of a number.
     #[must_use]
-    pub fn numbered(&self, counts: impl Fn(u32) -> bool + Sync) -> Numbered {
-        let first_in = |(chunk, of): (usize, &[u32])| -> Vec<u32> {
+    pub fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> Numbered {
+        let Self { first: mut of_face } = self;
+        let counted = |(chunk, of): (usize, &[u32])| -> Vec<u32> {
             let faces = (chunk * GRAIN) as u32..;
-            faces
-                .zip(of)
-                .filter(|(face, first)| face == *first && counts(*face))
-                .map(|(face, _)| face)
-                .collect()
+            let is_first = |(face, first): &(u32, &u32)| face == *first && instead(*face).is_none();
+            faces.zip(of).filter(is_first).map(|(face, _)| face).collect()
         };
-        let first = self.first.par_chunks(GRAIN).enumerate().map(first_in).collect::<Vec<_>>().concat();
-        // Only what the first faces have is ever read: the rest costs neither memory nor time.
-        let mut at_first = vec![0; self.first.len()];
-        (0..).zip(&first).for_each(|(number, face)| at_first[*face as usize] = number);
-        let number = |(face, first): (usize, &u32)| {
-            if counts(face as u32) { at_first[*first as usize] } else { u32::MAX }
-        };
-        let of_face = self.first.par_iter().enumerate().with_min_len(GRAIN).map(number).collect();
+        let first = of_face.par_chunks(GRAIN).enumerate().map(counted).collect::<Vec<_>>().concat();
+        let ranks = Ranks::new(of_face.len(), &first);
+        of_face.par_iter_mut().with_min_len(GRAIN).for_each(|first| {
+            *first = instead(*first).unwrap_or_else(|| ranks.of(*first));
+        });
         Numbered { of_face, first }
+    }
+}
+
+/// How many faces of a list come before each of them.
+struct Ranks {
+    /// A bit for each face: whether it is in the list.
+    listed: Vec<u64>,
+    /// How many are before each word of these.
+    before: Vec<u32>,
+}
+
+impl Ranks {
+    /// Those of some of `count` faces, in order.
+    fn new(count: usize, list: &[u32]) -> Self {
+        let mut listed = vec![0_u64; count.div_ceil(64)];
+        list.iter().for_each(|face| listed[*face as usize / 64] |= 1 << (face % 64));
+        let sums = listed.iter().scan(0, |sum, word| {
+            let before = *sum;
+            *sum += word.count_ones();
+            Some(before)
+        });
+        let before = sums.collect();
+        Self { listed, before }
+    }
+
+    #[inline]
+    fn of(&self, face: u32) -> u32 {
+        let word = face as usize / 64;
+        self.before[word] + (self.listed[word] & ((1 << (face % 64)) - 1)).count_ones()
     }
 }
 
@@ -116,7 +140,7 @@ mod tests {
                 }
             });
             assert_eq!(groups.first, [0, 1, 2, 1, 2, 1, 1, 7]);
-            let numbered = groups.numbered(|face| face != 0);
+            let numbered = groups.numbered(|face| (face == 0).then_some(u32::MAX));
             assert_eq!(numbered.first, [1, 2, 7]);
             assert_eq!(numbered.of_face, [u32::MAX, 0, 1, 0, 1, 0, 0, 2]);
         }

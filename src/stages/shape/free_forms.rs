@@ -90,7 +90,7 @@ pub(super) fn add_free_forms(
     let groups = Groups::new(mesh.triangles.len(), |join| {
         edges.clone().filter_map(inner).for_each(|[a, b]| join(a, b));
     });
-    let patches = groups.numbered(machined);
+    let patches = groups.numbered(|face| (!machined(face)).then_some(u32::MAX));
     let patch = |face: u32| patches.of_face[face as usize];
     let mut counts: Vec<Count> = sums(patches.first.len(), mesh.edges.len(), |edge| {
         let [face, _] = inner(edge)?;

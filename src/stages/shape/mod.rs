@@ -37,6 +37,7 @@ pub mod splice;
 mod straight;
 mod sums;
 mod thickness;
+mod verdicts;
 mod walk;
 mod wrinkles;
 

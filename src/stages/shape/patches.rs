@@ -9,9 +9,10 @@ use super::file_normals::file_cosines;
 use super::free_forms::add_free_forms;
 use super::hard_edges::LOW_OF_HIGH;
 use super::planes::{Planes, area};
-use super::rounded::{Make, Origin, Verdict, pieces, verdicts};
+use super::rounded::{Make, Origin, pieces, verdicts};
 use super::roundings::narrow_roundings;
 use super::shallow::{shallow_creases, shallow_edges};
+use super::verdicts::Verdicts;
 use super::walk::Walk;
 use crate::math::function::cos;
 use crate::mesh::edge_set::EdgeSet;
@@ -57,17 +58,17 @@ impl Patches {
     pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
         let (turns, planes, verdicts) = judged(mesh, all);
         let turns = &turns;
-        let believed = verdicts.iter().map(|verdict| verdict.believed).collect();
-        let makes: Vec<Make> = verdicts.iter().map(|verdict| verdict.make).collect();
+        let believed = verdicts.map(|verdict| verdict.believed);
+        let makes = verdicts.map(|verdict| verdict.make);
         let (hard, wrinkles) = hard_edges(mesh, turns, &verdicts, crease_deg);
         let rims = rims(mesh, turns, &planes, &makes);
-        let mut rounded: Vec<bool> = makes.iter().map(|make| all || *make == Make::Round).collect();
-        if !all && makes.contains(&Make::Machined) {
+        let mut rounded = verdicts.map(|verdict| all || verdict.make == Make::Round);
+        if !all && verdicts.any(Make::Machined) {
             let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
             add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
         }
         // A figure that its file means to be seen as planes bends at all edges.
-        let is_exact = |face: &u32| !rounded[*face as usize] && verdicts[*face as usize].believed;
+        let is_exact = |face: &u32| !rounded[*face as usize] && verdicts.of(*face).believed;
         let may =
             |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
         let shallow = shallow_creases(mesh, (turns, &planes.flat), crease_deg, &hard, may);
@@ -77,8 +78,9 @@ impl Patches {
             roundings(mesh, (turns, &planes), &verdicts, (&hard, &wrinkles), crease_deg)
         };
         let hard = hard.with(mesh, &shallow);
-        let (origins, pieces) = (origins_in(&verdicts), pieces_in(&verdicts));
-        let figure = makes.iter().map(|make| *make == Make::Round).collect();
+        let origins = verdicts.map(|verdict| verdict.origin);
+        let figure = verdicts.map(|verdict| verdict.make == Make::Round);
+        let pieces = verdicts.into_pieces();
         Self { hard, wrinkles, roundings, rims, rounded, figure, origins, pieces, believed }
     }
 }
@@ -89,34 +91,24 @@ impl Patches {
 pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u32>) {
     let (turns, _, verdicts) = judged(mesh, false);
     let turns = &turns;
-    (HardEdges::above_with(mesh, turns, crease_deg), origins_in(&verdicts), pieces_in(&verdicts))
+    let hard = HardEdges::above_with(mesh, turns, crease_deg);
+    (hard, verdicts.map(|verdict| verdict.origin), verdicts.into_pieces())
 }
 
 /// How the surface turns, its flats, and what each face belongs to.
-fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Vec<Verdict>) {
+fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Verdicts) {
     let turns = Turns::of(mesh);
     let planes = Planes::new(mesh, &turns);
     let pieces = pieces(mesh);
-    let verdicts = verdicts(mesh, &turns, (&planes, &pieces), all);
+    let verdicts = verdicts(mesh, &turns, (&planes, pieces), all);
     (turns, planes, verdicts)
-}
-
-fn origins_in(verdicts: &[Verdict]) -> Vec<Origin> {
-    verdicts.iter().map(|verdict| verdict.origin).collect()
-}
-
-fn pieces_in(verdicts: &[Verdict]) -> Vec<u32> {
-    if verdicts.iter().all(|verdict| verdict.piece == 0) {
-        return Vec::new();
-    }
-    verdicts.iter().map(|verdict| verdict.piece).collect()
 }
 
 /// Every sharp edge, and on machined pieces what a crease goes on along that would end inside the surface: flats and
 /// strips that are cut out of it turn by more here and by less there. But for wrinkles of machined pieces, which come second.
-fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> (HardEdges, EdgeSet) {
-    let is_machined = |face: &u32| verdicts[*face as usize].make == Make::Machined;
-    if !(0..verdicts.len() as u32).any(|face| is_machined(&face)) {
+fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) -> (HardEdges, EdgeSet) {
+    let is_machined = |face: &u32| verdicts.of(*face).make == Make::Machined;
+    if !verdicts.any(Make::Machined) {
         return (HardEdges::above_with(mesh, turns, crease_deg), EdgeSet::default());
     }
     let low_deg = ROUND * LOW_OF_HIGH * crease_deg;
@@ -128,21 +120,20 @@ fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64
 /// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
 /// which the file's normals turn as well, and chains that turn by more and stand out from what is around them. Wrinkles of
 /// machined pieces come second.
-fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64) -> (HardEdges, EdgeSet) {
-    let is_round = |face: u32| verdicts[face as usize].make == Make::Round;
-    let round = (0..verdicts.len() as u32).filter(|face| is_round(*face)).count();
+fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) -> (HardEdges, EdgeSet) {
+    let is_round = |face: u32| verdicts.of(face).make == Make::Round;
     let above = || sharp_edges(mesh, turns, verdicts, crease_deg);
-    if round == 0 {
+    if !verdicts.any(Make::Round) {
         return above();
     }
     let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0));
-    if round == verdicts.len() && mesh.corner_normals.is_empty() {
+    if verdicts.all(Make::Round) && mesh.corner_normals.is_empty() {
         return (chains, EdgeSet::default());
     }
     let (above, wrinkles) = above();
     let least = cos(crease_deg.to_radians()) as f32;
     let shaded_sharp = |edge: usize, faces: [u32; 2]| {
-        faces.iter().all(|face| verdicts[*face as usize].believed)
+        faces.iter().all(|face| verdicts.of(*face).believed)
             && file_cosines(mesh, edge, faces).is_some_and(|[a, b]| a.min(b) < least)
     };
     let hard = HardEdges::of(mesh, |edge| match mesh.edges.faces(edge) {
@@ -158,12 +149,12 @@ fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &[Verdict], crease_deg: f64)
 fn roundings(
     mesh: &Mesh,
     (turns, planes): (&Turns, &Planes),
-    verdicts: &[Verdict],
+    verdicts: &Verdicts,
     (hard, wrinkles): (&HardEdges, &EdgeSet),
     crease_deg: f64,
 ) -> EdgeSet {
     let is_made = |face: &u32| {
-        let verdict = &verdicts[*face as usize];
+        let verdict = verdicts.of(*face);
         verdict.make != Make::Round && verdict.believed
     };
     let may = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_made) && !wrinkles.contains(edge);

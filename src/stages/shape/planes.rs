@@ -51,13 +51,12 @@ impl Planes {
             });
         });
         let sizes = sizes(&groups, faces);
-        let size = |face: u32| sizes[groups.of(face) as usize].load(Relaxed);
-        let Numbered { mut of_face, first } = groups.numbered(|face| size(face) >= LEAST_FACES);
-        of_face.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, flat)| {
-            if *flat == NONE && size(face as u32) > 1 {
-                *flat = FEW;
-            }
+        let Numbered { of_face, first } = groups.numbered(|face| match sizes[face as usize].load(Relaxed) {
+            LEAST_FACES.. => None,
+            2.. => Some(FEW),
+            _ => Some(NONE),
         });
+        drop(sizes);
         let in_flat = |face: u32| Some(of_face[face as usize]).filter(|flat| *flat < FEW);
         let areas: Vec<f64> =
             sums(first.len(), faces, |face| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32))));

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use super::planes::{Planes, area};
 use super::slender::{Slender, bends_over_its_ends, longest_side};
 use super::sums::sums;
+use super::verdicts::{Verdict, Verdicts};
 use crate::mesh::groups::{Groups, Numbered};
 use crate::mesh::{EdgeFaces, Mesh, Turns};
 
@@ -101,16 +102,6 @@ pub enum Origin {
     Scanned,
 }
 
-/// What a piece is, and how its file's normals have it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Verdict {
-    pub make: Make,
-    pub origin: Origin,
-    pub believed: bool,
-    /// Number of the piece, in the order of the pieces' first faces.
-    pub piece: u32,
-}
-
 /// What is counted of the faces of one piece.
 #[derive(Debug, Clone, Copy, Default)]
 struct Count {
@@ -189,7 +180,7 @@ impl Count {
             (Make::Round, true) => Origin::Modelled,
             _ => Origin::Constructed,
         };
-        Verdict { make, origin, believed, piece: 0 }
+        Verdict { make, origin, believed }
     }
 
     /// Whether it stays round whatever it stands beside: it has hardly a crease to lose, or many edges of which no more are
@@ -211,7 +202,7 @@ pub(super) fn pieces(mesh: &Mesh) -> Numbered {
             }
         });
     });
-    groups.numbered(|_| true)
+    groups.numbered(|_| None)
 }
 
 /// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for
@@ -219,11 +210,11 @@ pub(super) fn pieces(mesh: &Mesh) -> Numbered {
 pub(super) fn verdicts(
     mesh: &Mesh,
     turns: &Turns,
-    (planes, pieces): (&Planes, &Numbered),
+    (planes, pieces): (&Planes, Numbered),
     all: bool,
-) -> Vec<Verdict> {
+) -> Verdicts {
     let faces = mesh.triangles.len();
-    let Numbered { of_face: number, first } = pieces;
+    let Numbered { of_face: number, first } = &pieces;
     let mut counts: Vec<Count> =
         sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
     let of_edges: Vec<Count> = sums(first.len(), mesh.edges.len(), |edge| {
@@ -236,15 +227,15 @@ pub(super) fn verdicts(
     for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges < LEAST_EDGES) {
         *together.entry(key(*face)).or_default() += count;
     }
-    let verdict = |(piece, (face, count)): (usize, (&u32, &Count))| {
+    let verdict = |(face, count): (&u32, &Count)| {
         let is_small = count.edges < LEAST_EDGES;
         let judged = if is_small { together.get(&key(*face)).unwrap_or(count) } else { count };
-        Verdict { piece: piece as u32, ..judged.verdict(all) }
+        judged.verdict(all)
     };
-    let mut verdicts: Vec<Verdict> = first.iter().zip(&counts).enumerate().map(verdict).collect();
+    let mut verdicts: Vec<Verdict> = first.iter().zip(&counts).map(verdict).collect();
     tessellated(mesh, turns, number, &mut counts, &mut verdicts);
     follow_largest(first.iter().map(|face| key(*face)), &counts, &mut verdicts);
-    number.par_iter().with_min_len(1 << 14).map(|piece| verdicts[*piece as usize]).collect()
+    Verdicts::new(verdicts, pieces)
 }
 
 /// What goes for a scan is machined where too much of it is faces that are long across its bends: no surface is sampled so.
