@@ -6,14 +6,18 @@
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-/// Smaller files may land in memory that was used before, which one thread has to clear: nothing is gained.
-const LEAST: u64 = 256 << 20;
+/// Smaller files are read in less time than it takes to share them out.
+const LEAST: u64 = 8 << 20;
 
-/// What is read as one piece of work.
-const CHUNK: usize = 4 << 20;
+/// What is read at once.
+const BLOCK: usize = 64 << 10;
+
+/// Blocks that are read as one piece of work.
+const CHUNK: usize = 16;
 
 /// All bytes of a file.
 pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
@@ -27,18 +31,41 @@ fn read_from(path: &Path, least: u64) -> io::Result<Vec<u8>> {
     // Whether there is room is asked first, since to be given none when it is needed ends the program.
     match room.filter(|size| Vec::<u8>::new().try_reserve_exact(*size).is_ok()) {
         // What cannot be read so, as a file that becomes shorter meanwhile, is read from its beginning to wherever it ends.
-        Some(size) => in_chunks(path, size).or_else(|_| fs::read(path)),
+        Some(size) => in_blocks(path, size).or_else(|_| fs::read(path)),
         None => fs::read(path),
     }
 }
 
-fn in_chunks(path: &Path, size: usize) -> io::Result<Vec<u8>> {
-    let mut bytes = vec![0; size];
-    bytes.par_chunks_mut(CHUNK).enumerate().try_for_each(|(k, chunk)| {
-        let mut file = File::open(path)?;
-        file.seek(SeekFrom::Start((k * CHUNK) as u64))?;
-        file.read_exact(chunk)
-    })?;
+/// A file of so many bytes, block by block. Blocks are told by their values, so that the memory they land in is touched first by
+/// whoever reads them: asked to be empty before, one thread would write all of it.
+fn in_blocks(path: &Path, size: usize) -> io::Result<Vec<u8>> {
+    let failed = Mutex::new(None);
+    let read = |file: &mut io::Result<File>, k: usize| -> io::Result<[u8; BLOCK]> {
+        let mut block = [0; BLOCK];
+        let file = file.as_mut().map_err(|error| io::Error::from(error.kind()))?;
+        file.seek(SeekFrom::Start((k * BLOCK) as u64))?;
+        file.read_exact(&mut block[..BLOCK.min(size - k * BLOCK)])?;
+        Ok(block)
+    };
+    let blocks: Vec<[u8; BLOCK]> = (0..size.div_ceil(BLOCK))
+        .into_par_iter()
+        .with_min_len(CHUNK)
+        .with_max_len(CHUNK)
+        .map_init(
+            || File::open(path),
+            |file, k| {
+                read(file, k).unwrap_or_else(|error| {
+                    failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                    [0; BLOCK]
+                })
+            },
+        )
+        .collect();
+    if let Some(error) = failed.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        return Err(error);
+    }
+    let mut bytes = blocks.into_flattened();
+    bytes.truncate(size);
     Ok(bytes)
 }
 
@@ -47,14 +74,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_read_in_chunks_is_the_file() {
+    fn a_file_read_in_blocks_is_the_file() {
         let path = std::env::temp_dir().join(format!("ligne-large-file-{}", std::process::id()));
-        for size in [1, CHUNK - 1, CHUNK, 2 * CHUNK + 12_345] {
+        for size in [1, BLOCK - 1, BLOCK, 40 * BLOCK + 12_345] {
             let bytes: Vec<u8> = (0..size).map(|k| ((k * 31) % 251) as u8).collect();
             fs::write(&path, &bytes).expect("a file");
             assert!(read_from(&path, 1).expect("its bytes") == bytes, "{size}");
             // What has become shorter is an error here, and is then read in one go.
-            assert!(in_chunks(&path, size + 1).is_err());
+            assert!(in_blocks(&path, size + 1).is_err());
         }
         fs::remove_file(&path).expect("the file goes");
         assert!(read(&path).is_err());

@@ -39,6 +39,8 @@ pub struct Surface {
     pub pieces: Vec<u32>,
     /// Whether faces were cut that the model does not have.
     pub refined: bool,
+    /// A camera for which nothing needs to be cut, if one is known.
+    fine_for: Option<Camera>,
 }
 
 impl Surface {
@@ -72,6 +74,7 @@ impl Surface {
             origins: patches.origins.clone(),
             pieces: patches.pieces.clone(),
             refined: false,
+            fine_for: None,
         };
         (surface, Some(patches))
     }
@@ -107,6 +110,7 @@ impl Surface {
             origins: self.origins.clone(),
             pieces: self.pieces.clone(),
             refined: false,
+            fine_for: None,
         }
     }
 
@@ -114,7 +118,10 @@ impl Surface {
     /// camera.
     #[must_use]
     pub fn finer_for(mut self, camera: &Camera) -> Self {
-        let Some(cuts) = self.cuts_for(camera, None) else { return self };
+        let Some(cuts) = self.cuts_for(camera, None) else {
+            self.fine_for = Some(*camera);
+            return self;
+        };
         let sides = self.sides_of_roundings();
         let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
         self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface
@@ -130,7 +137,7 @@ impl Surface {
     }
 
     fn cuts_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Cuts> {
-        if self.refined {
+        if self.refined || self.fine_for.as_ref() == Some(camera) {
             return None;
         }
         field::cuts_near_contours(&self.mesh, &self.smooth, cones, &Frame::new(camera, self.mesh.origin))
@@ -151,6 +158,7 @@ impl Surface {
             origins: hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect(),
             pieces: hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect(),
             refined: true,
+            fine_for: None,
         };
         Finer { surface, hosts, kept }
     }
