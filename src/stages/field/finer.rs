@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use super::Cones;
+use super::turned::Turned;
 use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::shape::refine;
@@ -54,7 +55,11 @@ pub fn cuts_near_contours(
         EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::ARC_PX
     };
     let is_asked = |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, REACH, short));
-    refine::cuts(mesh, smooth, is_asked, is_long, want)
+    // The cones tell as much of almost all runs, and are there from the second view on.
+    let turned = cones.is_none().then(|| Turned::of(mesh, smooth, frame, REACH_AND_ROUNDING));
+    let may =
+        |ends: [u32; 2], squared: f64| turned.as_ref().is_none_or(|turned| !turned.all_along(ends, squared));
+    refine::cuts(mesh, smooth, is_asked, is_long, may, want)
 }
 
 /// Whether the field is surely too far from zero at both ends of an edge to vanish in between: told without a root or a

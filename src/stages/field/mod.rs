@@ -17,6 +17,7 @@ pub mod smoothing;
 pub mod specular;
 pub mod tone_options;
 mod tones;
+mod turned;
 
 #[cfg(test)]
 mod tests;

@@ -40,7 +40,7 @@ pub struct Surface {
     /// Whether faces were cut that the model does not have.
     pub refined: bool,
     /// A camera for which nothing needs to be cut, if one is known.
-    fine_for: Option<Camera>,
+    pub fine_for: Option<Camera>,
 }
 
 impl Surface {

@@ -47,17 +47,22 @@ struct Marked {
 pub(super) fn marks(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    is_asked: &(impl Fn(usize) -> bool + Sync),
-    is_long: &(impl Fn(DVec3, DVec3) -> bool + Sync),
+    (is_asked, is_long, may): (
+        &(impl Fn(usize) -> bool + Sync),
+        &(impl Fn(DVec3, DVec3) -> bool + Sync),
+        &(impl Fn([u32; 2], f64) -> bool + Sync),
+    ),
     want: &(impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync),
 ) -> Marks {
     let mark = |edge: usize| {
-        let [a, b] = mesh.edges.vertices[edge];
-        if !is_long(mesh.positions[a as usize], mesh.positions[b as usize]) || smooth.straight.contains(edge)
-        {
+        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+        if !is_long(a, b) || smooth.straight.contains(edge) {
             return None;
         }
         let ends = smooth.across(mesh, edge)?;
+        if smooth.gentle.contains(edge) && !may(ends, a.distance_squared(b)) {
+            return None;
+        }
         let [a, b] = ends;
         let at = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
         let normal = |v: u32| smooth.normals[v as usize];

@@ -34,7 +34,7 @@ mod slender;
 pub mod smooth_normals;
 mod smooth_vertices;
 pub mod splice;
-mod straight;
+pub mod straight;
 mod sums;
 mod thickness;
 mod verdicts;

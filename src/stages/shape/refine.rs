@@ -32,14 +32,14 @@ pub fn refined(
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<Refined> {
-    let cuts = cuts(mesh, smooth, |_| true, is_long, want)?;
+    let cuts = cuts(mesh, smooth, |_| true, is_long, |_, _| true, want)?;
     Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
 }
 
 /// What is cut of a mesh where all edges of rounded surfaces are cut that are wanted, or `None` where
 /// hardly any is. Only runs of [`RUN`](super::marking::RUN) edges for which `is_asked` holds are looked at. `want` is given positions and unit normals of the ends of an edge, always in the
-/// same order, if `is_long`, which is quickly told, holds for its ends; an edge is cut if it says more
-/// than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
+/// same order, if `is_long`, which is quickly told, holds for its ends, and, where it is gentle, `may` holds for its smooth vertices and its
+/// length squared; an edge is cut if it says more than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
 /// cut loses the file's normals.
 #[must_use]
 pub fn cuts(
@@ -47,12 +47,13 @@ pub fn cuts(
     smooth: &SmoothNormals,
     is_asked: impl Fn(usize) -> bool + Sync,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
+    may: impl Fn([u32; 2], f64) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<Cuts> {
     if smooth.is_empty() {
         return None;
     }
-    let Marks { cut, edges, thin } = marks(mesh, smooth, &is_asked, &is_long, &want);
+    let Marks { cut, edges, thin } = marks(mesh, smooth, (&is_asked, &is_long, &may), &want);
     if cut.is_empty() && thin.is_empty() {
         return None;
     }

@@ -26,6 +26,8 @@ pub struct SmoothNormals {
     /// Edges over which the surface is taken to be straight, though its normals turn: what is between their ends does not
     /// bend with what meets there.
     pub straight: EdgeSet,
+    /// Edges of rounded surfaces between normals that lean apart by less than 15 degrees; none where it was not asked.
+    pub gentle: EdgeSet,
     /// Whether all faces are rounded and no edge parts them, so that smooth vertices are vertices.
     pub seamless: bool,
 }

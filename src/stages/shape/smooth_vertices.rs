@@ -21,6 +21,7 @@ impl SmoothNormals {
             corners: mesh.triangles.clone(),
             parting: EdgeSet::default(),
             straight: EdgeSet::default(),
+            gentle: EdgeSet::default(),
             seamless: true,
         }
     }
@@ -35,12 +36,13 @@ impl SmoothNormals {
     ) -> Self {
         let mut smooth = Self::parted(mesh, is_rounded, is_hard);
         if !smooth.is_empty() {
+            smooth.gentle = straight::gentle(mesh, &smooth);
             smooth.straight = straight::straight(mesh, &smooth);
         }
         smooth
     }
 
-    /// The same without a look at which edges are straight: light does not ask for them.
+    /// The same without a look at which edges are gentle or straight: light does not ask for them.
     #[must_use]
     pub fn parted(
         mesh: &Mesh,
@@ -74,6 +76,7 @@ impl SmoothNormals {
             seamless: all && parting.is_empty(),
             parting,
             straight: EdgeSet::default(),
+            gentle: EdgeSet::default(),
         };
         parting::part(mesh, &mut smooth);
         smooth

@@ -7,20 +7,31 @@ use super::SmoothNormals;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 
-/// Edges more than so many times as long as what is beside them and beyond, between normals that turn by more than this
-/// (cosine, 15 degrees), are straight.
+/// Edges more than so many times as long as what is beside them and beyond are straight, between normals that lean apart by more than
+/// those of gentle edges.
 const UNEVEN_LENGTHS: f64 = 4.0;
-const UNEVEN_COSINE: f64 = 0.966;
+
+/// The cosine of the angle between the normals at the ends of an edge beyond which it is gentle: 15 degrees.
+pub const GENTLE_COSINE: f64 = 0.966;
+
+/// Edges of rounded surfaces between normals that lean apart by little.
+pub(super) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        let ends = smooth.across(mesh, edge);
+        ends.is_some_and(|[a, b]| smooth.normals[a as usize].dot(smooth.normals[b as usize]) > GENTLE_COSINE)
+    })
+}
 
 /// Long edges beside short ones, where the surface runs on over as short a way beyond the end at which the normal leans more:
-/// what is between the ends does not bend with what is short. Where it runs on as far, it bends over all of that way.
+/// what is between the ends does not bend with what is short. Where it runs on as far, it bends over all of that way. The gentle
+/// edges are to be known.
 pub(super) fn straight(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
     EdgeSet::collect(mesh.edges.len(), |edge| {
-        let Some([a, b]) = smooth.across(mesh, edge) else { return false };
-        let normals = [a, b].map(|v| smooth.normals[v as usize]);
-        if normals[0].dot(normals[1]) > UNEVEN_COSINE {
+        if smooth.gentle.contains(edge) {
             return false;
         }
+        let Some([a, b]) = smooth.across(mesh, edge) else { return false };
+        let normals = [a, b].map(|v| smooth.normals[v as usize]);
         let [from, to] = [a, b].map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
         let least = from.distance(to) / UNEVEN_LENGTHS;
         if !mesh.edges.faces(edge).list().iter().any(|face| shortest_side(mesh, *face) < least) {
