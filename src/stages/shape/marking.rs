@@ -56,13 +56,13 @@ pub(super) fn marks(
 ) -> Marks {
     let mark = |edge: usize| {
         let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+        if smooth.gentle.contains(edge) && !may(mesh.edges.vertices[edge], a.distance_squared(b)) {
+            return None;
+        }
         if !is_long(a, b) || smooth.straight.contains(edge) {
             return None;
         }
         let ends = smooth.across(mesh, edge)?;
-        if smooth.gentle.contains(edge) && !may(ends, a.distance_squared(b)) {
-            return None;
-        }
         let [a, b] = ends;
         let at = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
         let normal = |v: u32| smooth.normals[v as usize];

@@ -38,7 +38,7 @@ pub fn refined(
 
 /// What is cut of a mesh where all edges of rounded surfaces are cut that are wanted, or `None` where
 /// hardly any is. Only runs of [`RUN`](super::marking::RUN) edges for which `is_asked` holds are looked at. `want` is given positions and unit normals of the ends of an edge, always in the
-/// same order, if `is_long`, which is quickly told, holds for its ends, and, where it is gentle, `may` holds for its smooth vertices and its
+/// same order, if `is_long`, which is quickly told, holds for its ends, and, where it is gentle, `may` holds for its ends and its
 /// length squared; an edge is cut if it says more than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
 /// cut loses the file's normals.
 #[must_use]

@@ -26,7 +26,8 @@ pub struct SmoothNormals {
     /// Edges over which the surface is taken to be straight, though its normals turn: what is between their ends does not
     /// bend with what meets there.
     pub straight: EdgeSet,
-    /// Edges of rounded surfaces between normals that lean apart by less than 15 degrees; none where it was not asked.
+    /// Edges between normals that lean apart by less than 15 degrees, and that no edge touches that parts surfaces; none where it was not
+    /// asked.
     pub gentle: EdgeSet,
     /// Whether all faces are rounded and no edge parts them, so that smooth vertices are vertices.
     pub seamless: bool,
@@ -38,6 +39,21 @@ impl SmoothNormals {
     #[must_use]
     pub fn corners_of(&self, face: u32) -> Option<[u32; 3]> {
         self.corners.get(face as usize).copied().filter(|corners| corners[0] != NO_NORMAL)
+    }
+
+    /// Whether each vertex of the mesh lies on an edge that parts surfaces: all others are smooth vertices with their own number. Empty if
+    /// none does.
+    #[must_use]
+    pub fn parted_vertices(&self, mesh: &Mesh) -> Vec<bool> {
+        if self.parting.is_empty() {
+            return Vec::new();
+        }
+        let mut parted = vec![false; mesh.positions.len()];
+        self.parting
+            .iter()
+            .flat_map(|edge| mesh.edges.vertices[edge])
+            .for_each(|vertex| parted[vertex as usize] = true);
+        parted
     }
 
     /// The smooth vertices at the ends of an edge, smaller first, where the surface runs on across it

@@ -14,11 +14,13 @@ const UNEVEN_LENGTHS: f64 = 4.0;
 /// The cosine of the angle between the normals at the ends of an edge beyond which it is gentle: 15 degrees.
 pub const GENTLE_COSINE: f64 = 0.966;
 
-/// Edges of rounded surfaces between normals that lean apart by little.
+/// Edges between normals that lean apart by little, and that no edge touches that parts surfaces.
 pub(super) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
+    let parted = smooth.parted_vertices(mesh);
     EdgeSet::collect(mesh.edges.len(), |edge| {
-        let ends = smooth.across(mesh, edge);
-        ends.is_some_and(|[a, b]| smooth.normals[a as usize].dot(smooth.normals[b as usize]) > GENTLE_COSINE)
+        let [a, b] = mesh.edges.vertices[edge].map(|vertex| vertex as usize);
+        let is_parted = |vertex: usize| parted.get(vertex) == Some(&true);
+        smooth.normals[a].dot(smooth.normals[b]) > GENTLE_COSINE && !is_parted(a) && !is_parted(b)
     })
 }
 
@@ -32,6 +34,9 @@ pub(super) fn straight(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
         }
         let Some([a, b]) = smooth.across(mesh, edge) else { return false };
         let normals = [a, b].map(|v| smooth.normals[v as usize]);
+        if normals[0].dot(normals[1]) > GENTLE_COSINE {
+            return false;
+        }
         let [from, to] = [a, b].map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
         let least = from.distance(to) / UNEVEN_LENGTHS;
         if !mesh.edges.faces(edge).list().iter().any(|face| shortest_side(mesh, *face) < least) {
