@@ -61,6 +61,9 @@ pub struct Edges {
     pub(super) suspects: Vec<u32>,
 }
 
+/// Vertices whose edges are found as one piece of work: their sides stay in the cache.
+const SHARE: usize = 1 << 14;
+
 /// A side of a triangle as seen from its smaller vertex.
 #[derive(Clone, Copy)]
 struct Side {
@@ -73,8 +76,7 @@ impl Edges {
     /// Finds the edges of `triangles`, whose vertex ids are below `vertex_count`.
     #[must_use]
     pub fn build(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
-        let workers = if triangles.len() < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
-        let shares = shares(vertex_count, triangles, workers);
+        let shares = shares(vertex_count, triangles, vertex_count.div_ceil(SHARE));
         Self::joined(
             shares.par_iter().with_max_len(1).map(|share| edges_of_share(triangles, share)).collect(),
         )
@@ -278,8 +280,8 @@ mod tests {
     }
 
     #[test]
-    fn workers_do_not_change_the_result() {
-        let n = 150u32;
+    fn shares_and_workers_do_not_change_the_result() {
+        let n = 300u32;
         let mut triangles = Vec::new();
         for y in 0..n {
             for x in 0..n {
@@ -295,6 +297,8 @@ mod tests {
         let (one, three) = (run(1), run(3));
         assert_eq!(one.vertices, three.vertices);
         assert_eq!(one.faces, three.faces);
-        assert_eq!(one.border_count(), 4 * n as usize);
+        let whole = edges_of_share(&triangles, &shares(90_601, &triangles, 1)[0]);
+        assert!(one.border_count() == 4 * n as usize && 90_601 > 5 * SHARE);
+        assert_eq!((one.vertices, one.faces), (whole.vertices, whole.faces));
     }
 }

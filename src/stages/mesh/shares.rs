@@ -21,6 +21,11 @@ pub(crate) struct Share {
 pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize) -> Vec<Share> {
     let workers = workers.max(1);
     let bound = |k: usize| vertex_count * k / workers;
+    // Bounds are rounded down, so that the next share may have begun already.
+    let whose = |v: usize| {
+        let worker = v * workers / vertex_count;
+        if bound(worker + 1) <= v { worker + 1 } else { worker }
+    };
     if workers == 1 {
         return vec![Share {
             vertices: 0..vertex_count,
@@ -30,7 +35,7 @@ pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize
     let found: Vec<Vec<Vec<Range<usize>>>> = triangles
         .par_chunks(CHUNK)
         .enumerate()
-        .map(|(chunk, triangles)| runs(chunk * CHUNK, triangles, workers, bound))
+        .map(|(chunk, triangles)| runs(chunk * CHUNK, triangles, workers, (bound, whose)))
         .collect();
     let mut all: Vec<Share> = (0..workers)
         .map(|worker| Share { vertices: bound(worker)..bound(worker + 1), faces: Vec::new() })
@@ -47,12 +52,12 @@ pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize
     all
 }
 
-/// The runs of some faces, numbered from `first` on, for each worker.
+/// The runs of some faces, numbered from `first` on, for each worker: where their shares of vertices begin, and whose a vertex is.
 fn runs(
     first: usize,
     triangles: &[[u32; 3]],
     workers: usize,
-    bound: impl Fn(usize) -> usize,
+    (bound, whose): (impl Fn(usize) -> usize, impl Fn(usize) -> usize),
 ) -> Vec<Vec<Range<usize>>> {
     let mut runs = vec![Vec::new(); workers];
     // A run of faces that lie within the share of one worker.
@@ -74,16 +79,19 @@ fn runs(
         }
         add(worker, start..face);
         start = face;
-        let touched: Vec<usize> = (0..workers)
-            .filter(|worker| corners.iter().any(|v| (bound(*worker)..bound(worker + 1)).contains(v)))
-            .collect();
-        match *touched.as_slice() {
-            [only] => (own, worker) = (bound(only)..bound(only + 1), only),
-            _ => {
-                touched.iter().for_each(|worker| add(*worker, face..face + 1));
-                start = face + 1;
-            }
+        let [a, b, c] = corners.map(&whose);
+        if a == b && b == c {
+            (own, worker) = (bound(a)..bound(a + 1), a);
+            continue;
         }
+        add(a, face..face + 1);
+        if b != a {
+            add(b, face..face + 1);
+        }
+        if c != a && c != b {
+            add(c, face..face + 1);
+        }
+        start = face + 1;
     }
     add(worker, start..first + triangles.len());
     runs
@@ -101,7 +109,7 @@ mod tests {
                 if k % 97 == 0 { [near, (k * 31) % 9_998, 9_999] } else { [near, near + 1, near + 9] }
             })
             .collect();
-        for workers in [1, 2, 3, 8] {
+        for workers in [1, 2, 3, 8, 317] {
             let shares = shares(10_000, &faces, workers);
             assert_eq!(shares.len(), workers);
             for share in shares {

@@ -9,7 +9,10 @@ use super::parting;
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use super::straight;
 use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, Mesh, shares};
+use crate::mesh::{EdgeFaces, Mesh, Share, shares};
+
+/// Vertices whose normals are summed as one piece of work.
+const SHARE: usize = 1 << 13;
 
 impl SmoothNormals {
     /// The normals of a mesh all of which is one rounded surface without hard edges.
@@ -87,38 +90,47 @@ impl SmoothNormals {
 /// there.
 fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
     let count = mesh.positions.len();
-    // Each worker owns a share of the vertices, so that sums do not depend on the number of workers.
-    let workers = if count < 20_000 { 1 } else { rayon::current_num_threads().clamp(1, 8) };
-    let parts: Vec<Vec<DVec3>> = shares(count, &mesh.triangles, workers)
-        .par_iter()
-        .with_max_len(1)
+    // Sums of so many vertices at once stay in the cache; faces at the rim of a share are weighed for each that they touch.
+    let shares = shares(count, &mesh.triangles, count.div_ceil(SHARE));
+    let mut normals = vec![DVec3::ZERO; count];
+    let mut rest = &mut normals[..];
+    let work: Vec<(&Share, &mut [DVec3])> = shares
+        .iter()
         .map(|share| {
-            let mut sums = vec![NormalSum::default(); share.vertices.len()];
-            let mut own = vec![DVec3::ZERO; if mesh.corner_normals.is_empty() { 0 } else { sums.len() }];
-            for face in share.faces.iter().flat_map(Clone::clone).filter(|face| counts(*face)) {
-                let triangle = mesh.triangles[face];
-                let slots = triangle.map(|v| (v as usize).wrapping_sub(share.vertices.start));
-                let Some(weighted) = FaceWeights::new(triangle.map(|v| mesh.positions[v as usize])) else {
-                    continue;
-                };
-                for (k, slot) in slots.iter().enumerate() {
-                    if let Some(sum) = sums.get_mut(*slot) {
-                        sum.add(&weighted, k);
-                    }
+            let (own, others) = std::mem::take(&mut rest).split_at_mut(share.vertices.len());
+            rest = others;
+            (share, own)
+        })
+        .collect();
+    work.into_par_iter().with_max_len(1).for_each(|(share, normals)| {
+        let mut sums = vec![NormalSum::default(); share.vertices.len()];
+        let mut own = vec![DVec3::ZERO; if mesh.corner_normals.is_empty() { 0 } else { sums.len() }];
+        for face in share.faces.iter().flat_map(Clone::clone).filter(|face| counts(*face)) {
+            let triangle = mesh.triangles[face];
+            let slots = triangle.map(|v| (v as usize).wrapping_sub(share.vertices.start));
+            let Some(weighted) = FaceWeights::new(triangle.map(|v| mesh.positions[v as usize])) else {
+                continue;
+            };
+            for (k, slot) in slots.iter().enumerate() {
+                if let Some(sum) = sums.get_mut(*slot) {
+                    sum.add(&weighted, k);
                 }
-                if !own.is_empty() {
-                    for (slot, normal) in slots.iter().zip(file_normals(mesh, face)) {
-                        if let Some(sum) = own.get_mut(*slot) {
-                            *sum += normal;
-                        }
+            }
+            if !own.is_empty() {
+                for (slot, normal) in slots.iter().zip(file_normals(mesh, face)) {
+                    if let Some(sum) = own.get_mut(*slot) {
+                        *sum += normal;
                     }
                 }
             }
-            let of_file = |k: usize| own.get(k).copied().unwrap_or_default();
-            sums.iter().enumerate().map(|(k, sum)| chosen(sum.normal(), of_file(k))).collect()
-        })
-        .collect();
-    parts.concat()
+        }
+        let of_file = |k: usize| own.get(k).copied().unwrap_or_default();
+        let of_faces = sums.iter().map(NormalSum::normal);
+        normals.iter_mut().zip(of_faces).enumerate().for_each(|(k, (normal, of_faces))| {
+            *normal = chosen(of_faces, of_file(k));
+        });
+    });
+    normals
 }
 
 #[cfg(test)]

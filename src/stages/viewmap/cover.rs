@@ -73,8 +73,7 @@ impl Covers {
         }
         let squares = squares_of(triangles.grid);
         let area = BIG_FACE * squares.cell * squares.cell;
-        let mut big = large_ones(triangles, squares.cell);
-        big.retain(|id| triangles.area(*id) >= area);
+        let big = large_ones_with(triangles, squares.cell, |id| triangles.area(id) >= area);
         if triangles.layers_of(big.iter().copied()) < BIG_LAYERS {
             return Self::none(triangles.grid);
         }
@@ -186,10 +185,14 @@ fn squares_of(tiles: &Grid) -> Grid {
 }
 
 fn large_ones(triangles: &Triangles, cell: f64) -> Vec<u32> {
+    large_ones_with(triangles, cell, |_| true)
+}
+
+fn large_ones_with(triangles: &Triangles, cell: f64, holds: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     (0..triangles.count() as u32)
         .into_par_iter()
         .with_min_len(1 << 12)
-        .filter(|id| is_large(triangles, *id, cell))
+        .filter(|id| is_large(triangles, *id, cell) && holds(*id))
         .collect()
 }
 
