@@ -3,8 +3,6 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::LineKind;
 use crate::mesh::{MaterialId, Mesh, PartId, Wire};
@@ -153,66 +151,11 @@ impl FeatureLines {
         }
     }
 
-    /// Adds pieces of lines that run through faces, in runs of neighbours, and makes segments of them. Two faces compute the same
-    /// point of their edge from the same numbers, so its bits name it.
-    pub(super) fn append_in_faces<P: Copy + Send + Sync>(
-        &mut self,
-        mesh: &Mesh,
-        runs: &[Vec<P>],
-        piece: impl Fn(P) -> (u32, LineKind, [DVec3; 2]) + Sync,
-        segment: impl Fn(u32, LineKind, [u32; 2]) -> FeatureSegment,
-    ) -> PointIds {
-        // Most points are of one run alone, whose table is small: only what it knows no more of is looked up among all.
-        let own: Vec<(Vec<DVec3>, Vec<[u32; 2]>)> = runs
-            .par_iter()
-            .with_max_len(1)
-            .map(|run| {
-                let (mut points, mut known) = (Vec::new(), PointIds::default());
-                let ends = run.iter().map(|p| piece(*p).2.map(|p| known.among(&mut points, p))).collect();
-                (points, ends)
-            })
-            .collect();
-        let mut ids = PointIds::default();
-        ids.0.reserve(own.iter().map(|(points, _)| points.len()).sum());
-        self.segments.reserve(runs.iter().map(Vec::len).sum());
-        let mut of_run = Vec::new();
-        for (run, (points, ends)) in runs.iter().zip(own) {
-            of_run.clear();
-            of_run.extend(points.into_iter().map(|p| ids.of(self, mesh, p)));
-            for (piece, ends) in run.iter().map(|p| piece(*p)).zip(ends) {
-                self.segments.push(segment(piece.0, piece.1, ends.map(|end| of_run[end as usize])));
-            }
-        }
-        ids
-    }
-
     /// How strong the lines are at an end, 0 to 1.
     #[inline]
     #[must_use]
     pub fn strength(&self, mesh: &Mesh, end: u32) -> f32 {
         let point = (end as usize).checked_sub(mesh.positions.len());
         point.and_then(|point| self.strengths.get(point)).copied().unwrap_or(1.0)
-    }
-}
-
-/// The numbers of points that lines through faces share, by their bits.
-#[derive(Default)]
-pub(super) struct PointIds(FxHashMap<[u64; 3], u32>);
-
-impl PointIds {
-    /// The number of a point, which is added if it is new.
-    pub fn of(&mut self, lines: &mut FeatureLines, mesh: &Mesh, p: DVec3) -> u32 {
-        *self.0.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
-            lines.points.push(p);
-            (mesh.positions.len() + lines.points.len() - 1) as u32
-        })
-    }
-
-    /// The number of a point among these, to which it is added if it is new.
-    fn among(&mut self, points: &mut Vec<DVec3>, p: DVec3) -> u32 {
-        *self.0.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
-            points.push(p);
-            points.len() as u32 - 1
-        })
     }
 }

@@ -7,6 +7,7 @@ pub mod edge_lines;
 pub mod edge_search;
 mod folds;
 pub mod image;
+mod in_faces;
 pub mod inside;
 pub mod intersections;
 pub mod isophotes;

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::in_faces::PointIds;
 use super::isophotes::page_px;
 use super::line::segment;
 use super::painted_face::{Piece, borders};
@@ -52,17 +53,23 @@ pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
             pieces
         })
         .collect();
-    let mut ids = lines.append_in_faces(
+    let own = lines.points.len();
+    lines.append_in_faces(
         lit.mesh,
         &found,
         |piece| piece,
         |face, kind, ends| segment(lit.mesh, face, [face, NO_FACE], kind, ends),
     );
+    if seams.is_empty() {
+        return;
+    }
+    let first = lit.mesh.positions.len() as u32;
+    let mut ids = PointIds::new(&lines.points[own..], first + own as u32);
     for Seam { segment, pieces } in seams {
         for (places, kind) in pieces {
             let ends = [0, 1].map(|k| match places[k] {
                 None => segment.ends[k],
-                Some(weights) => ids.of(lines, lit.mesh, lit.lifted(segment.hosts[0], weights, px)),
+                Some(weights) => ids.of(&mut lines.points, first, lit.lifted(segment.hosts[0], weights, px)),
             });
             lines.segments.push(FeatureSegment { ends, kind, ..segment });
         }

@@ -51,15 +51,14 @@ impl Triangulation {
     /// found shows in their numbers.
     pub fn new(noded: Noded) -> Self {
         let Some(built) = triangulated(&noded) else { return Self::default() };
-        let mut faces: Vec<([u32; 3], FixedFaceHandle<InnerTag>)> = built
-            .inner_faces()
-            .map(|face| {
-                let mut corners = face.vertices().map(|vertex| vertex.data().number);
-                let first = least(corners);
-                corners.rotate_left(first);
-                (corners, face.fix())
-            })
-            .collect();
+        let with_corners = |face: FixedFaceHandle<InnerTag>| {
+            let mut corners = built.face(face).vertices().map(|vertex| vertex.data().number);
+            let first = least(corners);
+            corners.rotate_left(first);
+            (corners, face)
+        };
+        let faces: Vec<FixedFaceHandle<InnerTag>> = built.fixed_inner_faces().collect();
+        let mut faces: Vec<_> = faces.into_par_iter().with_min_len(GRAIN).map(with_corners).collect();
         faces.par_sort_unstable_by_key(|(corners, _)| *corners);
         let mut number = vec![OUTSIDE; built.num_all_faces()];
         for (k, (_, face)) in (0..).zip(&faces) {

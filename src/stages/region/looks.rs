@@ -3,7 +3,22 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
 use super::cells::{OUTSIDE, Triangulation};
+use crate::math::grouped::grouped_pairs;
+
+/// Cells that one task decides on.
+const CELLS: usize = 1 << 8;
+
+/// What the triangles of a cell look like.
+enum CellLooks {
+    /// All alike.
+    Alike(u32),
+    /// Each of them, since its borders leak.
+    Each(Vec<u32>),
+}
 
 /// Decides on a look for each triangle from what is seen in the middle of each (`seen`, numbers
 /// below `looks`). A cell looks like most of its area. Only where a part of it wider than `wide` is
@@ -13,46 +28,60 @@ use super::cells::{OUTSIDE, Triangulation};
 /// Gives the looks and the number of cells that leak.
 pub(super) fn decide(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<u32>, u64) {
     let (cell_of, count) = cut.cells();
-    let mut of_cell: Vec<Vec<u32>> = vec![Vec::new(); count];
-    for (triangle, cell) in cell_of.iter().enumerate() {
-        of_cell[*cell as usize].push(triangle as u32);
-    }
+    let triangles = cell_of.iter().enumerate().map(|(triangle, cell)| (*cell as usize, triangle as u32));
+    let cells = grouped_pairs(count, triangles);
+    let decided: Vec<CellLooks> = (0..count)
+        .into_par_iter()
+        .with_min_len(CELLS)
+        .with_max_len(CELLS)
+        .map(|cell| of_cell(cut, cells.of(cell), seen, wide))
+        .collect();
     let mut looks = seen.to_vec();
     let mut leaks = 0;
-    let mut areas: Vec<(u32, f64)> = Vec::new();
-    for triangles in of_cell {
-        areas.clear();
-        for triangle in &triangles {
-            let look = seen[*triangle as usize];
-            let area = cut.area2(*triangle as usize);
-            match areas.iter_mut().find(|(known, _)| *known == look) {
-                Some((_, sum)) => *sum += area,
-                None => areas.push((look, area)),
-            }
-        }
-        // The greatest area; of equal ones the first seen.
-        let most = areas.iter().fold(None, |most: Option<(u32, f64)>, (look, area)| match most {
-            Some((_, greatest)) if greatest >= *area => most,
-            _ => Some((*look, *area)),
-        });
-        let Some((most, _)) = most else { continue };
-        let differs = |t: &u32| seen[*t as usize] != most && cut.width(*t as usize) > wide;
-        if triangles.iter().any(differs) {
-            leaks += 1;
-            spread(cut, &triangles, wide, &mut looks);
-        } else {
-            for triangle in &triangles {
-                looks[*triangle as usize] = most;
+    for (cell, decided) in decided.into_iter().enumerate() {
+        let triangles = cells.of(cell).iter().map(|triangle| *triangle as usize);
+        match decided {
+            CellLooks::Alike(look) => triangles.for_each(|triangle| looks[triangle] = look),
+            CellLooks::Each(own) => {
+                leaks += 1;
+                triangles.zip(own).for_each(|(triangle, look)| looks[triangle] = look);
             }
         }
     }
     (looks, leaks)
 }
 
-/// Gives the narrow triangles of a cell the looks of wide ones, handed on over the longest sides first: a sliver shares
-/// its long sides with what is around it, and but a short one with what it would be a spike of.
-fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, looks: &mut [u32]) {
-    let mut known = rustc_hash::FxHashSet::default();
+/// Decides on the looks of a cell, which has a triangle.
+fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> CellLooks {
+    let mut areas: Vec<(u32, f64)> = Vec::new();
+    for triangle in triangles {
+        let look = seen[*triangle as usize];
+        let area = cut.area2(*triangle as usize);
+        match areas.iter_mut().find(|(known, _)| *known == look) {
+            Some((_, sum)) => *sum += area,
+            None => areas.push((look, area)),
+        }
+    }
+    // The greatest area; of equal ones the first seen.
+    let (most, _) =
+        areas.iter().fold(
+            (OUTSIDE, f64::NEG_INFINITY),
+            |most, (look, area)| {
+                if most.1 >= *area { most } else { (*look, *area) }
+            },
+        );
+    let differs = |t: &u32| seen[*t as usize] != most && cut.width(*t as usize) > wide;
+    if triangles.iter().any(differs) {
+        CellLooks::Each(spread(cut, triangles, wide, seen))
+    } else {
+        CellLooks::Alike(most)
+    }
+}
+
+/// The looks of the triangles of a cell where the narrow ones have those of wide ones, handed on over the longest sides first: a
+/// sliver shares its long sides with what is around it, and but a short one with what it would be a spike of.
+fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, seen: &[u32]) -> Vec<u32> {
+    let mut known: FxHashMap<u32, u32> = FxHashMap::default();
     // Lengths as bits, which order positive numbers; of equal ones the first triangles.
     let mut open = BinaryHeap::new();
     let reach = |from: u32, open: &mut BinaryHeap<(u64, Reverse<[u32; 2]>)>| {
@@ -65,15 +94,18 @@ fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, looks: &mut [u32]) 
         }
     };
     for triangle in triangles.iter().copied().filter(|t| cut.width(*t as usize) > wide) {
-        known.insert(triangle);
+        known.insert(triangle, seen[triangle as usize]);
         reach(triangle, &mut open);
     }
     while let Some((_, Reverse([next, from]))) = open.pop() {
-        if known.insert(next) {
-            looks[next as usize] = looks[from as usize];
+        if !known.contains_key(&next)
+            && let Some(look) = known.get(&from).copied()
+        {
+            known.insert(next, look);
             reach(next, &mut open);
         }
     }
+    triangles.iter().map(|t| known.get(t).copied().unwrap_or(seen[*t as usize])).collect()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use kurbo::Point;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::cells::Triangulation;
 use super::looks;
@@ -95,6 +95,8 @@ pub fn see(
     let cut = Triangulation::new(noded);
 
     let centres: Vec<DVec2> = (0..cut.triangles.len())
+        .into_par_iter()
+        .with_min_len(1 << 12)
         .map(|t| {
             let [a, b, c] = cut.corners(t).map(DVec2::from_array);
             (a + b + c) / 3.0 * step
@@ -168,9 +170,10 @@ fn looks_at(
 ) -> (Vec<u32>, Vec<Look>) {
     let fronts = front_faces(lit.mesh, lit.view, points);
     let hits: Vec<(usize, u32, DVec3)> = fronts
-        .iter()
+        .par_iter()
         .zip(points)
         .enumerate()
+        .with_min_len(1 << 12)
         .filter_map(|(k, (front, p))| {
             let front = front.as_ref()?;
             Some((k, front.face, lit.view.frame.local_from_image(p.extend(front.nearness))))
@@ -188,16 +191,21 @@ fn looks_at(
         })
         .collect();
     // They are few, and come again and again.
-    let mut number: FxHashMap<Look, u32> = looks.iter().map(|(_, look)| (*look, NOTHING)).collect();
-    let mut table: Vec<Look> = number.keys().copied().collect();
+    let some = looks.par_chunks(1 << 12).map(|looks| looks.iter().map(|(_, look)| *look).collect());
+    let all: FxHashSet<Look> = some.reduce(FxHashSet::default, |mut all, some: FxHashSet<Look>| {
+        all.extend(some);
+        all
+    });
+    let mut table: Vec<Look> = all.into_iter().collect();
     table.sort_unstable();
-    for (look, own) in table.iter().zip(NOTHING + 1..) {
-        number.insert(*look, own);
-    }
+    let number: FxHashMap<Look, u32> = table.iter().copied().zip(NOTHING + 1..).collect();
+    let found: Vec<u32> = looks
+        .par_iter()
+        .with_min_len(1 << 12)
+        .map(|(_, look)| number.get(look).copied().unwrap_or(NOTHING))
+        .collect();
     let mut numbers = vec![NOTHING; points.len()];
-    for (k, look) in looks {
-        numbers[k] = number.get(&look).copied().unwrap_or(NOTHING);
-    }
+    looks.iter().zip(found).for_each(|((k, _), found)| numbers[*k] = found);
     (numbers, table)
 }
 
