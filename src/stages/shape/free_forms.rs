@@ -10,8 +10,9 @@ use std::sync::atomic::Ordering::Relaxed;
 use rayon::prelude::*;
 
 use super::planes::{Planes, area};
-use super::rounded::{LEAST_EDGES, Make};
+use super::rounded::LEAST_EDGES;
 use super::sums::sums;
+use super::verdicts::Make;
 use crate::math::function::acos;
 use crate::mesh::groups::Groups;
 

@@ -47,5 +47,5 @@ pub use edge_arc::EdgeArc;
 pub use hard_edges::HardEdges;
 pub use patches::Patches;
 pub use principal::Principal;
-pub use rounded::Origin;
 pub use smooth_normals::SmoothNormals;
+pub use verdicts::Origin;

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::planes::{Planes, area};
 use super::slender::{Slender, bends_over_its_ends, longest_side};
 use super::sums::sums;
-use super::verdicts::{Verdict, Verdicts};
+use super::verdicts::{Make, Origin, Verdict, Verdicts};
 use crate::mesh::groups::{Groups, Numbered};
 use crate::mesh::{EdgeFaces, Mesh, Turns};
 
@@ -77,30 +77,6 @@ const FEW_CURVED: f64 = 0.05;
 /// such faces with which a file's normals are wrong for the whole piece.
 const ASTRAY_COSINE: f32 = 0.17;
 const FEW_ASTRAY: f64 = 0.1;
-
-/// What a piece of a model is meant to be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Make {
-    /// What its faces are.
-    #[default]
-    Block,
-    /// Flats, and between them surfaces that may be round.
-    Machined,
-    /// A rounded surface but for its creases.
-    Round,
-}
-
-/// How a surface came about, as far as its mesh tells: by that its lines may be noise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
-pub enum Origin {
-    /// All its lines are meant.
-    #[default]
-    Constructed,
-    /// A figure that its file's normals shade round: what is small and stands alone is a matter of its few faces.
-    Modelled,
-    /// A round surface without normals: small folds and short creases are as likely noise as not.
-    Scanned,
-}
 
 /// What is counted of the faces of one piece.
 #[derive(Debug, Clone, Copy, Default)]

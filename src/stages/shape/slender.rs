@@ -61,7 +61,7 @@ pub(super) fn bends_over_its_ends(mesh: &Mesh, turns: &Turns, face: u32, slender
 
 #[cfg(test)]
 mod tests {
-    use super::super::rounded::Origin;
+    use super::super::Origin;
     use super::super::{HardEdges, Patches};
     use crate::math::function::{cos, sin};
     use crate::mesh::{Mesh, Soup};

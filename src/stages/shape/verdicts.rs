@@ -1,12 +1,35 @@
-//! [`Verdicts`]: what each face of a mesh belongs to, told for its piece.
+//! [`Verdicts`]: what each face of a mesh belongs to, told for its piece; and what a piece may be.
 
 use rayon::prelude::*;
 
-use super::rounded::{Make, Origin};
 use crate::mesh::groups::Numbered;
 
 /// The smallest piece of work for a thread, in faces.
 const GRAIN: usize = 1 << 16;
+
+/// What a piece of a model is meant to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Make {
+    /// What its faces are.
+    #[default]
+    Block,
+    /// Flats, and between them surfaces that may be round.
+    Machined,
+    /// A rounded surface but for its creases.
+    Round,
+}
+
+/// How a surface came about, as far as its mesh tells: by that its lines may be noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
+pub enum Origin {
+    /// All its lines are meant.
+    #[default]
+    Constructed,
+    /// A figure that its file's normals shade round: what is small and stands alone is a matter of its few faces.
+    Modelled,
+    /// A round surface without normals: small folds and short creases are as likely noise as not.
+    Scanned,
+}
 
 /// What a piece is, and how its file's normals have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
