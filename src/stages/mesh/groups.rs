@@ -170,7 +170,7 @@ mod tests {
         }
         assert_eq!(groups.first, plain);
         // Their numbers are how many first faces come before theirs, but for multiples of 14.
-        let counts = |first: u32| first % 14 != 0;
+        let counts = |first: u32| !first.is_multiple_of(14);
         let numbered = groups.numbered(|first| (!counts(first)).then_some(9));
         let firsts: Vec<u32> = (0..count).filter(|k| plain[*k as usize] == *k && counts(*k)).collect();
         assert!(numbered.first == firsts && firsts.len() > 5000);
