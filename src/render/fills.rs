@@ -281,14 +281,14 @@ impl<'a> Fills<'a> {
 
     /// What the eye sees, cut by these borders.
     pub fn see(&self, borders: &PageBorders, page: &Page) -> Seen {
-        region::see(&self.lit(), borders, |points| self.shadowed(points), self.darkened, page.unit)
+        region::see(&self.lit(), borders, self.shadowing(), self.darkened, page.unit)
     }
 
     /// What the eye sees with another mesh before it, which has the same faces but hides less.
     pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
         let lit = Lit { mesh: clear, ..self.lit() };
         let borders = PageBorders::of(map, &self.view.frame);
-        region::see(&lit, &borders, |points| self.shadowed(points), self.darkened, page.unit)
+        region::see(&lit, &borders, self.shadowing(), self.darkened, page.unit)
     }
 
     /// The outlines of regions that look as `pick` says, with their colours and where they are from.
@@ -322,6 +322,11 @@ impl<'a> Fills<'a> {
             materials: &self.materials,
             shading: &self.shading,
         }
+    }
+
+    /// Which lights do not reach points of faces, where any casts shadows.
+    fn shadowing(&self) -> Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>> {
+        (!self.shadows.casters().is_empty()).then_some(|points: &[(u32, DVec3)]| self.shadowed(points))
     }
 
     /// Which lights do not reach points of faces.

@@ -11,9 +11,10 @@ use kurbo::{Point, Vec2};
 pub use super::piece::{BorderPiece, PAPER};
 
 use super::cells::{OUTSIDE, Triangulation};
+use super::look::{Look, NOTHING};
 use super::merge;
 use super::piece_grid::PieceTiles;
-use super::seen::{Look, NOTHING, Seen};
+use super::seen::Seen;
 use crate::drawing::{Length, Unit};
 
 /// A part of the page that looks alike to hatching and hangs together.

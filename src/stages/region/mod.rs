@@ -14,6 +14,7 @@ mod flat;
 pub mod ground;
 mod insertion;
 pub mod level_curves;
+pub mod look;
 mod looks;
 mod meeting;
 mod merge;
@@ -26,6 +27,7 @@ mod piece_tiles;
 mod ramps;
 pub mod samples;
 pub mod seen;
+mod seen_at;
 mod thin;
 pub(crate) mod unions;
 
@@ -33,18 +35,19 @@ use kurbo::{BezPath, Point};
 use rayon::prelude::*;
 
 pub use ground::Ground;
+pub use look::{Darkened, Look};
 pub use options::{RegionOptions, Seams, StepsAs};
 pub use paint::paint;
 pub use ramps::Ramp;
 pub use samples::Samples;
-pub use seen::{Darkened, Look, PageBorders, Seen, see};
+pub use seen::{PageBorders, Seen, see};
 
 use crate::chain::{self, ChainOptions};
 use crate::drawing::{Length, Unit};
 use crate::math::tolerance;
 use arcs::{OUTSIDE_PATCH, RawArc};
 use cells::Triangulation;
-use seen::NOTHING;
+use look::NOTHING;
 
 /// A stretch of border between two regions.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,8 +10,8 @@ use kurbo::{Point, Vec2};
 
 use super::arcs::{Borders, OUTSIDE_PATCH, RawArc};
 use super::cells::Triangulation;
+use super::look::Look;
 use super::merge::Patches;
-use super::seen::Look;
 use crate::drawing::Gradient;
 use crate::math::colour::Colour;
 

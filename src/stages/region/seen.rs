@@ -3,35 +3,18 @@
 use glam::{DVec2, DVec3};
 use kurbo::Point;
 use rayon::prelude::*;
-use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::cells::Triangulation;
+use super::look::{Darkened, Look, NOTHING};
 use super::looks;
 use super::noding::{self, Border, GridPoint};
+use super::seen_at::seen_at;
 use super::thin::{self, Segments};
 use crate::drawing::{Length, Unit};
 use crate::lines::{LineKind, Lit};
 use crate::math::tolerance;
-use crate::mesh::{MaterialId, PaintId, PartId};
 use crate::view::Frame;
-use crate::viewmap::{ViewMap, front_faces};
-
-/// What a part of the page looks like.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Look {
-    /// The part of the model that is seen.
-    pub part: PartId,
-    /// Its material.
-    pub material: MaterialId,
-    /// What it is painted with: its material, or that in the colour of its texture.
-    pub paint: PaintId,
-    /// Its tone, 0 the darkest.
-    pub tone: u16,
-    /// The bin of light in which it is hatched, 0 the darkest; 0 where nothing is hatched.
-    pub bin: u16,
-    /// Whether it is as dark as it is because something else is between it and a light.
-    pub cast: bool,
-}
+use crate::viewmap::ViewMap;
 
 /// The page in triangles, and what the eye sees in each: regions of colour and what hatching is laid on
 /// are both read from it, so that they can never disagree.
@@ -45,15 +28,6 @@ pub struct Seen {
     pub(super) step: f64,
     /// Cells in which different looks were seen, because a line around them breaks off.
     pub leaks: u64,
-}
-
-/// Which looks cast shadows darken: colours and hatching each have a switch of their own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Darkened {
-    /// The tones of fills.
-    pub tones: bool,
-    /// The bins of hatching.
-    pub bins: bool,
 }
 
 /// The visible lines that may part looks and the edge of the page, on a grid.
@@ -73,12 +47,13 @@ fn step(frame: &Frame) -> f64 {
     frame.width.max(frame.height) / tolerance::REGION_STEPS
 }
 
-/// Cuts the page along borders and asks what is seen. `shadowed` tells which lights do not reach points of faces.
+/// Cuts the page along borders and asks what is seen. `shadowed`, if anything casts shadows, tells which lights do not reach points
+/// of faces.
 #[must_use]
 pub fn see(
     lit: &Lit,
     PageBorders(segments): &PageBorders,
-    shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
+    shadowed: Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>>,
     darkened: Darkened,
     unit: Unit,
 ) -> Seen {
@@ -102,7 +77,8 @@ pub fn see(
             (a + b + c) / 3.0 * step
         })
         .collect();
-    let (looks, table) = looks_at(lit, &centres, shadowed, darkened);
+    let (looks, table) = seen_at(lit, &centres, shadowed, darkened);
+    drop(centres);
     let (looks, leaks) = looks::decide(&cut, &looks, tolerance::LEAK_PX * px / step);
     Seen { cut, looks, table, step, leaks }
 }
@@ -130,9 +106,6 @@ impl Seen {
     }
 }
 
-/// In lists of looks: only paper is seen.
-pub(super) const NOTHING: u32 = 0;
-
 fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
     let on_grid = |p: Point| [p.x, p.y].map(|x| (x / step).round() as i64);
     let [right, bottom] = page.map(|x| (x / step).round() as i64);
@@ -158,70 +131,4 @@ fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
 fn may_part(kind: LineKind) -> bool {
     use LineKind::{Artist, Border, Contour, Crease, Intersection, Isophote, Material};
     matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote | Artist)
-}
-
-/// What is seen at points of the image: for each a number in the table of looks, whose first entry
-/// stands for paper.
-fn looks_at(
-    lit: &Lit,
-    points: &[DVec2],
-    shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
-    darkened: Darkened,
-) -> (Vec<u32>, Vec<Look>) {
-    let fronts = front_faces(lit.mesh, lit.view, points);
-    let hits: Vec<(usize, u32, DVec3)> = fronts
-        .par_iter()
-        .zip(points)
-        .enumerate()
-        .with_min_len(1 << 12)
-        .filter_map(|(k, (front, p))| {
-            let front = front.as_ref()?;
-            Some((k, front.face, lit.view.frame.local_from_image(p.extend(front.nearness))))
-        })
-        .collect();
-    let asked: Vec<(u32, DVec3)> = hits.iter().map(|(_, face, at)| (*face, *at)).collect();
-    let masks = shadowed(&asked);
-    let looks: Vec<(usize, Look)> = hits
-        .par_iter()
-        .with_min_len(256)
-        .with_max_len(512)
-        .enumerate()
-        .map(|(i, (k, face, at))| {
-            (*k, look(lit, *face, *at, masks.get(i).copied().unwrap_or_default(), darkened))
-        })
-        .collect();
-    // They are few, and come again and again.
-    let some = looks.par_chunks(1 << 12).map(|looks| looks.iter().map(|(_, look)| *look).collect());
-    let all: FxHashSet<Look> = some.reduce(FxHashSet::default, |mut all, some: FxHashSet<Look>| {
-        all.extend(some);
-        all
-    });
-    let mut table: Vec<Look> = all.into_iter().collect();
-    table.sort_unstable();
-    let number: FxHashMap<Look, u32> = table.iter().copied().zip(NOTHING + 1..).collect();
-    let found: Vec<u32> = looks
-        .par_iter()
-        .with_min_len(1 << 12)
-        .map(|(_, look)| number.get(look).copied().unwrap_or(NOTHING))
-        .collect();
-    let mut numbers = vec![NOTHING; points.len()];
-    looks.iter().zip(found).for_each(|((k, _), found)| numbers[*k] = found);
-    (numbers, table)
-}
-
-/// What a face looks like at a point of it.
-fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> Look {
-    let mesh = lit.mesh;
-    let (material, paint) = (mesh.face_material[face as usize], lit.paint(face, at));
-    let point = lit.at(face, at);
-    let (tone_lit, bin_lit) = lit.tone_and_bin_shown(face, paint, &point, 0);
-    let (tone_dark, bin_dark) = if shadowed == 0 {
-        (tone_lit, bin_lit)
-    } else {
-        lit.tone_and_bin_shown(face, paint, &point, shadowed)
-    };
-    let tone = if darkened.tones { tone_dark } else { tone_lit };
-    let bin = if darkened.bins { bin_dark } else { bin_lit };
-    let cast = tone != tone_lit;
-    Look { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }
 }
