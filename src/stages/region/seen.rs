@@ -112,6 +112,7 @@ fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
     let corners = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
     let mut segments: Segments = (0..4).map(|k| ([corners[k], corners[(k + 1) % 4]], Border::Hard)).collect();
     let parting = map.edges.iter().filter(|edge| edge.invisibility == 0 && may_part(edge.kind));
+    segments.reserve(parting.clone().count());
     segments.extend(parting.map(|edge| {
         let ends = [edge.start, edge.end].map(|end| on_grid(map.vertices[end.index()].position));
         let inside = |p: GridPoint| [p[0].clamp(0, right), p[1].clamp(0, bottom)];

@@ -150,6 +150,11 @@ impl<'a> Asked<'a> {
 
     fn map_with_doubles(&self, told: &Told, but: Option<&Told>) -> ViewMap {
         let mut builder = Builder::new(self.mesh, self.view, self.lines, self.hidden);
+        // Most are drawn whole, if they are.
+        let drawn = self.segments.iter().enumerate().filter(|(i, segment)| told.draws(*i, segment.role));
+        let drawn = drawn.count();
+        builder.map.edges.reserve(drawn);
+        builder.map.vertices.reserve(drawn + drawn / 8);
         let mut question = 0;
         for (i, segment) in self.segments.iter().enumerate() {
             let seen = told.of(i, segment.role, question);

@@ -49,10 +49,9 @@ pub fn remove(map: &mut ViewMap, within: f64, perspective: bool, extents: &Exten
 /// For each edge that gives way, the range of its parameter that another covers; ascending.
 fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64, f64))> {
     let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
-    let lines: Vec<(u32, Line)> = seen
-        .map(|(edge, id)| (id, Line::of(map, edge)))
-        .filter(|(_, line)| line.length > SHORTEST_SHARE * within)
-        .collect();
+    let mut lines: Vec<(u32, Line)> = Vec::with_capacity(seen.clone().count());
+    let of_edges = seen.map(|(edge, id)| (id, Line::of(map, edge)));
+    lines.extend(of_edges.filter(|(_, line)| line.length > SHORTEST_SHARE * within));
     if lines.is_empty() {
         return Vec::new();
     }
