@@ -40,6 +40,15 @@ pub(super) struct TileResult {
     pub(super) tests: u64,
 }
 
+impl TileResult {
+    /// Gives back the room that nothing was found for.
+    pub(super) fn tidy(&mut self) {
+        self.whole.shrink_to_fit();
+        self.hidden.shrink_to_fit();
+        self.backed.shrink_to_fit();
+    }
+}
+
 /// What all tiles share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'a> {

@@ -159,6 +159,7 @@ pub(super) fn decide_with(
                 }
             }
         }
+        result.tidy();
         result
     };
     // Some tiles are crowded and most are not.
@@ -168,8 +169,11 @@ pub(super) fn decide_with(
         .with_max_len(1)
         .map(|k| memories.lend(|memory| decided(memory, k * TILES..((k + 1) * TILES).min(grid.len()))))
         .collect();
+    let long_tests = long.as_ref().map_or(0, |long| long.tests);
+    // What is found takes as much room again while it is put in order.
+    drop((long, occluders, items, memories));
     let mut told = gather(segments, limits, &buried, &results);
-    told.tests += long.map_or(0, |long| long.tests);
+    told.tests += long_tests;
     told
 }
 
