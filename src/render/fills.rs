@@ -281,14 +281,16 @@ impl<'a> Fills<'a> {
 
     /// What the eye sees, cut by these borders.
     pub fn see(&self, borders: &PageBorders, page: &Page) -> Seen {
-        region::see(&self.lit(), borders, self.shadowing(), self.darkened, page.unit)
+        let shadowed = self.has_shadows().then_some(|points: &[_]| self.shadowed(points));
+        region::see(&self.lit(), borders, shadowed, self.darkened, page.unit)
     }
 
     /// What the eye sees with another mesh before it, which has the same faces but hides less.
     pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
         let lit = Lit { mesh: clear, ..self.lit() };
         let borders = PageBorders::of(map, &self.view.frame);
-        region::see(&lit, &borders, self.shadowing(), self.darkened, page.unit)
+        let shadowed = self.has_shadows().then_some(|points: &[_]| self.shadowed(points));
+        region::see(&lit, &borders, shadowed, self.darkened, page.unit)
     }
 
     /// The outlines of regions that look as `pick` says, with their colours and where they are from.
@@ -324,9 +326,9 @@ impl<'a> Fills<'a> {
         }
     }
 
-    /// Which lights do not reach points of faces, where any casts shadows.
-    fn shadowing(&self) -> Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>> {
-        (!self.shadows.casters().is_empty()).then_some(|points: &[(u32, DVec3)]| self.shadowed(points))
+    /// Whether any light casts shadows.
+    fn has_shadows(&self) -> bool {
+        !self.shadows.casters().is_empty()
     }
 
     /// Which lights do not reach points of faces.

@@ -77,7 +77,7 @@ impl<'a> Ahead<'a> {
         let limits = Limits::new(&view.frame);
         let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
         let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
-        let grid = grid_over(&segments, TILES);
+        let grid = grid_over(segments.iter(), TILES);
         let items = grouped(grid.len(), |put| {
             for (i, s) in segments.iter().enumerate() {
                 grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));

@@ -1,9 +1,6 @@
 //! From decided segments to the [`ViewMap`]: nodes by identity, pieces between them.
 
-use std::borrow::Cow;
-
 use kurbo::Point;
-use rayon::prelude::*;
 
 use super::doubles;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
@@ -92,8 +89,6 @@ struct Asked<'a> {
     lines: &'a FeatureLines,
     limits: Limits,
     segments: Vec<ImageSegment>,
-    /// Those that are asked themselves: not smooth contours.
-    questions: Vec<u32>,
     hidden: HiddenPieces,
 }
 
@@ -106,29 +101,21 @@ struct Told {
 impl<'a> Asked<'a> {
     fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines, options: &LineOptions) -> Self {
         let segments = project(mesh, view, lines);
-        let questions =
-            (0..segments.len() as u32).filter(|i| segments[*i as usize].role != Role::Curve).collect();
         let none = options.hidden == HiddenLines::None;
         let hidden = if none { HiddenPieces::Contours } else { HiddenPieces::All };
-        Self { mesh, view, lines, limits: Limits::new(&view.frame), segments, questions, hidden }
+        Self { mesh, view, lines, limits: Limits::new(&view.frame), segments, hidden }
     }
 
     fn decide(&self, mesh: &Mesh, covers: Option<&ViewCovers>) -> Told {
-        let Self { view, lines, limits, segments, questions, .. } = self;
+        let Self { view, lines, limits, segments, .. } = self;
         let counting = self.hidden == HiddenPieces::All;
-        // Where no contour is smooth all of them are asked.
-        let asked = if questions.len() == segments.len() {
-            Cow::Borrowed(segments)
-        } else {
-            Cow::Owned(questions.par_iter().map(|i| segments[*i as usize]).collect())
-        };
         let is_round = segments.iter().any(|s| s.role != Role::Line);
         let (seen, smooth) = rayon::join(
-            || decide_with(mesh, view, &asked, limits, counting, covers),
+            || decide_with(mesh, view, segments, limits, counting, covers),
             || is_round.then(|| Smooth::new(lines, segments, limits)),
         );
         let rounded = smooth.map_or_else(Rounded::default, |smooth| {
-            rounded::decide(self.mesh, view, smooth, segments, (&seen, questions), limits, counting)
+            rounded::decide(self.mesh, view, smooth, segments, &seen, limits, counting)
         });
         Told { seen, rounded }
     }
@@ -155,15 +142,14 @@ impl<'a> Asked<'a> {
         let drawn = drawn.count();
         builder.map.edges.reserve(drawn);
         builder.map.vertices.reserve(drawn + drawn / 8);
-        let mut question = 0;
         for (i, segment) in self.segments.iter().enumerate() {
-            let seen = told.of(i, segment.role, question);
+            let seen = told.of(i, segment.role);
             let mut drawn = told.draws(i, segment.role);
             let left;
             let seen = match but {
                 None => seen,
                 Some(but) => {
-                    let front = but.of(i, segment.role, question);
+                    let front = but.of(i, segment.role);
                     let front = if but.draws(i, segment.role) { front.hidden } else { &visibility::BURIED };
                     drawn &= !front.is_empty();
                     left = layers::only_behind(front, seen.hidden);
@@ -173,7 +159,6 @@ impl<'a> Asked<'a> {
             if drawn {
                 builder.add(segment, seen, self.limits.piece, but.is_some());
             }
-            question += usize::from(segment.role != Role::Curve);
         }
         builder.map
     }
@@ -185,10 +170,10 @@ impl Told {
         role == Role::Line || self.rounded.is_drawn(segment, role)
     }
 
-    /// What is known of a segment, number `question` of those that were asked.
-    fn of(&self, segment: usize, role: Role, question: usize) -> Seen<'_> {
+    /// What is known of a segment.
+    fn of(&self, segment: usize, role: Role) -> Seen<'_> {
         if role == Role::Line {
-            return Seen { hidden: self.seen.hidden(question), backed: self.seen.backed(question) };
+            return Seen { hidden: self.seen.hidden(segment), backed: self.seen.backed(segment) };
         }
         Seen { hidden: self.rounded.hidden.of(segment), backed: self.rounded.backed.of(segment) }
     }

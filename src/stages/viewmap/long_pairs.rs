@@ -350,7 +350,7 @@ mod tests {
                 }
             })
             .collect();
-        let grid = grid_over(&segments, 1);
+        let grid = grid_over(segments.iter(), 1);
         let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
         let all: Vec<Occluder> = (0..triangles.count() as u32).map(|id| triangles.occluder(id)).collect();
         let [plain, counted] =

@@ -6,13 +6,14 @@ use super::grid::Grid;
 use super::project::ImageSegment;
 use crate::math::power::power_of_two_above;
 
-/// A grid over the box around all segments. Its tiles seldom move when lines come and go: they are a power of
+/// A grid over the box around some segments. Its tiles seldom move when lines come and go: they are a power of
 /// two wide, and lie on multiples of that.
-pub(super) fn grid_over(segments: &[ImageSegment], across: u32) -> Grid {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) =
-        segments.iter().fold(nothing, |(low, high), s| (low.min(s.a).min(s.b), high.max(s.a).max(s.b)));
-    let (low, high) = if segments.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (low, high) };
+pub(super) fn grid_over<'a>(segments: impl Iterator<Item = &'a ImageSegment>, across: u32) -> Grid {
+    let around = segments.fold(None, |around: Option<(DVec3, DVec3)>, s| {
+        let (low, high) = around.unwrap_or((s.a, s.a));
+        Some((low.min(s.a).min(s.b), high.max(s.a).max(s.b)))
+    });
+    let (low, high) = around.unwrap_or_default();
     grid_over_box(low.truncate(), high.truncate(), across)
 }
 

@@ -86,18 +86,18 @@ impl Smooth {
     }
 }
 
-/// What is seen of the image segments in `asked` is known in that order.
+/// What is seen of the witnesses is known.
 pub(super) fn decide(
     mesh: &Mesh,
     view: &View,
     Smooth { runs, sought }: Smooth,
     segments: &[ImageSegment],
-    (seen, asked): (&Visibility, &[u32]),
+    seen: &Visibility,
     limits: &Limits,
     counting: bool,
 ) -> Rounded {
     let court = Court { mesh, view, segments, runs: &runs, sought, px: limits.px };
-    let mut testimony = court.hear(seen, asked, counting);
+    let mut testimony = court.hear(seen, counting);
     testimony.told.sort_by(|a, b| {
         a.run
             .cmp(&b.run)

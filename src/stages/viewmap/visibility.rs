@@ -30,6 +30,7 @@ use super::page_grid::{grid_over, tiles_across};
 use super::project::ImageSegment;
 use super::tile::{Context, Memory, TileResult};
 use super::view_covers::ViewCovers;
+use crate::lines::Role;
 use crate::math::grouped::{Grouped, grouped, grouped_pairs};
 use crate::math::spare::Spare;
 use crate::mesh::Mesh;
@@ -73,7 +74,7 @@ impl Visibility {
     }
 }
 
-/// Decides the visibility of all segments. With `counting` false, counts are not told apart and
+/// Decides the visibility of all segments but smooth contours, of which nothing is told: their witnesses are asked. With `counting` false, counts are not told apart and
 /// stay 1, which is faster.
 #[must_use]
 pub fn decide(
@@ -96,15 +97,16 @@ pub(super) fn decide_with(
     counting: bool,
     known: Option<&ViewCovers>,
 ) -> Visibility {
-    if segments.is_empty() {
+    let asked = || segments.iter().zip(0u32..).filter(|(segment, _)| segment.role != Role::Curve);
+    if asked().next().is_none() {
         return gather(segments, limits, &[], &[]);
     }
-    let grid = grid_over(segments, tiles_across(mesh.triangles.len()));
+    let grid = grid_over(asked().map(|(segment, _)| segment), tiles_across(mesh.triangles.len()));
     let triangles = Triangles { mesh, view, grid: &grid, limits };
     let in_tiles = || {
         grouped(grid.len(), |put| {
-            for (i, s) in segments.iter().enumerate() {
-                grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));
+            for (s, segment) in asked() {
+                grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment, start, end }));
             }
         })
     };

@@ -100,7 +100,7 @@ pub(super) struct Sought {
 
 impl Sought {
     pub fn new(segments: &[ImageSegment], runs: &[Run]) -> Self {
-        let grid = grid_over(segments, GRID);
+        let grid = grid_over(segments.iter(), GRID);
         let pieces = grouped(grid.len(), |put| {
             for (r, run) in runs.iter().enumerate() {
                 for (k, id) in run.segments.iter().enumerate() {
@@ -123,15 +123,15 @@ pub(super) struct Place {
 
 impl Court<'_> {
     /// Asks all witnesses; hidden pieces are told only if `hidden` has them counted.
-    pub fn hear(&self, seen: &Visibility, asked: &[u32], hidden: bool) -> Testimony {
-        let heard: Vec<Testimony> = asked
-            .par_chunks(CHUNK)
+    pub fn hear(&self, seen: &Visibility, hidden: bool) -> Testimony {
+        let count = self.segments.len();
+        let heard: Vec<Testimony> = (0..count.div_ceil(CHUNK))
+            .into_par_iter()
             .with_max_len(1)
-            .enumerate()
-            .map(|(chunk, ids)| {
+            .map(|chunk| {
                 let mut testimony = Testimony::default();
-                for (i, id) in ids.iter().enumerate() {
-                    self.hear_one(*id, seen, chunk * CHUNK + i, hidden, &mut testimony);
+                for id in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+                    self.hear_one(id as u32, seen, hidden, &mut testimony);
                 }
                 testimony
             })
@@ -145,11 +145,10 @@ impl Court<'_> {
         all
     }
 
-    /// `question` is the number of the segment in `seen`.
-    fn hear_one(&self, id: u32, seen: &Visibility, question: usize, hidden: bool, out: &mut Testimony) {
+    fn hear_one(&self, id: u32, seen: &Visibility, hidden: bool, out: &mut Testimony) {
         let segment = &self.segments[id as usize];
         let Role::Witness { convex, .. } = segment.role else { return };
-        let layers = seen.hidden(question);
+        let layers = seen.hidden(id as usize);
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
         let end = Layer {
@@ -174,7 +173,7 @@ impl Court<'_> {
                 };
                 let ends = [at, start].map(|t| segment.at(t).truncate());
                 out.seen.push(SeenContour { ends, segment: segment.source });
-                for piece in backed_pieces(&whole, seen.backed(question)) {
+                for piece in backed_pieces(&whole, seen.backed(id as usize)) {
                     self.follow(id, convex, &piece, out);
                 }
             }
