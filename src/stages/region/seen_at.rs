@@ -17,8 +17,7 @@ struct Looks {
     numbers: Vec<u32>,
 }
 
-/// What is seen at points of the image: for each a number in the table of looks, whose first entry
-/// stands for paper. `shadowed`, if anything casts shadows, tells which lights do not reach points of faces.
+/// What is seen at points of the image: for each [`NOTHING`], or the number of its look in the table of looks plus 1. `shadowed`, if anything casts shadows, tells which lights do not reach points of faces.
 ///
 /// There are as many points as the page has triangles, so that nothing is kept of each but what it looks like.
 pub(super) fn seen_at(
@@ -95,4 +94,28 @@ fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> L
     let bin = if darkened.bins { bin_dark } else { bin_lit };
     let cast = tone != tone_lit;
     Look { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{MaterialId, PaintId, PartId};
+
+    #[test]
+    fn looks_are_told_apart_and_paper_is_none() {
+        let look = |tone| Look {
+            part: PartId(0),
+            material: MaterialId(0),
+            paint: PaintId(0),
+            tone,
+            bin: 0,
+            cast: tone == 9,
+        };
+        let seen = [3, 3, 0, 9, 0, 0, 3, 7, 9].map(|tone| (tone > 0).then(|| look(tone)));
+        let Looks { looks, numbers } = Looks::of(seen.into_iter());
+        assert_eq!(looks, [3, 9, 7].map(look));
+        let back = numbers.iter().map(|number| number.checked_sub(1).map(|k| looks[k as usize]));
+        assert!(back.eq(seen) && numbers[2] == NOTHING);
+        assert!(Looks::of(std::iter::empty()).numbers.is_empty());
+    }
 }

@@ -74,8 +74,9 @@ impl Visibility {
     }
 }
 
-/// Decides the visibility of all segments but smooth contours, of which nothing is told: their witnesses are asked. With `counting` false, counts are not told apart and
-/// stay 1, which is faster.
+/// Decides the visibility of all segments but smooth contours, of which nothing is told: their witnesses are asked.
+///
+/// With `counting` false, counts are not told apart and stay 1, which is faster.
 #[must_use]
 pub fn decide(
     mesh: &Mesh,
