@@ -281,16 +281,19 @@ impl<'a> Fills<'a> {
 
     /// What the eye sees, cut by these borders.
     pub fn see(&self, borders: &PageBorders, page: &Page) -> Seen {
-        let shadowed = self.has_shadows().then_some(|points: &[_]| self.shadowed(points));
-        region::see(&self.lit(), borders, shadowed, self.darkened, page.unit)
+        self.see_lit(&self.lit(), borders, page)
     }
 
     /// What the eye sees with another mesh before it, which has the same faces but hides less.
     pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
-        let lit = Lit { mesh: clear, ..self.lit() };
         let borders = PageBorders::of(map, &self.view.frame);
-        let shadowed = self.has_shadows().then_some(|points: &[_]| self.shadowed(points));
-        region::see(&lit, &borders, shadowed, self.darkened, page.unit)
+        self.see_lit(&Lit { mesh: clear, ..self.lit() }, &borders, page)
+    }
+
+    fn see_lit(&self, lit: &Lit, borders: &PageBorders, page: &Page) -> Seen {
+        let has_shadows = !self.shadows.casters().is_empty();
+        let shadowed = has_shadows.then_some(|points: &[_]| self.shadowed(points));
+        region::see(lit, borders, shadowed, self.darkened, page.unit)
     }
 
     /// The outlines of regions that look as `pick` says, with their colours and where they are from.
@@ -324,11 +327,6 @@ impl<'a> Fills<'a> {
             materials: &self.materials,
             shading: &self.shading,
         }
-    }
-
-    /// Whether any light casts shadows.
-    fn has_shadows(&self) -> bool {
-        !self.shadows.casters().is_empty()
     }
 
     /// Which lights do not reach points of faces.
