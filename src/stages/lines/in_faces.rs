@@ -91,9 +91,8 @@ fn numbers(runs: &[Vec<DVec3>], first: u32, points: &mut Vec<DVec3>) -> Vec<Vec<
     });
     let mut numbers: Vec<u32> = Vec::with_capacity(total);
     let before = points.len() as u32;
-    points.reserve_exact(
-        earliest.iter().zip(0..).filter(|(earliest, at)| earliest.load(Relaxed) == *at).count(),
-    );
+    let is_first = |(earliest, at): &(&AtomicU32, u32)| earliest.load(Relaxed) == *at;
+    points.reserve_exact(earliest.iter().zip(0..).filter(is_first).count());
     for p in runs.iter().flatten() {
         let earliest = earliest[numbers.len()].load(Relaxed) as usize;
         let number = numbers.get(earliest).copied().unwrap_or_else(|| {

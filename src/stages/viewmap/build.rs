@@ -137,9 +137,11 @@ impl<'a> Asked<'a> {
 
     fn map_with_doubles(&self, told: &Told, but: Option<&Told>) -> ViewMap {
         let mut builder = Builder::new(self.mesh, self.view, self.lines, self.hidden);
-        // Most are drawn whole, if they are.
-        let drawn = self.segments.iter().enumerate().filter(|(i, segment)| told.draws(*i, segment.role));
-        let drawn = drawn.count();
+        // What grows by doubling is copied again and again; most lines are drawn whole, where anything is.
+        let is_drawn = |(i, segment): &(usize, &ImageSegment)| {
+            told.draws(*i, segment.role) && told.of(*i, segment.role).hidden != visibility::BURIED
+        };
+        let drawn = self.segments.iter().enumerate().filter(is_drawn).count();
         builder.map.edges.reserve(drawn);
         builder.map.vertices.reserve(drawn + drawn / 8);
         for (i, segment) in self.segments.iter().enumerate() {
