@@ -41,36 +41,51 @@ const FEW_FLATS: f64 = 0.1;
 const LONG: f64 = 6.0;
 const FEW_LONG: f64 = 0.1;
 
-/// What is counted of one patch.
+/// What is counted of the edges inside one patch.
 #[derive(Debug, Clone, Copy, Default)]
-struct Count {
+struct EdgeCount {
     edges: u32,
     flat: u32,
     coarse: u32,
+}
+
+impl AddAssign<&EdgeCount> for EdgeCount {
+    fn add_assign(&mut self, other: &Self) {
+        self.edges += other.edges;
+        self.flat += other.flat;
+        self.coarse += other.coarse;
+    }
+}
+
+impl EdgeCount {
+    /// Whether, as far as edges tell, it is a free form if it bends enough.
+    fn may_be_free_form(&self) -> bool {
+        self.edges >= LEAST_EDGES
+            && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
+            && f64::from(self.coarse) <= FEW_COARSE * f64::from(self.edges)
+    }
+}
+
+/// What is counted of the faces of one patch.
+#[derive(Debug, Clone, Copy, Default)]
+struct FaceCount {
     area: f64,
     in_flats: f64,
     in_long: f64,
 }
 
-impl AddAssign<&Count> for Count {
+impl AddAssign<&FaceCount> for FaceCount {
     fn add_assign(&mut self, other: &Self) {
-        self.edges += other.edges;
-        self.flat += other.flat;
-        self.coarse += other.coarse;
         self.area += other.area;
         self.in_flats += other.in_flats;
         self.in_long += other.in_long;
     }
 }
 
-impl Count {
-    /// Whether it is one if it bends enough.
+impl FaceCount {
+    /// Whether, as far as faces tell, it is a free form if it bends enough.
     fn may_be_free_form(&self) -> bool {
-        self.edges >= LEAST_EDGES
-            && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
-            && f64::from(self.coarse) <= FEW_COARSE * f64::from(self.edges)
-            && self.in_flats <= FEW_FLATS * self.area
-            && self.in_long <= FEW_LONG * self.area
+        self.in_flats <= FEW_FLATS * self.area && self.in_long <= FEW_LONG * self.area
     }
 }
 
@@ -93,18 +108,24 @@ pub(super) fn add_free_forms(
     });
     let patches = groups.numbered(|face| (!machined(face)).then_some(u32::MAX));
     let patch = |face: u32| patches.of_face[face as usize];
-    let mut counts: Vec<Count> = sums(patches.first.len(), mesh.edges.len(), |edge| {
+    let of_edges: Vec<EdgeCount> = sums(patches.first.len(), mesh.edges.len(), |edge| {
         let [face, _] = inner(edge)?;
         let flat = u32::from(planes.flat.contains(edge));
         let coarse = u32::from(turns.of_two(edge) < COARSE_COSINE);
-        Some((patch(face), Count { edges: 1, flat, coarse, ..Count::default() }))
+        Some((patch(face), EdgeCount { edges: 1, flat, coarse }))
     });
-    let of_faces: Vec<Count> = sums(patches.first.len(), mesh.triangles.len(), |face| {
+    let mut asked: Vec<bool> = of_edges.iter().map(EdgeCount::may_be_free_form).collect();
+    if !asked.contains(&true) {
+        return;
+    }
+    let asked_patch = |asked: &[bool], face: u32| {
+        Some(patch(face)).filter(|patch| asked.get(*patch as usize) == Some(&true))
+    };
+    let of_faces: Vec<FaceCount> = sums(patches.first.len(), mesh.triangles.len(), |face| {
         let face = face as u32;
-        machined(face).then(|| (patch(face), of_face(mesh, planes, face)))
+        Some((asked_patch(&asked, face)?, of_face(mesh, planes, face)))
     });
-    counts.iter_mut().zip(&of_faces).for_each(|(count, of_faces)| *count += of_faces);
-    let asked: Vec<bool> = counts.iter().map(Count::may_be_free_form).collect();
+    asked.iter_mut().zip(&of_faces).for_each(|(asked, of_faces)| *asked &= of_faces.may_be_free_form());
     if !asked.contains(&true) {
         return;
     }
@@ -113,7 +134,7 @@ pub(super) fn add_free_forms(
     edges.filter(|edge| inner(*edge).is_none()).for_each(|edge| {
         mesh.edges.vertices[edge].iter().for_each(|vertex| ends[*vertex as usize].store(true, Relaxed));
     });
-    let of_patch = |face: u32| Some(patch(face)).filter(|patch| asked.get(*patch as usize) == Some(&true));
+    let of_patch = |face: u32| asked_patch(&asked, face);
     let bent = bent(mesh, of_patch, |vertex| !ends[vertex].load(Relaxed), &asked);
     rounded.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, rounded)| {
         *rounded |= bent.get(patch(face as u32) as usize) == Some(&true);
@@ -121,13 +142,13 @@ pub(super) fn add_free_forms(
 }
 
 /// What is counted of one face.
-fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {
+fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> FaceCount {
     let area = area(mesh, face);
     let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
     let corners = mesh.corners(FaceId(face));
     let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
     let in_long = if longest > LONG * 2.0 * area { area } else { 0.0 };
-    Count { area, in_flats, in_long, ..Count::default() }
+    FaceCount { area, in_flats, in_long }
 }
 
 /// Which of the patches that are asked for have the curvature of a free form, summed over their inner vertices.

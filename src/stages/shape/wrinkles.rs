@@ -3,6 +3,9 @@
 //! Where two surfaces were cut along one curve at different steps, slivers close the gaps between both polygons. They lean
 //! by whatever the gap is deep, one edge of them turning as far as the others turn back, and the surface across them does not turn.
 
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
 use rayon::prelude::*;
 
 use crate::math::function::cos;
@@ -15,6 +18,8 @@ const SLIVER: f64 = 6.0;
 const FLAT_COSINE: f32 = 0.999_85;
 /// More faces than so many are no sliver.
 const MOST: usize = 8;
+/// The smallest piece of work for a thread, in edges.
+const GRAIN: usize = 1 << 12;
 
 /// Those of the edges of creases, in order, that are of slivers around which the surface turns by less than `crease_deg` degrees,
 /// where no other crease goes on from them: what goes on is a line, whatever lies beside it.
@@ -24,17 +29,16 @@ pub(super) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
         EdgeFaces::Two { faces, .. } => faces.map(|face| wrinkle(mesh, turns, least, face)),
         _ => [None; 2],
     };
-    let mut ends: Vec<(u32, u32)> = (0u32..)
-        .zip(creases)
-        .flat_map(|(k, edge)| mesh.edges.vertices[*edge].map(|vertex| (vertex, k)))
-        .collect();
-    ends.par_sort_unstable();
-    let lines = Groups::new(creases.len(), |join| {
-        for pair in ends.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            join(pair[0].1, pair[1].1);
-        }
-    });
-    let mut by_line: Vec<(u32, u32)> = (0..creases.len() as u32).map(|k| (lines.of(k), k)).collect();
+    if creases.is_empty() {
+        return Vec::new();
+    }
+    let lines = lines(mesh, creases);
+    let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
+    // Of most lines the first edge tells already that they lie at none.
+    let may = |k: u32| lines.of(k) == k && beside(creases[k as usize]) != [None; 2];
+    let may: Vec<bool> = all.clone().map(may).collect();
+    let mut by_line: Vec<(u32, u32)> =
+        all.map(|k| (lines.of(k), k)).filter(|(line, _)| may[*line as usize]).collect();
     by_line.par_sort_unstable();
     // All edges of a line have to lie at one wrinkle, which has no more than three for each of its faces.
     let is_wrinkle = |line: &&[(u32, u32)]| {
@@ -57,6 +61,18 @@ pub(super) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
         .collect();
     found.par_sort_unstable();
     found
+}
+
+/// Which creases hang together by their ends.
+fn lines(mesh: &Mesh, creases: &[usize]) -> Groups {
+    let ends = |k: u32| mesh.edges.vertices[creases[k as usize]].map(|vertex| vertex as usize);
+    let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
+    // Any one of those at a vertex will do, as all of them are joined with it.
+    let one_at: Vec<AtomicU32> = (0..mesh.positions.len()).map(|_| AtomicU32::new(0)).collect();
+    all.clone().for_each(|k| ends(k).iter().for_each(|vertex| one_at[*vertex].store(k, Relaxed)));
+    Groups::new(creases.len(), |join| {
+        all.for_each(|k| ends(k).iter().for_each(|vertex| join(k, one_at[*vertex].load(Relaxed))));
+    })
 }
 
 /// The least face of the sliver that a face is of, if all that is around it turns into each other by less than a cosine has it.
