@@ -11,6 +11,7 @@ pub mod front;
 pub mod graph;
 pub mod grid;
 pub mod image;
+mod items;
 pub mod layers;
 pub mod limits;
 mod long_pairs;

@@ -21,6 +21,7 @@ use rayon::prelude::*;
 use super::compared::{Compared, Item};
 use super::cover::Covers;
 use super::graph::ViewVertexKind;
+use super::items::Items;
 use super::layers::{Layer, sweep};
 use super::limits::Limits;
 use super::long_pairs::LongPairs;
@@ -31,7 +32,7 @@ use super::project::ImageSegment;
 use super::tile::{Context, Memory, TileResult};
 use super::view_covers::ViewCovers;
 use crate::lines::Role;
-use crate::math::grouped::{Grouped, grouped, grouped_pairs};
+use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::math::spare::Spare;
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -104,33 +105,18 @@ pub(super) fn decide_with(
     }
     let grid = grid_over(asked().map(|(segment, _)| segment), tiles_across(mesh.triangles.len()));
     let triangles = Triangles { mesh, view, grid: &grid, limits };
-    let in_tiles = || {
-        grouped(grid.len(), |put| {
-            for (s, segment) in asked() {
-                grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment, start, end }));
-            }
-        })
-    };
-    let of_triangles = || {
+    let items = || {
         let known = known.filter(|known| known.grid == grid);
         let covers = match known {
             _ if counting => Cow::Owned(Covers::none(&grid)),
             Some(known) => Cow::Borrowed(&known.covers),
             None => Cow::Owned(Covers::find(&triangles)),
         };
-        (covers, triangles.tile_boxes())
+        (Items::new(segments, &grid, &covers), covers)
     };
-    let (mut items, (covers, boxes)) = rayon::join(in_tiles, of_triangles);
-    let mut wanted: Vec<bool> = (0..grid.len()).map(|t| !items.of(t).is_empty()).collect();
-    let mut buried: Vec<Item> = Vec::new();
-    if !counting {
-        for at in bury(segments, &items, &covers, &mut wanted).into_iter().flatten() {
-            let item = items.at_mut(at as usize);
-            buried.push(*item);
-            // An item without length is looked at no more.
-            item.end = f64::NEG_INFINITY;
-        }
-    }
+    let ((items, covers), boxes) = rayon::join(items, || triangles.tile_boxes());
+    let Items { open: items, buried } = items;
+    let wanted: Vec<bool> = (0..grid.len()).map(|t| !items.of(t).is_empty()).collect();
     let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
 
     // Where triangles lie over several tiles, how far each reaches is found once.
@@ -146,7 +132,7 @@ pub(super) fn decide_with(
         let mut result = TileResult::default();
         for tile in tiles {
             let mut decide = |items: &[Item], ids: &mut dyn Iterator<Item = &u32>| {
-                if items.iter().any(|item| item.end > item.start) {
+                if !items.is_empty() {
                     memory.triangles.replace(ids.map(reach), &grid, tile, limits);
                     context.decide_tile(items, memory, &grid, tile, &mut result);
                 }
@@ -178,36 +164,6 @@ pub(super) fn decide_with(
     let mut told = gather(segments, limits, &buried, &results);
     told.tests += long_tests;
     told
-}
-
-/// The items that lie behind covers, tile by tile; tiles all of whose items do are wanted no more.
-fn bury(
-    segments: &[ImageSegment],
-    items: &Grouped<Item>,
-    covers: &Covers,
-    wanted: &mut [bool],
-) -> Vec<Vec<u32>> {
-    const TILES: usize = 256;
-    wanted
-        .par_chunks_mut(TILES)
-        .with_max_len(1)
-        .enumerate()
-        .map(|(k, wanted)| {
-            let mut buried = Vec::new();
-            for (i, wanted) in wanted.iter_mut().enumerate().filter(|(_, wanted)| **wanted) {
-                let range = items.range(k * TILES + i);
-                let before = buried.len();
-                let first = range.start as u32;
-                for (at, item) in items.of(k * TILES + i).iter().enumerate() {
-                    if covers.bury(&segments[item.segment as usize], item.start, item.end) {
-                        buried.push(first + at as u32);
-                    }
-                }
-                *wanted = buried.len() - before < range.len();
-            }
-            buried
-        })
-        .collect()
 }
 
 /// Brings the findings of all tiles back to their segments and joins them there.
