@@ -18,12 +18,10 @@ use super::limits::{Limits, Slack};
 use super::occluders::{Triangles, corners};
 use super::project::ImageSegment;
 use super::sides::Sides;
-use super::slope::{Slope, step};
+use super::slope::{OPEN, Slope, raise, step};
 
 /// Squares along the longer side of the grid, about: about as many as pixels of a picture.
 const SQUARES_ACROSS: u32 = 1024;
-/// The cover of a square that nothing fills.
-pub(super) const OPEN: f64 = f64::NEG_INFINITY;
 /// With fewer layers of surface than this over the page on average, covers hide less than they cost.
 const LAYERS: f64 = 3.0;
 /// A triangle is big if it is as large as so many squares.
@@ -42,7 +40,8 @@ const BLOCK: usize = 32;
 #[derive(Debug, Clone)]
 pub struct Covers {
     squares: Grid,
-    of_square: Vec<f64>,
+    /// In single precision, and no nearer than what it stands for.
+    of_square: Vec<f32>,
     /// One a tile: the farthest of the covers of its squares.
     pub of_tile: Vec<f64>,
 }
@@ -111,20 +110,20 @@ impl Covers {
             (!cover.is_empty()).then_some(cover)
         };
         let shares = rayon::current_num_threads().min(MOST_SHARES);
-        let mut covers: Vec<Vec<f64>> =
+        let mut covers: Vec<Vec<f32>> =
             (0..shares).into_par_iter().with_max_len(1).filter_map(of_share).collect();
         let Some(mut of_square) = covers.pop() else { return Self::none(triangles.grid) };
         // A row of tiles and the rows of squares in it.
-        let of_row = |(row, own): (usize, &mut [f64])| {
+        let of_row = |(row, own): (usize, &mut [f32])| {
             let first = row * per_tile as usize * squares.columns as usize;
             for other in &covers {
                 let other = &other[first..first + own.len()];
-                own.iter_mut().zip(other).for_each(|(own, other)| *own = own.max(*other));
+                own.iter_mut().zip(other).for_each(|(own, other)| raise(own, *other));
             }
             let mut of_tile = vec![f64::INFINITY; triangles.grid.columns as usize];
             for squares in own.chunks(squares.columns as usize) {
                 for (tile, squares) in of_tile.iter_mut().zip(squares.chunks(per_tile as usize)) {
-                    *tile = squares.iter().fold(*tile, |least, square| least.min(*square));
+                    *tile = squares.iter().fold(*tile, |least, square| least.min(f64::from(*square)));
                 }
             }
             of_tile
@@ -138,7 +137,7 @@ impl Covers {
     /// No covers at all: every layer has to be counted.
     #[must_use]
     pub fn none(grid: &Grid) -> Self {
-        Self { squares: *grid, of_square: Vec::new(), of_tile: vec![OPEN; grid.len()] }
+        Self { squares: *grid, of_square: Vec::new(), of_tile: vec![f64::from(OPEN); grid.len()] }
     }
 
     /// Whether there are none.
@@ -154,7 +153,7 @@ impl Covers {
         let [a, b, c] = points;
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
         let squares = self.squares.tile_box(low, high);
-        let is_behind = |(square, _): (usize, DVec2)| high.z < self.of_square[square];
+        let is_behind = |(square, _): (usize, DVec2)| high.z < f64::from(self.of_square[square]);
         squares.area() <= most && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
     }
 
@@ -169,7 +168,7 @@ impl Covers {
         let mut buried = true;
         self.squares.walk(a, b, |square, t0, t1| {
             let nearest = (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1);
-            buried &= nearest < self.of_square[square];
+            buried &= nearest < f64::from(self.of_square[square]);
         });
         buried
     }
@@ -211,7 +210,7 @@ fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
 }
 
 /// Raises the cover of the squares that a triangle fills; everything that it hides is farther by `step`.
-pub(super) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limits, cover: &mut [f64]) {
+pub(super) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limits, cover: &mut [f32]) {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
     if high.x - low.x < squares.cell || high.y - low.y < squares.cell {
@@ -240,6 +239,8 @@ pub(super) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limit
         let first = squares.tile(columns.start, u32::from(row));
         let centre = squares.corner(columns.start, u32::from(row)) + half;
         let own = &mut cover[first..first + columns.len()];
-        own.iter_mut().zip(slope.over(centre, squares.cell)).for_each(|(own, least)| *own = own.max(least));
+        own.iter_mut()
+            .zip(slope.over(centre, squares.cell, columns.len()))
+            .for_each(|(own, least)| raise(own, least));
     }
 }

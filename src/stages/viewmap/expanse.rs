@@ -12,9 +12,10 @@ use super::grid::{Grid, TileBox};
 use super::limits::{Limits, Slack};
 use super::occluders::Triangles;
 use super::sides::Sides;
-use super::slope::{Slope, step};
+use super::slope::{OPEN, Slope, raise, step};
 use crate::math::grouped::{Grouped, grouped, grouped_pairs};
 use crate::mesh::edge_set::EdgeSet;
+use crate::mesh::groups::Groups;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::view::View;
 
@@ -53,21 +54,19 @@ impl Expanses {
             _ => None,
         };
         let inner = EdgeSet::collect(mesh.edges.len(), |edge| runs_on(edge).is_some());
-        let mut parents: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
-        for [a, b] in inner.iter().filter_map(runs_on) {
-            let (a, b) = (root(&mut parents, a), root(&mut parents, b));
-            // The least face of an expanse is its root.
-            parents[a.max(b) as usize] = a.min(b);
-        }
-        for face in 0..parents.len() {
-            parents[face] = parents[parents[face] as usize];
-        }
-        let ids = Self::large(view, mesh, &turns, &parents, cell);
+        let groups = Groups::new(mesh.triangles.len(), |join| {
+            inner.par_for_each(|edge| {
+                if let Some([a, b]) = runs_on(edge) {
+                    join(a, b);
+                }
+            });
+        });
+        let ids = Self::large(view, mesh, &turns, &groups, cell);
         let count = ids.iter().filter(|id| **id != NONE).max().map_or(0, |id| *id as usize + 1);
-        let of = |face: u32| Some(ids[parents[face as usize] as usize]).filter(|id| *id != NONE);
+        let of = |face: u32| Some(ids[groups.of(face) as usize]).filter(|id| *id != NONE);
         let of_face = |face: u32| of(face).map(|id| (id as usize, face));
         let (faces, ends) = rayon::join(
-            || grouped_pairs(count, (0..parents.len() as u32).filter_map(of_face)),
+            || grouped_pairs(count, (0..turns.len() as u32).filter_map(of_face)),
             || {
                 grouped(count, |put| {
                     for edge in (0..mesh.edges.len()).filter(|edge| !inner.contains(*edge)) {
@@ -86,11 +85,11 @@ impl Expanses {
 
     /// The numbers of those expanses, by root, that are as large as a square, and not too large for their faces, nor their faces too
     /// large; [`NONE`] for all other faces.
-    fn large(view: &View, mesh: &Mesh, turns: &[i8], roots: &[u32], cell: f64) -> Vec<u32> {
+    fn large(view: &View, mesh: &Mesh, turns: &[i8], groups: &Groups, cell: f64) -> Vec<u32> {
         let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
-        let mut ids = vec![NONE; roots.len()];
-        for face in (0..roots.len()).filter(|face| turns[*face] != 0) {
-            let id = &mut ids[roots[face] as usize];
+        let mut ids = vec![NONE; turns.len()];
+        for face in (0..turns.len()).filter(|face| turns[*face] != 0) {
+            let id = &mut ids[groups.of(face as u32) as usize];
             if *id == NONE {
                 *id = found.len() as u32;
                 found.push((
@@ -134,8 +133,8 @@ impl Expanses {
         expanse: usize,
         triangles: &Triangles,
         squares: &Grid,
-        buffer: &mut Vec<f64>,
-        cover: &mut [f64],
+        buffer: &mut Vec<f32>,
+        cover: &mut [f32],
     ) {
         let Triangles { mesh, view, limits, .. } = *triangles;
         let corners = |face: u32| mesh.triangles[face as usize].map(|v| view.points[v as usize]);
@@ -162,7 +161,7 @@ impl Expanses {
             for (cover, least) in
                 cover[first..first + width].iter_mut().zip(&filled.least[place..place + width])
             {
-                *cover = if *least < f64::INFINITY { cover.max(*least) } else { *cover };
+                raise(cover, if *least < f32::INFINITY { *least } else { OPEN });
             }
         }
     }
@@ -176,15 +175,15 @@ struct Filled<'a> {
     squares: &'a Grid,
     own: TileBox,
     width: usize,
-    least: &'a mut [f64],
+    least: &'a mut [f32],
 }
 
 impl<'a> Filled<'a> {
-    fn new(squares: &'a Grid, own: TileBox, buffer: &'a mut Vec<f64>) -> Self {
+    fn new(squares: &'a Grid, own: TileBox, buffer: &'a mut Vec<f32>) -> Self {
         let width = usize::from(own.right - own.left) + 1;
         let height = usize::from(own.bottom - own.top) + 1;
         buffer.clear();
-        buffer.resize(width * height, f64::INFINITY);
+        buffer.resize(width * height, f32::INFINITY);
         Self { squares, own, width, least: buffer }
     }
 
@@ -212,7 +211,8 @@ impl<'a> Filled<'a> {
             let centre = squares.corner(columns.start, u32::from(row)) + cell / 2.0;
             let first = self.place(row, columns.start as u16);
             let own = &mut self.least[first..first + columns.len()];
-            own.iter_mut().zip(slope.over(centre, cell)).for_each(|(own, least)| *own = own.min(least));
+            let over = slope.over(centre, cell, columns.len());
+            own.iter_mut().zip(over).for_each(|(own, least)| *own = if least < *own { least } else { *own });
         }
     }
 
@@ -239,7 +239,7 @@ impl<'a> Filled<'a> {
             let right = squares.column(at[0].max(at[1]) + reach).min(u32::from(tiles.right)) as u16;
             if left <= right {
                 let first = self.place(row, left);
-                self.least[first..=first + usize::from(right - left)].fill(f64::NEG_INFINITY);
+                self.least[first..=first + usize::from(right - left)].fill(f32::NEG_INFINITY);
             }
         }
     }
@@ -254,14 +254,6 @@ fn turn(mesh: &Mesh, view: &View, face: u32) -> i8 {
     let [a, b, c] = points.map(|p| Coord { x: p.x, y: p.y });
     let area = orient2d(a, b, c);
     i8::from(area > 0.0) - i8::from(area < 0.0)
-}
-
-fn root(parents: &mut [u32], mut face: u32) -> u32 {
-    while parents[face as usize] != face {
-        parents[face as usize] = parents[parents[face as usize] as usize];
-        face = parents[face as usize];
-    }
-    face
 }
 
 #[cfg(test)]
@@ -316,7 +308,7 @@ mod tests {
             let grid = Grid::new(DVec2::ZERO, DVec2::splat(200.0), across);
             let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
             let expanses = Expanses::new(&triangles, grid.cell);
-            let mut cover = vec![f64::NEG_INFINITY; grid.len()];
+            let mut cover = vec![OPEN; grid.len()];
             for expanse in 0..expanses.count() {
                 expanses.add(expanse, &triangles, &grid, &mut Vec::new(), &mut cover);
             }
@@ -336,7 +328,11 @@ mod tests {
                     };
                     let nearest =
                         mesh.triangles.iter().filter_map(nearness).fold(f64::NEG_INFINITY, f64::max);
-                    assert!(nearest > cover[square], "{across}: {nearest} before {} at {p}", cover[square]);
+                    assert!(
+                        nearest > f64::from(cover[square]),
+                        "{across}: {nearest} before {} at {p}",
+                        cover[square]
+                    );
                 }
             }
             // The ball and the sheet fill some four tenths of the picture.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::compared::{Compared, Item};
-use super::cover::{self, OPEN};
+use super::cover;
 use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::layers::{Layer, sweep};
@@ -14,7 +14,7 @@ use super::occluders::Reach;
 use super::outer_side::OuterSide;
 use super::project::ImageSegment;
 use super::sides::Sides;
-use super::slope::step;
+use super::slope::{OPEN, step};
 use super::tile_triangles::{LookedUp, TileTriangles};
 use crate::math::grouped::grouped;
 
@@ -191,7 +191,7 @@ impl Context<'_> {
             grid.walk(a, b, |tile, t0, t1| {
                 let at = |t: f64| if t >= 1.0 { item.end } else { item.start + span * t };
                 let part = Item { start: at(t0), end: at(t1), ..*item };
-                if (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1) < cover[tile] {
+                if (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1) < f64::from(cover[tile]) {
                     result.whole.push(part);
                 } else {
                     fine.push((tile as u32, part));
@@ -208,7 +208,7 @@ impl Context<'_> {
             }
         });
         let fine_pairs = self.finer_pairs(&mut memory.triangles, entries, grid, |tile, nearest| {
-            nearest >= cover[tile] && !fine_items.of(tile).is_empty()
+            nearest >= f64::from(cover[tile]) && !fine_items.of(tile).is_empty()
         });
         let fine_entries = grouped(grid.len(), |put| {
             for (tile, entry) in &fine_pairs {
