@@ -1,7 +1,7 @@
 //! Covers: where one triangle, or many that hang together, fill a whole small square of the image, everything behind them there
 //! is hidden by them alone.
 //!
-//! The squares are finer than the tiles. A segment that lies behind the covers of all squares it
+//! The squares are tiles, or parts of them. A segment that lies behind the covers of all squares it
 //! passes is hidden without a further look; a triangle that lies behind all covers of a tile hides
 //! nothing there that is not hidden anyway. In a city of boxes that settles most lines. A line that
 //! lies on a triangle is one of its borders, or in contact with it, and so never strictly behind a
@@ -16,16 +16,15 @@ use super::expanse::Expanses;
 use super::grid::Grid;
 use super::limits::{Limits, Slack};
 use super::occluders::{Triangles, corners};
+use super::page_grid::squares_per_tile;
 use super::project::ImageSegment;
 use super::sides::Sides;
 use super::slope::{OPEN, Slope, raise, step};
 
-/// Squares along the longer side of the grid, about: about as many as pixels of a picture.
-const SQUARES_ACROSS: u32 = 1024;
 /// With fewer layers of surface than this over the page on average, covers hide less than they cost.
 const LAYERS: f64 = 3.0;
-/// A triangle is big if it is as large as so many squares.
-const BIG_FACE: f64 = 32.0;
+/// A triangle is big if it is as large as a square of this part of the longer side of the grid.
+const BIG_FACE: f64 = 1.0 / 180.0;
 /// Big triangles that lie in so many layers over the page on average hide enough for the search for intersections to be worth
 /// their covers, by themselves.
 const BIG_LAYERS: f64 = 1.0;
@@ -35,15 +34,20 @@ const MANY: usize = 100_000;
 const MOST_SHARES: usize = 8;
 /// Triangles, or expanses, that are taken together.
 const BLOCK: usize = 32;
+/// So many tiles are asked whether they hide a triangle before their squares are.
+const MOST_TILES: usize = 64;
 
 /// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
 #[derive(Debug, Clone)]
 pub struct Covers {
+    tiles: Grid,
     squares: Grid,
     /// In single precision, and no nearer than what it stands for.
     of_square: Vec<f32>,
     /// One a tile: the farthest of the covers of its squares.
     pub of_tile: Vec<f64>,
+    /// One a tile: the nearest of them.
+    nearest: Vec<f32>,
 }
 
 impl Covers {
@@ -55,7 +59,7 @@ impl Covers {
         if triangles.mean_layers() < LAYERS {
             return Self::none(triangles.grid);
         }
-        let squares = squares_of(triangles.grid);
+        let squares = squares_of(triangles);
         let expanses = Expanses::new(triangles, squares.cell);
         Self::of(triangles, squares, &large_ones(triangles, squares.cell), Some(&expanses))
     }
@@ -70,9 +74,10 @@ impl Covers {
         if triangles.count() < MANY {
             return Self::none(triangles.grid);
         }
-        let squares = squares_of(triangles.grid);
-        let area = BIG_FACE * squares.cell * squares.cell;
-        let big = large_ones_with(triangles, squares.cell, |id| triangles.area(id) >= area);
+        let squares = squares_of(triangles);
+        let tiles = triangles.grid;
+        let side = BIG_FACE * tiles.cell * f64::from(tiles.columns.max(tiles.rows));
+        let big = large_ones_with(triangles, squares.cell, |id| triangles.area(id) >= side * side);
         if triangles.layers_of(big.iter().copied()) < BIG_LAYERS {
             return Self::none(triangles.grid);
         }
@@ -81,7 +86,7 @@ impl Covers {
 
     /// The covers of large triangles and of expanses.
     fn of(triangles: &Triangles, squares: Grid, large: &[u32], expanses: Option<&Expanses>) -> Self {
-        let per_tile = squares_per_tile(triangles.grid);
+        let per_tile = squares.columns / triangles.grid.columns;
         // Who is free takes the next few of them. Expanses come first, as one may be as large as all the rest.
         let expanse_count = expanses.map_or(0, Expanses::count);
         let (of_expanses, of_large) = (expanse_count.div_ceil(BLOCK), large.len().div_ceil(BLOCK));
@@ -120,24 +125,33 @@ impl Covers {
                 let other = &other[first..first + own.len()];
                 own.iter_mut().zip(other).for_each(|(own, other)| raise(own, *other));
             }
-            let mut of_tile = vec![f64::INFINITY; triangles.grid.columns as usize];
+            let mut spans = vec![[f32::INFINITY, OPEN]; triangles.grid.columns as usize];
             for squares in own.chunks(squares.columns as usize) {
-                for (tile, squares) in of_tile.iter_mut().zip(squares.chunks(per_tile as usize)) {
-                    *tile = squares.iter().fold(*tile, |least, square| least.min(f64::from(*square)));
+                for ([least, most], squares) in spans.iter_mut().zip(squares.chunks(per_tile as usize)) {
+                    for cover in squares {
+                        (*least, *most) = (least.min(*cover), most.max(*cover));
+                    }
                 }
             }
-            of_tile
+            spans
         };
         let rows = of_square.par_chunks_mut((per_tile * squares.columns) as usize).enumerate();
-        let of_tile: Vec<Vec<f64>> = rows.with_min_len(4).with_max_len(8).map(of_row).collect();
-        let of_tile = of_tile.concat();
-        Self { squares, of_square, of_tile }
+        let spans: Vec<Vec<[f32; 2]>> = rows.with_min_len(4).with_max_len(8).map(of_row).collect();
+        let (of_tile, nearest) =
+            spans.iter().flatten().map(|[least, most]| (f64::from(*least), *most)).unzip();
+        Self { tiles: *triangles.grid, squares, of_square, of_tile, nearest }
     }
 
     /// No covers at all: every layer has to be counted.
     #[must_use]
     pub fn none(grid: &Grid) -> Self {
-        Self { squares: *grid, of_square: Vec::new(), of_tile: vec![f64::from(OPEN); grid.len()] }
+        Self {
+            tiles: *grid,
+            squares: *grid,
+            of_square: Vec::new(),
+            of_tile: vec![f64::from(OPEN); grid.len()],
+            nearest: vec![OPEN; grid.len()],
+        }
     }
 
     /// Whether there are none.
@@ -152,19 +166,30 @@ impl Covers {
     pub fn hide(&self, points: &[DVec3; 3], most: u32) -> bool {
         let [a, b, c] = points;
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
+        // Mostly tiles tell.
+        let mut tiles = self.tiles.tiles_of(self.tiles.tile_box(low, high)).take(MOST_TILES);
+        if tiles.any(|(tile, _)| high.z >= f64::from(self.nearest[tile])) {
+            return false;
+        }
         let squares = self.squares.tile_box(low, high);
         let is_behind = |(square, _): (usize, DVec2)| high.z < f64::from(self.of_square[square]);
         squares.area() <= most && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
     }
 
-    /// Whether the part of a segment between two parameters lies behind the covers of all squares
-    /// it passes.
+    /// Whether the part of a segment between two parameters, which lies in a tile, lies behind the covers of all squares it passes.
     #[must_use]
-    pub fn bury(&self, segment: &ImageSegment, start: f64, end: f64) -> bool {
+    pub fn bury(&self, segment: &ImageSegment, tile: usize, start: f64, end: f64) -> bool {
         if self.of_square.is_empty() {
             return false;
         }
         let (a, b) = (segment.at(start), segment.at(end));
+        // Mostly the tile tells.
+        if a.z.max(b.z) < self.of_tile[tile] {
+            return true;
+        }
+        if a.z.min(b.z) >= f64::from(self.nearest[tile]) {
+            return false;
+        }
         let mut buried = true;
         self.squares.walk(a, b, |square, t0, t1| {
             let nearest = (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1);
@@ -174,13 +199,8 @@ impl Covers {
     }
 }
 
-/// How many squares are along each side of a tile.
-fn squares_per_tile(tiles: &Grid) -> u32 {
-    (SQUARES_ACROSS / tiles.columns.max(tiles.rows)).clamp(1, 8)
-}
-
-fn squares_of(tiles: &Grid) -> Grid {
-    tiles.refined(squares_per_tile(tiles))
+fn squares_of(triangles: &Triangles) -> Grid {
+    triangles.grid.refined(squares_per_tile(triangles.mesh.triangles.len()))
 }
 
 fn large_ones(triangles: &Triangles, cell: f64) -> Vec<u32> {

@@ -49,7 +49,7 @@ fn walked(segments: &[ImageSegment], some: std::ops::Range<usize>, grid: &Grid, 
         let before = (open.len(), buried.len());
         grid.walk(s.a, s.b, |tile, start, end| {
             let item = Item { segment, start, end };
-            if covers.bury(s, start, end) {
+            if covers.bury(s, tile, start, end) {
                 buried.push(item);
             } else {
                 open.push((tile as u32, item));

@@ -37,3 +37,9 @@ pub(super) fn tiles_across(triangles: usize) -> u32 {
         _ => 512,
     }
 }
+
+/// Squares of covers along each side of a tile. Finer ones hide more lines and cost more: that pays where a mesh is so dense that its
+/// lines are short.
+pub(super) fn squares_per_tile(triangles: usize) -> u32 {
+    if triangles > 200_000 { 3 } else { 1 }
+}
