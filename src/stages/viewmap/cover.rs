@@ -1,7 +1,7 @@
 //! Covers: where one triangle, or many that hang together, fill a whole small square of the image, everything behind them there
 //! is hidden by them alone.
 //!
-//! The squares are tiles, or parts of them. A segment that lies behind the covers of all squares it
+//! The squares are parts of the tiles. A segment that lies behind the covers of all squares it
 //! passes is hidden without a further look; a triangle that lies behind all covers of a tile hides
 //! nothing there that is not hidden anyway. In a city of boxes that settles most lines. A line that
 //! lies on a triangle is one of its borders, or in contact with it, and so never strictly behind a

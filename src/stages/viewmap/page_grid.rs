@@ -31,15 +31,15 @@ pub(super) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> Grid {
 /// Denser meshes want smaller tiles; crowded tiles are cut further.
 pub(super) fn tiles_across(triangles: usize) -> u32 {
     match triangles {
-        0..=2_000 => 64,
-        2_001..=30_000 => 128,
-        30_001..=200_000 => 256,
-        _ => 512,
+        0..=2_000 => 32,
+        2_001..=30_000 => 64,
+        30_001..=200_000 => 128,
+        _ => 256,
     }
 }
 
 /// Squares of covers along each side of a tile. Finer ones hide more lines and cost more: that pays where a mesh is so dense that its
 /// lines are short.
 pub(super) fn squares_per_tile(triangles: usize) -> u32 {
-    if triangles > 200_000 { 3 } else { 1 }
+    if triangles > 200_000 { 6 } else { 2 }
 }
