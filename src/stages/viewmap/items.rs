@@ -62,3 +62,100 @@ fn walked(segments: &[ImageSegment], some: std::ops::Range<usize>, grid: &Grid, 
     }
     Walked { open, buried }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::math::noise::hash;
+    use crate::mesh::{Mesh, Soup};
+    use crate::scene::{Camera, UpAxis};
+    use crate::view::View;
+    use crate::viewmap::limits::Limits;
+    use crate::viewmap::occluders::Triangles;
+
+    const SIDE: f64 = 200.0;
+
+    fn part(n: u64, axis: u64) -> f64 {
+        hash(axis, &[n]) as f64 / u64::MAX as f64
+    }
+
+    /// Eight plates behind each other, seen from the front.
+    fn plates() -> (Mesh, View) {
+        let mut soup = Soup::default();
+        for plate in 0..8 {
+            let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1), -0.1 * f64::from(plate));
+            soup.positions.extend((0..4).map(corner));
+            soup.triangles.extend([[0, 1, 3], [0, 3, 2]].map(|t: [u32; 3]| t.map(|v| v + 4 * plate)));
+        }
+        let mesh = Mesh::build(soup);
+        let points: Vec<DVec3> = mesh.positions.iter().map(|p| *p + mesh.origin).collect();
+        let view = View::new(
+            &mesh,
+            &Camera::azimuth_elevation(0.0, 0.0, UpAxis::Y).with_frame(SIDE, SIDE).fit_points(&points, 0.05),
+        );
+        (mesh, view)
+    }
+
+    /// Segments all over the page, from the nearness of the nearest corner to that of the farthest.
+    fn segments(view: &View, count: u64) -> Vec<ImageSegment> {
+        let depths = || view.points.iter().map(|p| p.z);
+        let (far, near) =
+            (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
+        let point =
+            |n: u64| DVec3::new(part(n, 0) * SIDE, part(n, 1) * SIDE, far + (near - far) * part(n, 2));
+        let segment = |n: u64| {
+            let a = point(2 * n);
+            ImageSegment {
+                a,
+                b: a + (point(2 * n + 1) - a) * part(n, 3).powi(3),
+                ends: [0; 2],
+                cut: [false; 2],
+                hosts: [u32::MAX; 2],
+                source: n as u32,
+                bounds: false,
+                role: if n.is_multiple_of(10) { Role::Curve } else { Role::Line },
+            }
+        };
+        (0..count).map(segment).collect()
+    }
+
+    #[test]
+    fn items_part_each_line_and_what_is_buried_lies_behind_the_nearest_plate() {
+        let (mesh, view) = plates();
+        let limits = Limits::new(&view.frame);
+        let nearest = view.points.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+        let segments = segments(&view, 3 * CHUNK as u64);
+        let grid = Grid::new(DVec2::ZERO, DVec2::splat(SIDE), 32);
+        let found = Covers::find(&Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits });
+        assert!(!found.is_empty());
+        for covers in [Covers::none(&grid), found] {
+            let Items { open, buried } = Items::new(&segments, &grid, &covers);
+            let mut parts = vec![0.0; segments.len()];
+            for tile in 0..grid.len() {
+                let mut last = 0;
+                for item in open.of(tile) {
+                    let s = &segments[item.segment as usize];
+                    let middle = s.at((item.start + item.end) / 2.0);
+                    assert_eq!(grid.tile(grid.column(middle.x), grid.row(middle.y)), tile);
+                    assert!(item.segment >= last && s.role == Role::Line);
+                    last = item.segment;
+                    parts[item.segment as usize] += item.end - item.start;
+                }
+            }
+            for item in &buried {
+                let s = &segments[item.segment as usize];
+                assert!(s.at(item.start).z.max(s.at(item.end).z) < nearest);
+                parts[item.segment as usize] += item.end - item.start;
+            }
+            for (s, part) in segments.iter().zip(parts) {
+                let wanted = f64::from(u8::from(s.role == Role::Line));
+                assert!((part - wanted).abs() < 1e-9, "{part}");
+            }
+            // With covers more than half of these lines are buried whole, and without them none.
+            let whole = buried.iter().filter(|item| (item.start, item.end) == (0.0, 1.0)).count();
+            assert_eq!(whole > segments.len() / 2, !covers.is_empty(), "{whole} of {}", buried.len());
+        }
+    }
+}
