@@ -62,8 +62,8 @@ impl Slope {
         Self::of_plane(slope, points[0] - DVec3::Z * (spread + step), least, most)
     }
 
-    /// That of a plane through a point, none of which is farther than `least`, and by its amount more than `most` over squares that
-    /// are asked for.
+    /// That of the plane through `base`, where it is farther than `least` as far as that. No sum that is asked for, nor a part of one,
+    /// is larger than `most`, whatever its sign.
     #[inline]
     fn of_plane(slope: DVec2, base: DVec3, least: f64, most: f64) -> Self {
         if most < MOST {
