@@ -11,7 +11,7 @@ use super::line::Line;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
 use crate::lines::LineKind;
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::math::plane::{distance2, length};
 use crate::shape::Origin;
 use crate::viewmap::ViewVertexId;
@@ -254,6 +254,9 @@ fn collect(index: u32, line: &Line, distance: f64) -> Vec<LinePiece> {
     pieces
 }
 
+/// Pieces that one task looks at.
+const PIECES: usize = 1 << 10;
+
 /// Cells for each piece, at most.
 const CELLS_OF_PIECE: usize = 8;
 
@@ -275,11 +278,16 @@ impl Buckets {
         }
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
         let mut buckets = Self { cell, corner: low, columns, rows, pieces: Grouped::default() };
-        buckets.pieces = grouped(columns * rows, |put| {
-            for (i, piece) in pieces.iter().enumerate() {
-                buckets.each_cell(piece.a, piece.b, |cell| put(cell, i as u32));
+        let cells_of = |(chunk, some): (usize, &[LinePiece])| {
+            let mut found = Vec::with_capacity(2 * some.len());
+            for (i, piece) in (chunk * PIECES..).zip(some) {
+                buckets.each_cell(piece.a, piece.b, |cell| found.push((cell, i as u32)));
             }
-        });
+            found
+        };
+        let found: Vec<Vec<(usize, u32)>> =
+            pieces.par_chunks(PIECES).enumerate().with_max_len(1).map(cells_of).collect();
+        buckets.pieces = grouped_pairs(columns * rows, found.iter().flatten().copied());
         Some(buckets)
     }
 

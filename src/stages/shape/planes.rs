@@ -58,14 +58,15 @@ impl Planes {
         });
         drop(sizes);
         let in_flat = |face: u32| Some(of_face[face as usize]).filter(|flat| *flat < FEW);
-        let areas: Vec<f64> =
-            sums(first.len(), faces, |face| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32))));
+        // Scans have no flats at all.
+        let asked = |count: usize| if first.is_empty() { 0 } else { count };
+        let area_of = |face: usize| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32)));
+        let areas: Vec<f64> = sums(first.len(), asked(faces), area_of);
         let length = |edge: usize| {
             let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
             a.distance(b)
         };
-        let bounding = if first.is_empty() { 0 } else { mesh.edges.len() };
-        let outlines: Vec<f64> = sums(first.len(), bounding, |edge| {
+        let outlines: Vec<f64> = sums(first.len(), asked(mesh.edges.len()), |edge| {
             let (in_flat, length, turns) = (&in_flat, &length, !flat.contains(edge));
             let bounds = move |face| in_flat(face).filter(|_| turns).map(|flat| (flat, length(edge)));
             mesh.edges.faces(edge).each().filter_map(bounds)
@@ -121,6 +122,7 @@ fn sizes(groups: &Groups, faces: usize) -> Vec<AtomicU32> {
 }
 
 /// The area of a face, world units squared.
+#[inline]
 pub(super) fn area(mesh: &Mesh, face: u32) -> f64 {
     let [a, b, c] = mesh.corners(FaceId(face));
     (b - a).cross(c - a).length() / 2.0

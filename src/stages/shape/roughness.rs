@@ -9,7 +9,7 @@
 use super::crease_chains::Chain;
 use crate::math::function::{acos, cos};
 use crate::mesh::dihedral::Dihedral;
-use crate::mesh::{Mesh, Turns};
+use crate::mesh::{FirstEdges, Mesh, Turns};
 
 /// The standard deviation of a normal distribution is this many times the median of its absolute
 /// values.
@@ -25,8 +25,7 @@ const SAMPLES: usize = 64;
 pub(super) struct Roughness<'a> {
     mesh: &'a Mesh,
     turns: &'a Turns,
-    /// For each vertex, the first edge whose smaller vertex it is, and one entry more.
-    first_edge: Vec<u32>,
+    edges: FirstEdges<'a>,
     /// Edges that turn by more than the angle of this cosine are no noise.
     high_cosine: f32,
 }
@@ -42,14 +41,8 @@ pub(super) struct Around {
 
 impl<'a> Roughness<'a> {
     pub fn new(mesh: &'a Mesh, turns: &'a Turns, high_deg: f64) -> Self {
-        let mut first_edge = Vec::with_capacity(mesh.positions.len() + 1);
-        for (edge, [lo, _]) in mesh.edges.vertices.iter().enumerate() {
-            while first_edge.len() <= *lo as usize {
-                first_edge.push(edge as u32);
-            }
-        }
-        first_edge.resize(mesh.positions.len() + 1, mesh.edges.len() as u32);
-        Self { mesh, turns, first_edge, high_cosine: cos(high_deg.to_radians()) as f32 }
+        let edges = FirstEdges::of(&mesh.edges, mesh.positions.len());
+        Self { mesh, turns, edges, high_cosine: cos(high_deg.to_radians()) as f32 }
     }
 
     /// The edges of the faces beside a chain and of their neighbours, without those of the chain
@@ -87,17 +80,10 @@ impl<'a> Roughness<'a> {
     /// The edges of a face at which it meets another, but for one.
     fn sides(&self, face: u32, except: usize) -> impl Iterator<Item = (usize, Dihedral)> + '_ {
         let [a, b, c] = self.mesh.triangles[face as usize];
-        let edges = [(a, b), (b, c), (c, a)].into_iter().filter_map(|(u, v)| self.edge(u, v));
+        let edges = [(a, b), (b, c), (c, a)].into_iter().filter_map(|(u, v)| self.edges.between(u, v));
         edges
             .filter(move |edge| *edge != except)
             .filter_map(|edge| Some((edge, self.turns.dihedral(self.mesh, edge)?)))
-    }
-
-    fn edge(&self, u: u32, v: u32) -> Option<usize> {
-        let (lo, hi) = (u.min(v), u.max(v));
-        let [start, end] = [lo, lo + 1].map(|v| self.first_edge[v as usize] as usize);
-        let found = self.mesh.edges.vertices[start..end].binary_search_by_key(&hi, |[_, hi]| *hi);
-        found.ok().map(|at| start + at)
     }
 }
 

@@ -16,7 +16,7 @@ use super::slender::{Slender, bends_over_its_ends, longest_side};
 use super::sums::sums;
 use super::verdicts::{Make, Origin, Verdict, Verdicts};
 use crate::mesh::groups::{Groups, Numbered};
-use crate::mesh::{EdgeFaces, Mesh, Turns};
+use crate::mesh::{EdgeFaces, FirstEdges, Mesh, Turns};
 
 /// A piece is machined if flats hold this part of its surface, without normals and with them. Of 160 models looked at scans have 0 to
 /// 6 %, machined parts 10 % and more but for those that other signs tell; figures that are shaded round have as much.
@@ -78,14 +78,18 @@ const FEW_CURVED: f64 = 0.05;
 const ASTRAY_COSINE: f32 = 0.17;
 const FEW_ASTRAY: f64 = 0.1;
 
-/// What is counted of the faces of one piece.
+/// What is counted of one piece.
 #[derive(Debug, Clone, Copy, Default)]
 struct Count {
-    edges: u32,
-    flat: u32,
-    nearly_flat: u32,
-    sharp: u32,
-    faces: u32,
+    faces: FaceCount,
+    edges: EdgeCount,
+    bends: Bends,
+}
+
+/// What is counted of its faces.
+#[derive(Debug, Clone, Copy, Default)]
+struct FaceCount {
+    all: u32,
     curved: u32,
     with_normals: u32,
     astray: u32,
@@ -95,18 +99,36 @@ struct Count {
     /// The longest sides of all faces, and of those that are slender.
     longest: f64,
     slender: f64,
-    /// Of the latter, as much as bends over a short side, for each of two; and how many sides these are.
-    bent: f64,
-    bends: u32,
+}
+
+/// What is counted of its edges between two faces with area.
+#[derive(Debug, Clone, Copy, Default)]
+struct EdgeCount {
+    all: u32,
+    flat: u32,
+    nearly_flat: u32,
+    sharp: u32,
+}
+
+/// The short sides over which slender faces bend, and the longest sides of these faces, once for each.
+#[derive(Debug, Clone, Copy, Default)]
+struct Bends {
+    all: u32,
+    longest: f64,
 }
 
 impl AddAssign<&Count> for Count {
     fn add_assign(&mut self, other: &Self) {
-        self.edges += other.edges;
-        self.flat += other.flat;
-        self.nearly_flat += other.nearly_flat;
-        self.sharp += other.sharp;
-        self.faces += other.faces;
+        self.faces += &other.faces;
+        self.edges += &other.edges;
+        self.bends += &other.bends;
+    }
+}
+
+impl AddAssign<&FaceCount> for FaceCount {
+    #[inline]
+    fn add_assign(&mut self, other: &Self) {
+        self.all += other.all;
         self.curved += other.curved;
         self.with_normals += other.with_normals;
         self.astray += other.astray;
@@ -115,39 +137,56 @@ impl AddAssign<&Count> for Count {
         self.level += other.level;
         self.longest += other.longest;
         self.slender += other.slender;
-        self.bent += other.bent;
-        self.bends += other.bends;
+    }
+}
+
+impl AddAssign<&EdgeCount> for EdgeCount {
+    #[inline]
+    fn add_assign(&mut self, other: &Self) {
+        self.all += other.all;
+        self.flat += other.flat;
+        self.nearly_flat += other.nearly_flat;
+        self.sharp += other.sharp;
+    }
+}
+
+impl AddAssign<&Bends> for Bends {
+    #[inline]
+    fn add_assign(&mut self, other: &Self) {
+        self.all += other.all;
+        self.longest += other.longest;
     }
 }
 
 impl Count {
     /// With `all`, nothing is a block.
     fn verdict(&self, all: bool) -> Verdict {
+        let Self { faces, edges, .. } = self;
         let share = |of: u32, all: u32| f64::from(of) / f64::from(all.max(1));
-        let faceted = self.with_normals == self.faces && share(self.curved, self.faces) < FEW_CURVED;
-        let shaded = share(self.with_normals, self.faces) > 0.5 && !faceted;
+        let faceted = faces.with_normals == faces.all && share(faces.curved, faces.all) < FEW_CURVED;
+        let shaded = share(faces.with_normals, faces.all) > 0.5 && !faceted;
         let bare = !shaded && !faceted;
         let few = if shaded { FEW_FLAT_SHADED } else { FEW_FLAT };
-        let pointed = share(self.sharp, self.edges) > SHARP_SHADED;
-        let edged = self.edges >= DENSE && pointed;
+        let pointed = share(edges.sharp, edges.all) > SHARP_SHADED;
+        let edged = edges.all >= DENSE && pointed;
         let armoured = shaded && edged;
-        let meant = f64::from(self.flat) > MEANT * BY_CHANCE * f64::from(self.nearly_flat);
-        let some_flats = self.in_flats > SOME_FLATS * self.area;
-        let surely = f64::from(self.flat) > SURELY_MEANT * f64::from(self.nearly_flat);
-        let has_corners = share(self.sharp, self.edges) > SHARP_BESIDE_FLATS;
+        let meant = f64::from(edges.flat) > MEANT * BY_CHANCE * f64::from(edges.nearly_flat);
+        let some_flats = faces.in_flats > SOME_FLATS * faces.area;
+        let surely = f64::from(edges.flat) > SURELY_MEANT * f64::from(edges.nearly_flat);
+        let has_corners = share(edges.sharp, edges.all) > SHARP_BESIDE_FLATS;
         let cornered = (has_corners && meant && (some_flats || surely))
-            || self.level > MOST * self.area
-            || share(self.sharp, self.edges) > MOSTLY_SHARP;
+            || faces.level > MOST * faces.area
+            || share(edges.sharp, edges.all) > MOSTLY_SHARP;
         let machined = armoured
             || (!shaded && edged && meant)
             || (bare && cornered)
-            || self.in_flats >= if bare { MACHINED } else { MACHINED_SHADED } * self.area
-            || share(self.flat, self.edges) > few;
+            || faces.in_flats >= if bare { MACHINED } else { MACHINED_SHADED } * faces.area
+            || share(edges.flat, edges.all) > few;
         let shape = if machined { Make::Machined } else { Make::Round };
-        let plain = faceted || self.edges < LEAST_EDGES;
+        let plain = faceted || edges.all < LEAST_EDGES;
         // Faces that a file means flat are drawn so, but light falls on what they stand for.
         // Where all is asked to be round, the angles of a machined piece say where it is not.
-        let astray = share(self.astray, self.faces) >= FEW_ASTRAY;
+        let astray = share(faces.astray, faces.all) >= FEW_ASTRAY;
         let as_planes = faceted && shape == Make::Round;
         let believed = !(astray || armoured || as_planes || (all && machined));
         let make = if plain && !all { Make::Block } else { shape };
@@ -162,9 +201,10 @@ impl Count {
     /// Whether it stays round whatever it stands beside: it has hardly a crease to lose, or many edges of which no more are
     /// flat than by chance.
     fn stays_round(&self) -> bool {
-        let by_chance = BY_CHANCE * f64::from(self.nearly_flat);
-        f64::from(self.sharp) < HARDLY_SHARP * f64::from(self.edges)
-            || (self.edges >= DENSE && f64::from(self.flat) <= BY_CHANCE_AT_MOST * by_chance)
+        let EdgeCount { all, flat, nearly_flat, sharp } = self.edges;
+        let by_chance = BY_CHANCE * f64::from(nearly_flat);
+        f64::from(sharp) < HARDLY_SHARP * f64::from(all)
+            || (all >= DENSE && f64::from(flat) <= BY_CHANCE_AT_MOST * by_chance)
     }
 }
 
@@ -191,20 +231,21 @@ pub(super) fn verdicts(
 ) -> Verdicts {
     let faces = mesh.triangles.len();
     let Numbered { of_face: number, first } = &pieces;
-    let mut counts: Vec<Count> =
+    let of_faces: Vec<FaceCount> =
         sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
-    let of_edges: Vec<Count> = sums(first.len(), mesh.edges.len(), |edge| {
+    let of_edges: Vec<EdgeCount> = sums(first.len(), mesh.edges.len(), |edge| {
         let (face, count) = of_edge(mesh, turns, planes, edge)?;
         Some((number[face as usize], count))
     });
-    counts.iter_mut().zip(&of_edges).for_each(|(count, of_edges)| *count += of_edges);
+    let both = |(faces, edges)| Count { faces, edges, bends: Bends::default() };
+    let mut counts: Vec<Count> = of_faces.into_iter().zip(of_edges).map(both).collect();
     let key = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
     let mut together: BTreeMap<_, Count> = BTreeMap::new();
-    for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges < LEAST_EDGES) {
+    for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges.all < LEAST_EDGES) {
         *together.entry(key(*face)).or_default() += count;
     }
     let verdict = |(face, count): (&u32, &Count)| {
-        let is_small = count.edges < LEAST_EDGES;
+        let is_small = count.edges.all < LEAST_EDGES;
         let judged = if is_small { together.get(&key(*face)).unwrap_or(count) } else { count };
         judged.verdict(all)
     };
@@ -222,23 +263,25 @@ fn tessellated(mesh: &Mesh, turns: &Turns, pieces: &[u32], counts: &mut [Count],
         .zip(&*counts)
         .map(|(verdict, count)| {
             verdict.origin == Origin::Scanned
-                && count.edges >= LEAST_EDGES
-                && count.slender > BENT * count.longest
+                && count.edges.all >= LEAST_EDGES
+                && count.faces.slender > BENT * count.faces.longest
         })
         .collect();
     if !asked.contains(&true) {
         return;
     }
-    let bent: Vec<Count> = sums(counts.len(), mesh.triangles.len(), |face| {
+    let edges = FirstEdges::of(&mesh.edges, mesh.positions.len());
+    let bends: Vec<Bends> = sums(counts.len(), mesh.triangles.len(), |face| {
         let piece = pieces[face];
         let slender = asked[piece as usize].then(|| Slender::of(mesh, face as u32))??;
-        let bends = bends_over_its_ends(mesh, turns, face as u32, slender);
-        Some((piece, Count { bends, bent: f64::from(bends) * slender.length, ..Count::default() }))
+        let all = bends_over_its_ends(mesh, (turns, &edges), face as u32, slender);
+        Some((piece, Bends { all, longest: f64::from(all) * slender.length }))
     });
-    counts.iter_mut().zip(&bent).for_each(|(count, bent)| *count += bent);
+    counts.iter_mut().zip(bends).for_each(|(count, bends)| count.bends = bends);
     for (verdict, count) in verdicts.iter_mut().zip(&*counts) {
-        let are_many = f64::from(count.bends) > FEW_BENDS * 2.0 * f64::from(count.faces);
-        if are_many && count.bent > BENT * 2.0 * count.longest {
+        let Count { faces, bends, .. } = count;
+        let are_many = f64::from(bends.all) > FEW_BENDS * 2.0 * f64::from(faces.all);
+        if are_many && bends.longest > BENT * 2.0 * faces.longest {
             (verdict.make, verdict.origin) = (Make::Machined, Origin::Constructed);
         }
     }
@@ -251,7 +294,7 @@ fn follow_largest<K: Ord>(kin: impl Iterator<Item = K> + Clone, counts: &[Count]
     let mut largest: BTreeMap<K, [f64; 2]> = BTreeMap::new();
     for (kin, (count, verdict)) in kin.clone().zip(counts.iter().zip(&*verdicts)) {
         let most = &mut largest.entry(kin).or_default()[usize::from(verdict.make == Make::Machined)];
-        *most = most.max(count.area);
+        *most = most.max(count.faces.area);
     }
     for (kin, (count, verdict)) in kin.zip(counts.iter().zip(verdicts)) {
         let [other, machined] = largest.get(&kin).copied().unwrap_or_default();
@@ -264,7 +307,7 @@ fn follow_largest<K: Ord>(kin: impl Iterator<Item = K> + Clone, counts: &[Count]
 
 /// What is counted of an edge between two faces with area, and one of them.
 #[inline]
-fn of_edge(mesh: &Mesh, turns: &Turns, planes: &Planes, edge: usize) -> Option<(u32, Count)> {
+fn of_edge(mesh: &Mesh, turns: &Turns, planes: &Planes, edge: usize) -> Option<(u32, EdgeCount)> {
     let cosine = turns.of_two(edge);
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
     // Beside a face without area the cosine is zero.
@@ -274,16 +317,17 @@ fn of_edge(mesh: &Mesh, turns: &Turns, planes: &Planes, edge: usize) -> Option<(
     let flat = u32::from(planes.flat.contains(edge));
     let nearly_flat = u32::from(cosine > NEARLY_FLAT_COSINE);
     let sharp = u32::from(cosine < SHARP_COSINE);
-    Some((faces[0], Count { edges: 1, flat, nearly_flat, sharp, ..Count::default() }))
+    Some((faces[0], EdgeCount { all: 1, flat, nearly_flat, sharp }))
 }
 
-fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> Count {
+#[inline]
+fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> FaceCount {
     let area = area(mesh, face);
     let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
     let level = if planes.is_level(face) { area } else { 0.0 };
     let longest = longest_side(mesh, face);
     let slender = if Slender::is(area, longest) { longest } else { 0.0 };
-    let mut count = Count { faces: 1, area, in_flats, level, longest, slender, ..Count::default() };
+    let mut count = FaceCount { all: 1, area, in_flats, level, longest, slender, ..FaceCount::default() };
     if let Some(ids) = mesh.corner_normals.get(face as usize) {
         let own = Vec3::from_array(mesh.face_normals[face as usize]);
         let normals = ids.map(|id| mesh.normals.get(id as usize));

@@ -6,7 +6,7 @@
 
 use super::planes::area;
 use crate::math::function::cos;
-use crate::mesh::{FaceId, Mesh, Turns};
+use crate::mesh::{FaceId, FirstEdges, Mesh, Turns};
 
 /// The cosine (40 degrees) beyond which an edge is a corner and no bend.
 const CORNER_COSINE: f32 = 0.766;
@@ -15,6 +15,8 @@ const CORNER: f64 = 0.698;
 /// A face that turns by an angle over a short side stands out from its plane as if it were an arc of so much: an eighth of its length
 /// times the angle. It bends if that is half its width.
 const BEND: f64 = 4.0;
+/// By more than this share is more than rounding.
+const FAR: f64 = 1.0 + 1e-9;
 
 /// How long and how wide a face is that bends if it turns by less than a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +36,12 @@ impl Slender {
 
     /// A face, if it is slender.
     pub fn of(mesh: &Mesh, face: u32) -> Option<Self> {
+        let [a, b, c] = mesh.corners(FaceId(face));
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+        // Most are not by far, which needs no roots.
+        if (b - a).cross(c - a).length_squared() * BEND * BEND > FAR * (CORNER * longest).powi(2) {
+            return None;
+        }
         let (area, length) = (area(mesh, face), longest_side(mesh, face));
         Self::is(area, length).then(|| Self { length, width: 2.0 * area / length })
     }
@@ -47,14 +55,19 @@ pub(super) fn longest_side(mesh: &Mesh, face: u32) -> f64 {
 }
 
 /// Over how many of its two short sides the surface bends along a slender face.
-pub(super) fn bends_over_its_ends(mesh: &Mesh, turns: &Turns, face: u32, slender: Slender) -> u32 {
+pub(super) fn bends_over_its_ends(
+    mesh: &Mesh,
+    (turns, edges): (&Turns, &FirstEdges),
+    face: u32,
+    slender: Slender,
+) -> u32 {
     let least = cos(BEND * slender.width / slender.length) as f32;
     let [a, b, c] = mesh.triangles[face as usize];
     let bends = |[a, b]: [u32; 2]| {
         let [from, to] = [a, b].map(|v| mesh.positions[v as usize]);
         let is_short = from.distance(to) < slender.length;
-        let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]);
-        is_short && edge.is_ok_and(|edge| (CORNER_COSINE..least).contains(&turns.of_two(edge)))
+        let turns_less = |edge| (CORNER_COSINE..least).contains(&turns.of_two(edge));
+        is_short && edges.between(a, b).is_some_and(turns_less)
     };
     [[a, b], [b, c], [c, a]].into_iter().filter(|side| bends(*side)).count() as u32
 }

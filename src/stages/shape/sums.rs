@@ -17,12 +17,15 @@ where
 {
     let runs_of = |items: std::ops::Range<usize>| {
         let mut runs: Vec<(u32, T)> = Vec::new();
+        // The run that goes on is not in the list, so that it can be in registers.
+        let mut last: Option<(u32, T)> = None;
         for item in items {
-            adds(item).into_iter().for_each(|(group, own)| match runs.last_mut() {
-                Some((last, sum)) if *last == group => *sum += &own,
-                _ => runs.push((group, own)),
+            adds(item).into_iter().for_each(|(group, own)| match &mut last {
+                Some((of, sum)) if *of == group => *sum += &own,
+                _ => runs.extend(last.replace((group, own))),
             });
         }
+        runs.extend(last);
         runs
     };
     let runs: Vec<Vec<(u32, T)>> = (0..items.div_ceil(CHUNK))
