@@ -49,13 +49,18 @@ impl Mesh {
         }
         let mut seams = seams::find(&soup, &edges, &extents, true);
         if !seams.joined.is_empty() {
+            let changed = faces_of(&soup, |v| seams.joined[v as usize] != v);
             replace_vertices(&mut soup, &seams.joined, &mut cleaning);
-            edges = Edges::build(soup.positions.len(), &soup.triangles);
+            edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
             seams = seams::find(&soup, &edges, &extents, false);
         }
         if !seams.cuts.is_empty() {
+            let before = soup.triangles.len() as u32;
             cut_faces(&mut soup, &seams.cuts);
-            edges = Edges::build(soup.positions.len(), &soup.triangles);
+            let mut changed: Vec<u32> = seams.cuts.iter().map(|(face, _)| *face).collect();
+            changed.sort_unstable();
+            changed.extend(before..soup.triangles.len() as u32);
+            edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
         }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
@@ -102,6 +107,12 @@ fn bounds(soup: &Soup) -> Option<(DVec3, DVec3)> {
         .reduce(|| nothing, join);
     let all = soup.wires.iter().flat_map(|w| w.vertices).fold(faces, grow);
     (all.0.x <= all.1.x).then_some(all)
+}
+
+/// The faces with a corner of which `moves` holds, ascending.
+fn faces_of(soup: &Soup, moves: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+    let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(1 << 14);
+    faces.filter(|face| soup.triangles[*face as usize].iter().any(|v| moves(*v))).collect()
 }
 
 fn replace_vertices(soup: &mut Soup, joined: &[u32], cleaning: &mut Cleaning) {

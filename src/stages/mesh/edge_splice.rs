@@ -64,6 +64,7 @@ impl Edges {
         renamed: &[u32],
         kept: u32,
     ) -> (Self, Vec<u32>) {
+        let behind = |face: u32| face + kept;
         let mut all = Self::default();
         all.vertices.reserve_exact(edges.len() + among.len());
         all.faces.reserve_exact(edges.len() + among.len());
@@ -71,7 +72,7 @@ impl Edges {
         let mut next = among.start;
         for (edge, ends) in edges.clone().zip(&self.vertices[edges]) {
             while own.vertices.get(next).is_some_and(|other| other < ends) {
-                all.add(own, next, kept);
+                all.add(own, next, behind);
                 next += 1;
             }
             let [first, second] = self.faces[edge];
@@ -115,7 +116,7 @@ impl Edges {
             ids.push(all.len() as u32);
             all.push(*ends, &faces, same_way);
         }
-        (next..among.end).for_each(|edge| all.add(own, edge, kept));
+        (next..among.end).for_each(|edge| all.add(own, edge, behind));
         (all, ids)
     }
 
@@ -148,21 +149,24 @@ impl Edges {
         all
     }
 
-    /// Adds an edge of others, whose faces are numbered behind so many.
-    fn add(&mut self, others: &Self, edge: usize, behind: u32) {
+    /// Adds an edge of others, whose faces have other numbers here.
+    #[inline]
+    pub(super) fn add(&mut self, others: &Self, edge: usize, number: impl Fn(u32) -> u32) {
         let faces = others.faces(edge);
         let same_way = matches!(faces, EdgeFaces::Two { same_way: true, .. });
         match faces.list() {
-            [face] => self.push(others.vertices[edge], &[face + behind], same_way),
-            [a, b] => self.push(others.vertices[edge], &[a + behind, b + behind], same_way),
+            [face] => self.push(others.vertices[edge], &[number(*face)], same_way),
+            [a, b] => self.push(others.vertices[edge], &[number(*a), number(*b)], same_way),
             faces => {
-                let faces: Vec<u32> = faces.iter().map(|face| face + behind).collect();
+                let faces: Vec<u32> = faces.iter().map(|face| number(*face)).collect();
                 self.push(others.vertices[edge], &faces, same_way);
             }
         }
     }
 
-    fn push(&mut self, ends: [u32; 2], faces: &[u32], same_way: bool) {
+    /// Adds an edge behind all others.
+    #[inline]
+    pub(super) fn push(&mut self, ends: [u32; 2], faces: &[u32], same_way: bool) {
         self.vertices.push(ends);
         self.faces.push(match faces {
             [face] => [*face, NONE],

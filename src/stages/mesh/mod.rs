@@ -1,6 +1,7 @@
 //! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
 pub mod build;
+mod changed_edges;
 pub mod clean;
 mod counting_sort;
 mod cuts;

@@ -54,11 +54,19 @@ impl HardEdges {
     /// What the file says of an edge goes before all this.
     #[must_use]
     pub fn find(mesh: &Mesh, crease_deg: f64) -> Self {
-        Self::find_with(mesh, &Turns::of(mesh), crease_deg)
+        Self::find_with(mesh, &Turns::of(mesh), crease_deg, |_| true)
     }
 
-    pub(super) fn find_with(mesh: &Mesh, turns: &Turns, crease_deg: f64) -> Self {
-        let folds = Folds::new(mesh, folds(mesh, turns, LOW_OF_HIGH * crease_deg));
+    /// The same among those edges with two faces for whose first face `is_asked` holds: what they belong to is asked as a whole.
+    pub(super) fn find_with(
+        mesh: &Mesh,
+        turns: &Turns,
+        crease_deg: f64,
+        is_asked: impl Fn(u32) -> bool,
+    ) -> Self {
+        let mut folds = folds(mesh, turns, LOW_OF_HIGH * crease_deg);
+        folds.retain(|fold| is_asked(mesh.edges.faces(fold.edge as usize).list()[0]));
+        let folds = Folds::new(mesh, folds);
         let chains = folds.chains(crease_deg);
         let roughness = Roughness::new(mesh, turns, crease_deg);
         let kept: Vec<&Chain> = chains

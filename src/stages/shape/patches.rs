@@ -126,7 +126,7 @@ fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) 
     if !verdicts.any(Make::Round) {
         return above();
     }
-    let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0));
+    let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0), is_round);
     if verdicts.all(Make::Round) && mesh.corner_normals.is_empty() {
         return (chains, EdgeSet::default());
     }
