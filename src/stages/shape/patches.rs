@@ -365,6 +365,15 @@ mod tests {
         assert_eq!(origins(&machined, 2.0, &gentle), [Origin::Constructed, Origin::Scanned], "gentle");
     }
 
+    #[test]
+    fn creases_of_a_scan_are_the_same_beside_a_machined_part() {
+        let hard = |mesh: &Mesh| Patches::new(mesh, 40.0, false).hard.count();
+        let (scan, machined) = (screw(0), screw(5));
+        let alone = [&scan, &machined].map(hard);
+        assert!(alone.iter().all(|count| *count > 0), "{alone:?}");
+        assert_eq!(hard(&beside(&[(&scan, 1.0), (&machined, 1.0)])), alone[0] + alone[1]);
+    }
+
     fn constructed(mesh: &Mesh) -> bool {
         let origins = Patches::new(mesh, 40.0, false).origins;
         assert!(origins.iter().all(|origin| *origin == origins[0]));

@@ -22,6 +22,8 @@ use crate::view::View;
 
 /// Tiles along the longer side of the grid that finds triangles: as small as ways are short, as all triangles of a tile are looked at.
 const TILES: u32 = 256;
+/// A triangle whose box is farther than this (user units) from that of a way hides nothing of it, as with lines.
+const BESIDE: f64 = 1e-4;
 /// The end of a way is no feature end.
 const NO_END: u32 = u32::MAX;
 
@@ -103,8 +105,8 @@ impl<'a> Ahead<'a> {
             .with_min_len(64)
             .filter(|tile| wanted[*tile])
             .map(|tile| {
-                let over: Vec<Occluder> =
-                    occluders.of(tile).iter().map(|id| triangles.occluder(*id)).collect();
+                let over: Vec<Over> =
+                    occluders.of(tile).iter().map(|id| Over::from(triangles.occluder(*id))).collect();
                 let around = Around { ahead: self, limits: &limits, over: &over, seen: seen.of(tile) };
                 let is_behind = |item: &&Item| {
                     let way = item.segment as usize;
@@ -150,12 +152,26 @@ impl<'a> Ahead<'a> {
     }
 }
 
+/// A triangle and its box in the image.
+struct Over {
+    whole: Occluder,
+    low: DVec2,
+    high: DVec2,
+}
+
+impl From<Occluder> for Over {
+    fn from(whole: Occluder) -> Self {
+        let [a, b, c] = whole.corners.map(DVec3::truncate);
+        Self { whole, low: a.min(b).min(c), high: a.max(b).max(c) }
+    }
+}
+
 /// What is around a tile of the image.
 struct Around<'a> {
     ahead: &'a Ahead<'a>,
     limits: &'a Limits,
     /// The triangles over the tile.
-    over: &'a [Occluder],
+    over: &'a [Over],
     /// Contours of the polyhedron that are seen in it or beside it.
     seen: &'a [SeenContour],
 }
@@ -164,14 +180,18 @@ impl Around<'_> {
     /// Whether something hides the part of a way in the tile that is of other pieces than its lines'.
     fn hides(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
         let Self { ahead, limits, over, .. } = self;
-        let is_own = |occluder: &Occluder| own.contains(&ahead.pieces[occluder.face as usize]);
-        over.iter().filter(|occluder| !is_own(occluder)).any(|other| {
-            let hidden = hidden_interval(way, part, other, &ahead.view.frame, limits)
+        let is_own = |over: &Over| own.contains(&ahead.pieces[over.whole.face as usize]);
+        let ends = [part.0, part.1].map(|t| way.at(t).truncate());
+        let (low, high) = (ends[0].min(ends[1]) - BESIDE, ends[0].max(ends[1]) + BESIDE);
+        let meets = |over: &&Over| over.low.cmple(high).all() && over.high.cmpge(low).all();
+        over.iter().filter(meets).filter(|over| !is_own(over)).any(|other| {
+            let hidden = hidden_interval(way, part, &other.whole, &ahead.view.frame, limits)
                 .filter(|hidden| (hidden.end - hidden.start) * way.length() > limits.piece);
             let Some(hidden) = hidden else { return false };
             let middle = way.at((hidden.start + hidden.end) / 2.0).truncate();
-            let seen = nearness(&other.corners, middle);
-            let is_covered = || over.iter().any(|own| is_own(own) && nearness(&own.corners, middle) > seen);
+            let nearness_of = |over: &Over| nearness(&over.whole.corners, middle);
+            let seen = nearness_of(other);
+            let is_covered = || over.iter().any(|own| is_own(own) && nearness_of(own) > seen);
             !is_covered() && !self.is_seen_beside(way, middle, own)
         })
     }

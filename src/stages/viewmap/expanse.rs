@@ -3,6 +3,8 @@
 //! Where an expanse meets a square of the image that no edge passes at which the expanse ends, it fills the square: what is met
 //! and not filled has an end in between. So many small faces cover together what none of them does alone, all but the squares
 //! along their contours. The nearness of all faces that meet the square is at least that of the farthest of them.
+//!
+//! The far side of a body covers next to nothing that its near side does not, and is left out.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -29,6 +31,8 @@ const LARGE_FACE: f64 = 16.0;
 /// The box of an expanse has no more squares than this for each of its faces, or its share of a picture.
 const SQUARES_OF_FACE: usize = 64;
 const SQUARES: usize = 4_000_000;
+/// So many of the edges at which an expanse ends tell which side of a body it is.
+const ASKED: usize = 16;
 
 /// The expanses of a view that may fill a square.
 pub(super) struct Expanses {
@@ -127,7 +131,37 @@ impl Expanses {
         self.faces.count()
     }
 
-    /// Raises the cover of the squares that an expanse fills.
+    /// Whether most of the folds at which an expanse ends lead to faces that are nearer to the eye than its own. A sample is
+    /// enough, as it does not matter for what is found.
+    fn is_far_side(&self, expanse: usize, mesh: &Mesh, view: &View) -> bool {
+        let ends = self.ends.of(expanse);
+        let mut nearer = 0.0;
+        for edge in ends.iter().step_by(ends.len().div_ceil(ASKED).max(1)) {
+            let EdgeFaces::Two { faces, same_way: false } = mesh.edges.faces(*edge as usize) else {
+                continue;
+            };
+            let ends = mesh.edges.vertices[*edge as usize];
+            let [from, to] = ends.map(|v| view.points[v as usize]);
+            let along = (to - from).truncate();
+            // On which side of the edge a face lies, and how steeply it rises to the eye from there.
+            let rise = |face: u32| {
+                let apex = mesh.triangles[face as usize].into_iter().find(|v| !ends.contains(v))?;
+                let way = view.points[apex as usize] - from;
+                let (side, t) = (along.perp_dot(way.truncate()), along.dot(way.truncate()));
+                Some((side, (way.z - t / along.length_squared() * (to.z - from.z)) / side.abs()))
+            };
+            let [Some(a), Some(b)] = faces.map(rise) else { continue };
+            let own_first = self.faces.of(expanse).binary_search(&faces[0]).is_ok();
+            let (own, other) = if own_first { (a, b) } else { (b, a) };
+            if own.0 * other.0 > 0.0 {
+                let length = along.length();
+                nearer += if other.1 > own.1 { length } else { -length };
+            }
+        }
+        nearer > 0.0
+    }
+
+    /// Raises the cover of the squares that an expanse fills, but for that of far sides.
     pub fn add(
         &self,
         expanse: usize,
@@ -143,6 +177,9 @@ impl Expanses {
             all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let own = squares.tile_box(low, high);
         if own.is_empty() {
+            return;
+        }
+        if self.is_far_side(expanse, mesh, view) {
             return;
         }
         let filled = &mut Filled::new(squares, own, buffer);
