@@ -77,6 +77,20 @@ pub(super) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
 }
 
 impl<'a> Folds<'a> {
+    /// Of these folds of a mesh those that end where one ends that turns by no more than `high_deg` degrees: no others tell
+    /// [where folds go on](Self::going_on), and most machined parts have few of them or none.
+    pub fn around_faint(mesh: &'a Mesh, mut folds: Vec<Fold>, high_deg: f64) -> Self {
+        let ends = |f: &Fold| mesh.edges.vertices[f.edge as usize].map(|v| v as usize);
+        let faint: Vec<&Fold> = folds.iter().filter(|f| f.turn <= high_deg as f32).collect();
+        if faint.is_empty() {
+            return Self::new(mesh, Vec::new());
+        }
+        let mut is_near = vec![false; mesh.positions.len()];
+        faint.into_iter().flat_map(ends).for_each(|v| is_near[v] = true);
+        folds.retain(|f| ends(f).iter().any(|v| is_near[*v]));
+        Self::new(mesh, folds)
+    }
+
     /// Sorts the ends of folds by vertex.
     pub fn new(mesh: &'a Mesh, folds: Vec<Fold>) -> Self {
         let vertices = |f: &Fold| mesh.edges.vertices[f.edge as usize];
@@ -266,5 +280,36 @@ impl Pair {
     fn other(&self, end: u32) -> Option<u32> {
         let [a, b] = self.ends;
         (a == end).then_some(b).or((b == end).then_some(a))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::noise::hash;
+    use crate::mesh::Soup;
+
+    /// A sheet of squares whose points lie at heights of chance, so that it turns by more here and by less there.
+    fn rough_sheet(seed: u64, height: f64) -> Mesh {
+        const N: u32 = 40;
+        let up = |k: u32| height * (hash(seed, &[u64::from(k)]) as f64 / u64::MAX as f64 - 0.5);
+        let point = |k: u32| DVec3::new(f64::from(k % N), f64::from(k / N), up(k));
+        let squares = (0..N * (N - 1)).filter(|k| k % N + 1 < N);
+        let triangles = squares.flat_map(|a| [[a, a + 1, a + N + 1], [a, a + N + 1, a + N]]).collect();
+        Mesh::build(Soup { positions: (0..N * N).map(point).collect(), triangles, ..Soup::default() })
+    }
+
+    #[test]
+    fn folds_go_on_as_all_folds_tell() {
+        let mut walked = 0;
+        for (seed, height) in (0..60).zip([0.2, 0.5, 0.8, 1.2, 2.0].into_iter().cycle()) {
+            let mesh = rough_sheet(seed, height);
+            let turns = Turns::of(&mesh);
+            let all = folds(&mesh, &turns, 20.0);
+            let expected = Folds::new(&mesh, all.clone()).going_on(40.0);
+            assert_eq!(Folds::around_faint(&mesh, all, 40.0).going_on(40.0), expected, "{seed}");
+            walked += expected.len();
+        }
+        assert!(walked > 100, "{walked}");
     }
 }

@@ -103,6 +103,10 @@ pub(super) fn add_free_forms(
         _ => None,
     };
     let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
+    // What is made of flats alone has none.
+    if !edges.clone().any(|edge| !planes.flat.contains(edge) && inner(edge).is_some()) {
+        return;
+    }
     let groups = Groups::new(mesh.triangles.len(), |join| {
         edges.clone().filter_map(inner).for_each(|[a, b]| join(a, b));
     });

@@ -105,7 +105,7 @@ impl HardEdges {
         let all = folds.par_iter().with_min_len(1 << 10);
         let mut edges: Vec<usize> = all.clone().filter(|f| is_above(f)).map(|f| f.edge as usize).collect();
         let folds = all.filter(|f| goes_on(f.edge as usize)).copied().collect();
-        edges.extend(Folds::new(mesh, folds).going_on(crease_deg));
+        edges.extend(Folds::around_faint(mesh, folds, crease_deg).going_on(crease_deg));
         edges.par_sort_unstable();
         edges.dedup();
         let mut wrinkles = wrinkles(mesh, turns, crease_deg, &edges);

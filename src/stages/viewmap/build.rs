@@ -219,6 +219,10 @@ impl<'a> Builder<'a> {
         let keeps_hidden = !is_witness
             && !only_seen
             && (self.hidden == HiddenPieces::All || source.kind == LineKind::Contour);
+        // Of most lines behind walls nothing is left.
+        if !keeps_hidden && seen.hidden == visibility::BURIED {
+            return;
+        }
         let pieces = pieces(segment, seen, source.kind == LineKind::Contour, shortest);
         if !keeps_hidden && pieces.iter().all(|p| p.invisibility > 0) {
             return;

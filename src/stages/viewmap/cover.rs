@@ -35,7 +35,7 @@ const MOST_SHARES: usize = 8;
 /// Triangles, or expanses, that are taken together.
 const BLOCK: usize = 32;
 /// So many tiles are asked whether they hide a triangle before their squares are.
-const MOST_TILES: usize = 64;
+const MOST_TILES: u32 = 64;
 
 /// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
 #[derive(Debug, Clone)]
@@ -61,7 +61,9 @@ impl Covers {
         }
         let squares = squares_of(triangles);
         let expanses = Expanses::new(triangles, squares.cell);
-        Self::of(triangles, squares, &large_ones(triangles, squares.cell), Some(&expanses))
+        let is_far = |id: u32| (id as usize) < triangles.mesh.triangles.len() && expanses.is_far_side(id);
+        let large = large_ones(triangles, squares.cell, |id| !is_far(id));
+        Self::of(triangles, squares, &large, Some(&expanses))
     }
 
     /// Finds the covers that also spare the search for intersections: those of [`find`](Self::find), and of big triangles
@@ -77,7 +79,7 @@ impl Covers {
         let squares = squares_of(triangles);
         let tiles = triangles.grid;
         let side = BIG_FACE * tiles.cell * f64::from(tiles.columns.max(tiles.rows));
-        let big = large_ones_with(triangles, squares.cell, |id| triangles.area(id) >= side * side);
+        let big = large_ones(triangles, squares.cell, |id| triangles.area(id) >= side * side);
         if triangles.layers_of(big.iter().copied()) < BIG_LAYERS {
             return Self::none(triangles.grid);
         }
@@ -167,11 +169,18 @@ impl Covers {
         let [a, b, c] = points;
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
         // Mostly tiles tell.
-        let mut tiles = self.tiles.tiles_of(self.tiles.tile_box(low, high)).take(MOST_TILES);
-        if tiles.any(|(tile, _)| high.z >= f64::from(self.nearest[tile])) {
-            return false;
+        let tiles = self.tiles.tile_box(low, high);
+        let mut tells_all = tiles.area() <= MOST_TILES;
+        for (tile, _) in self.tiles.tiles_of(tiles).take(MOST_TILES as usize) {
+            if high.z >= f64::from(self.nearest[tile]) {
+                return false;
+            }
+            tells_all &= high.z < self.of_tile[tile];
         }
         let squares = self.squares.tile_box(low, high);
+        if tells_all && squares.area() <= most {
+            return true;
+        }
         let is_behind = |(square, _): (usize, DVec2)| high.z < f64::from(self.of_square[square]);
         squares.area() <= most && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
     }
@@ -203,11 +212,7 @@ fn squares_of(triangles: &Triangles) -> Grid {
     triangles.grid.refined(squares_per_tile(triangles.mesh.triangles.len()))
 }
 
-fn large_ones(triangles: &Triangles, cell: f64) -> Vec<u32> {
-    large_ones_with(triangles, cell, |_| true)
-}
-
-fn large_ones_with(triangles: &Triangles, cell: f64, holds: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+fn large_ones(triangles: &Triangles, cell: f64, holds: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     (0..triangles.count() as u32)
         .into_par_iter()
         .with_min_len(1 << 12)

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::grid::Grid;
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::Extents;
 
 /// Lines shorter than this many times the distance have no direction to speak of, and are left
@@ -22,6 +22,9 @@ const SHORTEST_SHARE: f64 = 8.0;
 /// Lines that share a node count as coinciding within this share of the distance of others: the
 /// two sides of a T-vertex do, the folds of a contour hardly ever.
 const JOINED_SHARE: f64 = 1e-3;
+
+/// Lines that one task walks through the tiles.
+const WALKED: usize = 1 << 11;
 
 /// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
 /// edge. `perspective` tells how depth runs along a line, `extents` which of two parts in one place comes first.
@@ -62,12 +65,21 @@ fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64
         .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
     let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
     let grid = Grid::new(low.truncate(), high.truncate(), across);
-    let in_tile = grouped(grid.len(), |put| {
-        for ((_, line), number) in lines.iter().zip(0..) {
-            let [p, q] = line.ends();
-            grid.walk(p, q, |tile, _, _| put(tile, number));
-        }
-    });
+    let walked: Vec<Vec<(u32, u32)>> = lines
+        .par_chunks(WALKED)
+        .enumerate()
+        .map(|(chunk, lines)| {
+            let mut passed = Vec::with_capacity(2 * lines.len());
+            for ((_, line), number) in lines.iter().zip((chunk * WALKED) as u32..) {
+                let [p, q] = line.ends();
+                grid.walk(p, q, |tile, _, _| passed.push((tile as u32, number)));
+            }
+            passed
+        })
+        .collect();
+    let passed = walked.iter().flatten().map(|(tile, number)| (*tile as usize, *number));
+    let in_tile = grouped_pairs(grid.len(), passed);
+    drop(walked);
     let among = Among { map, extents, within, lines, grid, in_tile };
     let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
         .into_par_iter()

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use robust::{Coord, orient2d};
 
+use super::far_sides::FarSides;
 use super::grid::{Grid, TileBox};
 use super::limits::{Limits, Slack};
 use super::occluders::Triangles;
@@ -31,8 +32,6 @@ const LARGE_FACE: f64 = 16.0;
 /// The box of an expanse has no more squares than this for each of its faces, or its share of a picture.
 const SQUARES_OF_FACE: usize = 64;
 const SQUARES: usize = 4_000_000;
-/// So many of the edges at which an expanse ends tell which side of a body it is.
-const ASKED: usize = 16;
 
 /// The expanses of a view that may fill a square.
 pub(super) struct Expanses {
@@ -40,6 +39,7 @@ pub(super) struct Expanses {
     faces: Grouped<u32>,
     /// The edges at which each ends.
     ends: Grouped<u32>,
+    far: FarSides,
 }
 
 impl Expanses {
@@ -65,9 +65,10 @@ impl Expanses {
                 }
             });
         });
-        let ids = Self::large(view, mesh, &turns, &groups, cell);
+        let far = FarSides::new(mesh, view, &inner, groups);
+        let ids = Self::large(view, mesh, &turns, &far, cell);
         let count = ids.iter().filter(|id| **id != NONE).max().map_or(0, |id| *id as usize + 1);
-        let of = |face: u32| Some(ids[groups.of(face) as usize]).filter(|id| *id != NONE);
+        let of = |face: u32| Some(ids[far.group(face) as usize]).filter(|id| *id != NONE);
         let of_face = |face: u32| of(face).map(|id| (id as usize, face));
         let (faces, ends) = rayon::join(
             || grouped_pairs(count, (0..turns.len() as u32).filter_map(of_face)),
@@ -84,16 +85,16 @@ impl Expanses {
                 })
             },
         );
-        Self { faces, ends }
+        Self { faces, ends, far }
     }
 
-    /// The numbers of those expanses, by root, that are as large as a square, and not too large for their faces, nor their faces too
-    /// large; [`NONE`] for all other faces.
-    fn large(view: &View, mesh: &Mesh, turns: &[i8], groups: &Groups, cell: f64) -> Vec<u32> {
+    /// The numbers of those expanses, by root, that are no far sides, as large as a square, and not too large for their faces, nor
+    /// their faces too large; [`NONE`] for all other faces.
+    fn large(view: &View, mesh: &Mesh, turns: &[i8], far: &FarSides, cell: f64) -> Vec<u32> {
         let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
         let mut ids = vec![NONE; turns.len()];
-        for face in (0..turns.len()).filter(|face| turns[*face] != 0) {
-            let id = &mut ids[groups.of(face as u32) as usize];
+        for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !far.holds(*face as u32)) {
+            let id = &mut ids[far.group(face as u32) as usize];
             if *id == NONE {
                 *id = found.len() as u32;
                 found.push((
@@ -131,37 +132,13 @@ impl Expanses {
         self.faces.count()
     }
 
-    /// Whether most of the folds at which an expanse ends lead to faces that are nearer to the eye than its own. A sample is
-    /// enough, as it does not matter for what is found.
-    fn is_far_side(&self, expanse: usize, mesh: &Mesh, view: &View) -> bool {
-        let ends = self.ends.of(expanse);
-        let mut nearer = 0.0;
-        for edge in ends.iter().step_by(ends.len().div_ceil(ASKED).max(1)) {
-            let EdgeFaces::Two { faces, same_way: false } = mesh.edges.faces(*edge as usize) else {
-                continue;
-            };
-            let ends = mesh.edges.vertices[*edge as usize];
-            let [from, to] = ends.map(|v| view.points[v as usize]);
-            let along = (to - from).truncate();
-            // On which side of the edge a face lies, and how steeply it rises to the eye from there.
-            let rise = |face: u32| {
-                let apex = mesh.triangles[face as usize].into_iter().find(|v| !ends.contains(v))?;
-                let way = view.points[apex as usize] - from;
-                let (side, t) = (along.perp_dot(way.truncate()), along.dot(way.truncate()));
-                Some((side, (way.z - t / along.length_squared() * (to.z - from.z)) / side.abs()))
-            };
-            let [Some(a), Some(b)] = faces.map(rise) else { continue };
-            let own_first = self.faces.of(expanse).binary_search(&faces[0]).is_ok();
-            let (own, other) = if own_first { (a, b) } else { (b, a) };
-            if own.0 * other.0 > 0.0 {
-                let length = along.length();
-                nearer += if other.1 > own.1 { length } else { -length };
-            }
-        }
-        nearer > 0.0
+    /// Whether a face is of the far side of a body.
+    #[inline]
+    pub fn is_far_side(&self, face: u32) -> bool {
+        self.far.holds(face)
     }
 
-    /// Raises the cover of the squares that an expanse fills, but for that of far sides.
+    /// Raises the cover of the squares that an expanse fills.
     pub fn add(
         &self,
         expanse: usize,
@@ -177,9 +154,6 @@ impl Expanses {
             all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let own = squares.tile_box(low, high);
         if own.is_empty() {
-            return;
-        }
-        if self.is_far_side(expanse, mesh, view) {
             return;
         }
         let filled = &mut Filled::new(squares, own, buffer);

@@ -7,6 +7,7 @@ pub mod cover;
 pub mod doubles;
 mod edge_functions;
 mod expanse;
+mod far_sides;
 pub mod front;
 pub mod graph;
 pub mod grid;

@@ -1,14 +1,14 @@
 //! [`NearTiles`]: which of all triangles may lie over a few tiles, told by coarse squares of the frame.
 //!
-//! Some ways are asked about several times a view. Where each triangle lies is found once for all of them, and by far the
-//! most are not looked at again.
+//! Some ways are asked about several times a view. Faces lie in an order of place: where each few of them lie together is found once
+//! for all ways, and by far the most are not looked at one by one.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::grid::{Grid, TileBox};
 use super::limits::Limits;
-use super::occluders::{Triangles, Wanted};
+use super::occluders::{Triangles, Wanted, corners};
 use crate::math::grouped::Grouped;
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -16,14 +16,14 @@ use crate::view::View;
 /// Squares along the longer side of the frame.
 const SQUARES: u32 = 256;
 
-/// Triangles that one task looks at.
-const CHUNK: usize = 1 << 12;
+/// Triangles that are looked at together.
+const BLOCK: usize = 32;
 
-/// The squares of the frame that each triangle's box meets.
+/// The squares of the frame that the box of each block of triangles meets.
 #[derive(Debug)]
 pub struct NearTiles {
     grid: Grid,
-    boxes: Vec<TileBox>,
+    blocks: Vec<TileBox>,
 }
 
 impl NearTiles {
@@ -33,8 +33,22 @@ impl NearTiles {
         let size = DVec2::new(view.frame.width, view.frame.height);
         // Lines end where the frame does, but for rounding.
         let grid = Grid::new(-DVec2::splat(limits.px), size + limits.px, SQUARES);
-        let boxes = Triangles { mesh, view, grid: &grid, limits }.tile_boxes();
-        Self { grid, boxes }
+        let triangles = Triangles { mesh, view, grid: &grid, limits };
+        let (count, slack) = (triangles.count(), triangles.slack());
+        let of_block = |block: usize| {
+            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            for id in block * BLOCK..((block + 1) * BLOCK).min(count) {
+                let (points, _) = corners(mesh, view, id as u32);
+                // Faces that the near plane cuts come after all others, as what it left of them.
+                if points.iter().all(|p| !p.z.is_nan()) {
+                    low = points.iter().fold(low, |low, p| low.min(*p));
+                    high = points.iter().fold(high, |high, p| high.max(*p));
+                }
+            }
+            if low.x <= high.x { grid.tile_box(low - slack, high + slack) } else { TileBox::EMPTY }
+        };
+        let blocks = (0..count.div_ceil(BLOCK)).into_par_iter().with_min_len(1 << 7).map(of_block).collect();
+        Self { grid, blocks }
     }
 
     /// The ids of the triangles of each wanted tile, ascending: [`Triangles::fill`] without a cover.
@@ -42,7 +56,7 @@ impl NearTiles {
     pub(super) fn fill(&self, triangles: &Triangles, wanted: &[bool]) -> Grouped<u32> {
         let open = vec![f64::NEG_INFINITY; triangles.grid.len()];
         match self.squares(triangles, wanted) {
-            Some(squares) => triangles.fill_of(&self.over(&squares), wanted, &open),
+            Some(squares) => triangles.fill_of(&self.over(&squares, triangles.count()), wanted, &open),
             None => triangles.fill(triangles.tile_boxes(), wanted, &open),
         }
     }
@@ -66,16 +80,12 @@ impl NearTiles {
         Some(squares)
     }
 
-    /// The triangles whose boxes meet one of some squares, ascending.
-    fn over(&self, squares: &[bool]) -> Vec<u32> {
+    /// The triangles of the blocks whose boxes meet one of some squares, ascending.
+    fn over(&self, squares: &[bool], count: usize) -> Vec<u32> {
         let wanted = Wanted::new(&self.grid, squares);
-        let of_chunk = |(k, boxes): (usize, &[TileBox])| -> Vec<u32> {
-            let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && wanted.has_any(**tiles);
-            boxes.iter().enumerate().filter(is_near).map(|(i, _)| (k * CHUNK + i) as u32).collect()
-        };
-        let found: Vec<Vec<u32>> =
-            self.boxes.par_chunks(CHUNK).with_max_len(1).enumerate().map(of_chunk).collect();
-        found.concat()
+        let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && wanted.has_any(**tiles);
+        let near = self.blocks.iter().enumerate().filter(is_near);
+        near.flat_map(|(k, _)| (k * BLOCK) as u32..((k + 1) * BLOCK).min(count) as u32).collect()
     }
 }
 

@@ -92,7 +92,7 @@ impl Triangles<'_> {
     }
 
     /// Lines are also asked about a little beside themselves.
-    fn slack(&self) -> f64 {
+    pub(super) fn slack(&self) -> f64 {
         (self.grid.cell * 1e-6).max(2.0 * self.limits.beside)
     }
 

@@ -66,8 +66,15 @@ impl Sides {
         // Rounding may not add a tile that is not filled, nor lose one that is met.
         let margin = if reach < 0.0 { 1e-6 } else { -1e-6 };
         let per_cell = 1.0 / grid.cell;
-        let first = ((low - corner.x) * per_cell - 0.5 + margin).ceil().max(f64::from(tiles.left));
-        let last = ((high - corner.x) * per_cell - 0.5 - margin).floor().min(f64::from(tiles.right));
-        if first <= last { first as u32..last as u32 + 1 } else { 0..0 }
+        let (left, right) = (f64::from(tiles.left), f64::from(tiles.right));
+        let from = ((low - corner.x) * per_cell - 0.5 + margin).max(left);
+        let to = ((high - corner.x) * per_cell - 0.5 - margin).min(right);
+        if from > right || to < left {
+            return 0..0;
+        }
+        // Between the bounds of the box, which are no less than 0, whole numbers are found by cutting off.
+        let (first, last) = (from as u32, to as u32);
+        let first = first + u32::from(f64::from(first) < from);
+        first..(last + 1).max(first)
     }
 }
