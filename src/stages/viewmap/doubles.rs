@@ -343,4 +343,24 @@ mod tests {
         remove(&mut m, 0.005, false, &Extents::default());
         assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
     }
+
+    #[test]
+    fn of_many_lines_those_that_coincide_give_way() {
+        // Rows of short lines, of which the last few stand there twice.
+        let row = |k: usize| {
+            let (x, y) = ((k % 100) as f64 * 10.0, (k / 100) as f64 * 10.0);
+            ((x, y), (x + 7.0, y + 3.0), LineKind::Crease)
+        };
+        let count = 2 * WALKED + 300;
+        let lines: Vec<Drawn> = (0..count).chain(count - 50..count).map(row).collect();
+        let mut m = map(&lines);
+        remove(&mut m, 0.005, false, &Extents::default());
+        assert_eq!(m.edges.len(), count);
+        let left: std::collections::BTreeSet<usize> = m
+            .edges
+            .iter()
+            .map(|e| if e.segment < count as u32 { e.segment as usize } else { e.segment as usize - 50 })
+            .collect();
+        assert_eq!(left.len(), count);
+    }
 }

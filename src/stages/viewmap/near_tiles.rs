@@ -96,9 +96,8 @@ mod tests {
     use crate::mesh::Soup;
     use crate::scene::Camera;
 
-    #[test]
-    fn the_triangles_of_a_few_tiles_are_those_of_looking_at_all() {
-        // Triangles of many sizes all over the frame and beyond it.
+    /// Triangles of many sizes all over the frame and beyond it.
+    fn scene() -> (Mesh, View) {
         let mut dice = Dice::new(1);
         let mut soup = Soup::default();
         for k in 0..6000u32 {
@@ -110,20 +109,39 @@ mod tests {
         let mesh = Mesh::build(soup);
         let camera = Camera::three_quarter().fit_points(&mesh.positions, 0.0);
         let view = View::new(&mesh, &camera);
+        (mesh, view)
+    }
+
+    #[test]
+    fn the_triangles_of_a_few_tiles_are_those_of_looking_at_all() {
+        let (mesh, view) = scene();
         let limits = Limits::new(&view.frame);
         let near = NearTiles::new(&mesh, &view, &limits);
+        let mut wholly_near = 0;
         for (low, high) in [(100.0, 400.0), (0.0, 1000.0), (-50.0, 200.0), (480.0, 481.0)] {
             let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), 64);
             let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
-            let wanted: Vec<bool> = (0..grid.len()).map(|tile| tile % 37 == 0).collect();
-            assert_eq!(near.squares(&triangles, &wanted).is_some(), low >= 0.0);
-            let all = triangles.fill(triangles.tile_boxes(), &wanted, &vec![f64::NEG_INFINITY; grid.len()]);
-            let found = near.fill(&triangles, &wanted);
-            let count: usize = (0..grid.len()).map(|tile| all.of(tile).len()).sum();
-            assert!(count > 20, "{count}");
-            for tile in 0..grid.len() {
-                assert_eq!(found.of(tile), all.of(tile), "{tile} of {low} to {high}");
+            // Many tiles all over, and single ones, over most of which few blocks lie.
+            let single = (0..60).map(|k| (k * 4097 / 60, usize::MAX));
+            for (first, step) in std::iter::once((0, 37)).chain(single) {
+                let mut wanted = vec![false; grid.len()];
+                wanted.iter_mut().skip(first).step_by(step).for_each(|wanted| *wanted = true);
+                let is_in_frame =
+                    wanted.iter().enumerate().filter(|(_, wanted)| **wanted).all(|(tile, _)| {
+                        let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);
+                        grid.corner(column, row).cmpge(DVec2::ZERO).all()
+                    });
+                let squares = near.squares(&triangles, &wanted);
+                assert!(squares.is_some() || !is_in_frame);
+                wholly_near += usize::from(squares.is_some());
+                let all =
+                    triangles.fill(triangles.tile_boxes(), &wanted, &vec![f64::NEG_INFINITY; grid.len()]);
+                let found = near.fill(&triangles, &wanted);
+                for tile in 0..grid.len() {
+                    assert_eq!(found.of(tile), all.of(tile), "{tile} of {low} to {high}");
+                }
             }
         }
+        assert!((180..244).contains(&wholly_near), "{wholly_near}");
     }
 }

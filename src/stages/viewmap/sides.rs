@@ -78,3 +78,53 @@ impl Sides {
         first..(last + 1).max(first)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::dice::Dice;
+
+    #[test]
+    fn columns_are_those_of_looking_at_each_square() {
+        let mut dice = Dice::new(3);
+        let grid = Grid::new(DVec2::ZERO, DVec2::splat(64.0), 64);
+        let (mut filled, mut met) = (0, 0);
+        for _ in 0..300 {
+            let points = [0; 3].map(|_| dice.point(40.0) + DVec3::splat(32.0));
+            let sides = Sides::new(&points);
+            let [a, b, c] = points.map(DVec3::truncate);
+            let way = (b - a).perp_dot(c - a).signum();
+            // How far inside of all sides a point lies.
+            let inside = |p: DVec2| {
+                let of_side = |q: DVec2, r: DVec2| (r - q).normalize().perp_dot(p - q) * way;
+                of_side(a, b).min(of_side(b, c)).min(of_side(c, a))
+            };
+            let low = points[0].min(points[1]).min(points[2]);
+            let high = points[0].max(points[1]).max(points[2]);
+            let tiles = grid.tile_box(low, high);
+            if tiles.is_empty() {
+                continue;
+            }
+            for row in tiles.top..=tiles.bottom {
+                let [full, some] =
+                    [-0.5, 0.5].map(|reach| sides.columns(&grid, tiles, row, reach * grid.cell));
+                for column in u32::from(tiles.left)..=u32::from(tiles.right) {
+                    let corner = grid.corner(column, u32::from(row));
+                    let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
+                    let depth = corners
+                        .map(|(x, y)| inside(corner + DVec2::new(x, y) * grid.cell))
+                        .into_iter()
+                        .fold(f64::INFINITY, f64::min);
+                    // Between both it is rounding that tells.
+                    assert!(depth < 1e-4 || full.contains(&column), "{points:?} at {row}, {column}");
+                    assert!(depth > -1e-4 || !full.contains(&column), "{points:?} at {row}, {column}");
+                    let middle = inside(corner + grid.cell / 2.0);
+                    assert!(middle < 0.0 || some.contains(&column), "{points:?} at {row}, {column}");
+                    filled += usize::from(full.contains(&column));
+                    met += usize::from(some.contains(&column));
+                }
+            }
+        }
+        assert!(filled > 10_000 && met > filled + 5_000, "{filled} of {met}");
+    }
+}
