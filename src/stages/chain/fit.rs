@@ -111,17 +111,19 @@ fn cubic(points: &[Point], start: Vec2, end: Vec2, tolerance: f64) -> Option<Cub
     }
     for round in 0..ROUNDS {
         let curve = solve(&chosen, &parameters, start, end, chord, along)?;
+        // Farther off than this no change of parameters will bring it near.
+        let hopeless = if round == 0 { 36.0 } else { 6.0 } * tolerance * tolerance;
         let mut worst = 0.0_f64;
         for (p, t) in chosen.iter().zip(&mut parameters) {
             *t = foot(&curve, *p, *t);
-            worst = worst.max((curve.eval(*t) - *p).hypot2());
+            let off = (curve.eval(*t) - *p).hypot2();
+            if off > hopeless {
+                return None;
+            }
+            worst = worst.max(off);
         }
         if worst <= tolerance * tolerance {
             return passes(&curve, points, stride, &parameters, tolerance).then_some(curve);
-        }
-        // Far off: no change of parameters will bring it near.
-        if worst > 36.0 * tolerance * tolerance || (round > 0 && worst > 6.0 * tolerance * tolerance) {
-            return None;
         }
     }
     None

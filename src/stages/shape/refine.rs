@@ -161,9 +161,17 @@ impl<'a> Work<'a> {
     /// the first sides; `thin` edges stay straight.
     fn affected(&self, cut: &[u32], thin: &[usize]) -> (Kept, Vec<Piece>) {
         let Self { mesh, smooth, .. } = self;
+        // Few vertices lie at straight edges, which spares most sides a search.
         let has_straight = !(smooth.straight.is_empty() && thin.is_empty());
+        let mut at_straight = vec![false; if has_straight { mesh.positions.len() } else { 0 }];
+        for edge in smooth.straight.iter().chain(thin.iter().copied()) {
+            mesh.edges.vertices[edge].iter().for_each(|v| at_straight[*v as usize] = true);
+        }
         let is_straight = |[a, b]: [u32; 2]| {
             let ends = [a, b].map(|v| smooth.vertices[v as usize]);
+            if !ends.iter().all(|v| at_straight[*v as usize]) {
+                return false;
+            }
             let edge = mesh.edges.vertices.binary_search(&[ends[0].min(ends[1]), ends[0].max(ends[1])]);
             edge.is_ok_and(|edge| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok())
         };

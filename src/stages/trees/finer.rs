@@ -10,7 +10,7 @@ use super::fine_box::FineBox;
 use super::intersect::{
     IntersectionCurves, IntersectionInput, Pair, bounds, intersections_of_parts, join, pairs_in, pairs_of,
 };
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped_pairs};
 
 /// Faces that were cut, handled by one task.
 const FACES_PER_TASK: usize = 64;
@@ -83,10 +83,9 @@ impl PairSearch {
         let found = |faces: &[(u32, u32)]| {
             let (mut found, mut search) = (Vec::new(), Search::default());
             for (rank, face) in faces {
-                cut.search_face(*rank, *face, whole, &mut search);
-                for (piece, others) in search.pieces.iter().zip(&search.others) {
-                    pairs_of(finer, *piece, others, &scale, &mut found);
-                }
+                cut.search_face(*rank, *face, whole, &mut search, |piece, others| {
+                    pairs_of(finer, piece, others, &scale, &mut found);
+                });
             }
             found
         };
@@ -114,13 +113,18 @@ struct Cut<'a> {
 #[derive(Default)]
 struct Search {
     stack: Vec<(usize, usize)>,
-    /// Faces near a face: whole ones of the finer mesh with their boxes, and the ranks of others that were cut.
-    whole: Vec<(u32, FineBox)>,
-    cut: Vec<u32>,
-    /// The pieces of a face.
-    pieces: Vec<u32>,
-    /// What may pass through each of them.
-    others: Vec<Vec<u32>>,
+    /// What is near a face that was cut, then its own pieces.
+    near: Vec<Near>,
+    /// What may pass through one of them.
+    others: Vec<u32>,
+}
+
+/// A face of the finer mesh near one that was cut, with its vertices and its box side by side.
+#[derive(Clone, Copy)]
+struct Near {
+    own_box: FineBox,
+    face: u32,
+    vertices: [u32; 3],
 }
 
 impl<'a> Cut<'a> {
@@ -133,11 +137,9 @@ impl<'a> Cut<'a> {
             .map(|triangle| tree.box_of(corners(triangle)))
             .collect();
         let is_sought = |piece: &usize| finer.active.get(*piece).is_none_or(|active| *active);
-        let pieces = grouped(ranks.len(), |put| {
-            for piece in (kept..finer.triangles.len()).filter(is_sought) {
-                put(ranks[hosts.faces[piece] as usize] as usize, piece as u32);
-            }
-        });
+        let by_rank = |piece: usize| (ranks[hosts.faces[piece] as usize] as usize, piece as u32);
+        let sought = (kept..finer.triangles.len()).filter(is_sought);
+        let pieces = grouped_pairs(ranks.len(), sought.map(by_rank));
         let around = |rank: usize| {
             let own = pieces.of(rank).iter().map(|piece| boxes[*piece as usize - kept]);
             Some((rank as u32, own.reduce(FineBox::union)?))
@@ -148,41 +150,53 @@ impl<'a> Cut<'a> {
         Self { finer, tree: tree.with_boxes(&changed), kept, faces, pieces, boxes, ranks }
     }
 
-    /// Finds what may pass through the pieces of a face: of two faces that were cut, one finds the other.
-    fn search_face(&self, rank: u32, face: u32, whole: impl Fn(u32) -> Option<u32>, search: &mut Search) {
-        let Search { stack, whole: kept, cut, pieces, others } = search;
-        let of_piece = |piece: u32| self.boxes[piece as usize - self.kept];
-        let triangle = |face: u32| self.finer.triangles[face as usize];
-        pieces.clear();
-        pieces.extend_from_slice(self.pieces.of(rank as usize));
-        others.resize_with(pieces.len().max(others.len()), Vec::new);
-        others.iter_mut().for_each(Vec::clear);
-        let Some(own) = pieces.iter().map(|piece| of_piece(*piece)).reduce(FineBox::union) else { return };
-        kept.clear();
-        cut.clear();
-        self.tree.near(own, stack, |other| {
+    /// Calls `visit` for the pieces of a face with what may pass through them: of two faces that were cut, one finds the other.
+    fn search_face(
+        &self,
+        rank: u32,
+        face: u32,
+        whole: impl Fn(u32) -> Option<u32>,
+        search: &mut Search,
+        mut visit: impl FnMut(u32, &[u32]),
+    ) {
+        let Search { stack, near, others } = search;
+        let piece = |face: u32| {
+            let own_box = self.boxes[face as usize - self.kept];
+            Near { own_box, face, vertices: self.finer.triangles[face as usize] }
+        };
+        let pieces = self.pieces.of(rank as usize);
+        let boxes = pieces.iter().map(|own| self.boxes[*own as usize - self.kept]);
+        let Some(around) = boxes.reduce(FineBox::union) else { return };
+        near.clear();
+        self.tree.near(around, stack, |other| {
             if other == face {
                 return;
             }
             let other_rank = self.ranks[other as usize];
-            if !self.pieces.of(other_rank as usize).is_empty() {
-                cut.extend((other_rank > rank).then_some(other_rank));
-            } else {
-                let of_face =
-                    |face: u32| self.tree.box_of(triangle(face).map(|v| self.finer.positions[v as usize]));
-                kept.extend(whole(other).map(|face| (face, of_face(face))));
+            let of_other = self.pieces.of(other_rank as usize);
+            if !of_other.is_empty() {
+                if other_rank > rank {
+                    near.extend(of_other.iter().map(|face| piece(*face)));
+                }
+            } else if let Some(face) = whole(other) {
+                let vertices = self.finer.triangles[face as usize];
+                let corners = vertices.map(|v| self.finer.positions[v as usize]);
+                near.push(Near { own_box: self.tree.box_of(corners), face, vertices });
             }
         });
-        let are_strangers = |piece: u32, other: u32| !share_a_vertex(triangle(piece), triangle(other));
-        for (k, piece) in pieces.iter().enumerate() {
-            let own = of_piece(*piece);
-            let near = kept.iter().filter(|(face, far)| own.overlaps(*far) && are_strangers(*piece, *face));
-            others[k].extend(near.map(|(face, _)| *face));
-            let of_cut = cut.iter().flat_map(|rank| self.pieces.of(*rank as usize)).copied();
-            let later = pieces[k + 1..].iter().copied();
-            let near = of_cut.chain(later);
-            others[k]
-                .extend(near.filter(|other| own.overlaps(of_piece(*other)) && are_strangers(*piece, *other)));
+        near.retain(|other| around.overlaps(other.own_box));
+        let first = near.len();
+        near.extend(pieces.iter().map(|face| piece(*face)));
+        for k in first..near.len() {
+            let own = near[k];
+            let meets = |other: &&Near| {
+                own.own_box.overlaps(other.own_box) && !share_a_vertex(own.vertices, other.vertices)
+            };
+            others.clear();
+            others.extend(near[..first].iter().chain(&near[k + 1..]).filter(meets).map(|other| other.face));
+            if !others.is_empty() {
+                visit(own.face, others);
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use crate::math::grouped::{Grouped, grouped};
+use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -79,17 +79,17 @@ pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Fro
 }
 
 /// Points of the image in cells.
-struct PointGrid<'a> {
-    points: &'a [DVec2],
+struct PointGrid {
     low: DVec2,
     high: DVec2,
     cells_per_unit: DVec2,
     across: usize,
-    cells: Grouped<u32>,
+    /// The points of each cell with their numbers, row by row, so that what a face touches of a row is one run in memory.
+    cells: Grouped<(DVec2, u32)>,
 }
 
-impl<'a> PointGrid<'a> {
-    fn new(points: &'a [DVec2]) -> Option<Self> {
+impl PointGrid {
+    fn new(points: &[DVec2]) -> Option<Self> {
         let first = *points.first()?;
         let (low, high) = points.iter().fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
         let across = ((points.len() / POINTS_A_CELL) as f64).sqrt() as usize;
@@ -97,14 +97,13 @@ impl<'a> PointGrid<'a> {
         let size = high - low;
         let per_unit = |size: f64| if size > 0.0 { across as f64 / size } else { 0.0 };
         let cells_per_unit = DVec2::new(per_unit(size.x), per_unit(size.y));
-        let mut grid = Self { points, low, high, cells_per_unit, across, cells: Grouped::default() };
-        grid.cells = grouped(across * across, |put| {
-            for (i, p) in points.iter().enumerate() {
-                let [x, y] = grid.cell(*p);
-                put(y * across + x, i as u32);
-            }
-        });
-        Some(grid)
+        let grid = Self { low, high, cells_per_unit, across, cells: Grouped::default() };
+        let in_cell = |(i, p): (usize, &DVec2)| {
+            let [x, y] = grid.cell(*p);
+            (y * across + x, (*p, i as u32))
+        };
+        let cells = grouped_pairs(across * across, points.iter().enumerate().map(in_cell));
+        Some(Self { cells, ..grid })
     }
 
     fn cell(&self, p: DVec2) -> [usize; 2] {
@@ -148,18 +147,16 @@ impl<'a> PointGrid<'a> {
         let margin = low.abs().max(high.abs()) * ROUNDING_OF_SIDES;
         let (low, high) = (low - margin, high + margin);
         for row in rows {
-            for column in columns.clone() {
-                for point in self.cells.of(row * self.across + column) {
-                    let p = self.points[*point as usize];
-                    if p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y {
-                        continue;
-                    }
-                    let weights = [side(1, 2, p), side(2, 0, p), side(0, 1, p)];
-                    if weights.iter().all(|w| *w >= 0.0) {
-                        let sum: f64 = weights.iter().sum();
-                        let nearness: f64 = (0..3).map(|k| corners[k].z * (weights[k] / sum)).sum();
-                        hits.push((*point, Front { face, nearness }));
-                    }
+            let first = row * self.across;
+            for (p, point) in self.cells.of_all(first + columns.start..first + columns.end) {
+                if p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y {
+                    continue;
+                }
+                let weights = [side(1, 2, *p), side(2, 0, *p), side(0, 1, *p)];
+                if weights.iter().all(|w| *w >= 0.0) {
+                    let sum: f64 = weights.iter().sum();
+                    let nearness: f64 = (0..3).map(|k| corners[k].z * (weights[k] / sum)).sum();
+                    hits.push((*point, Front { face, nearness }));
                 }
             }
         }
