@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use kurbo::Shape;
+use kurbo::{Rect, Shape};
 
 use super::number::plain;
 use super::output::Format;
@@ -65,15 +65,22 @@ pub(super) fn enclosed(scene: &Scene, camera: &Camera) -> Option<String> {
 pub(super) fn next_to_nothing(drawing: &Drawing) -> Option<String> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let boxes = marks.map(|mark| mark.path.bounding_box()).filter(|own| own.is_finite());
-    let Some(all) = boxes.reduce(|a, b| a.union(b)) else {
+    let page = &drawing.page;
+    let most = SPECK * page.width.min(page.height);
+    let mut all: Option<Rect> = None;
+    for own in boxes {
+        let union = all.map_or(own, |all| all.union(own));
+        // Most drawings say so with their first path.
+        if union.width().max(union.height()) >= most {
+            return None;
+        }
+        all = Some(union);
+    }
+    let Some(all) = all else {
         return Some("the drawing is empty: no line of the model is in sight".to_owned());
     };
-    let page = &drawing.page;
-    let small = all.width().max(all.height()) < SPECK * page.width.min(page.height);
-    small.then(|| {
-        let (width, height) = (plain(all.width(), 1), plain(all.height(), 1));
-        format!("all that is drawn is {width} x {height} {} large", page.unit.name())
-    })
+    let (width, height) = (plain(all.width(), 1), plain(all.height(), 1));
+    Some(format!("all that is drawn is {width} x {height} {} large", page.unit.name()))
 }
 
 #[cfg(test)]

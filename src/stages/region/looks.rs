@@ -81,28 +81,27 @@ fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> C
 /// The looks of the triangles of a cell where the narrow ones have those of wide ones, handed on over the longest sides first: a
 /// sliver shares its long sides with what is around it, and but a short one with what it would be a spike of.
 fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, seen: &[u32]) -> Vec<u32> {
-    let mut known: FxHashMap<u32, u32> = FxHashMap::default();
+    let is_wide = |triangle: &u32| cut.width(*triangle as usize) > wide;
+    let sure: Vec<u32> = triangles.iter().copied().filter(is_wide).collect();
+    let mut known: FxHashMap<u32, u32> = sure.iter().map(|t| (*t, seen[*t as usize])).collect();
     // Lengths as bits, which order positive numbers; of equal ones the first triangles.
     let mut open = BinaryHeap::new();
-    let reach = |from: u32, open: &mut BinaryHeap<(u64, Reverse<[u32; 2]>)>| {
+    let reach = |from: u32, known: &FxHashMap<u32, u32>, open: &mut BinaryHeap<_>| {
         for side in 0..3 {
             let next = cut.neighbours[from as usize][side];
             let goes_on = cut.borders[from as usize][side].is_none();
-            if next != OUTSIDE && goes_on {
+            if next != OUTSIDE && goes_on && !known.contains_key(&next) {
                 open.push((cut.side(from as usize, side).to_bits(), Reverse([next, from])));
             }
         }
     };
-    for triangle in triangles.iter().copied().filter(|t| cut.width(*t as usize) > wide) {
-        known.insert(triangle, seen[triangle as usize]);
-        reach(triangle, &mut open);
-    }
+    sure.iter().for_each(|triangle| reach(*triangle, &known, &mut open));
     while let Some((_, Reverse([next, from]))) = open.pop() {
         if !known.contains_key(&next)
             && let Some(look) = known.get(&from).copied()
         {
             known.insert(next, look);
-            reach(next, &mut open);
+            reach(next, &known, &mut open);
         }
     }
     triangles.iter().map(|t| known.get(t).copied().unwrap_or(seen[*t as usize])).collect()
