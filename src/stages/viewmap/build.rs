@@ -188,6 +188,8 @@ struct Builder<'a> {
     map: ViewMap,
     vertex_of_end: Vec<u32>,
     hidden: HiddenPieces,
+    /// The pieces of one segment, kept so that they are allocated once.
+    pieces: Vec<SegmentPart>,
 }
 
 /// What visibility says of one segment.
@@ -209,7 +211,7 @@ struct SegmentPart {
 impl<'a> Builder<'a> {
     fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines, hidden: HiddenPieces) -> Self {
         let vertex_of_end = vec![UNSET; mesh.positions.len() + lines.points.len()];
-        Self { mesh, view, lines, map: ViewMap::default(), vertex_of_end, hidden }
+        Self { mesh, view, lines, map: ViewMap::default(), vertex_of_end, hidden, pieces: Vec::new() }
     }
 
     /// Adds what is seen of a segment, and unless `only_seen` what is hidden as far as it is kept.
@@ -223,10 +225,16 @@ impl<'a> Builder<'a> {
         if !keeps_hidden && seen.hidden == visibility::BURIED {
             return;
         }
-        let pieces = pieces(segment, seen, source.kind == LineKind::Contour, shortest);
-        if !keeps_hidden && pieces.iter().all(|p| p.invisibility > 0) {
-            return;
+        let mut pieces = std::mem::take(&mut self.pieces);
+        part(segment, seen, source.kind == LineKind::Contour, shortest, &mut pieces);
+        if keeps_hidden || pieces.iter().any(|p| p.invisibility == 0) {
+            self.add_pieces(segment, &pieces, keeps_hidden);
         }
+        self.pieces = pieces;
+    }
+
+    fn add_pieces(&mut self, segment: &ImageSegment, pieces: &[SegmentPart], keeps_hidden: bool) {
+        let source = &self.lines.segments[segment.source as usize];
         let mut start: Option<ViewVertexId> = None;
         for (i, piece) in pieces.iter().enumerate() {
             if piece.invisibility > 0 && !keeps_hidden {
@@ -303,15 +311,15 @@ fn view_edge(
 
 /// Cuts a segment where its invisibility changes, and visible contours also where background
 /// begins or ends behind them.
-fn pieces(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64) -> Vec<SegmentPart> {
+fn part(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
     let shortest = shortest / segment.length().max(shortest);
-    let mut out = Vec::with_capacity(1);
+    out.clear();
     let mut at = 0.0;
     for layer in seen.hidden {
         let interval = &layer.interval;
         let start = if interval.start - at <= shortest { at } else { interval.start };
         if start > at {
-            visible(&mut out, seen, contour, at, start, interval.start_kind, shortest);
+            visible(out, seen, contour, at, start, interval.start_kind, shortest);
         }
         let end = if 1.0 - interval.end <= shortest { 1.0 } else { interval.end };
         out.push(SegmentPart {
@@ -324,9 +332,8 @@ fn pieces(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64) -> V
         at = end;
     }
     if at < 1.0 {
-        visible(&mut out, seen, contour, at, 1.0, ViewVertexKind::Vertex, shortest);
+        visible(out, seen, contour, at, 1.0, ViewVertexKind::Vertex, shortest);
     }
-    out
 }
 
 fn visible(

@@ -52,9 +52,11 @@ pub fn remove(map: &mut ViewMap, within: f64, perspective: bool, extents: &Exten
 /// For each edge that gives way, the range of its parameter that another covers; ascending.
 fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64, f64))> {
     let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
-    let mut lines: Vec<(u32, Line)> = Vec::with_capacity(seen.clone().count());
-    let of_edges = seen.map(|(edge, id)| (id, Line::of(map, edge)));
-    lines.extend(of_edges.filter(|(_, line)| line.length > SHORTEST_SHARE * within));
+    let seen: Vec<u32> = seen.map(|(_, id)| id).collect();
+    let of_edge = |id: &u32| (*id, Line::of(map, &map.edges[*id as usize]));
+    let mut lines: Vec<(u32, Line)> = seen.par_iter().with_min_len(1 << 10).map(of_edge).collect();
+    drop(seen);
+    lines.retain(|(_, line)| line.length > SHORTEST_SHARE * within);
     if lines.is_empty() {
         return Vec::new();
     }
