@@ -226,7 +226,7 @@ impl<'a> Builder<'a> {
             return;
         }
         let mut pieces = std::mem::take(&mut self.pieces);
-        part(segment, seen, source.kind == LineKind::Contour, shortest, &mut pieces);
+        cut_segment(segment, seen, source.kind == LineKind::Contour, shortest, &mut pieces);
         if keeps_hidden || pieces.iter().any(|p| p.invisibility == 0) {
             self.add_pieces(segment, &pieces, keeps_hidden);
         }
@@ -311,7 +311,7 @@ fn view_edge(
 
 /// Cuts a segment where its invisibility changes, and visible contours also where background
 /// begins or ends behind them.
-fn part(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
+fn cut_segment(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
     let shortest = shortest / segment.length().max(shortest);
     out.clear();
     let mut at = 0.0;
