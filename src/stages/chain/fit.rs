@@ -195,3 +195,21 @@ fn foot(curve: &CubicBez, p: Point, t: f64) -> f64 {
     }
     (t - away.dot(first) / slope).clamp(0.0, 1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_is_found_from_far_off_parameters() {
+        // Cubics whose speed is far from even, so that lengths along their points are but a first guess of parameters.
+        for (bend, tolerance) in [(0.3, 0.5), (0.6, 0.5), (0.9, 1.0)] {
+            let whole = CubicBez::new((0.0, 0.0), (10.0, 60.0 * bend), (40.0, 60.0), (120.0, 10.0));
+            let points: Vec<Point> = (0..=30).map(|k| whole.eval(f64::from(k) / 30.0)).collect();
+            let mut path = BezPath::new();
+            path.move_to(points[0]);
+            fit(&points, unit(whole.p1 - whole.p0), unit(whole.p3 - whole.p2), tolerance, &mut path);
+            assert_eq!(path.elements().len(), 2, "{bend}: {}", path.to_svg());
+        }
+    }
+}

@@ -127,4 +127,21 @@ mod tests {
             assert_eq!(look, u32::from(is_light(*corners)), "{corners:?}");
         }
     }
+
+    #[test]
+    fn slivers_beyond_slivers_look_like_what_is_wide_beyond_all_of_them() {
+        // Rows of slivers below two wide triangles, of which only one has the side along the rows.
+        let rows = [0, 2, 4, 200].into_iter();
+        let points: Vec<[i64; 2]> = rows.flat_map(|y| [[0, y], [200, y]]).collect();
+        let cut = Triangulation::new(Noded { points, pieces: Vec::new() });
+        let is_top = |corners: [u32; 3]| corners.contains(&6) || corners.contains(&7);
+        let is_along = |corners: [u32; 3]| is_top(corners) && corners.contains(&4) && corners.contains(&5);
+        let seen: Vec<u32> = cut.triangles.iter().map(|t| u32::from(is_along(*t))).collect();
+        assert_eq!(cut.triangles.iter().filter(|t| !is_top(**t)).count(), 4, "{:?}", cut.triangles);
+        let (looks, leaks) = decide(&cut, &seen, 3.0);
+        assert_eq!(leaks, 1);
+        for (corners, look) in cut.triangles.iter().zip(looks) {
+            assert_eq!(look, u32::from(!is_top(*corners) || is_along(*corners)), "{corners:?}");
+        }
+    }
 }

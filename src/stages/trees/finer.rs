@@ -200,3 +200,64 @@ impl<'a> Cut<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::math::noise::{hash, unit};
+
+    /// `count` triangles, no two with a common vertex, each within reach of its middle.
+    fn triangles(seed: u64, middles: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let number = |k: usize| unit(hash(seed, &[k as u64])) - 0.5;
+        let corner = |(k, middle): (usize, &DVec3)| {
+            [0, 3, 6].map(|c| {
+                *middle + DVec3::new(number(9 * k + c), number(9 * k + c + 1), number(9 * k + c + 2))
+            })
+        };
+        let positions: Vec<DVec3> = middles.iter().enumerate().flat_map(corner).collect();
+        let triangles = (0..middles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        (positions, triangles)
+    }
+
+    #[test]
+    fn pieces_meet_as_a_search_in_full_has_it() {
+        let (mut among_own, mut among_cut, mut with_whole) = (0, 0, 0);
+        for seed in 0..20 {
+            // A row of triangles, each of which meets the next few; two of three are cut into two to four pieces.
+            let middles: Vec<DVec3> = (0..40).map(|k| DVec3::X * 0.3 * f64::from(k)).collect();
+            let (positions, triangles_before) = triangles(seed, &middles);
+            let before =
+                IntersectionInput { positions: &positions, triangles: &triangles_before, active: &[] };
+            let search = PairSearch::new(&before, |_| 1.0);
+
+            let is_whole = |face: &u32| (*face as u64 + seed).is_multiple_of(3);
+            let mut hosts: Vec<u32> = (0..40).filter(is_whole).collect();
+            let kept = hosts.len();
+            let pieces = |face: u32| std::iter::repeat_n(face, 2 + face as usize % 3);
+            hosts.extend((0..40).filter(|face| !is_whole(face)).flat_map(pieces));
+            let middles: Vec<DVec3> = hosts[kept..].iter().map(|host| middles[*host as usize]).collect();
+            let (more, of_pieces) = triangles(seed + 100, &middles);
+            let first = positions.len() as u32;
+            let positions: Vec<DVec3> = positions.iter().copied().chain(more).collect();
+            let whole = hosts[..kept].iter().map(|host| triangles_before[*host as usize]);
+            let after: Vec<[u32; 3]> = whole.chain(of_pieces.iter().map(|t| t.map(|v| v + first))).collect();
+            let finer = IntersectionInput { positions: &positions, triangles: &after, active: &[] };
+
+            let curves = search.curves_of_finer(&finer, Hosts { faces: &hosts, kept }, |_| 1.0);
+            assert_eq!(curves, intersections_of_parts(&finer, |_| 1.0), "{seed}");
+            for segment in &curves.segments {
+                let [a, b] = segment.faces.map(|face| face as usize);
+                if a >= kept {
+                    let same = hosts[a] == hosts[b];
+                    among_own += usize::from(same);
+                    among_cut += usize::from(!same);
+                } else {
+                    with_whole += usize::from(b >= kept);
+                }
+            }
+        }
+        assert!(among_own > 20 && among_cut > 20 && with_whole > 20, "{among_own} {among_cut} {with_whole}");
+    }
+}
