@@ -10,6 +10,7 @@ pub mod function;
 pub mod glob;
 pub mod grouped;
 pub mod identity;
+pub mod joined;
 pub mod level_lines;
 pub mod linear;
 pub mod noise;

@@ -170,8 +170,10 @@ fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, defa
     if is_identity {
         soup.positions.extend_from_slice(&from.positions);
     } else {
-        soup.positions.extend(from.positions.iter().map(|&p| place.transform_point3(p)));
-        if !soup.positions.iter().skip(first).all(|&p| is_drawable(p)) {
+        let placed = from.positions.par_iter().with_min_len(1 << 13);
+        soup.positions.par_extend(placed.map(|&p| place.transform_point3(p)));
+        let own = soup.positions.get(first..).unwrap_or_default();
+        if !own.par_iter().with_min_len(1 << 13).all(|&p| is_drawable(p)) {
             soup.positions.truncate(first);
             return;
         }
@@ -264,10 +266,12 @@ fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
 }
 
 fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned: bool) {
+    let all = from;
+    let from = all.par_iter().with_min_len(1 << 13);
     match (first, turned) {
-        (0, false) => to.extend_from_slice(from),
-        (_, false) => to.extend(from.iter().map(|t| t.map(|i| i.saturating_add(first)))),
-        (_, true) => to.extend(from.iter().map(|&[a, b, c]| [a, c, b].map(|i| i.saturating_add(first)))),
+        (0, false) => to.extend_from_slice(all),
+        (_, false) => to.par_extend(from.map(|t| t.map(|i| i.saturating_add(first)))),
+        (_, true) => to.par_extend(from.map(|&[a, b, c]| [a, c, b].map(|i| i.saturating_add(first)))),
     }
 }
 
@@ -300,7 +304,7 @@ fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_tria
         let normal = if is_identity { normal } else { turn * normal }.try_normalize();
         normal.map_or([0.0; 3], |n| [n.x as f32, n.y as f32, n.z as f32])
     }));
-    let all_sound = !soup.normals[first..].contains(&[0.0; 3]);
+    let all_sound = soup.normals[first..].par_iter().with_min_len(1 << 13).all(|normal| *normal != [0.0; 3]);
     append_optional(
         &mut soup.corner_normals,
         &from.corner_normals,

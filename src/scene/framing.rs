@@ -109,18 +109,29 @@ impl Cloud {
     /// The greatest product of a point with `direction`, and the depth of a point that attains it;
     /// of several such points the farthest.
     fn farthest(&self, direction: DVec3) -> (f64, f64) {
+        // Rounding keeps the order of products and sums, so no point is beyond this.
+        let beyond = |(low, high): &(DVec3, DVec3)| {
+            product(DVec3::select(direction.cmpge(DVec3::ZERO), *high, *low), direction)
+        };
         let mut best = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for ((low, high), points) in self.boxes.iter().zip(self.points.chunks(BLOCK)) {
-            // Rounding keeps the order of products and sums, so no point is beyond this.
-            let corner = DVec3::select(direction.cmpge(DVec3::ZERO), *high, *low);
-            if product(corner, direction) < best.0 {
-                continue;
-            }
+        let mut look = |points: &[DVec3]| {
             for p in points {
                 let found = (product(*p, direction), p.z);
                 if found > best {
                     best = found;
                 }
+            }
+            best.0
+        };
+        // The box that reaches farthest first: then most others need no look.
+        let reaches: Vec<f64> = self.boxes.iter().map(beyond).collect();
+        let first =
+            reaches.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(block, _)| block);
+        let blocks = || self.points.chunks(BLOCK);
+        let mut reached = blocks().nth(first).map_or(f64::NEG_INFINITY, &mut look);
+        for (reach, points) in reaches.into_iter().zip(blocks()) {
+            if reach >= reached {
+                reached = look(points);
             }
         }
         best
@@ -212,9 +223,11 @@ pub fn world_points(scene: &Scene) -> Vec<DVec3> {
         if part.world_from_part == DAffine3::IDENTITY {
             points.extend_from_slice(positions);
         } else {
-            points.extend(positions.iter().map(|&p| part.world_from_part.transform_point3(p)));
+            let placed = positions.par_iter().with_min_len(CHUNK);
+            points.par_extend(placed.map(|&p| part.world_from_part.transform_point3(p)));
         }
-        if !points.iter().skip(first).all(|&p| is_drawable(p)) {
+        let own = points.get(first..).unwrap_or_default();
+        if !own.par_iter().with_min_len(CHUNK).all(|&p| is_drawable(p)) {
             points.truncate(first);
         }
     }

@@ -1,6 +1,7 @@
 //! The faces of a PLY file: polygons, and strips of triangles.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::body::{Body, Row, place};
 use super::header::{Element, Encoding, Scalar};
@@ -8,6 +9,9 @@ use crate::error::Error;
 use crate::load::polygon::{self, CutOutcome};
 use crate::scene::coordinate::is_drawable;
 use crate::scene::warnings::Warnings;
+
+/// Rows that one task reads at least.
+const ROWS: usize = 1 << 13;
 
 const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
@@ -30,7 +34,7 @@ impl<'a> Faces<'a> {
     pub fn new(positions: &'a [DVec3]) -> Self {
         Self {
             positions,
-            has_bad_positions: !positions.iter().all(|&p| is_drawable(p)),
+            has_bad_positions: !positions.par_iter().with_min_len(ROWS).all(|&p| is_drawable(p)),
             corners: Vec::new(),
             points: Vec::new(),
             cut: Vec::new(),
@@ -51,7 +55,8 @@ impl<'a> Faces<'a> {
         let packed = Packed::new(body, element, list);
         let mut too_short = 0;
         let mut row = Row::default();
-        for number in 0..count {
+        let first = packed.as_ref().map_or(0, |packed| self.first_triangles(packed, body, count));
+        for number in first..count {
             if let Some((triangle, size)) = packed.as_ref().and_then(|p| p.triangle(body.rest())) {
                 let exists = triangle.iter().all(|&i| (i as usize) < self.positions.len());
                 if exists && !self.has_bad_positions {
@@ -79,6 +84,26 @@ impl<'a> Faces<'a> {
         }
         self.warnings.count("faces left out, with too few corners", too_short);
         Ok(())
+    }
+
+    /// Reads the triangles that the rows begin with, which in most files are all of them, by all threads: up to the first that is
+    /// something else they are of one size. Gives their number.
+    fn first_triangles(&mut self, packed: &Packed, body: &mut Body, count: usize) -> usize {
+        if self.has_bad_positions {
+            return 0;
+        }
+        let (size, vertices) = (packed.size(), self.positions.len());
+        let rows = body.rest();
+        let rows = rows.get(..count.min(rows.len() / size) * size).unwrap_or_default();
+        let triangle = |row: &[u8]| {
+            let (triangle, _) = packed.triangle(row)?;
+            triangle.iter().all(|&i| (i as usize) < vertices).then_some(triangle)
+        };
+        let all = rows.par_chunks_exact(size).with_min_len(ROWS);
+        let first = all.clone().position_first(|row| triangle(row).is_none()).unwrap_or(rows.len() / size);
+        self.triangles.par_extend(all.take(first).map(|row| triangle(row).unwrap_or_default()));
+        body.cursor.at += first * size;
+        first
     }
 
     /// Reads the element `tristrips`: −1 starts a new strip.
@@ -166,12 +191,17 @@ impl Packed {
         usual.then_some(Self { before: element.offset(list)?, after: after? })
     }
 
+    /// How many bytes the row of a triangle takes.
+    fn size(&self) -> usize {
+        self.before + 13 + self.after
+    }
+
     /// The triangle at the start of some bytes, and how many bytes its row takes; none if it is
     /// another polygon, or cut off.
     #[inline]
     fn triangle(&self, bytes: &[u8]) -> Option<([u32; 3], usize)> {
         let row = bytes.get(self.before..)?.first_chunk::<13>()?;
-        let size = self.before + 13 + self.after;
+        let size = self.size();
         let &[3, a, b, c, d, e, f, g, h, i, j, k, l] = row else { return None };
         let corners = [[a, b, c, d], [e, f, g, h], [i, j, k, l]].map(u32::from_le_bytes);
         (bytes.len() >= size).then_some((corners, size))

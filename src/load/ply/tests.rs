@@ -153,3 +153,44 @@ fn what_is_no_number_is_left_out() {
     assert!(scene.geometries[0].positions.iter().all(|p| p.is_finite()));
     assert_eq!(scene.warnings.lines().len(), 1);
 }
+
+/// Many triangles, one after the other, and other faces where `other` has them.
+fn many(count: usize, other: impl Fn(usize) -> Option<Vec<i32>>) -> (Vec<u8>, Vec<Vec<i32>>) {
+    let head = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex 5\n{POSITIONS}element face {count}\n{LIST}end_header\n"
+    );
+    let mut bytes = head.into_bytes();
+    for point in [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.5, 1.0]] {
+        bytes.extend(point.into_iter().flat_map(f32::to_le_bytes));
+    }
+    let faces: Vec<Vec<i32>> = (0..count)
+        .map(|k| other(k).unwrap_or_else(|| [0, 1, 2].map(|c| (k as i32 + c) % 5).to_vec()))
+        .collect();
+    for face in &faces {
+        bytes.push(face.len() as u8);
+        bytes.extend(face.iter().flat_map(|corner| corner.to_le_bytes()));
+    }
+    (bytes, faces)
+}
+
+#[test]
+fn triangles_come_in_order_before_and_after_other_faces() {
+    for at in [None, Some(0), Some(12_345), Some(29_999)] {
+        let (bytes, faces) = many(30_000, |k| (at == Some(k)).then(|| vec![0, 1, 2, 3]));
+        let triangles = &read(bytes).geometries[0].triangles;
+        let before = at.unwrap_or(faces.len());
+        let as_read = |face: &Vec<i32>| [0, 1, 2].map(|c| face[c] as u32);
+        let expected: Vec<[u32; 3]> = faces[..before].iter().map(as_read).collect();
+        assert!(triangles[..before] == expected, "{at:?}");
+        let expected: Vec<[u32; 3]> =
+            faces.get(before + 1..).unwrap_or_default().iter().map(as_read).collect();
+        assert!(triangles.ends_with(&expected) && triangles.len() == faces.len() + usize::from(at.is_some()));
+    }
+}
+
+#[test]
+fn the_first_triangle_of_many_that_points_nowhere_is_named() {
+    let (bytes, _) = many(30_000, |k| (k == 23_456 || k == 29_000).then(|| vec![0, 1, 5]));
+    let error = error(bytes);
+    assert!(error.contains("vertex 5 does not exist") && error.contains("23456"), "{error}");
+}

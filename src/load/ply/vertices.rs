@@ -1,12 +1,16 @@
 //! The vertices of a PLY file: positions, normals, colours, texture coordinates.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::body::{Body, Row};
 use super::header::{Element, Encoding, Scalar};
 use crate::error::Error;
 use crate::math::colour::linear;
 use crate::scene::Geometry;
+
+/// Rows that one task reads at least.
+const ROWS: usize = 1 << 13;
 
 /// Which properties hold what.
 struct Columns {
@@ -61,11 +65,12 @@ pub(super) fn read(body: &mut Body, element: &Element) -> Result<Geometry, Error
             let follow = element.offset(y) == Some(o + 4) && element.offset(z) == Some(o + 8);
             follow && single_precision && body.encoding == Encoding::Little
         });
+        let each = rows.par_chunks_exact(stride).with_min_len(ROWS);
         if let Some(start) = packed {
-            geometry.positions.extend(rows.chunks_exact(stride).map(|row| packed_position(row, start)));
+            geometry.positions.par_extend(each.map(|row| packed_position(row, start)));
         } else {
             let places = [x, y, z].map(|p| (kind(p), element.offset(p).unwrap_or(0)));
-            geometry.positions.extend(rows.chunks_exact(stride).map(|row| {
+            geometry.positions.par_extend(each.map(|row| {
                 let value =
                     |(kind, at): (Scalar, usize)| kind.read(row.get(at..).unwrap_or_default(), body.encoding);
                 DVec3::from_array(places.map(value))

@@ -7,6 +7,7 @@
 use rayon::prelude::*;
 
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
+use crate::math::joined::joined;
 use crate::mesh::dihedral::{mark, runs_up};
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::needle::{Beyond, seen_from};
@@ -74,7 +75,7 @@ impl<'a> Finder<'a> {
                 edges.filter_map(|k| self.classify(edge(k))).collect()
             })
             .collect();
-        found.concat()
+        joined(&found)
     }
 
     fn wants(&self, kind: LineKind) -> bool {

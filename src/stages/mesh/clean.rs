@@ -28,14 +28,19 @@ pub(super) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
         let mut flags = keep.iter();
         list.retain(|_| flags.next().copied().unwrap_or(true));
     }
-    filter(&mut soup.triangles, keep);
-    filter(&mut soup.triangle_part, keep);
-    filter(&mut soup.triangle_material, keep);
-    filter(&mut soup.triangle_paint, keep);
-    filter(&mut soup.corner_normals, keep);
-    filter(&mut soup.corner_uvs, keep);
-    filter(&mut soup.corner_colours, keep);
-    filter(&mut soup.edge_marks, keep);
+    let Soup { triangles, triangle_part, triangle_material, triangle_paint, .. } = soup;
+    let Soup { corner_normals, corner_uvs, corner_colours, edge_marks, .. } = soup;
+    // Each list is gone through in order, all of them side by side.
+    rayon::scope(|all| {
+        all.spawn(|_| filter(triangles, keep));
+        all.spawn(|_| filter(triangle_part, keep));
+        all.spawn(|_| filter(triangle_material, keep));
+        all.spawn(|_| filter(triangle_paint, keep));
+        all.spawn(|_| filter(corner_normals, keep));
+        all.spawn(|_| filter(corner_uvs, keep));
+        all.spawn(|_| filter(corner_colours, keep));
+        all.spawn(|_| filter(edge_marks, keep));
+    });
 }
 
 /// For each face whether it is the only one of its part with its three corners (in any order), or
@@ -52,7 +57,7 @@ pub(super) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
     found.iter().flat_map(|doubles| &doubles.dropped).for_each(|face| keep[*face as usize] = false);
     let mut pairs: Vec<[u32; 2]> = found.iter().flat_map(|doubles| &doubles.pairs).copied().collect();
     // Part by part; within each they are by their corners already.
-    pairs.sort_by_key(|[face, _]| part(soup, *face));
+    pairs.par_sort_by_key(|[face, _]| part(soup, *face));
     for face in sheets::one_side(soup, edges, &pairs) {
         keep[face as usize] = true;
     }

@@ -123,11 +123,24 @@ impl Edges {
     /// The edges after faces were left out: `renamed` are the new numbers of the faces, which keep their order, `u32::MAX` for
     /// those that went; `triangles` are those that are left.
     pub(super) fn without(&self, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
+        let chunk = if self.len() > MANY_EDGES { self.len() } else { CHUNK };
+        self.without_in_chunks(chunk, renamed, triangles)
+    }
+
+    /// Does so for so many edges at a time.
+    fn without_in_chunks(&self, chunk: usize, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
+        let some =
+            |k: usize| self.some_without(k * chunk..((k + 1) * chunk).min(self.len()), renamed, triangles);
+        Self::joined((0..self.len().div_ceil(chunk)).into_par_iter().with_max_len(1).map(some).collect())
+    }
+
+    /// Does so for some of the edges.
+    fn some_without(&self, edges: Range<usize>, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
         let mut all = Self::default();
-        all.vertices.reserve_exact(self.len());
-        all.faces.reserve_exact(self.len());
+        all.vertices.reserve_exact(edges.len());
+        all.faces.reserve_exact(edges.len());
         let mut left = Vec::new();
-        for (edge, ends) in self.vertices.iter().enumerate() {
+        for (edge, ends) in edges.clone().zip(&self.vertices[edges]) {
             let faces = self.faces(edge);
             left.clear();
             let still = faces.list().iter().map(|face| renamed[*face as usize]);
@@ -212,6 +225,11 @@ mod tests {
             let (fewer, anew) = (edges.without(&renamed, &left), Edges::build(50, &left));
             assert_eq!(fewer.vertices, anew.vertices);
             assert!((0..anew.len()).all(|edge| fewer.faces(edge) == anew.faces(edge)), "{every}");
+            for chunk in [1, 7, 64] {
+                let parts = edges.without_in_chunks(chunk, &renamed, &left);
+                assert_eq!((&parts.vertices, &parts.faces), (&fewer.vertices, &fewer.faces), "by {chunk}");
+                assert_eq!((&parts.fans, &parts.fan_starts), (&fewer.fans, &fewer.fan_starts), "by {chunk}");
+            }
         }
     }
 

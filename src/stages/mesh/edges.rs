@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::shares::{Share, shares};
+use super::shares::{Share, share_count, shares};
 
 pub(super) const NONE: u32 = u32::MAX;
 pub(super) const MANY: u32 = u32::MAX - 1;
@@ -76,7 +76,7 @@ impl Edges {
     /// Finds the edges of `triangles`, whose vertex ids are below `vertex_count`.
     #[must_use]
     pub fn build(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
-        let shares = shares(vertex_count, triangles, vertex_count.div_ceil(SHARE));
+        let shares = shares(vertex_count, triangles, share_count(vertex_count, SHARE));
         Self::joined(
             shares.par_iter().with_max_len(1).map(|share| edges_of_share(triangles, share)).collect(),
         )

@@ -13,7 +13,7 @@ use crate::math::power::power_of_two_above;
 use crate::math::tolerance;
 
 /// The smallest piece of work for a thread, in faces.
-const GRAIN: usize = 1 << 14;
+const GRAIN: usize = 1 << 13;
 
 /// The origin of a mesh lies on a grid with steps of this many times the power of two above its size, so
 /// that parts that come and go do not move it.

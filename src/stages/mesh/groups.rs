@@ -11,7 +11,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use rayon::prelude::*;
 
 /// The smallest piece of work for a thread, in faces.
-const GRAIN: usize = 1 << 14;
+const GRAIN: usize = 1 << 13;
 
 /// Faces in groups, each known by the least face in it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

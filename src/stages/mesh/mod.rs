@@ -37,7 +37,7 @@ pub(crate) use first_edges::FirstEdges;
 pub use groups::{Groups, Numbered};
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use posed::Sources;
-pub(crate) use shares::{Share, shares};
+pub(crate) use shares::{Share, share_count, shares};
 pub use soup::{EdgeMark, Soup, Wire};
 pub use turns::Turns;
 

@@ -21,7 +21,10 @@ use super::{MaterialId, PartId, Soup};
 use crate::math::power::power_of_two_above;
 
 /// The smallest piece of work for a thread, in vertices or faces.
-const GRAIN: usize = 1 << 14;
+const GRAIN: usize = 1 << 13;
+
+/// How many vertices or faces, and then up to where a run ends, one task sorts.
+const PIECE: usize = 1 << 12;
 
 /// No normal or texture coordinate.
 const NONE: u32 = u32::MAX;
@@ -180,14 +183,21 @@ fn turned<T: Copy>([a, b, c]: [T; 3], turn: u32) -> [T; 3] {
 /// Changes each run of neighbours that belong together.
 fn for_each_run<T: Send>(
     items: &mut [T],
-    together: impl Fn(&T, &T) -> bool + Send + Sync,
-    change: impl Fn(&mut [T]) + Send + Sync,
+    together: impl Fn(&T, &T) -> bool + Sync,
+    change: impl Fn(&mut [T]) + Sync,
 ) {
-    if items.len() < GRAIN {
-        items.chunk_by_mut(together).for_each(change);
-    } else {
-        items.par_chunk_by_mut(together).for_each(change);
+    // Pieces that end where a run does, all of about a size: left to split as it likes, a thread keeps what another would wait for.
+    let mut pieces = Vec::new();
+    let mut rest = items;
+    while rest.len() > PIECE {
+        let end = (PIECE..rest.len()).find(|k| !together(&rest[k - 1], &rest[*k])).unwrap_or(rest.len());
+        let piece;
+        (piece, rest) = rest.split_at_mut(end);
+        pieces.push(piece);
     }
+    pieces.push(rest);
+    let change_all = |piece: &mut [T]| piece.chunk_by_mut(&together).for_each(&change);
+    pieces.into_par_iter().with_max_len(1).for_each(change_all);
 }
 
 /// Numbers for what has one part and one material, in the order of parts, then of materials.
@@ -287,6 +297,17 @@ mod tests {
             uvs.collect::<Vec<_>>(),
             (soup.edge_marks.clone(), soup.wires.clone()),
         )
+    }
+
+    #[test]
+    fn runs_are_changed_whole_in_pieces_of_many() {
+        // Runs shorter and longer than a piece.
+        let mut items: Vec<(usize, usize)> =
+            (0..5 * PIECE).map(|k| (k * k / (3 * PIECE * PIECE), (k * 7919) % 10_007)).collect();
+        let mut expected = items.clone();
+        expected.chunk_by_mut(|a, b| a.0 == b.0).for_each(<[_]>::sort_unstable);
+        for_each_run(&mut items, |a, b| a.0 == b.0, <[_]>::sort_unstable);
+        assert!(items == expected && items[0].0 < items[items.len() - 1].0);
     }
 
     #[test]

@@ -86,7 +86,7 @@ fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
         let paint = ends.map(|v| painted(soup, face, v));
         Some(Open { ends, face, part, along, length: side.length(), normal, paint })
     };
-    (0..edges.len()).into_par_iter().with_min_len(1 << 14).filter_map(open).collect()
+    (0..edges.len()).into_par_iter().with_min_len(1 << 13).filter_map(open).collect()
 }
 
 fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {

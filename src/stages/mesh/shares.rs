@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 /// Faces that are looked at as one piece of work.
-const CHUNK: usize = 1 << 14;
+const CHUNK: usize = 1 << 13;
 
 /// The vertices of one worker.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,6 +14,14 @@ pub(crate) struct Share {
     pub vertices: Range<usize>,
     /// Runs of the faces with a corner among them, ascending.
     pub faces: Vec<Range<usize>>,
+}
+
+/// How many shares there are of about `size` vertices: equally many for each thread, so that none waits for the last of another.
+pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
+    match vertices.div_ceil(size) {
+        few @ (0 | 1) => few,
+        many => many.next_multiple_of(rayon::current_num_threads()),
+    }
 }
 
 /// So many vertices in shares for so many workers. Vertices and faces mostly stand in one order, so that faces of a share
@@ -118,6 +126,17 @@ mod tests {
                 let expected: Vec<usize> = (0..faces.len()).filter(|face| touches(&faces[*face])).collect();
                 assert_eq!(listed, expected);
             }
+        }
+    }
+
+    #[test]
+    fn threads_have_equally_many_shares() {
+        for threads in [1, 2, 3, 16] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let count = |vertices: usize| pool.install(|| share_count(vertices, 100));
+            assert_eq!([0, 1, 100].map(count), [0, 1, 1]);
+            assert!([101, 299, 12_345].map(count).iter().all(|count| count.is_multiple_of(threads)));
+            assert!(count(12_345) >= 124);
         }
     }
 }

@@ -4,10 +4,18 @@
 //! would turn over from face to face. Hence a side is chosen for a whole sheet: what goes on in single faces
 //! goes on as they do, and other sheets show outward, away from the middle of the model.
 
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use rayon::prelude::*;
+
+use super::Edges;
 use super::soup::Soup;
-use super::{EdgeFaces, Edges};
 
 const NONE: u32 = u32::MAX;
+
+/// Edges that one task looks at.
+const CHUNK: usize = 1 << 12;
 
 /// Of each pair of faces that have the same corners and run opposite ways the face that stays.
 pub(super) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u32> {
@@ -18,7 +26,9 @@ pub(super) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u3
     for (pair, faces) in pairs.iter().enumerate() {
         faces.iter().for_each(|face| pair_of[*face as usize] = pair as u32);
     }
-    let sheets = Sheets { soup, edges, pairs, pair_of };
+    let beyond = pairs.iter().map(|_| [NONE; 3].map(AtomicU32::new)).collect();
+    let sheets = Sheets { soup, pairs, pair_of, beyond };
+    (0..edges.len()).into_par_iter().with_min_len(CHUNK).for_each(|edge| sheets.look_beyond(edges, edge));
     let mut sides: Vec<Option<usize>> = vec![None; pairs.len()];
     for seed in 0..pairs.len() {
         if sides[seed].is_none() {
@@ -30,17 +40,11 @@ pub(super) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u3
 
 struct Sheets<'a> {
     soup: &'a Soup,
-    edges: &'a Edges,
     pairs: &'a [[u32; 2]],
     pair_of: Vec<u32>,
-}
-
-/// What lies on the other side of an edge of a pair.
-enum Beyond {
-    /// Nothing, or too much.
-    Nothing,
-    Pair(usize),
-    Single(u32),
+    /// What of the same part goes on beyond each side of the first face of each pair: another pair, by its first face, or a
+    /// single face; none where there is nothing, or too much.
+    beyond: Vec<[AtomicU32; 3]>,
 }
 
 impl Sheets<'_> {
@@ -58,12 +62,16 @@ impl Sheets<'_> {
             let [p, q, r] = [a, b, c].map(|v| self.soup.positions[v as usize]);
             volume += p.dot(q.cross(r));
             for edge in [[a, b], [b, c], [c, a]] {
-                match self.beyond(pair, edge) {
-                    Beyond::Nothing => {}
-                    Beyond::Single(other) => votes += if self.runs(other, edge) { -1 } else { 1 },
-                    Beyond::Pair(other) => {
-                        // A surface runs along each edge both ways.
-                        let side = usize::from(self.runs(self.pairs[other][0], edge));
+                let other = self.beyond[pair][self.side(self.pairs[pair][0], edge)].load(Relaxed);
+                if other == NONE {
+                    continue;
+                }
+                // A surface runs along each edge both ways.
+                let turned = self.runs(other, edge);
+                match self.pair_of[other as usize] {
+                    NONE => votes += if turned { -1 } else { 1 },
+                    other => {
+                        let (other, side) = (other as usize, usize::from(turned));
                         if sides[other].is_none() {
                             sides[other] = Some(side);
                             members.push((other, side));
@@ -77,27 +85,30 @@ impl Sheets<'_> {
         }
     }
 
-    /// What of the same part goes on beyond an edge of a pair.
-    fn beyond(&self, pair: usize, [a, b]: [u32; 2]) -> Beyond {
-        let Ok(edge) = self.edges.vertices.binary_search(&[a.min(b), a.max(b)]) else {
-            return Beyond::Nothing;
-        };
+    /// Tells the pairs at an edge what goes on beyond it.
+    fn look_beyond(&self, edges: &Edges, edge: usize) {
+        let faces = edges.faces(edge);
         let part = |face: u32| self.soup.triangle_part.get(face as usize);
-        let own = part(self.pairs[pair][0]);
-        let faces: EdgeFaces = self.edges.faces(edge);
-        let mut others = faces.list().iter().copied().filter(|face| {
-            let other = self.pair_of[*face as usize];
-            // Of the two faces of a pair one is enough.
-            let counts = other == NONE || self.pairs[other as usize][0] == *face;
-            counts && other != pair as u32 && part(*face) == own
-        });
-        match (others.next(), others.next()) {
-            (Some(face), None) => match self.pair_of[face as usize] {
-                NONE => Beyond::Single(face),
-                other => Beyond::Pair(other as usize),
-            },
-            _ => Beyond::Nothing,
+        // Of the two faces of a pair one is enough.
+        let first_of = |face: u32| match self.pair_of[face as usize] {
+            NONE => None,
+            pair => Some((pair as usize, self.pairs[pair as usize][0])),
+        };
+        let counts = |face: &u32| first_of(*face).is_none_or(|(_, first)| first == *face);
+        let counted = || faces.list().iter().copied().filter(counts);
+        for face in counted() {
+            let Some((pair, _)) = first_of(face) else { continue };
+            let mut others = counted().filter(|other| *other != face && part(*other) == part(face));
+            if let (Some(other), None) = (others.next(), others.next()) {
+                self.beyond[pair][self.side(face, edges.vertices[edge])].store(other, Relaxed);
+            }
         }
+    }
+
+    /// Which of the sides of a face lies between two of its vertices.
+    fn side(&self, face: u32, ends: [u32; 2]) -> usize {
+        let corners = self.soup.triangles[face as usize];
+        (0..2).find(|side| ends.contains(&corners[*side]) && ends.contains(&corners[side + 1])).unwrap_or(2)
     }
 
     /// Whether a face runs from the first of two vertices to the second.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{Dihedral, EdgeFaces, Mesh};
 
 /// The smallest piece of work for a thread, in edges.
-const GRAIN: usize = 1 << 14;
+const GRAIN: usize = 1 << 13;
 
 /// The cosines of the angles by which the surface of a mesh turns at its edges.
 #[derive(Debug, Clone, Default)]

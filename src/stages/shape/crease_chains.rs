@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use crate::math::function::cos;
 use crate::math::grouped::{Grouped, grouped_pairs};
+use crate::math::joined::joined;
 use crate::mesh::dihedral::{Dihedral, turn_of};
 use crate::mesh::{FaceId, Mesh, Turns};
 
@@ -57,7 +58,7 @@ pub(super) struct Chain {
 
 /// All edges at which the surface turns by more than `low_deg` degrees, in edge order.
 pub(super) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
-    const CHUNK: usize = 1 << 14;
+    const CHUNK: usize = 1 << 12;
     let low_cosine = cos(low_deg.to_radians()) as f32;
     let fold = |edge: usize| {
         let cosine = turns.at(mesh, edge);
@@ -73,7 +74,7 @@ pub(super) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
         .with_max_len(1)
         .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len())).filter_map(fold).collect())
         .collect();
-    found.concat()
+    joined(&found)
 }
 
 impl<'a> Folds<'a> {
@@ -160,7 +161,7 @@ impl<'a> Folds<'a> {
     /// Which ends continue each other: for each end the other one and the cosine of the bend
     /// between them.
     fn links(&self) -> Vec<Option<(u32, f32)>> {
-        const CHUNK: usize = 1 << 14;
+        const CHUNK: usize = 1 << 12;
         let vertices = self.ends.count();
         let found: Vec<Vec<Pair>> = (0..vertices.div_ceil(CHUNK))
             .into_par_iter()

@@ -75,7 +75,7 @@ struct Added {
 }
 
 fn corners(mesh: &Mesh, smooth: &SmoothNormals, is_parted: &[bool]) -> Vec<Corner> {
-    const CHUNK: usize = 1 << 14;
+    const CHUNK: usize = 1 << 12;
     let found: Vec<Vec<Corner>> = mesh
         .triangles
         .par_chunks(CHUNK)

@@ -16,7 +16,7 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 /// The cosine above which an edge counts as flat: a tenth of a degree.
 const FLAT_COSINE: f32 = 0.999_998_5;
 /// The smallest piece of work for a thread, in faces or edges.
-const GRAIN: usize = 1 << 14;
+const GRAIN: usize = 1 << 13;
 /// Fewer faces than this in one plane are chance: two halves of a quad, three where a corner was cut.
 const LEAST_FACES: u32 = 4;
 /// The least area of a compact flat, as a part of its outline squared: a circle has 0.08, a square

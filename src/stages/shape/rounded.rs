@@ -211,7 +211,7 @@ impl Count {
 /// The connected pieces of a mesh. Needs nothing but its edges, so that it can be done beside all else.
 pub(super) fn pieces(mesh: &Mesh) -> Numbered {
     let groups = Groups::new(mesh.triangles.len(), |join| {
-        (0..mesh.edges.len()).into_par_iter().with_min_len(1 << 14).for_each(|edge| {
+        (0..mesh.edges.len()).into_par_iter().with_min_len(1 << 13).for_each(|edge| {
             let list = mesh.edges.faces(edge);
             for pair in list.list().windows(2) {
                 join(pair[0], pair[1]);

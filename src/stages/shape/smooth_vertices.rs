@@ -9,7 +9,7 @@ use super::parting;
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use super::straight;
 use crate::mesh::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, Mesh, Share, shares};
+use crate::mesh::{EdgeFaces, Mesh, Share, share_count, shares};
 
 /// Vertices whose normals are summed as one piece of work.
 const SHARE: usize = 1 << 13;
@@ -53,7 +53,7 @@ impl SmoothNormals {
         is_hard: impl Fn(usize) -> bool + Sync,
     ) -> Self {
         let faces = 0..mesh.triangles.len() as u32;
-        let rounded: Vec<bool> = faces.into_par_iter().with_min_len(1 << 14).map(&is_rounded).collect();
+        let rounded: Vec<bool> = faces.into_par_iter().with_min_len(1 << 13).map(&is_rounded).collect();
         if !rounded.contains(&true) {
             return Self::default();
         }
@@ -70,7 +70,7 @@ impl SmoothNormals {
             mesh.triangles.clone()
         } else {
             let of = |(t, rounded): (&[u32; 3], &bool)| if *rounded { *t } else { [NO_NORMAL; 3] };
-            mesh.triangles.par_iter().zip(&rounded).with_min_len(1 << 14).map(of).collect()
+            mesh.triangles.par_iter().zip(&rounded).with_min_len(1 << 13).map(of).collect()
         };
         let mut smooth = Self {
             normals: vertex_normals(mesh, |face| rounded[face]),
@@ -91,7 +91,7 @@ impl SmoothNormals {
 fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
     let count = mesh.positions.len();
     // Sums of so many vertices at once stay in the cache; faces at the rim of a share are weighed for each that they touch.
-    let shares = shares(count, &mesh.triangles, count.div_ceil(SHARE));
+    let shares = shares(count, &mesh.triangles, share_count(count, SHARE));
     let mut normals = vec![DVec3::ZERO; count];
     let mut rest = &mut normals[..];
     let work: Vec<(&Share, &mut [DVec3])> = shares

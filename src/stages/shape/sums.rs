@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 use rayon::prelude::*;
 
 /// Items whose sums are made as one piece of work.
-const CHUNK: usize = 1 << 15;
+const CHUNK: usize = 1 << 13;
 
 /// The sums of so many groups over so many items: `adds` says what an item adds to which groups.
 ///

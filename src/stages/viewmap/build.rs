@@ -1,13 +1,14 @@
 //! From decided segments to the [`ViewMap`]: nodes by identity, pieces between them.
 
 use kurbo::Point;
+use rayon::prelude::*;
 
+use super::cuts::{Cuts, Seen, SegmentPart};
 use super::doubles;
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::layers::{self, Layer};
 use super::limits::Limits;
 use super::needles;
-use super::occlude::Interval;
 use super::project::{ImageSegment, project};
 use super::rounded::{self, Rounded, Smooth};
 use super::view_covers::ViewCovers;
@@ -17,6 +18,9 @@ use crate::mesh::Mesh;
 use crate::view::View;
 
 const UNSET: u32 = u32::MAX;
+
+/// Segments that one task cuts.
+const CHUNK: usize = 1 << 10;
 
 /// Which hidden pieces a view map keeps beside the visible ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,10 +77,13 @@ pub(super) fn of_hidden(
     hidden: &[Vec<Layer>],
 ) -> ViewMap {
     let limits = Limits::new(&view.frame);
-    let mut builder = Builder::new(mesh, view, lines, HiddenPieces::Contours);
-    for (segment, hidden) in segments.iter().zip(hidden) {
-        builder.add(segment, Seen { hidden, backed: &[] }, limits.piece, true);
+    let mut cuts = Cuts::default();
+    for (id, (segment, hidden)) in segments.iter().zip(hidden).enumerate() {
+        let kind = lines.segments[segment.source as usize].kind;
+        cuts.add(id, segment, kind, Seen { hidden, backed: &[] }, limits.piece, false);
     }
+    let mut builder = Builder::new(mesh, view, lines);
+    builder.add_all(segments, &cuts);
     let mut map = builder.map;
     doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
     map
@@ -136,15 +143,23 @@ impl<'a> Asked<'a> {
     }
 
     fn map_with_doubles(&self, told: &Told, but: Option<&Told>) -> ViewMap {
-        let mut builder = Builder::new(self.mesh, self.view, self.lines, self.hidden);
+        let ids: Vec<usize> = (0..self.segments.len()).step_by(CHUNK).collect();
+        let cuts: Vec<Cuts> =
+            ids.into_par_iter().with_max_len(1).map(|first| self.cuts(first, told, but)).collect();
+        let mut builder = Builder::new(self.mesh, self.view, self.lines);
         // What grows by doubling is copied again and again; most lines are drawn whole, where anything is.
-        let is_drawn = |(i, segment): &(usize, &ImageSegment)| {
-            told.draws(*i, segment.role) && told.of(*i, segment.role).hidden != visibility::BURIED
-        };
-        let drawn = self.segments.iter().enumerate().filter(is_drawn).count();
+        let drawn = cuts.iter().map(|cuts| cuts.segments.len()).sum::<usize>();
         builder.map.edges.reserve(drawn);
         builder.map.vertices.reserve(drawn + drawn / 8);
-        for (i, segment) in self.segments.iter().enumerate() {
+        cuts.iter().for_each(|cuts| builder.add_all(&self.segments, cuts));
+        builder.map
+    }
+
+    /// Cuts those of some segments, from the first on, of which anything is kept.
+    fn cuts(&self, first: usize, told: &Told, but: Option<&Told>) -> Cuts {
+        let mut cuts = Cuts::default();
+        let end = (first + CHUNK).min(self.segments.len());
+        for (i, segment) in (first..end).zip(&self.segments[first..end]) {
             let seen = told.of(i, segment.role);
             let mut drawn = told.draws(i, segment.role);
             let left;
@@ -159,11 +174,19 @@ impl<'a> Asked<'a> {
                 }
             };
             if drawn {
-                builder.add(segment, seen, self.limits.piece, but.is_some());
+                let source = &self.lines.segments[segment.source as usize];
+                let keeps_hidden = but.is_none() && keeps_hidden(self.hidden, segment, source.kind);
+                cuts.add(i, segment, source.kind, seen, self.limits.piece, keeps_hidden);
             }
         }
-        builder.map
+        cuts
     }
+}
+
+/// Whether what is hidden of a segment is kept beside what is seen.
+fn keeps_hidden(hidden: HiddenPieces, segment: &ImageSegment, kind: LineKind) -> bool {
+    let is_witness = matches!(segment.role, Role::Witness { .. });
+    !is_witness && (hidden == HiddenPieces::All || kind == LineKind::Contour)
 }
 
 impl Told {
@@ -187,53 +210,26 @@ struct Builder<'a> {
     lines: &'a FeatureLines,
     map: ViewMap,
     vertex_of_end: Vec<u32>,
-    hidden: HiddenPieces,
-    /// The pieces of one segment, kept so that they are allocated once.
-    pieces: Vec<SegmentPart>,
-}
-
-/// What visibility says of one segment.
-#[derive(Clone, Copy)]
-struct Seen<'a> {
-    hidden: &'a [Layer],
-    backed: &'a [Interval],
-}
-
-/// A piece of a segment between two parameters.
-struct SegmentPart {
-    start: f64,
-    end: f64,
-    end_kind: ViewVertexKind,
-    invisibility: u16,
-    silhouette: bool,
 }
 
 impl<'a> Builder<'a> {
-    fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines, hidden: HiddenPieces) -> Self {
+    fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines) -> Self {
         let vertex_of_end = vec![UNSET; mesh.positions.len() + lines.points.len()];
-        Self { mesh, view, lines, map: ViewMap::default(), vertex_of_end, hidden, pieces: Vec::new() }
+        Self { mesh, view, lines, map: ViewMap::default(), vertex_of_end }
     }
 
-    /// Adds what is seen of a segment, and unless `only_seen` what is hidden as far as it is kept.
-    fn add(&mut self, segment: &ImageSegment, seen: Seen, shortest: f64, only_seen: bool) {
-        let source = &self.lines.segments[segment.source as usize];
-        let is_witness = matches!(segment.role, Role::Witness { .. });
-        let keeps_hidden = !is_witness
-            && !only_seen
-            && (self.hidden == HiddenPieces::All || source.kind == LineKind::Contour);
-        // Of most lines behind walls nothing is left.
-        if !keeps_hidden && seen.hidden == visibility::BURIED {
-            return;
+    /// Adds the pieces of segments, of which these are all.
+    fn add_all(&mut self, segments: &[ImageSegment], cuts: &Cuts) {
+        let mut pieces = cuts.pieces.as_slice();
+        for cut in &cuts.segments {
+            let own;
+            (own, pieces) = pieces.split_at(cut.count);
+            self.add(&segments[cut.segment], own, cut.keeps_hidden);
         }
-        let mut pieces = std::mem::take(&mut self.pieces);
-        cut_segment(segment, seen, source.kind == LineKind::Contour, shortest, &mut pieces);
-        if keeps_hidden || pieces.iter().any(|p| p.invisibility == 0) {
-            self.add_pieces(segment, &pieces, keeps_hidden);
-        }
-        self.pieces = pieces;
     }
 
-    fn add_pieces(&mut self, segment: &ImageSegment, pieces: &[SegmentPart], keeps_hidden: bool) {
+    /// Adds the pieces of a segment that are seen, and with `keeps_hidden` the others.
+    fn add(&mut self, segment: &ImageSegment, pieces: &[SegmentPart], keeps_hidden: bool) {
         let source = &self.lines.segments[segment.source as usize];
         let mut start: Option<ViewVertexId> = None;
         for (i, piece) in pieces.iter().enumerate() {
@@ -306,68 +302,5 @@ fn view_edge(
         part: source.part,
         material: source.material,
         segment,
-    }
-}
-
-/// Cuts a segment where its invisibility changes, and visible contours also where background
-/// begins or ends behind them.
-fn cut_segment(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
-    let shortest = shortest / segment.length().max(shortest);
-    out.clear();
-    let mut at = 0.0;
-    for layer in seen.hidden {
-        let interval = &layer.interval;
-        let start = if interval.start - at <= shortest { at } else { interval.start };
-        if start > at {
-            visible(out, seen, contour, at, start, interval.start_kind, shortest);
-        }
-        let end = if 1.0 - interval.end <= shortest { 1.0 } else { interval.end };
-        out.push(SegmentPart {
-            start,
-            end,
-            end_kind: interval.end_kind,
-            invisibility: layer.count,
-            silhouette: false,
-        });
-        at = end;
-    }
-    if at < 1.0 {
-        visible(out, seen, contour, at, 1.0, ViewVertexKind::Vertex, shortest);
-    }
-}
-
-fn visible(
-    out: &mut Vec<SegmentPart>,
-    seen: Seen,
-    contour: bool,
-    start: f64,
-    end: f64,
-    end_kind: ViewVertexKind,
-    shortest: f64,
-) {
-    let mut push = |start: f64, end: f64, end_kind, silhouette| {
-        out.push(SegmentPart { start, end, end_kind, invisibility: 0, silhouette });
-    };
-    let mut at = start;
-    if contour {
-        // A line that many thin things cross has many stretches, and as many others beside it.
-        let first = seen.backed.partition_point(|backed| backed.end <= start);
-        for backed in seen.backed[first..].iter().take_while(|backed| backed.start < end) {
-            let (from, to) = (backed.start.max(at), backed.end.min(end));
-            if to - from <= shortest {
-                continue;
-            }
-            let from = if from - at <= shortest { at } else { from };
-            let to = if end - to <= shortest { end } else { to };
-            if from > at {
-                push(at, from, ViewVertexKind::Backdrop, true);
-            }
-            let kind = if to < end { ViewVertexKind::Backdrop } else { end_kind };
-            push(from, to, kind, false);
-            at = to;
-        }
-    }
-    if at < end {
-        push(at, end, end_kind, contour);
     }
 }

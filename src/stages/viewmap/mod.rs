@@ -4,6 +4,7 @@ pub mod ahead;
 pub mod build;
 mod compared;
 pub mod cover;
+mod cuts;
 pub mod doubles;
 mod edge_functions;
 mod expanse;

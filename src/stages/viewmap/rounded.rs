@@ -1,6 +1,8 @@
 //! What is drawn of rounded surfaces: of each smooth contour what its witnesses show, and of the
 //! witnesses what no smooth contour stands for.
 
+use rayon::prelude::*;
+
 use super::graph::{ContourCounts, SeenContour, ViewVertexKind};
 use super::layers::Layer;
 use super::limits::Limits;
@@ -98,7 +100,7 @@ pub(super) fn decide(
 ) -> Rounded {
     let court = Court { mesh, view, segments, runs: &runs, sought, px: limits.px };
     let mut testimony = court.hear(seen, counting);
-    testimony.told.sort_by(|a, b| {
+    testimony.told.par_sort_by(|a, b| {
         a.run
             .cmp(&b.run)
             .then(a.from.total_cmp(&b.from))

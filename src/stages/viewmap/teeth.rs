@@ -4,6 +4,8 @@
 //! Thin faces seen edge-on stick out of the contour like teeth of a saw, and often only one side of a
 //! tooth is seen. The smooth contour passes below, and stands for them.
 
+use rayon::prelude::*;
+
 use super::project::ImageSegment;
 use super::witnesses::{Court, Place};
 use crate::lines::Role;
@@ -24,7 +26,7 @@ impl<'a> Teeth<'a> {
         let witnesses = segments.iter().enumerate().filter(|(_, s)| matches!(s.role, Role::Witness { .. }));
         let mut ends: Vec<(u32, u32)> =
             witnesses.flat_map(|(id, s)| s.ends.map(|end| (end, id as u32))).collect();
-        ends.sort_unstable();
+        ends.par_sort_unstable();
         Self { court, segments, ends }
     }
 

@@ -1,0 +1,125 @@
+//! [`Cuts`]: what visibility leaves of lines, piece by piece.
+
+use super::graph::ViewVertexKind;
+use super::layers::Layer;
+use super::occlude::Interval;
+use super::project::ImageSegment;
+use super::visibility;
+use crate::lines::LineKind;
+
+/// What visibility says of one segment.
+#[derive(Clone, Copy)]
+pub(super) struct Seen<'a> {
+    pub hidden: &'a [Layer],
+    pub backed: &'a [Interval],
+}
+
+/// A piece of a segment between two parameters.
+pub(super) struct SegmentPart {
+    pub start: f64,
+    pub end: f64,
+    pub end_kind: ViewVertexKind,
+    pub invisibility: u16,
+    pub silhouette: bool,
+}
+
+/// Segments of which anything is kept, in their order, with their pieces one after the other.
+#[derive(Default)]
+pub(super) struct Cuts {
+    pub segments: Vec<Cut>,
+    pub pieces: Vec<SegmentPart>,
+}
+
+/// A segment, by its number, and how many pieces it has.
+pub(super) struct Cut {
+    pub segment: usize,
+    pub count: usize,
+    pub keeps_hidden: bool,
+}
+
+impl Cuts {
+    /// Cuts a segment and keeps it, unless nothing of it is seen and what is hidden is not kept.
+    pub fn add(
+        &mut self,
+        id: usize,
+        segment: &ImageSegment,
+        kind: LineKind,
+        seen: Seen,
+        shortest: f64,
+        keeps_hidden: bool,
+    ) {
+        // Of most lines behind walls nothing is left.
+        if !keeps_hidden && seen.hidden == visibility::BURIED {
+            return;
+        }
+        let first = self.pieces.len();
+        cut_segment(segment, seen, kind == LineKind::Contour, shortest, &mut self.pieces);
+        if keeps_hidden || self.pieces[first..].iter().any(|p| p.invisibility == 0) {
+            self.segments.push(Cut { segment: id, count: self.pieces.len() - first, keeps_hidden });
+        } else {
+            self.pieces.truncate(first);
+        }
+    }
+}
+
+/// Cuts a segment where its invisibility changes, and visible contours also where background
+/// begins or ends behind them.
+fn cut_segment(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
+    let shortest = shortest / segment.length().max(shortest);
+    let mut at = 0.0;
+    for layer in seen.hidden {
+        let interval = &layer.interval;
+        let start = if interval.start - at <= shortest { at } else { interval.start };
+        if start > at {
+            visible(out, seen, contour, at, start, interval.start_kind, shortest);
+        }
+        let end = if 1.0 - interval.end <= shortest { 1.0 } else { interval.end };
+        out.push(SegmentPart {
+            start,
+            end,
+            end_kind: interval.end_kind,
+            invisibility: layer.count,
+            silhouette: false,
+        });
+        at = end;
+    }
+    if at < 1.0 {
+        visible(out, seen, contour, at, 1.0, ViewVertexKind::Vertex, shortest);
+    }
+}
+
+fn visible(
+    out: &mut Vec<SegmentPart>,
+    seen: Seen,
+    contour: bool,
+    start: f64,
+    end: f64,
+    end_kind: ViewVertexKind,
+    shortest: f64,
+) {
+    let mut push = |start: f64, end: f64, end_kind, silhouette| {
+        out.push(SegmentPart { start, end, end_kind, invisibility: 0, silhouette });
+    };
+    let mut at = start;
+    if contour {
+        // A line that many thin things cross has many stretches, and as many others beside it.
+        let first = seen.backed.partition_point(|backed| backed.end <= start);
+        for backed in seen.backed[first..].iter().take_while(|backed| backed.start < end) {
+            let (from, to) = (backed.start.max(at), backed.end.min(end));
+            if to - from <= shortest {
+                continue;
+            }
+            let from = if from - at <= shortest { at } else { from };
+            let to = if end - to <= shortest { end } else { to };
+            if from > at {
+                push(at, from, ViewVertexKind::Backdrop, true);
+            }
+            let kind = if to < end { ViewVertexKind::Backdrop } else { end_kind };
+            push(from, to, kind, false);
+            at = to;
+        }
+    }
+    if at < end {
+        push(at, end, end_kind, contour);
+    }
+}
