@@ -130,9 +130,10 @@ impl Cloud {
         let blocks = || self.points.chunks(BLOCK);
         let mut reached = blocks().nth(first).map_or(f64::NEG_INFINITY, &mut look);
         for (reach, points) in reaches.into_iter().zip(blocks()) {
-            if reach >= reached {
-                reached = look(points);
+            if reach < reached {
+                continue;
             }
+            reached = look(points);
         }
         best
     }

@@ -22,13 +22,7 @@ pub(super) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u3
     if pairs.is_empty() {
         return Vec::new();
     }
-    let mut pair_of = vec![NONE; soup.triangles.len()];
-    for (pair, faces) in pairs.iter().enumerate() {
-        faces.iter().for_each(|face| pair_of[*face as usize] = pair as u32);
-    }
-    let beyond = pairs.iter().map(|_| [NONE; 3].map(AtomicU32::new)).collect();
-    let sheets = Sheets { soup, pairs, pair_of, beyond };
-    (0..edges.len()).into_par_iter().with_min_len(CHUNK).for_each(|edge| sheets.look_beyond(edges, edge));
+    let sheets = Sheets::new(soup, edges, pairs);
     let mut sides: Vec<Option<usize>> = vec![None; pairs.len()];
     for seed in 0..pairs.len() {
         if sides[seed].is_none() {
@@ -47,7 +41,19 @@ struct Sheets<'a> {
     beyond: Vec<[AtomicU32; 3]>,
 }
 
-impl Sheets<'_> {
+impl<'a> Sheets<'a> {
+    fn new(soup: &'a Soup, edges: &Edges, pairs: &'a [[u32; 2]]) -> Self {
+        let mut pair_of = vec![NONE; soup.triangles.len()];
+        for (pair, faces) in pairs.iter().enumerate() {
+            faces.iter().for_each(|face| pair_of[*face as usize] = pair as u32);
+        }
+        let beyond = pairs.iter().map(|_| [NONE; 3].map(AtomicU32::new)).collect();
+        let sheets = Self { soup, pairs, pair_of, beyond };
+        let all = (0..edges.len()).into_par_iter().with_min_len(CHUNK);
+        all.for_each(|edge| sheets.look_beyond(edges, edge));
+        sheets
+    }
+
     /// Chooses the side of all pairs of the sheet to which one belongs.
     fn choose(&self, seed: usize, sides: &mut [Option<usize>]) {
         sides[seed] = Some(0);
@@ -122,7 +128,9 @@ impl Sheets<'_> {
 mod tests {
     use glam::DVec3;
 
-    use crate::mesh::{EdgeFaces, FaceId, Mesh, Soup};
+    use super::*;
+    use crate::math::dice::Dice;
+    use crate::mesh::{EdgeFaces, FaceId, Mesh, PartId};
 
     /// A bent strip of squares, of which those from `single` on have one face only; which of the two
     /// faces of a triangle comes first changes along it.
@@ -171,5 +179,51 @@ mod tests {
         for shift in [40.0, -40.0] {
             assert_eq!(upward(&strip(7, shift)), 20);
         }
+    }
+
+    #[test]
+    fn beyond_the_sides_of_pairs_is_what_all_faces_tell() {
+        let (mut dice, mut found) = (Dice::new(5), 0);
+        for round in 0..200 {
+            let mut soup = Soup { positions: vec![DVec3::ZERO; 9], ..Soup::default() };
+            let mut below = |n: u32| dice.below(n as usize) as u32;
+            while soup.triangles.len() < 30 {
+                let corners @ [a, b, c] = [0; 3].map(|_| below(9));
+                let part = PartId(below(1 + round % 3));
+                let is_new = |t: &[u32; 3]| !corners.iter().all(|corner| t.contains(corner));
+                if a != b && b != c && c != a && soup.triangles.iter().all(is_new) {
+                    // One of two stands twice.
+                    let twice = below(2) as usize;
+                    soup.triangles.extend([[a, b, c], [c, b, a]].iter().take(1 + twice));
+                    soup.triangle_part.extend([part; 2].iter().take(1 + twice));
+                }
+            }
+            let faces = soup.triangles.len() as u32;
+            let is_pair = |face: &u32| {
+                let [a, b, c] = soup.triangles[*face as usize];
+                face + 1 < faces && soup.triangles[*face as usize + 1] == [c, b, a]
+            };
+            let pairs: Vec<[u32; 2]> = (0..faces).filter(is_pair).map(|face| [face, face + 1]).collect();
+            let edges = Edges::build(9, &soup.triangles);
+            let sheets = Sheets::new(&soup, &edges, &pairs);
+            for ([first, second], beyond) in pairs.iter().zip(&sheets.beyond) {
+                let [a, b, c] = soup.triangles[*first as usize];
+                for (ends, beyond) in [[a, b], [b, c], [c, a]].iter().zip(beyond) {
+                    let is_other = |face: &u32| {
+                        let corners = soup.triangles[*face as usize];
+                        let is_second = pairs.iter().any(|pair| pair[1] == *face);
+                        let same_part =
+                            soup.triangle_part[*face as usize] == soup.triangle_part[*first as usize];
+                        let is_own = face == first || face == second;
+                        same_part && !is_own && !is_second && ends.iter().all(|end| corners.contains(end))
+                    };
+                    let others: Vec<u32> = (0..faces).filter(is_other).collect();
+                    let expected = if let [only] = others[..] { only } else { NONE };
+                    assert_eq!(beyond.load(Relaxed), expected, "{round}");
+                    found += usize::from(expected != NONE);
+                }
+            }
+        }
+        assert!(found > 300, "{found}");
     }
 }
