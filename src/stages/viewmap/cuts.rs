@@ -123,3 +123,77 @@ fn visible(
         push(at, end, end_kind, contour);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::lines::Role;
+
+    const KIND: ViewVertexKind = ViewVertexKind::TJunction;
+
+    fn interval(start: f64, end: f64) -> Interval {
+        Interval { start, end, start_kind: KIND, end_kind: KIND }
+    }
+
+    fn layer(start: f64, end: f64, count: u16) -> Layer {
+        Layer { interval: interval(start, end), count }
+    }
+
+    /// Start, end, surfaces in front, and whether it is silhouette, of each piece of each segment that is kept.
+    fn kept(kind: LineKind, keeps_hidden: bool, hidden: &[&[Layer]]) -> Vec<Vec<(f64, f64, u16, bool)>> {
+        let segment = ImageSegment {
+            a: DVec3::ZERO,
+            b: DVec3::new(100.0, 0.0, 0.0),
+            ends: [0, 1],
+            cut: [false; 2],
+            hosts: [0, 1],
+            source: 0,
+            bounds: false,
+            role: Role::Line,
+        };
+        let mut cuts = Cuts::default();
+        for (id, hidden) in hidden.iter().enumerate() {
+            cuts.add(id, &segment, kind, Seen { hidden, backed: &[interval(0.7, 0.8)] }, 0.1, keeps_hidden);
+        }
+        let mut rest = cuts.pieces.as_slice();
+        let pieces = |cut: &Cut| {
+            let own;
+            (own, rest) = rest.split_at(cut.count);
+            assert_eq!(cut.keeps_hidden, keeps_hidden);
+            own.iter().map(|piece| (piece.start, piece.end, piece.invisibility, piece.silhouette)).collect()
+        };
+        let all = cuts.segments.iter().map(pieces).collect();
+        assert!(rest.is_empty());
+        all
+    }
+
+    #[test]
+    fn lines_are_cut_where_something_hides_them_and_contours_where_background_ends() {
+        let hidden: [&[Layer]; 1] = [&[layer(0.2, 0.6, 2)]];
+        let creases = [(0.0, 0.2, 0, false), (0.2, 0.6, 2, false), (0.6, 1.0, 0, false)];
+        assert_eq!(kept(LineKind::Crease, false, &hidden), [creases]);
+        let contours = [
+            (0.0, 0.2, 0, true),
+            (0.2, 0.6, 2, false),
+            (0.6, 0.7, 0, true),
+            (0.7, 0.8, 0, false),
+            (0.8, 1.0, 0, true),
+        ];
+        assert_eq!(kept(LineKind::Contour, true, &hidden), [contours]);
+    }
+
+    #[test]
+    fn of_what_is_hidden_all_over_nothing_is_kept_unless_it_is_asked_for() {
+        let hidden: [&[Layer]; 4] =
+            [&visibility::BURIED, &[], &[layer(0.0, 0.5, 1), layer(0.5, 1.0, 2)], &[layer(0.0, 0.9995, 3)]];
+        let whole = (0.0, 1.0, 0, false);
+        assert_eq!(kept(LineKind::Crease, false, &hidden), [[whole]]);
+        let found = kept(LineKind::Crease, true, &hidden);
+        assert_eq!(found[0], [(0.0, 1.0, 1, false)]);
+        assert_eq!(found[1], [whole]);
+        assert_eq!(found[2], [(0.0, 0.5, 1, false), (0.5, 1.0, 2, false)]);
+        assert_eq!(found[3], [(0.0, 1.0, 3, false)]);
+    }
+}
