@@ -10,12 +10,10 @@ use rayon::prelude::*;
 
 use super::coordinate::is_drawable;
 use super::{Geometry, Paints, Part, Scene};
+use crate::math::grain::GRAIN;
 use crate::mesh::{EdgeMark, MaterialId, PaintId, PartId, Soup, Wire};
 
 const NONE: u32 = u32::MAX;
-/// The smallest piece of work for a thread, in triangles.
-const GRAIN: usize = 1 << 14;
-
 impl Scene {
     /// All triangles and wires in world space.
     ///
@@ -170,10 +168,10 @@ fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, defa
     if is_identity {
         soup.positions.extend_from_slice(&from.positions);
     } else {
-        let placed = from.positions.par_iter().with_min_len(1 << 13);
+        let placed = from.positions.par_iter().with_min_len(GRAIN);
         soup.positions.par_extend(placed.map(|&p| place.transform_point3(p)));
         let own = soup.positions.get(first..).unwrap_or_default();
-        if !own.par_iter().with_min_len(1 << 13).all(|&p| is_drawable(p)) {
+        if !own.par_iter().with_min_len(GRAIN).all(|&p| is_drawable(p)) {
             soup.positions.truncate(first);
             return;
         }
@@ -236,10 +234,13 @@ fn append_attributes(
     soup.single_precision |= from.single_precision;
 }
 
+/// More values than these all threads write: it takes each a fraction of a nanosecond.
+const FILL: usize = 1 << 14;
+
 /// Makes a list of triangles' own so long, on all threads where much is missing.
 fn fill<T: Copy + Send + Sync>(list: &mut Vec<T>, count: usize, value: T) {
     let missing = count.saturating_sub(list.len());
-    if missing > GRAIN {
+    if missing > FILL {
         list.par_extend(repeat_n(value, missing));
     }
     list.resize(count, value);
@@ -267,7 +268,7 @@ fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
 
 fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned: bool) {
     let all = from;
-    let from = all.par_iter().with_min_len(1 << 13);
+    let from = all.par_iter().with_min_len(GRAIN);
     match (first, turned) {
         (0, false) => to.extend_from_slice(all),
         (_, false) => to.par_extend(from.map(|t| t.map(|i| i.saturating_add(first)))),
@@ -299,12 +300,12 @@ fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_tria
     let count = soup.triangles.len();
     let is_identity = place.matrix3 == DMat3::IDENTITY;
     let turn = if is_identity { DMat3::IDENTITY } else { place.matrix3.inverse().transpose() };
-    soup.normals.par_extend(from.normals.par_iter().with_min_len(1 << 12).map(|&[x, y, z]| {
+    soup.normals.par_extend(from.normals.par_iter().with_min_len(GRAIN).map(|&[x, y, z]| {
         let normal = DVec3::new(x.into(), y.into(), z.into());
         let normal = if is_identity { normal } else { turn * normal }.try_normalize();
         normal.map_or([0.0; 3], |n| [n.x as f32, n.y as f32, n.z as f32])
     }));
-    let all_sound = soup.normals[first..].par_iter().with_min_len(1 << 13).all(|normal| *normal != [0.0; 3]);
+    let all_sound = soup.normals[first..].par_iter().with_min_len(GRAIN).all(|normal| *normal != [0.0; 3]);
     append_optional(
         &mut soup.corner_normals,
         &from.corner_normals,

@@ -16,6 +16,7 @@ use super::tints::{self, Tints};
 use super::varied::Varied;
 use super::{Alpha, Material, Scene, Warnings};
 use crate::math::colour::Colour;
+use crate::math::grain::GRAIN;
 use crate::mesh::{MaterialId, PaintId};
 
 /// A material in one of its colours.
@@ -87,7 +88,7 @@ impl Paints {
                 Some((id, Coloured::of(geometry, index, triangle, texture)?))
             };
             let found: Vec<Option<(usize, Coloured)>> =
-                (0..geometry.triangles.len()).into_par_iter().with_min_len(1 << 12).map(colour).collect();
+                (0..geometry.triangles.len()).into_par_iter().with_min_len(GRAIN).map(colour).collect();
             for (id, found) in found.into_iter().flatten() {
                 coloured[id].push(found);
             }

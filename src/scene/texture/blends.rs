@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 
 use super::guess::Guess;
+use crate::math::grain::GRAIN;
 use crate::math::oklab::{Oklab, distance2};
 use crate::scene::texels::Texels;
 
@@ -36,7 +37,7 @@ pub(super) fn settle(
     };
     let cores: Vec<bool> = (0..guesses.len())
         .into_par_iter()
-        .with_min_len(1 << 12)
+        .with_min_len(GRAIN)
         .map(|texel| is_even(texel) || is_core(texel))
         .collect();
     let of = |texel: usize| {
@@ -59,7 +60,7 @@ pub(super) fn settle(
             _ => Guess { way: 0.0, ..own },
         }
     };
-    (0..guesses.len()).into_par_iter().with_min_len(1 << 12).map(of).collect()
+    (0..guesses.len()).into_par_iter().with_min_len(GRAIN).map(of).collect()
 }
 
 /// The texels around one.

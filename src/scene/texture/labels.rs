@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::guess::Guess;
 use crate::math::function;
+use crate::math::grain::GRAIN;
 use crate::scene::texels::Texels;
 
 /// Colours that have a share in a texel, at most.
@@ -116,10 +117,10 @@ fn near_borders(texels: &Texels, guesses: &[Guess], reach: i64) -> Vec<bool> {
     let differs = |texel: usize| {
         texels.beside(texel).iter().any(|next| guesses[*next].nearest != guesses[texel].nearest)
     };
-    let mut near: Vec<bool> = (0..guesses.len()).into_par_iter().with_min_len(1 << 12).map(differs).collect();
+    let mut near: Vec<bool> = (0..guesses.len()).into_par_iter().with_min_len(GRAIN).map(differs).collect();
     for _ in 0..reach {
         let is_near = |texel: usize| near[texel] || texels.beside(texel).iter().any(|next| near[*next]);
-        near = (0..guesses.len()).into_par_iter().with_min_len(1 << 12).map(is_near).collect();
+        near = (0..guesses.len()).into_par_iter().with_min_len(GRAIN).map(is_near).collect();
     }
     near
 }

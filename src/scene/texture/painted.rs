@@ -9,6 +9,7 @@ use super::guess::Guess;
 use super::labels::Labels;
 use super::specks;
 use crate::math::colour::Colour;
+use crate::math::grain::GRAIN;
 use crate::math::oklab::{self, Oklab, linear_table};
 use crate::scene::Filter;
 use crate::scene::texels::Texels;
@@ -78,7 +79,7 @@ impl Painted {
         let (texels, lights) = self.reduced(1 << halvings);
         let per_px = scale * texels.size[0] as f64 / self.texels.size[0] as f64;
         let labs: Vec<Option<Oklab>> =
-            lights.into_par_iter().with_min_len(1 << 12).map(|light| light.map(oklab::of_linear)).collect();
+            lights.into_par_iter().with_min_len(GRAIN).map(|light| light.map(oklab::of_linear)).collect();
         let guesses = guesses(&texels, palette, &labs);
         if self.filter == Filter::Blocks && scale <= 1.0 {
             return (Labels::blocks(texels, &guesses), 0.0);
@@ -121,7 +122,7 @@ impl Painted {
 /// seen nowhere is like what is seen beside it.
 fn guesses(texels: &Texels, palette: &[Oklab], labs: &[Option<Oklab>]) -> Vec<Guess> {
     let of = |lab: &Option<Oklab>| Some(Guess::of((*lab)?, palette));
-    let known: Vec<Option<Guess>> = labs.par_iter().with_min_len(1 << 12).map(of).collect();
+    let known: Vec<Option<Guess>> = labs.par_iter().with_min_len(GRAIN).map(of).collect();
     let mut open: VecDeque<usize> = (0..known.len()).filter(|k| known[*k].is_some()).collect();
     let mut guesses: Vec<Guess> =
         known.iter().map(|guess| guess.unwrap_or(Guess { nearest: u8::MAX, second: 0, way: 0.0 })).collect();

@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 
+use crate::math::grain::GRAIN;
 use crate::mesh::Mesh;
 use crate::shape::SmoothNormals;
 use crate::view::Frame;
@@ -15,5 +16,5 @@ use crate::view::Frame;
 pub fn facing(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<f64> {
     let at =
         |(normal, vertex): (&glam::DVec3, &u32)| normal.dot(frame.to_eye(mesh.positions[*vertex as usize]));
-    smooth.normals.par_iter().zip(&smooth.vertices).with_min_len(1 << 12).map(at).collect()
+    smooth.normals.par_iter().zip(&smooth.vertices).with_min_len(GRAIN).map(at).collect()
 }

@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use crate::math::grain::GRAIN;
 use crate::mesh::{FaceId, Mesh, PartId};
 use crate::shape::SmoothNormals;
 use crate::view::Frame;
@@ -30,7 +31,7 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
     let rounds = |face: u32| rounds_of[mesh.face_part[face as usize].index()];
     let mut faces: Vec<(u32, [u32; 3])> = (0..mesh.triangles.len() as u32)
         .into_par_iter()
-        .with_min_len(1 << 14)
+        .with_min_len(GRAIN)
         .filter_map(|face| Some((rounds(face), smooth.corners_of(face).filter(near)?)))
         .filter(|(rounds, _)| *rounds > 0)
         .collect();

@@ -6,13 +6,11 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::math::grain::GRAIN;
 use crate::mesh::Mesh;
 use crate::shape::SmoothNormals;
 use crate::shape::straight::GENTLE_COSINE;
 use crate::view::Frame;
-
-/// The smallest piece of work for a thread, in vertices.
-const GRAIN: usize = 1 << 12;
 
 /// What is left for rounding, much more than it is: of facing as it is, of lengths as a share, and of numbers in single precision.
 const FACING_MARGIN: f64 = 1e-6;

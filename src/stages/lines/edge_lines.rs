@@ -7,6 +7,7 @@
 use rayon::prelude::*;
 
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
+use crate::math::grain::GRAIN;
 use crate::math::joined::joined;
 use crate::mesh::dihedral::{mark, runs_up};
 use crate::mesh::edge_set::EdgeSet;
@@ -60,7 +61,7 @@ impl<'a> Finder<'a> {
             smooth,
             wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
             crease_deg: options.crease_deg as f32,
-            all_real: mesh.face_normals.par_iter().with_min_len(1 << 14).all(|normal| *normal != [0.0; 3]),
+            all_real: mesh.face_normals.par_iter().with_min_len(GRAIN).all(|normal| *normal != [0.0; 3]),
         }
     }
 

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::surface::Finer;
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
+use crate::math::grain::GRAIN;
 use crate::mesh::{FaceId, Mesh};
 use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::shape::Origin;
@@ -83,7 +84,7 @@ pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
 /// The curves of a mesh between faces that are not `out_of_sight`: of [`all_curves`] every segment of which something shows.
 #[must_use]
 pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> IntersectionCurves {
-    out_of_sight.par_iter_mut().enumerate().with_min_len(1 << 12).for_each(|(face, out)| {
+    out_of_sight.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, out)| {
         *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
     });
     let active = out_of_sight;

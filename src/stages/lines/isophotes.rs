@@ -14,6 +14,7 @@ use super::levels::{Band, Found, Measures, Node};
 use super::line::segment;
 use super::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::field::{Slope, SurfacePoint};
+use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 use crate::mesh::{FaceId, PaintId};
 
@@ -81,7 +82,7 @@ impl Ready {
                 return [Vec::new(), Vec::new()];
             }
             [1.0, -1.0].map(|side| {
-                let normals = lit.normals.normals.par_iter().with_min_len(1 << 12);
+                let normals = lit.normals.normals.par_iter().with_min_len(GRAIN);
                 normals.map(|normal| value(channel, *normal * side, shadowed)).collect()
             })
         };

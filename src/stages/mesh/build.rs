@@ -7,6 +7,7 @@ use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
 use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
+use crate::math::grain::GRAIN;
 
 impl Mesh {
     /// Builds the mesh of a flattened scene.
@@ -111,7 +112,7 @@ fn bounds(soup: &Soup) -> Option<(DVec3, DVec3)> {
 
 /// The faces with a corner of which `moves` holds, ascending.
 fn faces_of(soup: &Soup, moves: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
-    let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(1 << 13);
+    let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
     faces.filter(|face| soup.triangles[*face as usize].iter().any(|v| moves(*v))).collect()
 }
 
@@ -140,7 +141,7 @@ fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, 
         EdgeFaces::One(face) => Some((edges.vertices[e], extents.of(part(face)).weld)),
         _ => None,
     };
-    let ends = (0..edges.len()).into_par_iter().with_min_len(1 << 13).filter_map(open);
+    let ends = (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(open);
     let mut vertices: Vec<(u32, f64)> =
         ends.flat_map_iter(|(ends, reach)| ends.map(|v| (v, reach))).collect();
     vertices.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));

@@ -1,5 +1,6 @@
 //! [`EdgeSet`]: some edges of a mesh, one bit each.
 
+use crate::math::grain::GRAIN;
 use rayon::prelude::*;
 
 /// A set of edges of one mesh.
@@ -17,7 +18,8 @@ impl EdgeSet {
             let edges = 64 * k..(64 * (k + 1)).min(count);
             edges.fold(0u64, |word, edge| word | u64::from(holds(edge)) << (edge % 64))
         };
-        let words: Vec<u64> = (0..count.div_ceil(64)).into_par_iter().with_min_len(256).map(word).collect();
+        let words: Vec<u64> =
+            (0..count.div_ceil(64)).into_par_iter().with_min_len(GRAIN / 64).map(word).collect();
         if words.iter().all(|word| *word == 0) { Self::default() } else { Self { words } }
     }
 
@@ -42,7 +44,7 @@ impl EdgeSet {
 
     /// Does something with each of its edges, on all threads.
     pub fn par_for_each(&self, does: impl Fn(usize) + Sync) {
-        self.words.par_iter().enumerate().with_min_len(256).for_each(|(k, word)| {
+        self.words.par_iter().enumerate().with_min_len(GRAIN / 64).for_each(|(k, word)| {
             let mut word = *word;
             while word != 0 {
                 does(64 * k + word.trailing_zeros() as usize);

@@ -9,11 +9,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{FaceId, Mesh, PartId, Soup};
+use crate::math::grain::GRAIN;
 use crate::math::power::power_of_two_above;
 use crate::math::tolerance;
-
-/// The smallest piece of work for a thread, in faces.
-const GRAIN: usize = 1 << 13;
 
 /// The origin of a mesh lies on a grid with steps of this many times the power of two above its size, so
 /// that parts that come and go do not move it.

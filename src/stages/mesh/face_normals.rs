@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 
 /// Unit normals; zero where the triangle is lower than rounding, by the scale of its part.
@@ -23,5 +24,5 @@ pub(crate) fn face_normals(
             (cross / area).as_vec3().to_array()
         }
     };
-    triangles.par_iter().enumerate().with_min_len(1 << 12).map(normal).collect()
+    triangles.par_iter().enumerate().with_min_len(GRAIN).map(normal).collect()
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::edges::Edges;
 
 /// Vertices that are looked at as one piece of work.
-const CHUNK: usize = 1 << 13;
+const CHUNK: usize = 1 << 12;
 
 /// The first edge of each vertex of a mesh: of those to vertices with larger numbers, which stand in a row.
 #[derive(Debug, Clone)]

@@ -8,10 +8,9 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::math::grain::GRAIN;
+use crate::math::ranks::Ranks;
 use rayon::prelude::*;
-
-/// The smallest piece of work for a thread, in faces.
-const GRAIN: usize = 1 << 13;
 
 /// Faces in groups, each known by the least face in it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -49,40 +48,11 @@ impl Groups {
             faces.zip(of).filter(is_first).map(|(face, _)| face).collect()
         };
         let first = of_face.par_chunks(GRAIN).enumerate().map(counted).collect::<Vec<_>>().concat();
-        let ranks = Ranks::new(of_face.len(), &first);
+        let ranks = Ranks::new(of_face.len(), first.iter().map(|face| *face as usize));
         of_face.par_iter_mut().with_min_len(GRAIN).for_each(|first| {
-            *first = instead(*first).unwrap_or_else(|| ranks.of(*first));
+            *first = instead(*first).unwrap_or_else(|| ranks.of(*first as usize));
         });
         Numbered { of_face, first }
-    }
-}
-
-/// How many faces of a list come before each of them.
-struct Ranks {
-    /// A bit for each face: whether it is in the list.
-    listed: Vec<u64>,
-    /// How many are before each word of these.
-    before: Vec<u32>,
-}
-
-impl Ranks {
-    /// Those of some of `count` faces, in order.
-    fn new(count: usize, list: &[u32]) -> Self {
-        let mut listed = vec![0_u64; count.div_ceil(64)];
-        list.iter().for_each(|face| listed[*face as usize / 64] |= 1 << (face % 64));
-        let sums = listed.iter().scan(0, |sum, word| {
-            let before = *sum;
-            *sum += word.count_ones();
-            Some(before)
-        });
-        let before = sums.collect();
-        Self { listed, before }
-    }
-
-    #[inline]
-    fn of(&self, face: u32) -> u32 {
-        let word = face as usize / 64;
-        self.before[word] + (self.listed[word] & ((1 << (face % 64)) - 1)).count_ones()
     }
 }
 

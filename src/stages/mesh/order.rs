@@ -18,13 +18,11 @@ use rayon::prelude::*;
 use super::counting_sort::counting_sort;
 use super::space_curve::{CELLS, along_curve, along_exact_curve};
 use super::{MaterialId, PartId, Soup};
+use crate::math::grain::GRAIN;
 use crate::math::power::power_of_two_above;
 
-/// The smallest piece of work for a thread, in vertices or faces.
-const GRAIN: usize = 1 << 13;
-
 /// How many vertices or faces, and then up to where a run ends, one task sorts.
-const PIECE: usize = 1 << 12;
+const PIECE: usize = 1 << 11;
 
 /// No normal or texture coordinate.
 const NONE: u32 = u32::MAX;

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::cuts::{Cut, CutFace};
 use super::soup::Soup;
 use super::{EdgeFaces, Edges, Extents, PartId};
+use crate::math::grain::GRAIN;
 use crate::math::grouped::{Grouped, grouped};
 use crate::math::tolerance;
 
@@ -86,7 +87,7 @@ fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
         let paint = ends.map(|v| painted(soup, face, v));
         Some(Open { ends, face, part, along, length: side.length(), normal, paint })
     };
-    (0..edges.len()).into_par_iter().with_min_len(1 << 13).filter_map(open).collect()
+    (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(open).collect()
 }
 
 fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {

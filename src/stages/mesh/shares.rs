@@ -4,8 +4,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::math::grain::GRAIN;
+
 /// Faces that are looked at as one piece of work.
-const CHUNK: usize = 1 << 13;
+const CHUNK: usize = 1 << 12;
 
 /// The vertices of one worker.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,12 +18,12 @@ pub(crate) struct Share {
     pub faces: Vec<Range<usize>>,
 }
 
-/// How many shares there are of about `size` vertices: equally many for each thread, so that none waits for the last of another.
+/// How many shares there are of at most `size` vertices: equally many for each thread, so that none waits for the last of another.
 pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
-    match vertices.div_ceil(size) {
-        few @ (0 | 1) => few,
-        many => many.next_multiple_of(rayon::current_num_threads()),
+    if vertices <= size.min(GRAIN) {
+        return vertices.min(1);
     }
+    vertices.div_ceil(size).next_multiple_of(rayon::current_num_threads())
 }
 
 /// So many vertices in shares for so many workers. Vertices and faces mostly stand in one order, so that faces of a share

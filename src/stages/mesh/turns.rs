@@ -3,9 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Dihedral, EdgeFaces, Mesh};
-
-/// The smallest piece of work for a thread, in edges.
-const GRAIN: usize = 1 << 13;
+use crate::math::grain::GRAIN;
 
 /// The cosines of the angles by which the surface of a mesh turns at its edges.
 #[derive(Debug, Clone, Default)]

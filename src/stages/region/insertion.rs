@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::noding::GridPoint;
+use crate::math::grain::GRAIN;
 use crate::math::noise::hash;
 use crate::mesh::space_curve::spread;
 
@@ -32,7 +33,7 @@ pub(super) fn insertion_order(points: &[GridPoint]) -> Vec<u32> {
     };
     let mut keys: Vec<(u32, u64, u32)> = points
         .par_iter()
-        .with_min_len(1 << 12)
+        .with_min_len(GRAIN)
         .enumerate()
         .map(|(number, point)| {
             // Half of all are in the last round, a quarter in the one before.

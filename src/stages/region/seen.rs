@@ -12,6 +12,7 @@ use super::seen_at::seen_at;
 use super::thin::{self, Segments};
 use crate::drawing::{Length, Unit};
 use crate::lines::{LineKind, Lit};
+use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 use crate::view::Frame;
 use crate::viewmap::ViewMap;
@@ -71,7 +72,7 @@ pub fn see(
 
     let centres: Vec<DVec2> = (0..cut.triangles.len())
         .into_par_iter()
-        .with_min_len(1 << 12)
+        .with_min_len(GRAIN)
         .map(|t| {
             let [a, b, c] = cut.corners(t).map(DVec2::from_array);
             (a + b + c) / 3.0 * step

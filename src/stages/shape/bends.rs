@@ -9,13 +9,11 @@ use std::cmp::Ordering;
 use rayon::prelude::*;
 
 use crate::math::function::cos;
+use crate::math::grain::GRAIN;
 use crate::mesh::{Dihedral, FaceId, Mesh};
 
 /// The thresholds are so far above and below the angle of a crease, as a share of it.
 const MEMORY: f64 = 0.125;
-
-/// The smallest piece of work for a thread, in edges.
-const GRAIN: usize = 1 << 12;
 
 /// Degrees between which an edge stays what it was.
 #[derive(Debug, Clone, Copy)]

@@ -7,8 +7,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::SmoothNormals;
-use super::fans::{Fans, GRAIN, sides};
+use super::fans::{Fans, sides};
 use super::principal::{Principal, in_axes, turned};
+use crate::math::grain::GRAIN;
 use crate::math::linear::solve;
 use crate::mesh::{FaceId, Mesh};
 

@@ -11,7 +11,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::SmoothNormals;
-use super::fans::{Fans, GRAIN};
+use super::fans::Fans;
+use crate::math::grain::GRAIN;
 use crate::mesh::PartId;
 
 /// Terms that add less than this to the sum are left out.

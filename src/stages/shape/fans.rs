@@ -5,11 +5,9 @@ use rayon::prelude::*;
 
 use super::SmoothNormals;
 use super::smooth_normals::NO_NORMAL;
+use crate::math::grain::GRAIN;
 use crate::math::grouped::{Grouped, grouped};
 use crate::mesh::{FaceId, Mesh, PartId};
-
-/// The smallest piece of work for a thread, in vertices or faces.
-pub(super) const GRAIN: usize = 1 << 12;
 
 /// The rounded faces around each smooth vertex, and a frame of axes in each face.
 ///

@@ -7,8 +7,9 @@
 
 use rayon::prelude::*;
 
-use super::fans::{Fans, GRAIN};
+use super::fans::Fans;
 use super::principal::Principal;
+use crate::math::grain::GRAIN;
 use crate::mesh::{Mesh, PartId};
 
 /// The part of the surface that may be flatter than the measured curvature.

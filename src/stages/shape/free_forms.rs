@@ -14,12 +14,11 @@ use super::rounded::LEAST_EDGES;
 use super::sums::sums;
 use super::verdicts::Make;
 use crate::math::function::acos;
+use crate::math::grain::GRAIN;
 use crate::mesh::groups::Groups;
 
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Share, Turns, shares};
 
-/// The smallest piece of work for a thread, in faces or edges.
-const GRAIN: usize = 1 << 14;
 /// Vertices whose curvature is summed as one piece of work, and how many such are done before it is asked whether it is enough.
 const BLOCK: usize = 1 << 15;
 const AT_ONCE: usize = 16;

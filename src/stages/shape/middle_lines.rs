@@ -7,6 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::walk::Walk;
+use crate::math::grain::GRAIN;
 use crate::mesh::EdgeFaces;
 
 /// An edge in the middle of a rounding, and how wide the rounding is.
@@ -18,8 +19,6 @@ const LONG: f64 = 3.0;
 const WHOLE: f64 = 2.0;
 /// Edges that are followed from the end of a line: what takes more of them is no corner.
 const MOST: usize = 64;
-/// The smallest piece of work for a thread, in edges.
-const GRAIN: usize = 1 << 12;
 /// The cosine (40 degrees) of the turn by which a line goes on from one edge to another, and beyond its end in all.
 const ONWARD: f64 = 0.766;
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 use crate::mesh::Mesh;
 
@@ -19,13 +20,12 @@ pub(super) fn near_faces(mesh: &Mesh, segments: &[[DVec3; 2]]) -> Vec<u32> {
     let slack = tolerance::RAY_BOX_OF_MESH * (radius + middle.length());
     let faces = 0..mesh.triangles.len() as u32;
     let Some(grid) = Grid::around(segments, slack) else { return faces.collect() };
-    let places: Vec<Place> =
-        mesh.positions.par_iter().with_min_len(1 << 13).map(|p| grid.place(*p)).collect();
+    let places: Vec<Place> = mesh.positions.par_iter().with_min_len(GRAIN).map(|p| grid.place(*p)).collect();
     let is_near = |face: &u32| {
         let [a, b, c] = mesh.triangles[*face as usize];
         grid.holds(places[a as usize], places[b as usize], places[c as usize])
     };
-    faces.into_par_iter().with_min_len(1 << 13).filter(is_near).collect()
+    faces.into_par_iter().with_min_len(GRAIN).filter(is_near).collect()
 }
 
 /// Where a point is in a grid.

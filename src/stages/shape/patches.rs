@@ -60,23 +60,30 @@ impl Patches {
         let turns = &turns;
         let believed = verdicts.map(|verdict| verdict.believed);
         let makes = verdicts.map(|verdict| verdict.make);
-        let (hard, wrinkles) = hard_edges(mesh, turns, &verdicts, crease_deg);
-        let rims = rims(mesh, turns, &planes, &makes);
-        let mut rounded = verdicts.map(|verdict| all || verdict.make == Make::Round);
-        if !all && verdicts.any(Make::Machined) {
-            let parts = |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
-            add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
-        }
-        // A figure that its file means to be seen as planes bends at all edges.
-        let is_exact = |face: &u32| !rounded[*face as usize] && verdicts.of(*face).believed;
-        let may =
-            |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
-        let shallow = shallow_creases(mesh, (turns, &planes.flat), crease_deg, &hard, may);
-        let roundings = if all {
-            EdgeSet::default()
-        } else {
-            roundings(mesh, (turns, &planes), &verdicts, (&hard, &wrinkles), crease_deg)
+        let ((hard, wrinkles), rims) = rayon::join(
+            || hard_edges(mesh, turns, &verdicts, crease_deg),
+            || rims(mesh, turns, &planes, &makes),
+        );
+        let rounded_and_shallow = || {
+            let mut rounded = verdicts.map(|verdict| all || verdict.make == Make::Round);
+            if !all && verdicts.any(Make::Machined) {
+                let parts =
+                    |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
+                add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
+            }
+            // A figure that its file means to be seen as planes bends at all edges.
+            let is_exact = |face: &u32| !rounded[*face as usize] && verdicts.of(*face).believed;
+            let may =
+                |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
+            let shallow = shallow_creases(mesh, (turns, &planes.flat), crease_deg, &hard, may);
+            (rounded, shallow)
         };
+        let ((rounded, shallow), roundings) = rayon::join(rounded_and_shallow, || {
+            if all {
+                return EdgeSet::default();
+            }
+            roundings(mesh, (turns, &planes), &verdicts, (&hard, &wrinkles), crease_deg)
+        });
         let hard = hard.with(mesh, &shallow);
         let origins = verdicts.map(|verdict| verdict.origin);
         let figure = verdicts.map(|verdict| verdict.make == Make::Round);
@@ -97,9 +104,12 @@ pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u3
 
 /// How the surface turns, its flats, and what each face belongs to.
 fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Verdicts) {
-    let turns = Turns::of(mesh);
-    let planes = Planes::new(mesh, &turns);
-    let pieces = pieces(mesh);
+    let turned = || {
+        let turns = Turns::of(mesh);
+        let planes = Planes::new(mesh, &turns);
+        (turns, planes)
+    };
+    let ((turns, planes), pieces) = rayon::join(turned, || pieces(mesh));
     let verdicts = verdicts(mesh, &turns, (&planes, pieces), all);
     (turns, planes, verdicts)
 }

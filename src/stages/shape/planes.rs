@@ -9,14 +9,13 @@ use std::sync::atomic::Ordering::Relaxed;
 use rayon::prelude::*;
 
 use super::sums::sums;
+use crate::math::grain::GRAIN;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::groups::{Groups, Numbered};
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 
 /// The cosine above which an edge counts as flat: a tenth of a degree.
 const FLAT_COSINE: f32 = 0.999_998_5;
-/// The smallest piece of work for a thread, in faces or edges.
-const GRAIN: usize = 1 << 13;
 /// Fewer faces than this in one plane are chance: two halves of a quad, three where a corner was cut.
 const LEAST_FACES: u32 = 4;
 /// The least area of a compact flat, as a part of its outline squared: a circle has 0.08, a square
@@ -61,16 +60,19 @@ impl Planes {
         // Scans have no flats at all.
         let asked = |count: usize| if first.is_empty() { 0 } else { count };
         let area_of = |face: usize| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32)));
-        let areas: Vec<f64> = sums(first.len(), asked(faces), area_of);
         let length = |edge: usize| {
             let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
             a.distance(b)
         };
-        let outlines: Vec<f64> = sums(first.len(), asked(mesh.edges.len()), |edge| {
+        let bounded_by = |edge: usize| {
             let (in_flat, length, turns) = (&in_flat, &length, !flat.contains(edge));
             let bounds = move |face| in_flat(face).filter(|_| turns).map(|flat| (flat, length(edge)));
             mesh.edges.faces(edge).each().filter_map(bounds)
-        });
+        };
+        let (areas, outlines): (Vec<f64>, Vec<f64>) = rayon::join(
+            || sums(first.len(), asked(faces), area_of),
+            || sums(first.len(), asked(mesh.edges.len()), bounded_by),
+        );
         let is_compact = |(area, outline): (f64, f64)| area >= COMPACT * outline * outline;
         let compact = areas.into_iter().zip(outlines).map(is_compact).collect();
         Self { flat, of_face, compact }

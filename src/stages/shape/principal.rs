@@ -8,7 +8,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::SmoothNormals;
-use super::fans::{Fans, GRAIN, sides};
+use super::fans::{Fans, sides};
+use crate::math::grain::GRAIN;
 use crate::math::linear::solve;
 use crate::mesh::{FaceId, Mesh};
 

@@ -15,6 +15,7 @@ use super::planes::{Planes, area};
 use super::slender::{Slender, bends_over_its_ends, longest_side};
 use super::sums::sums;
 use super::verdicts::{Make, Origin, Verdict, Verdicts};
+use crate::math::grain::GRAIN;
 use crate::mesh::groups::{Groups, Numbered};
 use crate::mesh::{EdgeFaces, FirstEdges, Mesh, Turns};
 
@@ -211,7 +212,7 @@ impl Count {
 /// The connected pieces of a mesh. Needs nothing but its edges, so that it can be done beside all else.
 pub(super) fn pieces(mesh: &Mesh) -> Numbered {
     let groups = Groups::new(mesh.triangles.len(), |join| {
-        (0..mesh.edges.len()).into_par_iter().with_min_len(1 << 13).for_each(|edge| {
+        (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).for_each(|edge| {
             let list = mesh.edges.faces(edge);
             for pair in list.list().windows(2) {
                 join(pair[0], pair[1]);
@@ -231,12 +232,15 @@ pub(super) fn verdicts(
 ) -> Verdicts {
     let faces = mesh.triangles.len();
     let Numbered { of_face: number, first } = &pieces;
-    let of_faces: Vec<FaceCount> =
-        sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32))));
-    let of_edges: Vec<EdgeCount> = sums(first.len(), mesh.edges.len(), |edge| {
-        let (face, count) = of_edge(mesh, turns, planes, edge)?;
-        Some((number[face as usize], count))
-    });
+    let (of_faces, of_edges): (Vec<FaceCount>, Vec<EdgeCount>) = rayon::join(
+        || sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32)))),
+        || {
+            sums(first.len(), mesh.edges.len(), |edge| {
+                let (face, count) = of_edge(mesh, turns, planes, edge)?;
+                Some((number[face as usize], count))
+            })
+        },
+    );
     let both = |(faces, edges)| Count { faces, edges, bends: Bends::default() };
     let mut counts: Vec<Count> = of_faces.into_iter().zip(of_edges).map(both).collect();
     let key = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::HardEdges;
 use super::walk::Walk;
 use crate::math::function::cos;
+use crate::math::grain::GRAIN;
 use crate::mesh::dihedral::mark;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, EdgeMark, Mesh, Turns};
@@ -20,9 +21,6 @@ const SHALLOW: f64 = 0.4;
 
 /// Who asks for creases that are sharper than by default, degrees, gets these alone.
 const MOST_DEG: f64 = 40.0;
-
-/// The smallest piece of work for a thread, in edges.
-const GRAIN: usize = 1 << 12;
 
 /// An edge that may be a shallow crease, with those at which the surfaces on both sides have to turn back for that.
 type Candidate = (usize, [Option<usize>; 2]);
@@ -43,7 +41,7 @@ pub(super) fn shallow_creases(
     let walk = Walk::new(mesh, (turns, flat), hard, crease_deg);
     let found: Vec<Candidate> = asked
         .into_par_iter()
-        .with_min_len(GRAIN >> 4)
+        .with_min_len(GRAIN >> 3)
         .filter_map(|edge| Some((edge, walk.ends_at(edge)?)))
         .collect();
     if found.is_empty() {

@@ -8,6 +8,7 @@ use super::normal_sum::{FaceWeights, NormalSum};
 use super::parting;
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use super::straight;
+use crate::math::grain::GRAIN;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, Share, share_count, shares};
 
@@ -53,7 +54,7 @@ impl SmoothNormals {
         is_hard: impl Fn(usize) -> bool + Sync,
     ) -> Self {
         let faces = 0..mesh.triangles.len() as u32;
-        let rounded: Vec<bool> = faces.into_par_iter().with_min_len(1 << 13).map(&is_rounded).collect();
+        let rounded: Vec<bool> = faces.into_par_iter().with_min_len(GRAIN).map(&is_rounded).collect();
         if !rounded.contains(&true) {
             return Self::default();
         }
@@ -70,7 +71,7 @@ impl SmoothNormals {
             mesh.triangles.clone()
         } else {
             let of = |(t, rounded): (&[u32; 3], &bool)| if *rounded { *t } else { [NO_NORMAL; 3] };
-            mesh.triangles.par_iter().zip(&rounded).with_min_len(1 << 13).map(of).collect()
+            mesh.triangles.par_iter().zip(&rounded).with_min_len(GRAIN).map(of).collect()
         };
         let mut smooth = Self {
             normals: vertex_normals(mesh, |face| rounded[face]),

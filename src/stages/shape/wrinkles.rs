@@ -9,6 +9,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use rayon::prelude::*;
 
 use crate::math::function::cos;
+use crate::math::grain::GRAIN;
 use crate::mesh::groups::Groups;
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 
@@ -18,9 +19,6 @@ const SLIVER: f64 = 6.0;
 const FLAT_COSINE: f32 = 0.999_85;
 /// More faces than so many are no sliver.
 const MOST: usize = 8;
-/// The smallest piece of work for a thread, in edges.
-const GRAIN: usize = 1 << 12;
-
 /// Those of the edges of creases, in order, that are of slivers around which the surface turns by less than `crease_deg` degrees,
 /// where no other crease goes on from them: what goes on is a line, whatever lies beside it.
 pub(super) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[usize]) -> Vec<usize> {

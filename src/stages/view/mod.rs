@@ -14,12 +14,10 @@ use rayon::prelude::*;
 pub use clip::ClippedFace;
 pub use frame::Frame;
 
+use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::scene::Camera;
-
-/// Vertices or faces that one task looks at.
-const GRAIN: usize = 1 << 12;
 
 /// A mesh seen by a camera.
 #[derive(Debug, Clone)]

@@ -14,14 +14,17 @@ use super::occlude::hidden_interval;
 use super::occluders::{Occluder, Triangles};
 use super::page_grid::grid_over;
 use super::project::ImageSegment;
+use super::tile_set::TileSet;
 use super::witnesses::REACH_PX;
 use crate::lines::{FeatureLines, NO_FACE, Role};
-use crate::math::grouped::grouped;
+use crate::math::grouped::{grouped, grouped_pairs};
 use crate::mesh::Mesh;
 use crate::view::View;
 
 /// Tiles along the longer side of the grid that finds triangles: as small as ways are short, as all triangles of a tile are looked at.
 const TILES: u32 = 256;
+/// Tiles that one task looks at.
+const TILES_PER_TASK: usize = 8;
 /// A triangle whose box is farther than this (user units) from that of a way hides nothing of it, as with lines.
 const BESIDE: f64 = 1e-4;
 /// The end of a way is no feature end.
@@ -80,30 +83,29 @@ impl<'a> Ahead<'a> {
         let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
         let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
         let grid = grid_over(segments.iter(), TILES);
-        let items = grouped(grid.len(), |put| {
-            for (i, s) in segments.iter().enumerate() {
-                grid.walk(s.a, s.b, |tile, start, end| put(tile, Item { segment: i as u32, start, end }));
-            }
-        });
-        let wanted: Vec<bool> = (0..grid.len()).map(|tile| !items.of(tile).is_empty()).collect();
+        // Ways are few and short: what lies in the tiles that they lead through is numbered by these alone.
+        let mut items: Vec<(usize, Item)> = Vec::new();
+        for (s, segment) in segments.iter().zip(0..) {
+            grid.walk(s.a, s.b, |tile, start, end| items.push((tile, Item { segment, start, end })));
+        }
+        let wanted = TileSet::new(&grid, items.iter().map(|(tile, _)| *tile));
+        let items =
+            grouped_pairs(wanted.count(), items.iter().map(|(tile, item)| (wanted.number(*tile), *item)));
         let triangles = Triangles { mesh, view, grid: &grid, limits: &limits };
         let occluders = self.near(&limits).fill(&triangles, &wanted);
         let reach = DVec2::splat(REACH_PX * limits.px);
-        let seen = grouped(grid.len(), |put| {
+        let seen = grouped(wanted.count(), |put| {
             for seen in self.seen {
                 let [a, b] = seen.ends;
                 let tiles = grid.tile_box((a.min(b) - reach).extend(0.0), (a.max(b) + reach).extend(0.0));
-                if !tiles.is_empty() {
-                    grid.tiles_of(tiles)
-                        .filter(|(tile, _)| wanted[*tile])
-                        .for_each(|(tile, _)| put(tile, *seen));
+                if !tiles.is_empty() && wanted.has_any(tiles) {
+                    wanted.within(tiles).for_each(|number| put(number, *seen));
                 }
             }
         });
-        let found: Vec<Vec<u32>> = (0..grid.len())
+        let found: Vec<Vec<u32>> = (0..wanted.count())
             .into_par_iter()
-            .with_min_len(64)
-            .filter(|tile| wanted[*tile])
+            .with_min_len(TILES_PER_TASK)
             .map(|tile| {
                 let over: Vec<Over> =
                     occluders.of(tile).iter().map(|id| Over::from(triangles.occluder(*id))).collect();

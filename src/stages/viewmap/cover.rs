@@ -20,6 +20,7 @@ use super::page_grid::squares_per_tile;
 use super::project::ImageSegment;
 use super::sides::Sides;
 use super::slope::{OPEN, Slope, raise, step};
+use crate::math::grain::GRAIN;
 
 /// With fewer layers of surface than this over the page on average, covers hide less than they cost.
 const LAYERS: f64 = 3.0;
@@ -215,7 +216,7 @@ fn squares_of(triangles: &Triangles) -> Grid {
 fn large_ones(triangles: &Triangles, cell: f64, holds: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     (0..triangles.count() as u32)
         .into_par_iter()
-        .with_min_len(1 << 12)
+        .with_min_len(GRAIN)
         .filter(|id| is_large(triangles, *id, cell) && holds(*id))
         .collect()
 }

@@ -16,6 +16,7 @@ use super::limits::{Limits, Slack};
 use super::occluders::Triangles;
 use super::sides::Sides;
 use super::slope::{OPEN, Slope, raise, step};
+use crate::math::grain::GRAIN;
 use crate::math::grouped::{Grouped, grouped, grouped_pairs};
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::groups::Groups;
@@ -47,7 +48,7 @@ impl Expanses {
         let Triangles { mesh, view, .. } = *triangles;
         let turns: Vec<i8> = (0..mesh.triangles.len())
             .into_par_iter()
-            .with_min_len(1 << 12)
+            .with_min_len(GRAIN)
             .map(|face| turn(mesh, view, face as u32))
             .collect();
         let runs_on = |edge: usize| match mesh.edges.faces(edge) {

@@ -7,6 +7,7 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use rayon::prelude::*;
 
+use crate::math::grain::GRAIN;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::groups::Groups;
 use crate::mesh::{EdgeFaces, Mesh};
@@ -14,9 +15,6 @@ use crate::view::View;
 
 /// Lengths are summed in so many parts of a user unit, as whole numbers have the same sum in any order.
 const PARTS: f64 = 16.0;
-/// The smallest piece of work for a thread, in edges.
-const GRAIN: usize = 1 << 12;
-
 /// Groups of faces between folds of the image of a surface, and which of them are far sides.
 pub(super) struct FarSides {
     groups: Groups,

@@ -32,6 +32,7 @@ mod sides;
 mod slope;
 mod teeth;
 mod tile;
+mod tile_set;
 mod tile_triangles;
 pub mod trails;
 mod view_covers;

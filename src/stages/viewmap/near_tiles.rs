@@ -8,8 +8,9 @@ use rayon::prelude::*;
 
 use super::grid::{Grid, TileBox};
 use super::limits::Limits;
-use super::occluders::{Triangles, Wanted, corners};
-use crate::math::grouped::Grouped;
+use super::occluders::{Triangles, corners};
+use super::tile_set::TileSet;
+use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -51,39 +52,40 @@ impl NearTiles {
         Self { grid, blocks }
     }
 
-    /// The ids of the triangles of each wanted tile, ascending: [`Triangles::fill`] without a cover.
+    /// The ids of the triangles of each wanted tile, ascending, by the number of the tile among these: [`Triangles::fill`] without
+    /// a cover.
     #[must_use]
-    pub(super) fn fill(&self, triangles: &Triangles, wanted: &[bool]) -> Grouped<u32> {
-        let open = vec![f64::NEG_INFINITY; triangles.grid.len()];
-        match self.squares(triangles, wanted) {
-            Some(squares) => triangles.fill_of(&self.over(&squares, triangles.count()), wanted, &open),
-            None => triangles.fill(triangles.tile_boxes(), wanted, &open),
-        }
+    pub(super) fn fill(&self, triangles: &Triangles, wanted: &TileSet) -> Grouped<u32> {
+        let found = match self.squares(triangles, wanted) {
+            Some(squares) => triangles.pairs_of(&self.over(&squares, triangles.count()), wanted),
+            None => triangles.pairs(triangles.tile_boxes(), wanted, None),
+        };
+        let numbered = |(tile, id): &(u32, u32)| (wanted.number(*tile as usize), *id);
+        grouped_pairs(wanted.count(), found.iter().flatten().map(numbered))
     }
 
     /// The squares in which a triangle may reach a wanted tile; none if a tile is not in the frame.
-    fn squares(&self, triangles: &Triangles, wanted: &[bool]) -> Option<Vec<bool>> {
+    fn squares(&self, triangles: &Triangles, wanted: &TileSet) -> Option<TileSet> {
         let (grid, own) = (triangles.grid, &self.grid);
         // By so much a triangle may lie beside a tile that its box meets, and a little for rounding.
         let slack = (grid.cell.max(own.cell) * 1e-3).max(4.0 * triangles.limits.beside);
         let (low, high) = (own.corner(0, 0), own.corner(own.columns, own.rows));
-        let mut squares = vec![false; own.len()];
-        for tile in (0..grid.len()).filter(|tile| wanted[*tile]) {
+        let over = |tile: usize| {
             let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);
             let (from, to) = (grid.corner(column, row) - slack, grid.corner(column + 1, row + 1) + slack);
-            if from.cmplt(low).any() || to.cmpgt(high).any() {
-                return None;
-            }
-            let over = own.tile_box(from.extend(0.0), to.extend(0.0));
-            own.tiles_of(over).for_each(|(square, _)| squares[square] = true);
-        }
-        Some(squares)
+            let is_in_frame = from.cmpge(low).all() && to.cmple(high).all();
+            is_in_frame.then(|| own.tile_box(from.extend(0.0), to.extend(0.0)))
+        };
+        let over: Vec<TileBox> = wanted.iter().map(over).collect::<Option<_>>()?;
+        Some(TileSet::new(
+            own,
+            over.into_iter().flat_map(|tiles| own.tiles_of(tiles).map(|(square, _)| square)),
+        ))
     }
 
     /// The triangles of the blocks whose boxes meet one of some squares, ascending.
-    fn over(&self, squares: &[bool], count: usize) -> Vec<u32> {
-        let wanted = Wanted::new(&self.grid, squares);
-        let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && wanted.has_any(**tiles);
+    fn over(&self, squares: &TileSet, count: usize) -> Vec<u32> {
+        let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && squares.has_any(**tiles);
         let near = self.blocks.iter().enumerate().filter(is_near);
         near.flat_map(|(k, _)| (k * BLOCK) as u32..((k + 1) * BLOCK).min(count) as u32).collect()
     }
@@ -124,21 +126,20 @@ mod tests {
             // Many tiles all over, and single ones, over most of which few blocks lie.
             let single = (0..60).map(|k| (k * 4097 / 60, usize::MAX));
             for (first, step) in std::iter::once((0, 37)).chain(single) {
-                let mut wanted = vec![false; grid.len()];
-                wanted.iter_mut().skip(first).step_by(step).for_each(|wanted| *wanted = true);
-                let is_in_frame =
-                    wanted.iter().enumerate().filter(|(_, wanted)| **wanted).all(|(tile, _)| {
-                        let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);
-                        grid.corner(column, row).cmpge(DVec2::ZERO).all()
-                    });
+                let wanted = TileSet::new(&grid, (first..grid.len()).step_by(step));
+                let is_in_frame = wanted.iter().all(|tile| {
+                    let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);
+                    grid.corner(column, row).cmpge(DVec2::ZERO).all()
+                });
                 let squares = near.squares(&triangles, &wanted);
                 assert!(squares.is_some() || !is_in_frame);
                 wholly_near += usize::from(squares.is_some());
                 let all =
                     triangles.fill(triangles.tile_boxes(), &wanted, &vec![f64::NEG_INFINITY; grid.len()]);
                 let found = near.fill(&triangles, &wanted);
-                for tile in 0..grid.len() {
-                    assert_eq!(found.of(tile), all.of(tile), "{tile} of {low} to {high}");
+                assert_eq!(found.value_count(), all.value_count());
+                for (number, tile) in wanted.iter().enumerate() {
+                    assert_eq!(found.of(number), all.of(tile), "{tile} of {low} to {high}");
                 }
             }
         }

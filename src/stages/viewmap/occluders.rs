@@ -9,6 +9,8 @@ use rayon::prelude::*;
 use super::grid::{Around, Grid, TileBox};
 use super::limits::{Limits, Slack};
 use super::sides::Sides;
+use super::tile_set::TileSet;
+use crate::math::grain::GRAIN;
 use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
@@ -81,14 +83,13 @@ impl Triangles<'_> {
         // A vertex is a corner of six triangles on average: where it lies is found once.
         let slack = self.slack();
         let of_vertex = |p: &DVec3| if p.z.is_nan() { Around::CUT } else { self.grid.around(*p, slack) };
-        let vertices: Vec<Around> =
-            self.view.points.par_iter().with_min_len(1 << 12).map(of_vertex).collect();
+        let vertices: Vec<Around> = self.view.points.par_iter().with_min_len(GRAIN).map(of_vertex).collect();
         let of_triangle = |id: usize| match self.mesh.triangles.get(id) {
             Some(_) if self.mesh.is_degenerate(FaceId(id as u32)) => TileBox::EMPTY,
             Some(t) => self.grid.tiles_within(Around::of_all(t.map(|v| vertices[v as usize]))),
             None => self.tile_box(id as u32),
         };
-        (0..self.count()).into_par_iter().with_min_len(1 << 12).map(of_triangle).collect()
+        (0..self.count()).into_par_iter().with_min_len(GRAIN).map(of_triangle).collect()
     }
 
     /// Lines are also asked about a little beside themselves.
@@ -153,7 +154,7 @@ impl Triangles<'_> {
 
     /// How far each triangle reaches.
     pub(super) fn reaches(&self) -> Vec<Reach> {
-        (0..self.count()).into_par_iter().with_min_len(1 << 12).map(|id| self.reach(id as u32)).collect()
+        (0..self.count()).into_par_iter().with_min_len(GRAIN).map(|id| self.reach(id as u32)).collect()
     }
 
     /// The face that a triangle is, or is left of.
@@ -165,13 +166,23 @@ impl Triangles<'_> {
         }
     }
 
-    /// The ids of the triangles of each wanted tile that reach before its cover, ascending. The boxes of all triangles are not
-    /// held beside what comes of them.
+    /// The ids of the triangles of each tile of the grid, if it is wanted, that reach before its cover, ascending. The boxes of all
+    /// triangles are not held beside what comes of them.
     #[must_use]
-    pub(super) fn fill(&self, boxes: Vec<TileBox>, wanted: &[bool], cover: &[f64]) -> Grouped<u32> {
+    pub(super) fn fill(&self, boxes: Vec<TileBox>, wanted: &TileSet, cover: &[f64]) -> Grouped<u32> {
+        let found = self.pairs(boxes, wanted, Some(cover));
+        grouped_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
+    }
+
+    /// Pairs of wanted tile and triangle, of each tile in the order of the triangles.
+    pub(super) fn pairs(
+        &self,
+        boxes: Vec<TileBox>,
+        wanted: &TileSet,
+        cover: Option<&[f64]>,
+    ) -> Vec<Vec<(u32, u32)>> {
         let chunk = self.chunk();
-        let wanted = &Wanted::new(self.grid, wanted);
-        let found: Vec<Vec<(u32, u32)>> = boxes
+        let found = boxes
             .par_chunks(chunk)
             .with_max_len(1)
             .enumerate()
@@ -184,26 +195,17 @@ impl Triangles<'_> {
             })
             .collect();
         drop(boxes);
-        self.by_tile(&found)
+        found
     }
 
-    /// Those of some of the triangles, whose ids ascend.
-    #[must_use]
-    pub(super) fn fill_of(&self, ids: &[u32], wanted: &[bool], cover: &[f64]) -> Grouped<u32> {
-        let wanted = &Wanted::new(self.grid, wanted);
+    /// The same without a cover, of some of the triangles, whose ids ascend.
+    pub(super) fn pairs_of(&self, ids: &[u32], wanted: &TileSet) -> Vec<Vec<(u32, u32)>> {
         let of_chunk = |ids: &[u32]| {
             let mut pairs = Vec::with_capacity(ids.len());
-            ids.iter().for_each(|id| self.add_tiles(*id, self.tile_box(*id), wanted, cover, &mut pairs));
+            ids.iter().for_each(|id| self.add_tiles(*id, self.tile_box(*id), wanted, None, &mut pairs));
             pairs
         };
-        let found: Vec<Vec<(u32, u32)>> = ids.par_chunks(1 << 12).with_max_len(1).map(of_chunk).collect();
-        self.by_tile(&found)
-    }
-
-    /// Pairs of tile and triangle by their tiles.
-    fn by_tile(&self, found: &[Vec<(u32, u32)>]) -> Grouped<u32> {
-        // Chunks follow the order of the triangles, so tiles do too.
-        grouped_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
+        ids.par_chunks(GRAIN).with_max_len(1).map(of_chunk).collect()
     }
 
     /// Adds a pair of tile and triangle for each wanted tile in which the triangle may matter.
@@ -212,21 +214,24 @@ impl Triangles<'_> {
         &self,
         id: u32,
         tiles: TileBox,
-        wanted: &Wanted,
-        cover: &[f64],
+        wanted: &TileSet,
+        cover: Option<&[f64]>,
         pairs: &mut Vec<(u32, u32)>,
     ) {
         if tiles.is_empty() {
             return;
         }
+        let cover_of = |tile: usize| cover.map_or(f64::NEG_INFINITY, |cover| cover[tile]);
         // For boxes of few tiles the exact test costs more than it saves.
         if tiles.area() <= 4 {
             for row in tiles.top..=tiles.bottom {
                 for column in tiles.left..=tiles.right {
+                    if !wanted.has(usize::from(column), usize::from(row)) {
+                        continue;
+                    }
                     let tile = self.grid.tile(u32::from(column), u32::from(row));
-                    if wanted.tiles[tile]
-                        && (cover[tile] == f64::NEG_INFINITY || self.nearest(id) >= cover[tile])
-                    {
+                    let before = cover_of(tile);
+                    if before == f64::NEG_INFINITY || self.nearest(id) >= before {
                         pairs.push((tile as u32, id));
                     }
                 }
@@ -243,7 +248,7 @@ impl Triangles<'_> {
         for row in tiles.top..=tiles.bottom {
             for column in sides.columns(self.grid, tiles, row, reach) {
                 let tile = self.grid.tile(column, u32::from(row));
-                if wanted.tiles[tile] && nearest >= cover[tile] {
+                if wanted.has(column as usize, usize::from(row)) && nearest >= cover_of(tile) {
                     pairs.push((tile as u32, id));
                 }
             }
@@ -253,38 +258,6 @@ impl Triangles<'_> {
     fn nearest(&self, id: u32) -> f64 {
         let (points, _) = corners(self.mesh, self.view, id);
         points[0].z.max(points[1].z).max(points[2].z)
-    }
-}
-
-/// Which tiles are wanted, with their number in each block of tiles.
-pub(super) struct Wanted<'a> {
-    tiles: &'a [bool],
-    /// How many are wanted of those above and to the left of each corner of a tile.
-    sums: Vec<u32>,
-    width: usize,
-}
-
-impl<'a> Wanted<'a> {
-    pub fn new(grid: &Grid, tiles: &'a [bool]) -> Self {
-        let (columns, width) = (grid.columns as usize, grid.columns as usize + 1);
-        let mut sums = vec![0u32; width * (grid.rows as usize + 1)];
-        for (row, of_row) in tiles.chunks(columns).enumerate() {
-            let mut own = 0;
-            for (column, tile) in of_row.iter().enumerate() {
-                own += u32::from(*tile);
-                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + own;
-            }
-        }
-        Self { tiles, sums, width }
-    }
-
-    /// Whether any of a block that is not empty is wanted.
-    #[inline]
-    pub fn has_any(&self, tiles: TileBox) -> bool {
-        let at = |row: usize, column: usize| self.sums[row * self.width + column];
-        let (left, right) = (usize::from(tiles.left), usize::from(tiles.right) + 1);
-        let (top, bottom) = (usize::from(tiles.top), usize::from(tiles.bottom) + 1);
-        at(bottom, right) + at(top, left) != at(top, right) + at(bottom, left)
     }
 }
 

@@ -11,6 +11,7 @@ use super::grid::Grid;
 use super::limits::Limits;
 use super::occluders::Triangles;
 use super::page_grid::{grid_over_box, tiles_across};
+use crate::math::grain::GRAIN;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -42,7 +43,7 @@ impl ViewCovers {
             let points = triangle.map(|v| view.points[v as usize]);
             !points.iter().any(|p| p.z.is_nan()) && self.covers.hide(&points, MOST_SQUARES)
         };
-        mesh.triangles.par_iter().with_min_len(1 << 12).map(is_hidden).collect()
+        mesh.triangles.par_iter().with_min_len(GRAIN).map(is_hidden).collect()
     }
 }
 
@@ -56,7 +57,7 @@ fn box_on_page(view: &View) -> Option<(DVec2, DVec2)> {
     let (low, high) = view
         .points
         .par_iter()
-        .with_min_len(1 << 12)
+        .with_min_len(GRAIN)
         .filter(|p| !p.z.is_nan())
         .fold(nothing, |(low, high), p| (low.min(*p), high.max(*p)))
         .reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));

@@ -30,6 +30,7 @@ use super::occluders::Triangles;
 use super::page_grid::{grid_over, tiles_across};
 use super::project::ImageSegment;
 use super::tile::{Context, Memory, TileResult};
+use super::tile_set::TileSet;
 use super::view_covers::ViewCovers;
 use crate::lines::Role;
 use crate::math::grouped::{Grouped, grouped_pairs};
@@ -116,7 +117,7 @@ pub(super) fn decide_with(
     };
     let ((items, covers), boxes) = rayon::join(items, || triangles.tile_boxes());
     let Items { open: items, buried } = items;
-    let wanted: Vec<bool> = (0..grid.len()).map(|t| !items.of(t).is_empty()).collect();
+    let wanted = TileSet::new(&grid, (0..grid.len()).filter(|tile| !items.of(*tile).is_empty()));
     let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
 
     // Where triangles lie over several tiles, how far each reaches is found once.

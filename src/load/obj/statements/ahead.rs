@@ -14,9 +14,9 @@ use crate::load::text::plain_number;
 use crate::scene::coordinate::is_drawable;
 
 /// Shorter texts are read before other threads have begun.
-const LEAST_TEXT: usize = 1 << 19;
+const LEAST_TEXT: usize = 1 << 17;
 /// Bytes that one thread reads at a time.
-const BLOCK: usize = 1 << 17;
+const BLOCK: usize = 1 << 16;
 /// Blocks that are read at a time, so that little is there twice.
 const BLOCKS: usize = 32;
 /// A block is left to the parser from where it has more than so many other statements, and one for so many plain ones.

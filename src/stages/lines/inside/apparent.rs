@@ -12,6 +12,7 @@ use super::ridges::maximum;
 use super::{InsideOptions, Seen, positive};
 use crate::lines::zero_set::{EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
+use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 
 /// The view-dependent curvature at a smooth vertex.
@@ -27,9 +28,9 @@ struct Apparent {
 pub(super) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLines) {
     let count = seen.eye.len();
     let apparent: Vec<Apparent> =
-        (0..count).into_par_iter().with_min_len(1 << 12).map(|v| bend(seen, v)).collect();
+        (0..count).into_par_iter().with_min_len(GRAIN).map(|v| bend(seen, v)).collect();
     let uphill: Vec<DVec3> =
-        (0..count).into_par_iter().with_min_len(1 << 12).map(|v| uphill(seen, &apparent, v)).collect();
+        (0..count).into_par_iter().with_min_len(GRAIN).map(|v| uphill(seen, &apparent, v)).collect();
     let position = |v: u32| seen.mesh.positions[seen.smooth.vertices[v as usize] as usize];
     let set = trace_crossings(
         seen.mesh,

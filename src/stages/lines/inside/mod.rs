@@ -19,6 +19,7 @@ pub use options::InsideOptions;
 
 use super::zero_set::{EdgePoint, ZeroSet};
 use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
+use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::shape::feature_size::MOST_OF_PART;
@@ -82,7 +83,7 @@ impl<'a> Seen<'a> {
         let frame = &view.frame;
         let eye = (0..smooth.vertices.len())
             .into_par_iter()
-            .with_min_len(1 << 12)
+            .with_min_len(GRAIN)
             .map(|v| {
                 let at = mesh.positions[smooth.vertices[v] as usize];
                 let to_eye =
@@ -101,7 +102,7 @@ impl<'a> Seen<'a> {
 
     /// A number for each smooth vertex.
     fn field(&self, value: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
-        (0..self.eye.len()).into_par_iter().with_min_len(1 << 12).map(value).collect()
+        (0..self.eye.len()).into_par_iter().with_min_len(GRAIN).map(value).collect()
     }
 
     /// Whether a face can be seen at all.
