@@ -31,6 +31,7 @@ mod pdf_content;
 #[cfg(feature = "pdf")]
 mod pdf_document;
 #[cfg(feature = "pdf")]
+mod pdf_dots;
 mod pdf_fonts;
 #[cfg(feature = "pdf")]
 mod pdf_inks;
@@ -61,6 +62,7 @@ mod png_image;
 pub mod svg;
 mod svg_composition;
 mod svg_image;
+mod svg_options;
 mod touching;
 pub(crate) mod xml;
 
@@ -73,4 +75,4 @@ pub use pdf_pages::to_pdf;
 pub use pdf_screen::Screen;
 #[cfg(feature = "png")]
 pub use png::{Pixels, PngOptions, Resolution};
-pub use svg::{Grouping, SvgOptions};
+pub use svg_options::{Grouping, SvgOptions};

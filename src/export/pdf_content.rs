@@ -2,28 +2,20 @@
 //!
 //! Source: ISO 32000-1, tables 57 (graphics state), 59 (path construction), 60 (path painting).
 
-use std::collections::BTreeMap;
-
 use kurbo::{Affine, PathEl, Point};
 
 use super::number::Decimals;
 use super::pdf_fonts::Fonts;
 use super::pdf_inks::{Ink, Plates};
 use super::pdf_pictures::Crops;
-use super::pdf_screen::{Screen, Tone, diameter, dots as screen_dots, share_of, tone};
+use super::pdf_screen::Screen;
 use super::pictures::matrix;
-use crate::drawing::{Cap, Gradient, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
+use crate::drawing::{Cap, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
 use crate::math::colour::Colour;
 
 /// Decimals of widths and dashes, as in SVG, and of the channels of colours.
 const WIDTH_DECIMALS: u8 = 3;
 const CHANNEL_DECIMALS: u8 = 4;
-
-/// Dots that are painted at once: programs take their time with long paths.
-const DOTS_OF_PATH: usize = 1000;
-
-/// Classes of marks that are drawn with a pen, filled as they may be.
-const DRAWN: [&str; 3] = ["hatch", "pattern", "grain"];
 
 /// What prints marks, and in which fonts they are set.
 #[derive(Clone, Copy)]
@@ -53,13 +45,13 @@ pub(super) struct Writer<'a> {
     decimals: Decimals,
     /// The ink that is set; nothing is known at the start.
     stroke: Option<StrokePaint>,
-    fill: Option<Colour>,
+    pub(super) fill: Option<Colour>,
     /// Opacity, and whether inks below stay.
     state: Option<(u8, bool)>,
     /// The number of the next gradient.
     patterns: usize,
     /// None for the colours of screens and outlines of letters.
-    press: Option<Press<'a>>,
+    pub(super) press: Option<Press<'a>>,
 }
 
 impl<'a> Writer<'a> {
@@ -119,108 +111,6 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Paints a fill as dots, and says so; fills that are not dots stay.
-    fn screened(&mut self, mark: &Mark, opacity: u8) -> bool {
-        let Some((press, dots)) = self.press.and_then(|press| Some((press, press.dots?))) else {
-            return false;
-        };
-        // Strokes, dots and grain of styles are no tones.
-        if mark.provenance.classes.iter().any(|class| DRAWN.contains(class)) {
-            return false;
-        }
-        let clear = f64::from(opacity) / 255.0;
-        let inks = |colour: Colour| match press.plates.ink(colour) {
-            Ink::Cmyk(inks) => Some(inks.map(|ink| ink * clear)),
-            _ => None,
-        };
-        let gradient = match &mark.paint {
-            Paint::Gradient(gradient) => Some(gradient),
-            _ => None,
-        };
-        let colour = match &mark.paint {
-            Paint::Fill(colour) => *colour,
-            _ => gradient.map_or(Colour::BLACK, Gradient::middle),
-        };
-        let Some(flat) = inks(colour) else { return false };
-        let is_flat = gradient.is_none();
-        if is_flat && flat.iter().all(|ink| tone(*ink) != Tone::Dots) && opacity == 255 {
-            return false;
-        }
-        // What is below goes away, as below any fill.
-        if opacity == 255 {
-            self.choose((255, false));
-            self.out.extend_from_slice(b"0 0 0 0 k\n");
-            self.fill = None;
-            self.path(mark.path.elements());
-            self.out.extend_from_slice(b"f\n");
-        }
-        self.clipped(mark.path.elements(), |writer| {
-            writer.choose((255, true));
-            let mut before = Affine::IDENTITY;
-            // Solid plates first: viewers that show no overprint then show the dots of the others as well.
-            let is_solid = |ink: &f64| is_flat && tone(*ink) == Tone::Solid;
-            let solids = flat.iter().enumerate().filter(|(_, ink)| is_solid(ink));
-            let rest = flat.iter().enumerate().filter(|(_, ink)| !is_solid(ink));
-            for (plate, ink) in solids.chain(rest) {
-                if is_flat && tone(*ink) == Tone::None {
-                    continue;
-                }
-                let mut solid = [0.0; 4];
-                if let Some(one) = solid.get_mut(plate) {
-                    *one = 1.0;
-                }
-                // From the lattice to units of the drawing.
-                let lattice = dots.place.inverse() * dots.screen.lattice(plate, dots.mm);
-                let outline = lattice.inverse() * &mark.path;
-                let share = |at: Point| match gradient {
-                    None => *ink,
-                    Some(gradient) => {
-                        let (line, at) = (gradient.end - gradient.start, lattice * at - gradient.start);
-                        let along = if line.hypot2() > 0.0 { line.dot(at) / line.hypot2() } else { 0.5 };
-                        inks(gradient.at(along.clamp(0.0, 1.0)))
-                            .and_then(|inks| inks.get(plate).copied())
-                            .unwrap_or(0.0)
-                    }
-                };
-                let laid = if is_solid(ink) { None } else { screen_dots(&outline, share) };
-                let change = before.inverse() * lattice;
-                before = lattice;
-                writer.out.extend_from_slice(format!("{} cm\n", matrix(change, " ")).as_bytes());
-                match laid {
-                    Some(laid) => writer.lay(&laid, solid),
-                    None => {
-                        let tint = solid.map(|one| one * ink);
-                        tint.into_iter().for_each(|ink| writer.value(Decimals::new(CHANNEL_DECIMALS), ink));
-                        writer.operator(b"k");
-                        writer.path(outline.elements());
-                        writer.operator(b"f");
-                    }
-                }
-            }
-        });
-        true
-    }
-
-    /// Lays dots of an ink: neighbours in a row are one line of a round pen, whose dashes are points one apart.
-    fn lay(&mut self, dots: &BTreeMap<u8, Vec<(i32, i32)>>, solid: [f64; 4]) {
-        solid.into_iter().for_each(|ink| self.value(Decimals::new(CHANNEL_DECIMALS), ink));
-        self.operator(b"K");
-        self.operator(b"1 J [0 1] 0 d");
-        for (size, places) in dots {
-            self.value(Decimals::new(4), diameter(share_of(*size)));
-            self.operator(b"w");
-            for places in places.chunks(DOTS_OF_PATH) {
-                for run in places.chunk_by(|a, b| b.1 == a.1 && b.0 == a.0 + 1) {
-                    let ([(x, y), ..], [.., (end, _)]) = (run, run) else { continue };
-                    // Half a step more, so that the last point is within.
-                    let end = f64::from(*end) + 0.5;
-                    self.out.extend_from_slice(format!("{x} {y} m {end} {y} l\n").as_bytes());
-                }
-                self.operator(b"S");
-            }
-        }
-    }
-
     /// Paints the pieces of a picture.
     fn pieces(&mut self, image: &ImagePaint, pictures: &Crops) {
         let first = self.press.map_or(0, |press| press.first_picture);
@@ -244,7 +134,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Lets that be seen of what is painted which lies inside a path.
-    fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
+    pub(super) fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
         let ink = (self.stroke.clone(), self.fill, self.state);
         self.out.extend_from_slice(b"q\n");
         self.path(elements);
@@ -312,7 +202,7 @@ impl<'a> Writer<'a> {
         self.choose((opacity, false));
     }
 
-    fn choose(&mut self, state: (u8, bool)) {
+    pub(super) fn choose(&mut self, state: (u8, bool)) {
         if self.state != Some(state) {
             self.out.push(b'/');
             self.out.extend_from_slice(state_name(state).as_bytes());
@@ -390,12 +280,12 @@ impl<'a> Writer<'a> {
         self.operator(operator);
     }
 
-    fn value(&mut self, decimals: Decimals, value: f64) {
+    pub(super) fn value(&mut self, decimals: Decimals, value: f64) {
         decimals.write(&mut self.out, decimals.round(value));
         self.out.push(b' ');
     }
 
-    fn operator(&mut self, operator: &[u8]) {
+    pub(super) fn operator(&mut self, operator: &[u8]) {
         self.out.extend_from_slice(operator);
         self.out.push(b'\n');
     }

@@ -5,7 +5,7 @@ use tiny_skia::{FillRule, Mask, Pixmap, PixmapPaint, Transform};
 
 use super::png::{Pixels, PngOptions, canvas, rasterise, transform};
 use super::png_image;
-use super::svg::SvgOptions;
+use super::svg_options::SvgOptions;
 use crate::drawing::{Composition, Item, Page};
 use crate::error::Error;
 

@@ -5,7 +5,8 @@ use kurbo::{Affine, BezPath};
 use super::canonical::{Canonical, Form};
 use super::number::Decimals;
 use super::pictures::{Named, matrix};
-use super::svg::{SvgOptions, finished, open};
+use super::svg::{finished, open};
+use super::svg_options::SvgOptions;
 use super::xml::{Ids, escape};
 use crate::drawing::{Composition, Drawing, Item};
 

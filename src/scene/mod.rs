@@ -26,6 +26,7 @@ pub mod inked;
 pub mod light;
 pub mod material;
 pub mod paint;
+mod paint_pictures;
 pub mod select;
 pub(crate) mod texels;
 pub(crate) mod texture;
