@@ -16,6 +16,7 @@ pub(crate) mod groups;
 pub mod ids;
 pub mod needle;
 mod order;
+mod places;
 pub mod posed;
 mod seams;
 mod shares;

@@ -9,6 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::cuts::{Cut, CutFace};
+use super::places::Places;
 use super::soup::Soup;
 use super::{EdgeFaces, Edges, Extents, PartId};
 use crate::math::grain::GRAIN;
@@ -121,7 +122,7 @@ impl Open {
     }
 }
 
-/// Open edges by their corners, and these by the cells of a grid.
+/// Open edges by their corners, and these by where they lie.
 struct Seams<'a> {
     soup: &'a Soup,
     open: &'a [Open],
@@ -130,10 +131,8 @@ struct Seams<'a> {
     numbers: Vec<u32>,
     /// The open edges at each corner.
     at: Grouped<u32>,
-    low: DVec3,
-    cell: f64,
-    /// Corners by what remains of the numbers of their cells: some cells share one list.
-    cells: Grouped<u32>,
+    /// Where the corners lie.
+    places: Places,
 }
 
 impl<'a> Seams<'a> {
@@ -148,25 +147,8 @@ impl<'a> Seams<'a> {
                 edge.ends.iter().for_each(|v| put(numbers[*v as usize] as usize, k));
             }
         });
-        let place = |v: &u32| soup.positions[*v as usize];
-        let low = corners.iter().map(place).fold(DVec3::INFINITY, DVec3::min);
-        let high = corners.iter().map(place).fold(DVec3::NEG_INFINITY, DVec3::max);
-        let mean = open.iter().map(|edge| edge.length).sum::<f64>() / open.len() as f64;
-        // Where a few corners lie far apart there are no more cells than numbers for them.
-        let cell = mean.max((high - low).max_element() / 1e6).max(f64::MIN_POSITIVE);
-        let mut seams = Self { soup, open, corners, numbers, at, low, cell, cells: Grouped::default() };
-        let lists = seams.corners.len().next_power_of_two();
-        let cells = grouped(lists, |put| {
-            for number in 0..seams.corners.len() as u32 {
-                put(list_of(seams.key(seams.place(number)), lists), number);
-            }
-        });
-        seams.cells = cells;
-        seams
-    }
-
-    fn key(&self, p: DVec3) -> [u32; 3] {
-        ((p - self.low) / self.cell).to_array().map(|c| c.max(0.0) as u32)
+        let places = Places::new(corners.iter().map(|v| soup.positions[*v as usize]));
+        Self { soup, open, corners, numbers, at, places }
     }
 
     fn place(&self, corner: u32) -> DVec3 {
@@ -228,8 +210,8 @@ impl<'a> Seams<'a> {
         let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
         let (reach, place) = (tolerance::SEAM_OF_PART * scale, self.place(corner));
         let mut nearest: Option<(f64, u32)> = None;
-        self.near(place, DVec3::ZERO, reach, |other| {
-            let apart = self.place(other).distance(place);
+        self.places.near(place, DVec3::ZERO, reach, |other, at| {
+            let apart = at.distance(place);
             let is_nearer = nearest.is_none_or(|(least, at)| (apart, other) < (least, at));
             if other != corner && apart <= reach && is_nearer {
                 nearest = Some((apart, other));
@@ -266,9 +248,9 @@ impl<'a> Seams<'a> {
         if own.length == 0.0 || reach == 0.0 {
             return cuts;
         }
-        self.near(start, own.along * own.length, reach, |corner| {
+        self.places.near(start, own.along * own.length, reach, |corner, at| {
             let vertex = self.corners[corner as usize];
-            let way = self.place(corner) - start;
+            let way = at - start;
             let along = way.dot(own.along);
             let off = way - own.along * along;
             let way_off = off - off.project_onto_normalized(sagitta.normalize_or_zero());
@@ -328,27 +310,4 @@ impl<'a> Seams<'a> {
         let height = UNEVEN * own.length * own_turn / 2.0;
         (beside.along - own.along * cosine).normalize_or_zero() * height
     }
-
-    /// Visits the corners near a line, some perhaps twice.
-    fn near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32)) {
-        let parts = ((way.length() / self.cell).ceil() as usize).clamp(1, 1 << 16);
-        for part in 0..parts {
-            let [a, b] = [part, part + 1].map(|k| start + way * (k as f64 / parts as f64));
-            let (low, high) = (self.key(a.min(b) - reach), self.key(a.max(b) + reach));
-            for x in low[0]..=high[0] {
-                for y in low[1]..=high[1] {
-                    for z in low[2]..=high[2] {
-                        let list = list_of([x, y, z], self.cells.count());
-                        self.cells.of(list).iter().for_each(|corner| visit(*corner));
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Which of so many lists, a power of two, holds the corners in a cell.
-fn list_of([x, y, z]: [u32; 3], lists: usize) -> usize {
-    let mixed = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77) ^ z.wrapping_mul(0xc2b2_ae3d);
-    (mixed ^ mixed >> 15) as usize & (lists - 1)
 }
