@@ -7,15 +7,17 @@ use std::collections::HashMap;
 use crate::support::dice::Dice;
 use crate::support::eye::Eye;
 use crate::support::ink::{Ink, samples};
-use crate::support::pipeline::{Stages, orthographic, perspective, scene, scene_of_geometries, stages};
+use crate::support::pipeline::{
+    Stages, geometry, orthographic, perspective, scene, scene_of_geometries, stages,
+};
 use crate::support::round_solids::{cylinder, globe, icosphere, octasphere, saddle};
 use crate::support::solids::{Solid, torus};
 use crate::support::torus_truth::{Piece, visible_pieces};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use kurbo::Point;
 use ligne::drawing::{Length, Unit};
 use ligne::math::function::{cos, sin};
-use ligne::scene::{Camera, Projection};
+use ligne::scene::{Camera, Geometry, Projection, Scene};
 use ligne::stages::chain::{self, Chain, ChainOptions};
 use ligne::stages::lines::{Contours, HiddenLines, LineKind, LineOptions};
 use ligne::stages::viewmap::ViewVertexKind;
@@ -88,10 +90,22 @@ fn one_ring(
     truth: impl Fn(&Camera) -> Vec<[Point; 2]>,
     within: [f64; 2],
 ) {
-    let reach = solid.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
+    one_ring_of(what, &scene([solid.clone()]), contours, truth, within);
+}
+
+/// Draws a scene and compares with its one closed contour.
+fn one_ring_of(
+    what: &str,
+    scene: &Scene,
+    contours: Contours,
+    truth: impl Fn(&Camera) -> Vec<[Point; 2]>,
+    within: [f64; 2],
+) {
+    let places = scene.geometries.iter().flat_map(|geometry| &geometry.positions);
+    let reach = places.map(|p| p.length()).fold(0.0, f64::max);
     let mut worst = [[0.0_f64; 2]; 2];
     for camera in cameras(5, 10, reach) {
-        let drawn = stages(&scene([solid.clone()]), &camera, &with(contours));
+        let drawn = stages(scene, &camera, &with(contours));
         let truth = truth(&camera);
         for (k, options) in [plain_chains(), ChainOptions::default()].iter().enumerate() {
             let chains = chains(&drawn, options);
@@ -124,6 +138,22 @@ fn the_contour_of_a_sphere_is_a_circle_however_it_is_cut() {
     }
     for around in [8, 16, 48] {
         one_ring(&format!("globe {around}"), &globe(around), Contours::Smooth, ball, BALL_PX);
+    }
+}
+
+#[test]
+fn normals_that_were_left_behind_when_a_ball_was_turned_say_nothing_of_it() {
+    let ball = |camera: &Camera| contour_of_ellipsoid(DVec3::ONE, camera);
+    for (what, solid) in [("globe", globe(32)), ("icosphere", icosphere(4)), ("octasphere", octasphere(5))] {
+        // Those of the ball itself, and as they were before it was turned.
+        for degrees in [0.0, 20.0, 35.0] {
+            let before = DMat3::from_rotation_x(f64::to_radians(degrees));
+            let normals = solid.positions.iter().map(|p| (before * *p).as_vec3().to_array()).collect();
+            let corner_normals = solid.triangles.clone();
+            let shape = Geometry { normals, corner_normals, ..geometry(solid.clone()) };
+            let scene = scene_of_geometries(vec![shape]);
+            one_ring_of(&format!("{what}, {degrees} degrees"), &scene, Contours::Auto, ball, BALL_PX);
+        }
     }
 }
 

@@ -16,6 +16,7 @@ pub mod feature_size;
 pub mod file_normals;
 mod free_forms;
 pub mod hard_edges;
+mod leaning;
 pub mod marking;
 mod middle_lines;
 mod near_rays;
