@@ -1,4 +1,4 @@
-//! The pipeline, on one screen.
+//! The pipeline: a scene made ready ([`Prepared`]), what is seen of the lines of a view, and what is drawn of that.
 //!
 //! ```
 //! use ligne::render::Prepared;
