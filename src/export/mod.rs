@@ -32,6 +32,7 @@ mod pdf_content;
 mod pdf_document;
 #[cfg(feature = "pdf")]
 mod pdf_dots;
+#[cfg(feature = "pdf")]
 mod pdf_fonts;
 #[cfg(feature = "pdf")]
 mod pdf_inks;
