@@ -14,8 +14,8 @@ const LEANING_COSINE: f32 = 0.985;
 /// That angle, radians.
 const LEANING: f64 = 0.175;
 
-/// By how much less than this cosine the normals of a file at all corners of a face lean from it; none where they do not, or
-/// where there are none.
+/// The cosine of the least angle between a face and the normals that a file gives its corners, if all of them lean; none where a
+/// corner has no normal.
 #[inline]
 pub(super) fn leaning(own: Vec3, normals: [Option<&[f32; 3]>; 3]) -> Option<f32> {
     let mut most = 0.0f32;
@@ -26,7 +26,7 @@ pub(super) fn leaning(own: Vec3, normals: [Option<&[f32; 3]>; 3]) -> Option<f32>
     (most < LEANING_COSINE && own != Vec3::ZERO).then_some(most)
 }
 
-/// Whether the normals at a face, which lean from it, lean by more than the surface around turns.
+/// Whether normals that lean from a face, the least by the angle of this cosine, lean by more than the surface turns at its sides.
 pub(super) fn leans(mesh: &Mesh, (turns, edges): (&Turns, &FirstEdges), face: u32, cosine: f32) -> bool {
     let [a, b, c] = mesh.triangles[face as usize];
     let turn = |[a, b]: [u32; 2]| {
