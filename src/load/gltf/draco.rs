@@ -7,6 +7,7 @@ use super::buffers::Buffers;
 use super::json::{Draco, Primitive};
 use super::streams::Streams;
 use crate::error::Error;
+use crate::mesh::lattice;
 
 /// Most triangles and vertices one compressed stream may unfold to, whatever it announces.
 const MOST: u64 = 1 << 26;
@@ -69,16 +70,17 @@ pub fn decode(
         None => Vec::new(),
     };
     let positions = values("POSITION", 3)?;
+    let positions = positions.as_chunks().0.iter();
+    let mut positions: Vec<DVec3> =
+        positions.map(|p: &[f32; 3]| DVec3::from_array(p.map(f64::from))).collect();
+    let normals = values("NORMAL", 3)?.as_chunks().0.to_vec();
+    let triangles: Vec<[u32; 3]> = mesh.faces().iter().map(|face| face.map(|point| point.0)).collect();
+    lattice::loosen(&mut positions, &triangles, &normals);
     Ok(Streams {
-        positions: positions
-            .as_chunks()
-            .0
-            .iter()
-            .map(|p: &[f32; 3]| DVec3::from_array(p.map(f64::from)))
-            .collect(),
-        normals: values("NORMAL", 3)?.as_chunks().0.to_vec(),
+        positions,
+        normals,
         uvs: values(uv_name, 2)?.as_chunks().0.to_vec(),
         colours,
-        triangles: Some(mesh.faces().iter().map(|face| face.map(|point| point.0)).collect()),
+        triangles: Some(triangles),
     })
 }

@@ -14,6 +14,7 @@ pub(crate) mod face_normals;
 mod first_edges;
 pub(crate) mod groups;
 pub mod ids;
+pub mod lattice;
 pub mod needle;
 mod order;
 mod places;
