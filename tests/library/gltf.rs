@@ -7,6 +7,7 @@ use glam::DVec3;
 use ligne::load::gltf;
 use ligne::scene::Scene;
 
+use crate::support::glb::glb;
 use crate::support::models;
 
 /// Rows of facts.tsv about glTF files: column name to value.
@@ -241,7 +242,7 @@ fn small_glb() -> Vec<u8> {
         .collect();
     bin.extend([0_u16, 1, 2, 1, 3, 2].into_iter().flat_map(u16::to_le_bytes));
     bin.extend([0_u8, 1, 2, 3, 0, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0]);
-    let mut json = format!(
+    let json = format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
         "nodes":[{{"mesh":0,"children":[1],"rotation":[0,0,0,1]}},{{"mesh":0,"skin":0,"weights":[0.5]}}],
         "skins":[{{"joints":[0,1,0,1]}}],
@@ -258,19 +259,7 @@ fn small_glb() -> Vec<u8> {
         "buffers":[{{"byteLength":{}}}]}}"#,
         bin.len()
     );
-    while json.len() % 4 != 0 {
-        json.push(' ');
-    }
-    let mut glb = b"glTF".to_vec();
-    for word in [2, (28 + json.len() + bin.len()) as u32, json.len() as u32] {
-        glb.extend(word.to_le_bytes());
-    }
-    glb.extend(b"JSON");
-    glb.extend(json.as_bytes());
-    glb.extend((bin.len() as u32).to_le_bytes());
-    glb.extend(b"BIN\0");
-    glb.extend(bin);
-    glb
+    glb(json, &bin)
 }
 
 #[test]

@@ -10,7 +10,8 @@ use ligne::load::ModelFormat;
 use ligne::scene::{Camera, Scene};
 use ligne::stages::lines::{LineKind, LineOptions};
 
-use crate::support::ink::{Ink, samples};
+use crate::support::glb::glb;
+use crate::support::ink::beyond;
 use crate::support::pipeline::{orthographic, scene_of_geometries, stages};
 use crate::support::solids::{Solid, torus};
 use crate::support::torus_truth::{self, Piece, visible_pieces};
@@ -43,7 +44,7 @@ fn compressed(solid: &Solid, bits: i32) -> Vec<u8> {
     let mut bin = stream(solid, bits);
     let length = bin.len();
     bin.resize(length.next_multiple_of(4), 0);
-    let mut json = format!(
+    let json = format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
         "extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"],
         "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"extensions":
@@ -55,25 +56,7 @@ fn compressed(solid: &Solid, bits: i32) -> Vec<u8> {
         3 * solid.triangles.len(),
         bin.len()
     );
-    while json.len() % 4 != 0 {
-        json.push(' ');
-    }
-    let mut glb = b"glTF".to_vec();
-    for word in [2, (28 + json.len() + bin.len()) as u32, json.len() as u32] {
-        glb.extend(word.to_le_bytes());
-    }
-    glb.extend(b"JSON");
-    glb.extend(json.as_bytes());
-    glb.extend((bin.len() as u32).to_le_bytes());
-    glb.extend(b"BIN\0");
-    glb.extend(bin);
-    glb
-}
-
-/// What of one set of lines is farther than `within` from the other, px of length.
-fn beyond(of: &[[Point; 2]], from: &[[Point; 2]], within: f64) -> f64 {
-    let ink = Ink::new(from.to_vec(), within + 1.0);
-    samples(of, 0.25).iter().filter(|(p, _)| ink.distance(*p) > within).map(|(_, l)| l).sum()
+    glb(json, &bin)
 }
 
 fn cameras() -> impl Iterator<Item = Camera> {

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use crate::support::dice::Dice;
 use crate::support::eye::Eye;
-use crate::support::ink::{Ink, samples};
+use crate::support::ink::{Ink, beyond, samples};
 use crate::support::pipeline::{
     Stages, geometry, orthographic, perspective, scene, scene_of_geometries, stages,
 };
@@ -223,12 +223,6 @@ fn census<'a, T: 'a>(
 
 fn length(segments: &[[Point; 2]]) -> f64 {
     segments.iter().map(|[a, b]| (*b - *a).hypot()).sum()
-}
-
-/// What of one set of lines is farther than `within` from the other, px of length.
-fn beyond(of: &[[Point; 2]], from: &[[Point; 2]], within: f64) -> f64 {
-    let ink = Ink::new(from.to_vec(), within + 1.0);
-    samples(of, 0.25).iter().filter(|(p, _)| ink.distance(*p) > within).map(|(_, l)| l).sum()
 }
 
 /// What 30 views of a torus came to.

@@ -90,6 +90,12 @@ pub fn flattened(path: &BezPath, tolerance: f64) -> Vec<[Point; 2]> {
     segments
 }
 
+/// What of one set of lines is farther than `within` from the other, px of length.
+pub fn beyond(of: &[[Point; 2]], from: &[[Point; 2]], within: f64) -> f64 {
+    let ink = Ink::new(from.to_vec(), within + 1.0);
+    samples(of, 0.25).iter().filter(|(p, _)| ink.distance(*p) > within).map(|(_, l)| l).sum()
+}
+
 /// The curves that chains are drawn as, as short segments no farther than a thousandth of a px from them.
 pub fn drawn(chains: &[Chain]) -> Vec<[Point; 2]> {
     let visible = chains.iter().filter(|c| c.invisibility == 0);

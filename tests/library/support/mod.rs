@@ -5,6 +5,7 @@ pub mod board;
 pub mod dice;
 pub mod eye;
 pub mod forms;
+pub mod glb;
 pub mod hard_scenes;
 pub mod imports;
 pub mod ink;

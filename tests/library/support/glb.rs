@@ -1,0 +1,18 @@
+//! [`glb`]: binary glTF files made by tests.
+
+/// A GLB of a document and its binary chunk. The length of the latter is a multiple of four.
+pub fn glb(mut json: String, bin: &[u8]) -> Vec<u8> {
+    while json.len() % 4 != 0 {
+        json.push(' ');
+    }
+    let mut glb = b"glTF".to_vec();
+    for word in [2, (28 + json.len() + bin.len()) as u32, json.len() as u32] {
+        glb.extend(word.to_le_bytes());
+    }
+    glb.extend(b"JSON");
+    glb.extend(json.as_bytes());
+    glb.extend((bin.len() as u32).to_le_bytes());
+    glb.extend(b"BIN\0");
+    glb.extend(bin);
+    glb
+}
