@@ -2,7 +2,7 @@
 
 /// A GLB of a document and its binary chunk. The length of the latter is a multiple of four.
 pub fn glb(mut json: String, bin: &[u8]) -> Vec<u8> {
-    while json.len() % 4 != 0 {
+    while !json.len().is_multiple_of(4) {
         json.push(' ');
     }
     let mut glb = b"glTF".to_vec();
