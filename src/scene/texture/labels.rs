@@ -4,8 +4,8 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::guess::Guess;
+use super::guesses::{Guesses, MOST_REACH};
 use crate::math::function;
-use crate::math::grain::GRAIN;
 use crate::scene::texels::Texels;
 
 /// Colours that have a share in a texel, at most.
@@ -33,50 +33,42 @@ pub(crate) struct Labels {
 
 impl Labels {
     /// Which colours texels have that are blocks: those that they are nearest to.
-    pub(super) fn blocks(texels: Texels, guesses: &[Guess]) -> Self {
-        let winners: Vec<u8> = guesses.iter().map(|guess| guess.nearest).collect();
+    pub(super) fn blocks(guesses: &Guesses) -> Self {
+        let winners: Vec<u8> = guesses.list.iter().map(|guess| guess.nearest).collect();
         let mixed = vec![PURE; winners.len()];
-        Self { texels, winners, mixed, shares: Vec::new(), blocks: true }
+        Self { texels: guesses.texels, winners, mixed, shares: Vec::new(), blocks: true }
     }
 
     /// Which of so many colours texels have, from those they are near to, with shares blurred by a normal distribution of this
     /// deviation, texels.
-    pub(super) fn of(texels: Texels, guesses: &[Guess], blur: f64, colours: usize) -> Self {
-        let [width, height] = texels.size;
-        let reach = if blur < 0.3 { 0 } else { (2.5 * blur).ceil().min(4.0) as i64 };
+    pub(super) fn of(guesses: &Guesses, blur: f64, colours: usize) -> Self {
+        let texels = guesses.texels;
+        let width = texels.size[0];
+        let reach = if blur < 0.3 { 0 } else { (2.5 * blur).ceil().min(f64::from(MOST_REACH)) as i64 };
         let bell: Vec<f32> = (0..=reach)
             .map(|k| function::exp(-((k * k) as f64) / (2.0 * blur * blur).max(1e-9)) as f32)
             .collect();
-        let is_mixed = near_borders(&texels, guesses, reach);
-        let row = |j: usize| {
-            let mut sums = vec![0.0_f32; colours.max(1)];
-            let mut of = |i: usize| {
-                let own = guesses[j * width + i];
-                if !is_mixed[j * width + i] && (reach > 0 || own.way == 0.0) {
-                    return (own.nearest, None);
+        let of = |sums: &mut Vec<f32>, texel: &usize| {
+            let (i, j) = ((texel % width) as i64, (texel / width) as i64);
+            sums.fill(0.0);
+            for y in -reach..=reach {
+                for x in -reach..=reach {
+                    let weight = bell[x.unsigned_abs() as usize] * bell[y.unsigned_abs() as usize];
+                    let Guess { nearest, second, way } = guesses.list[texels.index(i + x, j + y)];
+                    sums[nearest as usize] += weight * (1.0 - way);
+                    sums[second as usize] += weight * way;
                 }
-                sums.fill(0.0);
-                for y in -reach..=reach {
-                    for x in -reach..=reach {
-                        let weight = bell[x.unsigned_abs() as usize] * bell[y.unsigned_abs() as usize];
-                        let Guess { nearest, second, way } =
-                            guesses[texels.index(i as i64 + x, j as i64 + y)];
-                        sums[nearest as usize] += weight * (1.0 - way);
-                        sums[second as usize] += weight * way;
-                    }
-                }
-                let shares = greatest(&sums);
-                (shares[0].0, Some(shares))
-            };
-            (0..width).map(&mut of).collect()
+            }
+            greatest(sums)
         };
-        let rows: Vec<Vec<(u8, Option<Shares>)>> = (0..height).into_par_iter().map(row).collect();
-        let mut labels =
-            Self { texels, winners: Vec::new(), mixed: Vec::new(), shares: Vec::new(), blocks: false };
-        for (winner, shares) in rows.into_iter().flatten() {
-            labels.winners.push(winner);
-            labels.mixed.push(shares.map_or(PURE, |_| labels.shares.len() as u32));
-            labels.shares.extend(shares);
+        let are_mixed = guesses.mixed(reach as u8);
+        let sums = || vec![0.0_f32; colours.max(1)];
+        let shares: Vec<Shares> = are_mixed.par_iter().with_min_len(1 << 8).map_init(sums, of).collect();
+        let mut labels = Self { shares, ..Self::blocks(guesses) };
+        labels.blocks = false;
+        for (at, texel) in are_mixed.into_iter().enumerate() {
+            labels.winners[texel] = labels.shares[at][0].0;
+            labels.mixed[texel] = at as u32;
         }
         labels
     }
@@ -110,19 +102,6 @@ impl Labels {
         let cell = Cell::new(self, low.x as i64, low.y as i64);
         cell.at(part)
     }
-}
-
-/// Which texels have others of another colour within so many columns and rows.
-fn near_borders(texels: &Texels, guesses: &[Guess], reach: i64) -> Vec<bool> {
-    let differs = |texel: usize| {
-        texels.beside(texel).iter().any(|next| guesses[*next].nearest != guesses[texel].nearest)
-    };
-    let mut near: Vec<bool> = (0..guesses.len()).into_par_iter().with_min_len(GRAIN).map(differs).collect();
-    for _ in 0..reach {
-        let is_near = |texel: usize| near[texel] || texels.beside(texel).iter().any(|next| near[*next]);
-        near = (0..guesses.len()).into_par_iter().with_min_len(GRAIN).map(is_near).collect();
-    }
-    near
 }
 
 /// The greatest of some sums, by their numbers, as shares of all.

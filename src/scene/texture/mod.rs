@@ -1,8 +1,11 @@
 //! [`Texture`]: the picture of a base colour, and what of it is painted.
 
 mod blends;
+mod colour_map;
 mod guess;
+mod guesses;
 mod imaged;
+mod kept;
 mod labels;
 pub mod options;
 mod painted;
@@ -14,11 +17,10 @@ mod trace;
 
 use std::path::Path;
 
+pub(crate) use colour_map::ColourMap;
 pub(crate) use imaged::Imaged;
-pub(crate) use labels::Labels;
 pub(crate) use painted::Painted;
 pub(super) use palette::few;
-pub(crate) use trace::trace;
 
 use self::swatches::{ALIKE, difference};
 use super::beside::read_beside;
@@ -156,6 +158,8 @@ impl Texture {
             palette: colours.iter().map(|colour| oklab::of(*colour)).collect(),
             mean: oklab::of(mean),
             filter: self.filter,
+            guesses: kept::Kept::default(),
+            maps: kept::Kept::default(),
         }
     }
 }

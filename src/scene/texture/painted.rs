@@ -1,11 +1,16 @@
 //! [`Painted`]: the texture of a material, to be painted in a few colours.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::blends;
+use super::colour_map::{ColourMap, MapOf, Sight};
 use super::guess::Guess;
+use super::guesses::Guesses;
+use super::kept::Kept;
 use super::labels::Labels;
 use super::specks;
 use crate::math::colour::Colour;
@@ -26,6 +31,9 @@ pub(crate) struct Painted {
     /// How all of it looks from afar; the number of that is the one behind those of the few colours.
     pub(super) mean: Oklab,
     pub(super) filter: Filter,
+    /// What was guessed of it, and the maps that were made, in views before.
+    pub(super) guesses: Kept<Sight, Guesses>,
+    pub(super) maps: Kept<MapOf, ColourMap>,
 }
 
 /// What is less wide than this many px is not drawn, and borders are rounded by about as much.
@@ -56,45 +64,69 @@ impl Painted {
 
     /// Which of the colours is where, as it can be seen where so many texels lie along a px; where hardly anything is as large
     /// as what is drawn, what it looks like in the mean.
-    pub fn labels_or_mean(&self, texels_per_px: f64) -> Labels {
-        let (labels, lost) = self.labels_and_lost(texels_per_px, &self.palette);
-        if lost <= MOST_LOST {
-            return labels;
-        }
-        let mut palette = self.palette.clone();
-        palette.push(self.mean);
-        self.labels_and_lost(texels_per_px * AFAR, &palette).0
+    pub fn map_or_mean(&self, texels_per_px: f64) -> Arc<ColourMap> {
+        let map = self.map_in(texels_per_px, false);
+        if map.lost <= MOST_LOST { map } else { self.map_in(texels_per_px * AFAR, true) }
     }
 
     /// Which of the colours is where, as it can be seen where so many texels lie along a px.
-    pub fn labels(&self, texels_per_px: f64) -> Labels {
-        self.labels_and_lost(texels_per_px, &self.palette).0
+    pub fn map(&self, texels_per_px: f64) -> Arc<ColourMap> {
+        self.map_in(texels_per_px, false)
     }
 
-    /// Which of some colours is where, and on how much of the picture specks were lost.
-    fn labels_and_lost(&self, texels_per_px: f64, palette: &[Oklab]) -> (Labels, f64) {
+    /// Which of the colours is where, or of these and the mean.
+    fn map_in(&self, texels_per_px: f64, with_mean: bool) -> Arc<ColourMap> {
         let scale = if texels_per_px.is_finite() { texels_per_px.max(1e-3) } else { 1.0 };
         // As many as leave a px more than 0.7 texels, and less than 1.4.
         let halvings = (0..14).take_while(|k| scale / f64::from(1 << k) >= std::f64::consts::SQRT_2).count();
-        let (texels, lights) = self.reduced(1 << halvings);
-        let per_px = scale * texels.size[0] as f64 / self.texels.size[0] as f64;
-        let labs: Vec<Option<Oklab>> =
-            lights.into_par_iter().with_min_len(GRAIN).map(|light| light.map(oklab::of_linear)).collect();
-        let guesses = guesses(&texels, palette, &labs);
-        if self.filter == Filter::Blocks && scale <= 1.0 {
-            return (Labels::blocks(texels, &guesses), 0.0);
+        let blocks = self.filter == Filter::Blocks && scale <= 1.0;
+        let sight = Sight { halvings, with_mean, blocks };
+        if blocks {
+            let made = || ColourMap::new(Labels::blocks(&self.guesses(sight)), 0);
+            return self.maps.get(MapOf { sight, blur: 0.0, least: 0.0 }, made);
         }
-        let guesses = blends::settle(&texels, palette, &labs, &guesses);
-        let blur = (BLUR_PX * per_px).max(BLUR_TEXELS);
-        let mut labels = Labels::of(texels, &guesses, blur, palette.len());
-        let lost = specks::merge(&mut labels, (SPECK_PX * per_px).powi(2));
-        (labels, lost as f64 / (texels.size[0] * texels.size[1]) as f64)
+        let per_px = scale * self.size(halvings)[0] as f64 / self.texels.size[0] as f64;
+        // Specks have whole numbers of texels.
+        let least = (SPECK_PX * per_px).powi(2).ceil();
+        let of = MapOf { sight, blur: (BLUR_PX * per_px).max(BLUR_TEXELS), least };
+        self.maps.get(of, || {
+            let guesses = self.guesses.get(sight, || self.guesses(sight));
+            let mut labels = Labels::of(&guesses, of.blur, self.colours_of(sight).len());
+            let lost = specks::merge(&mut labels, of.least);
+            ColourMap::new(labels, lost)
+        })
     }
 
-    /// The picture with so many times fewer texels along each side: their mean light where they are seen at all.
-    fn reduced(&self, times: usize) -> (Texels, Vec<Option<[f32; 3]>>) {
+    /// The few colours, and how all of it looks from afar where that is one of them.
+    fn colours_of(&self, sight: Sight) -> Cow<'_, [Oklab]> {
+        if sight.with_mean {
+            self.palette.iter().copied().chain([self.mean]).collect()
+        } else {
+            Cow::Borrowed(&self.palette)
+        }
+    }
+
+    /// Between which colours each texel lies.
+    fn guesses(&self, sight: Sight) -> Guesses {
+        let palette = self.colours_of(sight);
+        let (texels, labs) = self.reduced(sight.halvings);
+        let mut guesses = guesses(&texels, &palette, &labs);
+        if !sight.blocks {
+            guesses = blends::settle(&texels, &palette, &labs, &guesses);
+        }
+        Guesses::new(texels, guesses)
+    }
+
+    /// Texels in a row and rows when they are halved so often.
+    fn size(&self, halvings: usize) -> [usize; 2] {
+        let times = 1 << halvings;
+        self.texels.size.map(|count| ((count + times / 2) / times).max(1))
+    }
+
+    /// The picture with texels that are halved so often along each side: how they look in the mean where they are seen at all.
+    fn reduced(&self, halvings: usize) -> (Texels, Vec<Option<Oklab>>) {
         let table = linear_table();
-        let size = self.texels.size.map(|count| ((count + times / 2) / times).max(1));
+        let size = self.size(halvings);
         let range = |k: usize, axis: usize| {
             let [count, coarse] = [self.texels.size[axis], size[axis]];
             k * count / coarse..((k + 1) * count / coarse).max(k * count / coarse + 1)
@@ -111,10 +143,10 @@ impl Painted {
                     }
                 }
             }
-            (all > 0.0).then(|| sum.map(|sum| sum / all))
+            (all > 0.0).then(|| oklab::of_linear(sum.map(|sum| sum / all)))
         };
-        let lights = (0..size[0] * size[1]).into_par_iter().with_min_len(1 << 10).map(mean).collect();
-        (Texels { size, ..self.texels }, lights)
+        let labs = (0..size[0] * size[1]).into_par_iter().with_min_len(1 << 10).map(mean).collect();
+        (Texels { size, ..self.texels }, labs)
     }
 }
 
@@ -123,7 +155,11 @@ impl Painted {
 fn guesses(texels: &Texels, palette: &[Oklab], labs: &[Option<Oklab>]) -> Vec<Guess> {
     let of = |lab: &Option<Oklab>| Some(Guess::of((*lab)?, palette));
     let known: Vec<Option<Guess>> = labs.par_iter().with_min_len(GRAIN).map(of).collect();
-    let mut open: VecDeque<usize> = (0..known.len()).filter(|k| known[*k].is_some()).collect();
+    let is_seen_beside_unseen = |texel: &usize| {
+        known[*texel].is_some() && texels.beside(*texel).iter().any(|next| known[*next].is_none())
+    };
+    let all = (0..known.len()).into_par_iter().with_min_len(GRAIN);
+    let mut open: VecDeque<usize> = all.filter(is_seen_beside_unseen).collect::<Vec<_>>().into();
     let mut guesses: Vec<Guess> =
         known.iter().map(|guess| guess.unwrap_or(Guess { nearest: u8::MAX, second: 0, way: 0.0 })).collect();
     while let Some(k) = open.pop_front() {

@@ -1,6 +1,9 @@
 //! [`merge`]: specks of colour go to what is around them.
 
+use rayon::prelude::*;
+
 use super::labels::Labels;
+use crate::math::grain::GRAIN;
 
 /// Paints what hangs together on fewer texels than this like the neighbour with which it shares most of its border, small ones
 /// first. Gives the number of texels that were specks at first.
@@ -16,35 +19,7 @@ pub(super) fn merge(labels: &mut Labels, least: f64) -> usize {
 /// Gives the number of texels that were painted anew.
 fn merge_once(labels: &mut Labels, least: f64) -> usize {
     let texels = labels.texels;
-    let count = texels.size[0] * texels.size[1];
-    let mut is_known = vec![false; count];
-    let mut small: Vec<Vec<usize>> = Vec::new();
-    let mut open = Vec::new();
-    let mut own = Vec::new();
-    for first in 0..count {
-        if std::mem::replace(&mut is_known[first], true) {
-            continue;
-        }
-        let colour = labels.winner(first);
-        open.push(first);
-        own.clear();
-        let mut size = 0;
-        while let Some(texel) = open.pop() {
-            size += 1;
-            if (own.len() as f64) < least {
-                own.push(texel);
-            }
-            for next in texels.beside(texel) {
-                if !is_known[next] && labels.winner(next) == colour {
-                    is_known[next] = true;
-                    open.push(next);
-                }
-            }
-        }
-        if (size as f64) < least {
-            small.push(own.clone());
-        }
-    }
+    let mut small = small(labels, least);
     small.sort_by_key(|speck| (speck.len(), speck[0]));
     let mut changed = 0;
     for speck in small {
@@ -70,12 +45,70 @@ fn merge_once(labels: &mut Labels, least: f64) -> usize {
     changed
 }
 
+/// What hangs together on fewer texels than this, each from its first texel on.
+///
+/// It is sought from borders, and what has grown as large is left at once, so that most of a picture is never looked at.
+fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
+    let texels = labels.texels;
+    let count = texels.size[0] * texels.size[1];
+    let at_border = |texel: &usize| {
+        texels.beside(*texel).iter().any(|next| labels.winner(*next) != labels.winner(*texel))
+    };
+    let border: Vec<usize> = (0..count).into_par_iter().with_min_len(GRAIN).filter(at_border).collect();
+    let mut known = vec![Known::Not; count];
+    let mut small: Vec<Vec<usize>> = Vec::new();
+    let mut own: Vec<usize> = Vec::new();
+    for first in border {
+        if known[first] != Known::Not {
+            continue;
+        }
+        let colour = labels.winner(first);
+        known[first] = Known::Small;
+        own.clear();
+        own.push(first);
+        let mut at = 0;
+        let mut is_small = true;
+        while is_small && at < own.len() && (own.len() as f64) < least {
+            for next in texels.beside(own[at]) {
+                if labels.winner(next) != colour {
+                    continue;
+                }
+                match known[next] {
+                    Known::Not => {
+                        known[next] = Known::Small;
+                        own.push(next);
+                    }
+                    Known::Small => {}
+                    Known::Large => is_small = false,
+                }
+            }
+            at += 1;
+        }
+        if is_small && (own.len() as f64) < least {
+            own.sort_unstable();
+            small.push(own.clone());
+        } else {
+            own.iter().for_each(|texel| known[*texel] = Known::Large);
+        }
+    }
+    small
+}
+
+/// What is known of a texel: nothing, that it is part of what is small, as far as that was followed, or of what is not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Known {
+    Not,
+    Small,
+    Large,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::material::Wrap;
     use crate::scene::texels::Texels;
     use crate::scene::texture::guess::Guess;
+    use crate::scene::texture::guesses::Guesses;
 
     #[test]
     fn specks_take_the_colour_around_them_over_seams_too() {
@@ -94,13 +127,63 @@ mod tests {
             upward: false,
             placing: crate::scene::material::Placing::default(),
         };
+        let guesses = Guesses::new(texels, guesses);
         let merged = |least: f64| {
-            let mut labels = Labels::of(texels, &guesses, 0.0, 3);
+            let mut labels = Labels::of(&guesses, 0.0, 3);
             merge(&mut labels, least);
             [0, 5 * 12 + 5, 3 * 12 + 9].map(|texel| labels.winner(texel))
         };
         assert_eq!(merged(4.0), [1, 0, 1]);
         assert_eq!(merged(5.0), [0, 0, 1]);
         assert_eq!(merged(10.0), [0, 0, 0]);
+    }
+
+    /// What hangs together on fewer texels than this, by following all that hangs together.
+    fn small_by_all(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
+        let count = labels.texels.size[0] * labels.texels.size[1];
+        let mut is_known = vec![false; count];
+        let mut small = Vec::new();
+        for first in 0..count {
+            let (mut own, mut open) = (Vec::new(), vec![first]);
+            while let Some(texel) = open.pop() {
+                if !std::mem::replace(&mut is_known[texel], true) {
+                    own.push(texel);
+                    let beside = labels.texels.beside(texel);
+                    open.extend(beside.iter().filter(|next| labels.winner(**next) == labels.winner(first)));
+                }
+            }
+            own.sort_unstable();
+            if !own.is_empty() && (own.len() as f64) < least {
+                small.push(own);
+            }
+        }
+        small
+    }
+
+    #[test]
+    fn specks_are_those_that_following_everything_finds() {
+        let dice = |k: usize| {
+            (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31).wrapping_mul(0x94d0_49bb)
+        };
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            for [patch, least] in [[1, 2], [1, 5], [2, 9], [3, 18], [9, 60], [40, 7]] {
+                let size = [31, 22];
+                let guess = |k: usize| {
+                    let colour = dice(k % size[0] / patch * 977 + k / size[0] / patch) >> 40;
+                    Guess { nearest: (colour % 3) as u8, second: 0, way: 0.0 }
+                };
+                let texels = Texels {
+                    size,
+                    wrap: [wrap; 2],
+                    upward: false,
+                    placing: crate::scene::material::Placing::default(),
+                };
+                let guesses = Guesses::new(texels, (0..size[0] * size[1]).map(guess).collect());
+                let labels = Labels::of(&guesses, 0.0, 3);
+                let mut found = small(&labels, least as f64);
+                found.sort_unstable_by_key(|speck| speck[0]);
+                assert_eq!(found, small_by_all(&labels, least as f64), "{wrap:?}, {patch}, {least}");
+            }
+        }
     }
 }

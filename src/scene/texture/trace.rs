@@ -18,7 +18,7 @@ enum Place {
 }
 
 /// Traces the borders between colours; none if there are too many.
-pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
+pub(super) fn trace(labels: &Labels) -> Option<Traced> {
     let (reach, periods) = (labels.texels.reach(), labels.texels.periods());
     let mut pieces: Vec<Piece> = Vec::new();
     let columns: Vec<usize> = (0..=reach[0] as i64).map(|i| labels.texels.index(i, 0)).collect();
@@ -126,6 +126,7 @@ mod tests {
     use crate::scene::material::Wrap;
     use crate::scene::texels::Texels;
     use crate::scene::texture::guess::Guess;
+    use crate::scene::texture::guesses::Guesses;
 
     fn labels(size: [usize; 2], wrap: Wrap, blur: f64, of: impl Fn(DVec2) -> (u8, u8, f32)) -> Labels {
         let at = |k: usize| DVec2::new((k % size[0]) as f64, (k / size[0]) as f64);
@@ -140,7 +141,7 @@ mod tests {
             upward: false,
             placing: crate::scene::material::Placing::default(),
         };
-        Labels::of(texels, &guesses, blur, 3)
+        Labels::of(&Guesses::new(texels, guesses), blur, 3)
     }
 
     /// A disc in the middle of 48 texels, softened over one, as colour 1 on 0.

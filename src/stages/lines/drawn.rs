@@ -1,11 +1,13 @@
 //! [`Drawn`]: a picture as a view shows it, in a few colours, in one scale or in several.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::texture_scale::{Density, Scale, density_of};
 use crate::scene::texels::outline::{Outline, Segment};
-use crate::scene::texture::{Labels, Painted, trace};
+use crate::scene::texture::{ColourMap, Painted};
 
 /// A picture as a view shows it.
 #[derive(Debug)]
@@ -21,7 +23,7 @@ pub(super) struct Drawn {
 /// A picture in one scale.
 #[derive(Debug)]
 struct Level {
-    labels: Labels,
+    map: Arc<ColourMap>,
     borders: Outline,
 }
 
@@ -36,13 +38,13 @@ impl Drawn {
         smooth: f64,
         densities: impl FnOnce() -> Vec<[Density; 3]>,
     ) -> Option<Self> {
-        let of_one = |labels: Labels, texels_per_px: f64| {
-            let per_px = texels_per_px * labels.texels.size[0] as f64 / painted.texels().size[0] as f64;
+        let of_one = |map: Arc<ColourMap>, texels_per_px: f64| {
+            let per_px = texels_per_px * map.labels.texels.size[0] as f64 / painted.texels().size[0] as f64;
             let near = if per_px.is_finite() { (NEAR_PX * per_px).clamp(0.005, 0.5) } else { 0.1 };
-            Some(Level { borders: Outline::new(&trace(&labels)?, near), labels })
+            Some(Level { borders: Outline::new(map.borders()?, near), map })
         };
         let Some([first, last]) = scale.range.filter(|[first, last]| first < last) else {
-            let level = of_one(painted.labels(scale.mean * smooth), scale.mean)?;
+            let level = of_one(painted.map(scale.mean * smooth), scale.mean)?;
             return Some(Self { levels: vec![level], ends: Vec::new(), densities: Vec::new() });
         };
         let texels_per_px = |power: i32| if power < 0 { 0.5_f64.powi(-power) } else { 2.0_f64.powi(power) };
@@ -50,7 +52,7 @@ impl Drawn {
             .into_par_iter()
             .map(|power| {
                 let texels_per_px = texels_per_px(power);
-                of_one(painted.labels_or_mean(texels_per_px * smooth), texels_per_px)
+                of_one(painted.map_or_mean(texels_per_px * smooth), texels_per_px)
             })
             .collect();
         let ends = (first..last).map(|power| density_of(texels_per_px(power) * std::f64::consts::SQRT_2));
@@ -77,7 +79,7 @@ pub(super) struct OnPicture<'a> {
 impl OnPicture<'_> {
     /// The corners of the face in the plane of the texels of a level.
     pub fn corners(&self, level: usize) -> Option<[DVec2; 3]> {
-        let [a, b, c] = self.uvs.map(|uv| self.drawn.levels[level].labels.texels.place(uv));
+        let [a, b, c] = self.uvs.map(|uv| self.drawn.levels[level].map.labels.texels.place(uv));
         Some([a?, b?, c?])
     }
 
@@ -142,13 +144,13 @@ impl OnPicture<'_> {
     pub fn colour(&self, weights: [f64; 3]) -> Option<u8> {
         let level = self.level(weights);
         let [a, b, c] = self.corners(level)?;
-        Some(self.drawn.levels[level].labels.at(a * weights[0] + b * weights[1] + c * weights[2]))
+        Some(self.drawn.levels[level].map.labels.at(a * weights[0] + b * weights[1] + c * weights[2]))
     }
 
     /// The number of the colour in the middle of the face, were it all of one level.
     pub fn middle_colour(&self, level: usize) -> Option<u8> {
         let [a, b, c] = self.corners(level)?;
-        Some(self.drawn.levels[level].labels.at((a + b + c) / 3.0))
+        Some(self.drawn.levels[level].map.labels.at((a + b + c) / 3.0))
     }
 
     /// The borders between the colours of a level that may lie on the face, and the numbers of the colours that each parts.

@@ -1,0 +1,49 @@
+//! [`ColourMap`]: a picture in a few colours, as large as its texels are seen.
+
+use std::sync::OnceLock;
+
+use super::labels::Labels;
+use super::trace::trace;
+use crate::scene::texels::Traced;
+
+/// A picture in a few colours, as large as its texels are seen: which colour is where, and the borders between them.
+#[derive(Debug)]
+pub(crate) struct ColourMap {
+    pub labels: Labels,
+    borders: OnceLock<Option<Traced>>,
+    /// On how much of the picture specks were lost, as a part of it.
+    pub(super) lost: f64,
+}
+
+/// What a map depends on but for the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MapOf {
+    pub sight: Sight,
+    /// The deviation of the blur of borders, texels.
+    pub blur: f64,
+    /// What hangs together on fewer texels is a speck.
+    pub least: f64,
+}
+
+/// How a picture is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Sight {
+    /// How often its texels are halved along each side.
+    pub halvings: usize,
+    /// Whether how all of it looks from afar is one of the colours.
+    pub with_mean: bool,
+    /// Whether texels are blocks.
+    pub blocks: bool,
+}
+
+impl ColourMap {
+    pub(super) fn new(labels: Labels, lost: usize) -> Self {
+        let [width, height] = labels.texels.size;
+        Self { borders: OnceLock::new(), lost: lost as f64 / (width * height) as f64, labels }
+    }
+
+    /// The borders between colours, traced when they are first asked for; none if there are too many.
+    pub fn borders(&self) -> Option<&Traced> {
+        self.borders.get_or_init(|| trace(&self.labels)).as_ref()
+    }
+}
