@@ -15,6 +15,7 @@ use crate::support::properties::subject::Subject;
 use crate::support::solids::{Solid, cuboid, tube};
 use crate::support::truth::{State, Truth};
 use glam::DVec3;
+use ligne::load::ModelFormat;
 use ligne::math::function::{cos, sin};
 use ligne::render::render;
 use ligne::scene::{Camera, Projection, Scene, UpAxis};
@@ -187,6 +188,63 @@ fn hulls_keep_the_outline_of_their_faces() {
         let drawing = render(&model, &camera, &ink_style(Contours::Auto)).unwrap();
         let words = EXACT.short(&judge(&Truth::of(&model, &camera), &drawing, EXACT.tolerance));
         assert!(words.is_empty(), "{view:?}: {}", words.join(", "));
+    }
+}
+
+/// Four studs with six sides before a wall, their caps rounded by normals that lean to the rim from both faces beside each
+/// corner. Sides run to a point behind the wall.
+fn studs() -> Scene {
+    const HIGH: f64 = 0.38;
+    const DEEP: f64 = 3.5;
+    let (mut points, mut normals, mut faces) = (String::new(), String::new(), String::new());
+    let (mut corners, mut ways) = (0, 0);
+    let mut add = |triangle: [DVec3; 3], leaning: [DVec3; 3]| {
+        faces.push('f');
+        for (p, n) in triangle.into_iter().zip(leaning.map(DVec3::normalize)) {
+            points.push_str(&format!("v {} {} {}\n", p.x, p.y, p.z));
+            normals.push_str(&format!("vn {} {} {}\n", n.x, n.y, n.z));
+            (corners, ways) = (corners + 1, ways + 1);
+            faces.push_str(&format!(" {corners}//{ways}"));
+        }
+        faces.push('\n');
+    };
+    let flat = |[a, b, c]: [DVec3; 3]| [(b - a).cross(c - a); 3];
+    for stud in 0..4 {
+        let (across, up) = (f64::from(stud % 2), f64::from(stud / 2));
+        let tilt = glam::DQuat::from_rotation_x(0.15 * f64::from(stud));
+        let place = |p: DVec3| tilt * p + 4.0 * DVec3::new(across, up, 0.0);
+        let rim = |k: usize| {
+            let turn = std::f64::consts::TAU * k as f64 / 6.0;
+            DVec3::new(cos(turn), sin(turn), 0.0)
+        };
+        let [top, tip] = [DVec3::Z * HIGH, DVec3::Z * -DEEP];
+        let of_face = |k: usize| flat([rim(k), rim(k + 1), top])[0];
+        let of_corner = |k: usize| of_face(k) + of_face(k + 5);
+        for k in 0..6 {
+            let cap = [rim(k), rim(k + 1), top].map(place);
+            add(cap, [of_corner(k), of_corner(k + 1), DVec3::Z].map(|way| tilt * way));
+            let side = [rim(k + 1), rim(k), tip].map(place);
+            add(side, flat(side));
+        }
+    }
+    let [a, b, c, d] =
+        [(-3.0, -3.0), (7.0, -3.0), (7.0, 7.0), (-3.0, 7.0)].map(|(x, y)| DVec3::new(x, y, -1.0));
+    [[a, b, c], [a, c, d]].into_iter().for_each(|half| add(half, flat(half)));
+    Scene::from_bytes((points + &normals + &faces).as_bytes(), ModelFormat::Obj).unwrap()
+}
+
+/// The sides beyond a rim are turned from the eye there, and the cap is cut finer and bulges: its last faces are turned
+/// away as well, which is no ripple but where the cap ends.
+#[test]
+fn rounded_caps_keep_their_rims_before_a_wall() {
+    let model = studs();
+    for view in VIEWS {
+        let camera = camera(&model, view);
+        let drawing = render(&model, &camera, &ink_style(Contours::Auto)).unwrap();
+        // Caps are drawn rounder than their faces.
+        let verdict = judge(&Truth::of(&model, &camera), &drawing, 8.0);
+        assert!(verdict.contour.share > 0.98 && verdict.outline.share > 0.98, "{view:?}: {verdict:?}");
+        assert!(verdict.leak.share < 0.002, "{view:?}: {verdict:?}");
     }
 }
 

@@ -1,8 +1,9 @@
 //! Folds: edges along which a few faces turn from the eye while the smooth surface does not.
 //!
 //! The faces beyond an edge of the polyhedron's contour are walked through as long as they turn the
-//! same way. Where the contour of the smooth surface is among them, the edge stands for it; where
-//! they come to an end without it, they are a ripple of the mesh.
+//! same way. Where the contour of the smooth surface is among them, the edge stands for it, as it does
+//! where they reach a crease beyond which the other surface turns so too; where they come to an end
+//! without either, they are a ripple of the mesh.
 
 use rayon::prelude::*;
 
@@ -59,14 +60,16 @@ impl FoldedSurface<'_> {
                 let Ok(edge) = self.mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]) else {
                     continue;
                 };
+                let EdgeFaces::Two { faces: pair, same_way } = self.mesh.edges.faces(edge) else { continue };
+                let next = if pair[0] == face { pair[1] } else { pair[0] };
+                let turns_so = (self.view.facing[next as usize] == side) != same_way;
                 if self.smooth.across(self.mesh, edge).is_none() {
-                    continue;
-                }
-                if let EdgeFaces::Two { faces: pair, .. } = self.mesh.edges.faces(edge) {
-                    let next = if pair[0] == face { pair[1] } else { pair[0] };
-                    if self.view.facing[next as usize] == side && !faces.contains(&next) {
-                        faces.push(next);
+                    // What lies beyond a crease turns so as well: the surface is seen no more there.
+                    if turns_so {
+                        return false;
                     }
+                } else if turns_so && !faces.contains(&next) {
+                    faces.push(next);
                 }
             }
         }
