@@ -38,8 +38,15 @@ pub(super) struct Sight {
 
 impl ColourMap {
     pub(super) fn new(labels: Labels, lost: usize) -> Self {
-        let [width, height] = labels.texels.size;
-        Self { borders: OnceLock::new(), lost: lost as f64 / (width * height) as f64, labels }
+        let mut map = Self { borders: OnceLock::new(), lost: 0.0, labels };
+        map.lost = lost as f64 / map.texels() as f64;
+        map
+    }
+
+    /// The number of its texels.
+    pub(super) fn texels(&self) -> usize {
+        let [width, height] = self.labels.texels.size;
+        width * height
     }
 
     /// The borders between colours, traced when they are first asked for; none if there are too many.

@@ -22,6 +22,8 @@ pub(crate) use imaged::Imaged;
 pub(crate) use painted::Painted;
 pub(super) use palette::few;
 
+use self::guesses::Guesses;
+use self::kept::Kept;
 use self::swatches::{ALIKE, difference};
 use super::beside::read_beside;
 use super::texels::Texels;
@@ -151,6 +153,7 @@ impl Texture {
 
     /// This texture in a few colours, and in the mean.
     pub fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> Painted {
+        let most = KEPT * shown.len();
         Painted {
             texels: self.texels,
             colours: self.picture.pixels,
@@ -158,11 +161,14 @@ impl Texture {
             palette: colours.iter().map(|colour| oklab::of(*colour)).collect(),
             mean: oklab::of(mean),
             filter: self.filter,
-            guesses: kept::Kept::default(),
-            maps: kept::Kept::default(),
+            guesses: Kept::new(most, |guesses: &Guesses| guesses.list.len()),
+            maps: Kept::new(most, ColourMap::texels),
         }
     }
 }
+
+/// What views before made of a picture is kept up to so many times its size: enough for all of its scales together.
+const KEPT: usize = 2;
 
 /// Larger pictures lose what no drawing shows.
 const MOST_TEXELS: usize = 1 << 22;
