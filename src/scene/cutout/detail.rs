@@ -10,11 +10,14 @@ use crate::scene::texels::outline::Outline;
 const ACROSS_PX: f64 = 4096.0;
 const FINE_PX: f64 = 0.2;
 
-/// Where there is very much of them, as on trees with many thousands of leaves, within so many px.
+/// Where there is much of them, as on trees with thousands of leaves, within so many px; and where there is very much, as in a
+/// street with such trees.
+const SLIGHT_PX: f64 = 1.0;
 const COARSE_PX: f64 = 4.0;
 
-/// More pieces of border in all are too many to be followed finely.
-const MANY: f64 = 1.5e6;
+/// More pieces of border in all are much, and more than these are very much.
+const MUCH: f64 = 3e5;
+const VERY_MUCH: f64 = 1.5e6;
 
 /// No more pieces are cut out of a material in all, and no more are looked at.
 const MOST_PIECES: f64 = 3e7;
@@ -50,19 +53,18 @@ pub(super) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Option<Out
     let within =
         |px: f64, most: f64| if px_texels.is_finite() { (px * px_texels).clamp(least, most) } else { least };
     let mut tolerance = within(FINE_PX, most);
+    let slight = within(SLIGHT_PX, most);
     let coarsest = within(COARSE_PX, most.max(width.min(height) as f64 / 16.0));
     let [times_shown, times_near] = [in_texels, in_boxes].map(|texels| texels / (width * height) as f64);
     let traced = trace(mask)?;
     loop {
         let outline = Outline::new(&traced, tolerance);
-        let count = outline.count() as f64;
-        if count * times_shown <= MANY {
-            return (count * times_near <= MOST_LOOKS).then_some(outline);
-        }
-        if tolerance >= coarsest {
+        let (count, limit) = (outline.count() as f64, if tolerance < slight { slight } else { coarsest });
+        let is_enough = count * times_shown <= if tolerance < slight { MUCH } else { VERY_MUCH };
+        if is_enough || tolerance >= coarsest {
             let can_be_cut = count * times_shown <= MOST_PIECES && count * times_near <= MOST_LOOKS;
             return can_be_cut.then_some(outline);
         }
-        tolerance = (tolerance * 1.7).min(coarsest);
+        tolerance = (tolerance * 1.7).min(limit);
     }
 }

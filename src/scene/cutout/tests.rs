@@ -232,6 +232,35 @@ fn pictures_of_noise_on_very_many_triangles_are_left_alone() {
 }
 
 #[test]
+fn where_there_is_much_borders_lie_a_px_off_at_most() {
+    // Sixteen round holes.
+    const RADIUS: f64 = 20.3;
+    let hole = disc(64, RADIUS);
+    let holes: Vec<u8> = (0..256 * 256).map(|k| hole[k / 256 % 64 * 64 + k % 64]).collect();
+    // How many pieces of border there are when a square shows them so often along each side, and how far off they lie.
+    let found = |times: f32| {
+        let [a, b, c, d] = SQUARE.map(|at| at.map(|x| x as f32 * times));
+        let triangles = [([0, 1, 2], [a, b, c], 0), ([0, 2, 3], [a, c, d], 0)];
+        let scene = scene(&SQUARE, &triangles, masked(png(256, &holes), Wrap::Repeat));
+        let Ok(Masked::Where(mask)) = Masked::of(&scene, &scene.materials[0]) else { panic!("no mask") };
+        let outline = detail::outline(&scene, 0, &mask).unwrap();
+        let px_texels = 2.0_f64.sqrt() / 4096.0 * 256.0 * f64::from(times);
+        let off = outline.segments.iter().map(|[a, b]| {
+            let middle = (*a + *b) / 2.0;
+            let centre = ((middle - 31.5) / 64.0).round() * 64.0 + 31.5;
+            (middle.distance(centre) - RADIUS).abs() / px_texels
+        });
+        (outline.count(), off.fold(0.0, f64::max))
+    };
+    let (some, fine) = found(20.0);
+    assert!(fine < 0.4, "{some} pieces, {fine} px off");
+    // Followed as closely, what is seen three times as small would have 0.58 times as many pieces.
+    let (less, slight) = found(60.0);
+    assert!(f64::from(less as u32) < 0.53 * f64::from(some as u32), "{less} pieces of {some}");
+    assert!(slight > fine && slight < 1.1, "{fine} and {slight} px off");
+}
+
+#[test]
 fn pieces_have_the_paint_of_their_triangle() {
     let scene = square(masked(png(64, &disc(64, 20.0)), Wrap::Repeat));
     let Cut { scene: cut, origins, .. } = cut(&scene);
