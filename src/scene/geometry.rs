@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
+use crate::math::tolerance::F32_STEP;
 use crate::mesh::EdgeMark;
 
 /// A shape: triangles and wires in its own space.
@@ -34,9 +35,23 @@ pub struct Geometry {
     pub wires: Vec<[u32; 2]>,
     /// Whether the positions were stored in single precision.
     pub single_precision: bool,
+    /// The step of the lattice to which the file rounded the positions, local units: a decimal of a text, a step of whole
+    /// numbers; 0 where it is not known, and for single precision.
+    pub lattice_step: f64,
 }
 
 impl Geometry {
+    /// The distance between neighbouring coordinates that the file could have written, at its largest coordinate, local units;
+    /// 0 for numbers in double precision.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        if !self.single_precision {
+            return self.lattice_step;
+        }
+        let largest = self.positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
+        self.lattice_step.max(F32_STEP * largest)
+    }
+
     /// The material of a triangle.
     #[must_use]
     pub fn material_of(&self, triangle: usize) -> Option<u32> {

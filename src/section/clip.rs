@@ -113,6 +113,7 @@ impl<'a> Clipper<'a> {
             uvs: shape.uvs.clone(),
             colours: shape.colours.clone(),
             single_precision: shape.single_precision,
+            lattice_step: shape.lattice_step,
             ..Geometry::default()
         };
         Self {

@@ -112,6 +112,20 @@ impl Buffers<'_> {
         Ok(values)
     }
 
+    /// The step of the values of an accessor that are stored as whole numbers; 0 for floating-point numbers.
+    pub fn step(&self, index: usize) -> f64 {
+        let Ok(accessor) = self.accessor(index) else { return 0.0 };
+        let largest = match Component::new(accessor.component_type) {
+            Ok(Component::I8) => f64::from(i8::MAX),
+            Ok(Component::U8) => f64::from(u8::MAX),
+            Ok(Component::I16) => f64::from(i16::MAX),
+            Ok(Component::U16) => f64::from(u16::MAX),
+            Ok(Component::U32) => f64::from(u32::MAX),
+            Ok(Component::F32) | Err(_) => return 0.0,
+        };
+        if accessor.normalized { 1.0 / largest } else { 1.0 }
+    }
+
     /// Indices of a primitive.
     pub fn indices(&self, index: usize) -> Result<Indices, Error> {
         let place = |error: Error| error.at(format!("accessor {index}"));

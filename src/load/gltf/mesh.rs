@@ -152,6 +152,9 @@ impl<'a> Builder<'a> {
         let geometry = &mut self.geometry;
         // Every file of this format stores single precision or less, except where a pose moved it.
         geometry.single_precision = true;
+        let position = primitive.attributes.get("POSITION");
+        let step = position.map_or(0.0, |position| self.buffers.step(*position));
+        geometry.lattice_step = geometry.lattice_step.max(step);
         append_or_take(&mut geometry.normals, start, streams.normals, [0.0; 3]);
         append_or_take(&mut geometry.uvs, start, streams.uvs, [0.0; 2]);
         append_or_take(&mut geometry.colours, start, streams.colours, [1.0; 4]);

@@ -18,6 +18,7 @@ use crate::shape::Origin;
 use crate::trees::finer::{Hosts, PairSearch};
 use crate::trees::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
 use crate::trees::trace::Tracer;
+use crate::trees::triangle_pair::PairTolerance;
 use crate::view::View;
 
 /// Meshes with at most this many triangles are searched in full, which takes no longer.
@@ -78,7 +79,7 @@ fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
 #[must_use]
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
-    intersections_of_parts(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+    intersections_of_parts(&input(mesh, &active), |face| PairTolerance::of_part(mesh.extent(FaceId(face))))
 }
 
 /// The curves of a mesh between faces that are not `out_of_sight`: of [`all_curves`] every segment of which something shows.
@@ -88,14 +89,14 @@ pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Intersection
         *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
     });
     let active = out_of_sight;
-    intersections_of_parts(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+    intersections_of_parts(&input(mesh, &active), |face| PairTolerance::of_part(mesh.extent(FaceId(face))))
 }
 
 /// All curves of a mesh, so that those of finer meshes made of it are found sooner: [`curves_of_finer`].
 #[must_use]
 pub fn search(mesh: &Mesh) -> PairSearch {
     let active = active(mesh);
-    PairSearch::new(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+    PairSearch::new(&input(mesh, &active), |face| PairTolerance::of_part(mesh.extent(FaceId(face))))
 }
 
 /// All curves of a surface some of whose faces were cut, with the help of a [`search`] of the mesh it was made of:
@@ -105,8 +106,8 @@ pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves
     let mesh = &finer.surface.mesh;
     let active = active(mesh);
     let hosts = Hosts { faces: &finer.hosts, kept: finer.kept };
-    let scale = |face| mesh.extent(FaceId(face)).scale;
-    search.curves_of_finer(&input(mesh, &active), hosts, scale)
+    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
+    search.curves_of_finer(&input(mesh, &active), hosts, tolerance)
 }
 
 /// Which faces have area; empty if all have.

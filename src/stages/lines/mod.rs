@@ -81,7 +81,7 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     let along_edges = || match known.search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, options),
         Some(search) => {
-            let among = search.candidates(&view.frame).items;
+            let among = search.candidates(mesh, view).items;
             edge_lines::find_among(&among, surface, view, options)
         }
     };

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::carriers::{Faces, take_over};
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
@@ -66,7 +67,10 @@ impl Mesh {
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
         let scale = |face: usize| extents.of(soup.triangle_part[face]).scale;
-        let face_normals = face_normals(&soup.positions, &soup.triangles, scale);
+        let mut face_normals = face_normals(&soup.positions, &soup.triangles, scale);
+        let Soup { positions, triangles, triangle_part: parts, .. } = &soup;
+        let carriers = Faces { positions, triangles, parts, edges: &edges, extents: &extents }.carriers();
+        take_over(&carriers, &mut face_normals);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
@@ -77,6 +81,7 @@ impl Mesh {
             positions: soup.positions,
             triangles: soup.triangles,
             face_normals,
+            carriers,
             face_part: soup.triangle_part,
             face_material: soup.triangle_material,
             face_paint: soup.triangle_paint,

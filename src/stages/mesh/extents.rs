@@ -38,11 +38,22 @@ pub struct Extent {
     pub contact: f64,
     /// Vertices this near are one vertex, world units.
     pub weld: f64,
+    /// The step of its coordinates as the file wrote them, world units; 0 where they are exact.
+    pub step: f64,
+    /// How far rounding may have moved a vertex, world units; 0 where coordinates are exact.
+    pub rounding: f64,
 }
 
 impl Extent {
-    const NOTHING: Self =
-        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, scale: 0.0, contact: 0.0, weld: 0.0 };
+    const NOTHING: Self = Self {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
+        scale: 0.0,
+        contact: 0.0,
+        weld: 0.0,
+        step: 0.0,
+        rounding: 0.0,
+    };
 
     /// Diagonal of the box, world units.
     #[must_use]
@@ -112,8 +123,9 @@ impl Extents {
                 (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
             }
         }
-        for extent in &mut of_part {
-            extent.measure(origin, soup.single_precision);
+        for (part, extent) in of_part.iter_mut().enumerate() {
+            let step = soup.steps.get(part).copied().unwrap_or_default();
+            extent.measure(origin, soup.single_precision, step);
         }
         Self { of_part, middle: all.middle(), diagonal: all.diagonal() }
     }
@@ -122,6 +134,12 @@ impl Extents {
     #[must_use]
     pub fn of(&self, part: PartId) -> &Extent {
         self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
+    }
+
+    /// Whether the coordinates of some part are rounded.
+    #[must_use]
+    pub fn is_rounded(&self) -> bool {
+        self.of_part.iter().any(|part| part.rounding > 0.0)
     }
 
     /// A ball that holds all vertices: its middle, local space, and its radius. Both are rounded, so that they
@@ -141,7 +159,14 @@ impl Extents {
 }
 
 impl Extent {
-    fn measure(&mut self, origin: DVec3, single_precision: bool) {
+    /// The largest height of a face at which rounding may have turned its normal by more than an angle with this sine.
+    #[inline]
+    #[must_use]
+    pub fn unsure_height(&self, sine: f64) -> f64 {
+        2.0 * self.rounding / sine
+    }
+
+    fn measure(&mut self, origin: DVec3, single_precision: bool, step: f64) {
         if self.low.x > self.high.x {
             return;
         }
@@ -152,8 +177,11 @@ impl Extent {
         let largest = low.abs().max(high.abs()).max_element();
         let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
         self.weld = (tolerance::WELD_OF_PART * self.scale).max(written);
-        self.contact =
-            (tolerance::CONTACT_OF_PART * self.scale).max((2.0 * written).min(CONTACT_AT_MOST * self.scale));
+        // Placing a part in the world rounds its coordinates again.
+        self.step = if single_precision { step.max(tolerance::F32_STEP * largest) } else { step };
+        self.rounding = (tolerance::ROUNDING_STEPS * self.step).min(CONTACT_AT_MOST * self.scale);
+        let between = (2.0 * written).max(2.0 * self.rounding).min(CONTACT_AT_MOST * self.scale);
+        self.contact = (tolerance::CONTACT_OF_PART * self.scale).max(between);
     }
 }
 

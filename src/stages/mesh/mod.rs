@@ -1,6 +1,7 @@
 //! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
 pub mod build;
+pub mod carriers;
 mod changed_edges;
 pub mod clean;
 mod counting_sort;
@@ -61,6 +62,8 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Unit normal of each face; zero for degenerate faces.
     pub face_normals: Vec<[f32; 3]>,
+    /// Narrow faces, ascending, each with a wider face in the same plane that knows the normal better: see [`carriers`].
+    pub carriers: Vec<[u32; 2]>,
     /// Part of each face.
     pub face_part: Vec<PartId>,
     /// Material of each face.

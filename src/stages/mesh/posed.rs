@@ -9,6 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::carriers::{Faces, take_over};
 use super::face_normals::face_normals;
 use super::{Extents, Mesh, Soup};
 
@@ -71,6 +72,7 @@ impl Mesh {
             triangle_part: self.face_part.clone(),
             wires: self.wires.clone(),
             single_precision: soup.single_precision,
+            steps: soup.steps.clone(),
             ..Soup::default()
         };
         let extents = Extents::new(&moved, self.origin);
@@ -83,9 +85,14 @@ impl Mesh {
             return None;
         }
         let scale = |face: usize| extents.of(moved.triangle_part[face]).scale;
-        let face_normals = face_normals(&moved.positions, &moved.triangles, scale);
+        let mut face_normals = face_normals(&moved.positions, &moved.triangles, scale);
+        let Soup { positions, triangles, triangle_part: parts, .. } = &moved;
+        let carriers =
+            Faces { positions, triangles, parts, edges: &self.edges, extents: &extents }.carriers();
+        take_over(&carriers, &mut face_normals);
         Some(Self {
             face_normals,
+            carriers,
             normals: soup.normals.clone(),
             positions: moved.positions,
             extents,
