@@ -52,6 +52,12 @@ pub const OVERLAP_OF_PART: f64 = 1e-9;
 /// Two triangles whose common part is no longer than this many times what rounding moves a vertex by merely touch.
 pub const OVERLAP_OF_ROUNDING: f64 = 4.0;
 
+/// Surfaces that turn from one facet to the next by this many degrees or more are not round there: the default limit of creases.
+pub const MAX_FACET_DEG: f64 = 40.0;
+
+/// A curve of intersection is a contact of round surfaces if at least this share of its length is.
+pub const CONTACT_OF_CURVE: f64 = 0.9;
+
 /// Planes at an angle of this sine or less are parallel, and have no line in common.
 pub const PARALLEL_SINE: f64 = 1e-9;
 

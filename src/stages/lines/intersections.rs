@@ -9,6 +9,7 @@
 
 use rayon::prelude::*;
 
+use super::contacts;
 use super::surface::Finer;
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::math::grain::GRAIN;
@@ -79,7 +80,8 @@ fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
 #[must_use]
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
-    intersections_of_parts(&input(mesh, &active), |face| PairTolerance::of_part(mesh.extent(FaceId(face))))
+    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
+    contacts::without(intersections_of_parts(&input(mesh, &active), tolerance), mesh)
 }
 
 /// The curves of a mesh between faces that are not `out_of_sight`: of [`all_curves`] every segment of which something shows.
@@ -89,7 +91,8 @@ pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Intersection
         *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
     });
     let active = out_of_sight;
-    intersections_of_parts(&input(mesh, &active), |face| PairTolerance::of_part(mesh.extent(FaceId(face))))
+    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
+    contacts::without(intersections_of_parts(&input(mesh, &active), tolerance), mesh)
 }
 
 /// All curves of a mesh, so that those of finer meshes made of it are found sooner: [`curves_of_finer`].
@@ -107,7 +110,7 @@ pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves
     let active = active(mesh);
     let hosts = Hosts { faces: &finer.hosts, kept: finer.kept };
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    search.curves_of_finer(&input(mesh, &active), hosts, tolerance)
+    contacts::without(search.curves_of_finer(&input(mesh, &active), hosts, tolerance), mesh)
 }
 
 /// Which faces have area; empty if all have.
@@ -128,5 +131,5 @@ pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
     let buffer = FaceBuffer::new(&Screen::new(mesh, view));
     let active = strangers::find(mesh, &buffer);
     let tracer = Tracer::new(mesh);
-    tracer.curves(&tracer.pairs_among(&active))
+    contacts::without(tracer.curves(&tracer.pairs_among(&active)), mesh)
 }

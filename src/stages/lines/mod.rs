@@ -1,6 +1,7 @@
 //! Feature lines: curves on the surface that may be drawn.
 
 mod colour_cells;
+mod contacts;
 mod covered;
 mod drawn;
 pub mod edge_lines;
