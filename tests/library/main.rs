@@ -50,6 +50,7 @@ mod pages;
 mod painted_surfaces;
 mod panels;
 mod paper;
+mod part_bodies;
 mod part_groups;
 mod patterns;
 mod picture_fills;

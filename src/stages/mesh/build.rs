@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::bodies::bodies;
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
@@ -33,7 +34,11 @@ impl Mesh {
         drop_collapsed(&mut soup, &mut cleaning);
         let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
 
-        let extents = Extents::new(&soup, origin);
+        let of_bodies = |soup: &Soup, bodies: &[_]| {
+            Extents::new(soup, origin).united(bodies, origin, soup.single_precision)
+        };
+        let mut joined_parts = bodies(&soup.triangle_part, &edges);
+        let mut extents = of_bodies(&soup, &joined_parts);
         let (borders, reaches) = border_vertices(&soup, &edges, &extents);
         if let Some(joined) = weld::near(&soup.positions, &borders, &reaches) {
             replace_vertices(&mut soup, &joined, &mut cleaning);
@@ -65,6 +70,11 @@ impl Mesh {
         }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
+        let found = bodies(&soup.triangle_part, &edges);
+        if found != joined_parts {
+            extents = of_bodies(&soup, &found);
+            joined_parts = found;
+        }
         let scale = |face: usize| extents.of(soup.triangle_part[face]).scale;
         let face_normals = face_normals(&soup.positions, &soup.triangles, scale);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
@@ -78,6 +88,7 @@ impl Mesh {
             triangles: soup.triangles,
             face_normals,
             face_part: soup.triangle_part,
+            bodies: joined_parts,
             face_material: soup.triangle_material,
             face_paint: soup.triangle_paint,
             normals: soup.normals,

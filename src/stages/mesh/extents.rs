@@ -140,6 +140,23 @@ impl Extents {
     }
 }
 
+impl Extents {
+    /// The same, but that each part has the extent of its body: the union of those of its parts.
+    pub(super) fn united(mut self, bodies: &[PartId], origin: DVec3, single_precision: bool) -> Self {
+        if bodies.is_empty() {
+            return self;
+        }
+        let mut of_body = vec![Extent::NOTHING; self.of_part.len()];
+        for (extent, body) in self.of_part.iter().zip(bodies) {
+            let own = &mut of_body[body.index()];
+            (own.low, own.high) = (own.low.min(extent.low), own.high.max(extent.high));
+        }
+        of_body.iter_mut().for_each(|extent| extent.measure(origin, single_precision));
+        self.of_part.iter_mut().zip(bodies).for_each(|(extent, body)| *extent = of_body[body.index()]);
+        self
+    }
+}
+
 impl Extent {
     fn measure(&mut self, origin: DVec3, single_precision: bool) {
         if self.low.x > self.high.x {

@@ -215,7 +215,8 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines) -> Self {
         let vertex_of_end = vec![UNSET; mesh.positions.len() + lines.points.len()];
-        Self { mesh, view, lines, map: ViewMap::default(), vertex_of_end }
+        let map = ViewMap { bodies: mesh.bodies.clone(), ..ViewMap::default() };
+        Self { mesh, view, lines, map, vertex_of_end }
     }
 
     /// Adds the pieces of segments, of which these are all.
