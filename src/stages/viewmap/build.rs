@@ -79,8 +79,7 @@ pub(super) fn of_hidden(
     let limits = Limits::new(&view.frame);
     let mut cuts = Cuts::default();
     for (id, (segment, hidden)) in segments.iter().zip(hidden).enumerate() {
-        let kind = lines.segments[segment.source as usize].kind;
-        cuts.add(id, segment, kind, Seen { hidden, backed: &[] }, limits.piece, false);
+        cuts.add(id, segment, Seen { hidden, backed: &[] }, limits.piece, false);
     }
     let mut builder = Builder::new(mesh, view, lines);
     builder.add_all(segments, &cuts);
@@ -176,7 +175,7 @@ impl<'a> Asked<'a> {
             if drawn {
                 let source = &self.lines.segments[segment.source as usize];
                 let keeps_hidden = but.is_none() && keeps_hidden(self.hidden, segment, source.kind);
-                cuts.add(i, segment, source.kind, seen, self.limits.piece, keeps_hidden);
+                cuts.add(i, segment, seen, self.limits.piece, keeps_hidden);
             }
         }
         cuts
