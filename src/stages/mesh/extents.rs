@@ -38,11 +38,27 @@ pub struct Extent {
     pub contact: f64,
     /// Vertices this near are one vertex, world units.
     pub weld: f64,
+    /// What the part is without the rest of its body.
+    own: Own,
+}
+
+/// The scale and the box of a part alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Own {
+    scale: f64,
+    low: DVec3,
+    high: DVec3,
 }
 
 impl Extent {
-    const NOTHING: Self =
-        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, scale: 0.0, contact: 0.0, weld: 0.0 };
+    const NOTHING: Self = Self {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
+        scale: 0.0,
+        contact: 0.0,
+        weld: 0.0,
+        own: Own { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
+    };
 
     /// Diagonal of the box, world units.
     #[must_use]
@@ -50,12 +66,12 @@ impl Extent {
         if self.low.x <= self.high.x { self.low.distance(self.high) } else { 0.0 }
     }
 
-    /// The order of two parts by their size, then by where they are, which does not depend on that in the file.
+    /// The order of two parts by their own size, then by where they are, which does not depend on that in the file.
     #[must_use]
     pub fn precedence(&self, other: &Self) -> Ordering {
-        let place = |extent: &Self| [extent.low.to_array(), extent.high.to_array()];
-        let by_place = || place(self).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
-        self.scale.total_cmp(&other.scale).then_with(by_place)
+        let place = |own: &Own| [own.low.to_array(), own.high.to_array()];
+        let by_place = || place(&self.own).partial_cmp(&place(&other.own)).unwrap_or(Ordering::Equal);
+        self.own.scale.total_cmp(&other.own.scale).then_with(by_place)
     }
 
     /// Middle of the box, local space.
@@ -141,7 +157,8 @@ impl Extents {
 }
 
 impl Extents {
-    /// The same, but that each part has the extent of its body: the union of those of its parts.
+    /// The same, but that each part has the extent of its body: the union of those of its parts. The order of parts stays that of
+    /// their own sizes.
     pub(super) fn united(mut self, bodies: &[PartId], origin: DVec3, single_precision: bool) -> Self {
         if bodies.is_empty() {
             return self;
@@ -152,7 +169,9 @@ impl Extents {
             (own.low, own.high) = (own.low.min(extent.low), own.high.max(extent.high));
         }
         of_body.iter_mut().for_each(|extent| extent.measure(origin, single_precision));
-        self.of_part.iter_mut().zip(bodies).for_each(|(extent, body)| *extent = of_body[body.index()]);
+        for (extent, body) in self.of_part.iter_mut().zip(bodies) {
+            *extent = Extent { own: extent.own, ..of_body[body.index()] };
+        }
         self
     }
 }
@@ -169,6 +188,7 @@ impl Extent {
         let largest = low.abs().max(high.abs()).max_element();
         let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
         self.weld = (tolerance::WELD_OF_PART * self.scale).max(written);
+        self.own = Own { scale: self.scale, low: self.low, high: self.high };
         self.contact =
             (tolerance::CONTACT_OF_PART * self.scale).max((2.0 * written).min(CONTACT_AT_MOST * self.scale));
     }

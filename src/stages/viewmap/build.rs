@@ -295,7 +295,8 @@ fn view_edge(
         kind: source.kind,
         invisibility: piece.invisibility,
         silhouette: piece.silhouette,
-        both_seen: source.both_seen,
+        // Where there is background on one side, only one of the two surfaces is seen.
+        both_seen: source.both_seen && !piece.silhouette,
         smooth: source.smooth,
         origin: source.origin,
         strength: source.strength,
