@@ -354,11 +354,11 @@ impl<'a> Finder<'a> {
         ((std::f64::consts::PI - (high - low)).abs().to_degrees() - 2.0 * doubt) as f32
     }
 
-    /// The largest turn between the two faces that one part has at the edge: where parts touch,
+    /// The largest turn between the two faces that one body has at the edge: where bodies touch,
     /// each keeps its own creases.
     fn own_turn(&self, edge: usize, faces: &[u32]) -> f32 {
         let mesh = self.mesh;
-        let part = |f: &u32| mesh.face_part[*f as usize];
+        let part = |f: &u32| mesh.body(*f);
         if faces.iter().all(|f| part(f) == part(&faces[0])) {
             return 0.0;
         }

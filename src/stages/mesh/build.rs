@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::bodies::bodies;
 use super::carriers::{Faces, take_over};
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
@@ -34,7 +35,11 @@ impl Mesh {
         drop_collapsed(&mut soup, &mut cleaning);
         let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
 
-        let extents = Extents::new(&soup, origin);
+        let of_bodies = |soup: &Soup, bodies: &[_]| {
+            Extents::new(soup, origin).united(bodies, origin, soup.single_precision)
+        };
+        let mut joined_parts = bodies(&soup.triangle_part, &edges);
+        let mut extents = of_bodies(&soup, &joined_parts);
         let (borders, reaches) = border_vertices(&soup, &edges, &extents);
         if let Some(joined) = weld::near(&soup.positions, &borders, &reaches) {
             replace_vertices(&mut soup, &joined, &mut cleaning);
@@ -66,6 +71,11 @@ impl Mesh {
         }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
+        let found = bodies(&soup.triangle_part, &edges);
+        if found != joined_parts {
+            extents = of_bodies(&soup, &found);
+            joined_parts = found;
+        }
         let scale = |face: usize| extents.of(soup.triangle_part[face]).scale;
         let mut face_normals = face_normals(&soup.positions, &soup.triangles, scale);
         let Soup { positions, triangles, triangle_part: parts, .. } = &soup;
@@ -83,6 +93,7 @@ impl Mesh {
             face_normals,
             carriers,
             face_part: soup.triangle_part,
+            bodies: joined_parts,
             face_material: soup.triangle_material,
             face_paint: soup.triangle_paint,
             normals: soup.normals,

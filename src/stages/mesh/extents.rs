@@ -42,6 +42,16 @@ pub struct Extent {
     pub step: f64,
     /// How far rounding may have moved a vertex, world units; 0 where coordinates are exact.
     pub rounding: f64,
+    /// What the part is without the rest of its body.
+    own: Own,
+}
+
+/// The scale and the box of a part alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Own {
+    scale: f64,
+    low: DVec3,
+    high: DVec3,
 }
 
 impl Extent {
@@ -53,6 +63,7 @@ impl Extent {
         weld: 0.0,
         step: 0.0,
         rounding: 0.0,
+        own: Own { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
     };
 
     /// Diagonal of the box, world units.
@@ -61,12 +72,12 @@ impl Extent {
         if self.low.x <= self.high.x { self.low.distance(self.high) } else { 0.0 }
     }
 
-    /// The order of two parts by their size, then by where they are, which does not depend on that in the file.
+    /// The order of two parts by their own size, then by where they are, which does not depend on that in the file.
     #[must_use]
     pub fn precedence(&self, other: &Self) -> Ordering {
-        let place = |extent: &Self| [extent.low.to_array(), extent.high.to_array()];
-        let by_place = || place(self).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
-        self.scale.total_cmp(&other.scale).then_with(by_place)
+        let place = |own: &Own| [own.low.to_array(), own.high.to_array()];
+        let by_place = || place(&self.own).partial_cmp(&place(&other.own)).unwrap_or(Ordering::Equal);
+        self.own.scale.total_cmp(&other.own.scale).then_with(by_place)
     }
 
     /// Middle of the box, local space.
@@ -158,14 +169,28 @@ impl Extents {
     }
 }
 
-impl Extent {
-    /// The largest height of a face at which rounding may have turned its normal by more than an angle with this sine.
-    #[inline]
-    #[must_use]
-    pub fn unsure_height(&self, sine: f64) -> f64 {
-        2.0 * self.rounding / sine
+impl Extents {
+    /// The same, but that each part has the extent of its body: the union of those of its parts. The order of parts stays that of
+    /// their own sizes.
+    pub(super) fn united(mut self, bodies: &[PartId], origin: DVec3, single_precision: bool) -> Self {
+        if bodies.is_empty() {
+            return self;
+        }
+        let mut of_body = vec![Extent::NOTHING; self.of_part.len()];
+        for (extent, body) in self.of_part.iter().zip(bodies) {
+            let own = &mut of_body[body.index()];
+            (own.low, own.high) = (own.low.min(extent.low), own.high.max(extent.high));
+            own.step = own.step.max(extent.step);
+        }
+        of_body.iter_mut().for_each(|extent| extent.measure(origin, single_precision, extent.step));
+        for (extent, body) in self.of_part.iter_mut().zip(bodies) {
+            *extent = Extent { own: extent.own, ..of_body[body.index()] };
+        }
+        self
     }
+}
 
+impl Extent {
     fn measure(&mut self, origin: DVec3, single_precision: bool, step: f64) {
         if self.low.x > self.high.x {
             return;
@@ -182,6 +207,7 @@ impl Extent {
         self.rounding = (tolerance::ROUNDING_STEPS * self.step).min(CONTACT_AT_MOST * self.scale);
         let between = (2.0 * written).max(2.0 * self.rounding).min(CONTACT_AT_MOST * self.scale);
         self.contact = (tolerance::CONTACT_OF_PART * self.scale).max(between);
+        self.own = Own { scale: self.scale, low: self.low, high: self.high };
     }
 }
 

@@ -1,5 +1,6 @@
 //! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
+pub(crate) mod bodies;
 pub mod build;
 pub mod carriers;
 mod changed_edges;
@@ -66,6 +67,9 @@ pub struct Mesh {
     pub carriers: Vec<[u32; 2]>,
     /// Part of each face.
     pub face_part: Vec<PartId>,
+    /// For each part the first of the parts whose surfaces continue in each other; empty if each part is a body of its own. See
+    /// [`Mesh::body`].
+    pub bodies: Vec<PartId>,
     /// Material of each face.
     pub face_material: Vec<MaterialId>,
     /// Paint of each face, or empty where each has that of its material: see [`Mesh::paint`].

@@ -76,6 +76,7 @@ impl Mesh {
             ..Soup::default()
         };
         let extents = Extents::new(&moved, self.origin);
+        let extents = extents.united(&self.bodies, self.origin, moved.single_precision);
         let together = TOGETHER * extents.diagonal;
         let parted = |(vertex, p): (&u32, &DVec3)| {
             let joined = moved.positions.get(*vertex as usize).copied().unwrap_or(DVec3::NAN);

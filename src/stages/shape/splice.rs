@@ -239,6 +239,7 @@ fn of_faces(
         corner_normals: kept.carry(part!(mesh, corner_normals), pieces.iter().map(|_| [u32::MAX; 3])),
         origin: mesh.origin,
         extents: mesh.extents.clone(),
+        bodies: mesh.bodies.clone(),
         face_normals: kept.carry(part!(mesh, face_normals), normals.into_iter()),
         carriers: kept.carriers(&mesh.carriers),
         face_part: kept.carry(part!(mesh, face_part), own_parts.into_iter()),
