@@ -8,6 +8,7 @@ use super::carriers::{Faces, take_over};
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
+use super::orientation::{Surfaces, Triangles, TurnedFaces, turn_faces};
 use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
 use crate::math::grain::GRAIN;
 
@@ -16,7 +17,8 @@ impl Mesh {
     ///
     /// Vertices at the same place are joined (see [`weld`]), faces with repeated corners and
     /// faces that stand twice in one part are dropped, open edges that lie along each other are sewn (see
-    /// `seams`), everything is counted in [`Mesh::cleaning`]. However the soup numbers its vertices, whatever the order of its faces
+    /// `seams`), everything is counted in [`Mesh::cleaning`]. Faces that are wound inward or against their neighbours
+    /// are turned (see `orientation`) and counted in [`Mesh::turned`]. However the soup numbers its vertices, whatever the order of its faces
     /// and whichever corner they begin with, the mesh is the same; only parts and materials keep
     /// their order.
     #[must_use]
@@ -34,6 +36,15 @@ impl Mesh {
         }
         drop_collapsed(&mut soup, &mut cleaning);
         let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
+        let mut turned = Vec::new();
+        // Closed surfaces come first, so that all that follows is as if the file had wound them right.
+        let mut surfaces = surfaces(&soup, &edges);
+        let mut is_final = !surfaces.has_open();
+        surfaces.turn_closed_only();
+        if turn(&mut soup, &surfaces, &mut turned) {
+            order::faces_by_place(&mut soup);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+        }
 
         let of_bodies = |soup: &Soup, bodies: &[_]| {
             Extents::new(soup, origin).united(bodies, origin, soup.single_precision)
@@ -45,6 +56,7 @@ impl Mesh {
             replace_vertices(&mut soup, &joined, &mut cleaning);
             drop_collapsed(&mut soup, &mut cleaning);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
+            is_final = false;
         }
         if let Some(keep) = one_of_doubles(&soup, &edges) {
             cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
@@ -53,6 +65,7 @@ impl Mesh {
             let of = |keep: &bool| if *keep { left.next() } else { None }.unwrap_or(u32::MAX);
             let renamed: Vec<u32> = keep.iter().map(of).collect();
             edges = edges.without(&renamed, &soup.triangles);
+            is_final = false;
         }
         let mut seams = seams::find(&soup, &edges, &extents, true);
         if !seams.joined.is_empty() {
@@ -68,6 +81,12 @@ impl Mesh {
             changed.sort_unstable();
             changed.extend(before..soup.triangles.len() as u32);
             edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
+        }
+        if !is_final {
+            let surfaces = self::surfaces(&soup, &edges);
+            if turn(&mut soup, &surfaces, &mut turned) {
+                edges.turn(&surfaces.turned);
+            }
         }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
@@ -105,8 +124,25 @@ impl Mesh {
             edges,
             wires: soup.wires,
             cleaning,
+            turned,
         }
     }
+}
+
+/// The connected surfaces of a soup.
+fn surfaces(soup: &Soup, edges: &Edges) -> Surfaces {
+    let Soup { positions, triangles, triangle_part: parts, .. } = soup;
+    Surfaces::new(&Triangles { positions, triangles, parts, edges })
+}
+
+/// Turns and counts the faces that must be turned; false if there are none.
+fn turn(soup: &mut Soup, surfaces: &Surfaces, counts: &mut Vec<TurnedFaces>) -> bool {
+    let any = !surfaces.turned.is_empty();
+    if any {
+        turn_faces(soup, &surfaces.turned);
+        surfaces.count(&soup.triangle_part, counts);
+    }
+    any
 }
 
 /// The box around all vertices that a face or wire uses.

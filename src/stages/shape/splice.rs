@@ -251,6 +251,7 @@ fn of_faces(
         positions,
         wires: part!(mesh, wires).into_owned(),
         cleaning: mesh.cleaning,
+        turned: mesh.turned.clone(),
     };
     let added = old as u32..finer.positions.len() as u32;
     let smooth = SmoothNormals {
