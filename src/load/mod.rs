@@ -18,6 +18,7 @@ pub mod ply;
 mod polygon;
 pub mod stl;
 mod text;
+mod triangle_colours;
 
 use std::fs;
 use std::io::{ErrorKind, Read};
