@@ -19,6 +19,7 @@ mod polygon;
 mod precision;
 pub mod stl;
 mod text;
+mod triangle_colours;
 
 use std::fs;
 use std::io::{ErrorKind, Read};

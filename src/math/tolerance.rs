@@ -30,6 +30,9 @@ pub const ROUNDING: f64 = 1e-15;
 /// pixel where the part is a thousand wide.
 pub const SEAM_OF_PART: f64 = 1e-4;
 
+/// Coordinates in steps above this fraction of the model are too coarse for it: as much as [`SEAM_OF_PART`].
+pub const COARSE_OF_MODEL: f64 = 1e-4;
+
 /// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;

@@ -272,7 +272,7 @@ fn append_paints(soup: &mut Soup, paints: &[PaintId]) {
 fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
     let white = [1.0; 4];
     let colour = |v: u32| {
-        let [r, g, b, _] = from.colours.get(v as usize).copied().unwrap_or(white);
+        let [r, g, b, _] = from.colour_of(v).unwrap_or(white);
         [r, g, b]
     };
     let missing = soup.triangles.len() - soup.corner_colours.len();

@@ -27,7 +27,7 @@ pub struct Geometry {
     pub uvs: Vec<[f32; 2]>,
     /// For each triangle the texture coordinates of its corners (`u32::MAX` = none), or empty.
     pub corner_uvs: Vec<[u32; 3]>,
-    /// Linear RGBA of each vertex, or empty.
+    /// Linear RGBA of each vertex, not finite for one without a colour; or empty.
     pub colours: Vec<[f32; 4]>,
     /// For each triangle the marks of its sides 0-1, 1-2, 2-0, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
@@ -50,6 +50,12 @@ impl Geometry {
         }
         let largest = self.positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
         self.lattice_step.max(F32_STEP * largest)
+    }
+
+    /// The colour of a vertex, linear RGBA, if it has one.
+    #[must_use]
+    pub fn colour_of(&self, vertex: u32) -> Option<[f32; 4]> {
+        self.colours.get(vertex as usize).copied().filter(|colour| colour.iter().all(|c| c.is_finite()))
     }
 
     /// The material of a triangle.

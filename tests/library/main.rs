@@ -46,6 +46,7 @@ mod motion;
 mod motion_styles;
 mod narrow_roundings;
 mod needles;
+mod odd_files;
 mod outlines;
 mod pages;
 mod painted_surfaces;

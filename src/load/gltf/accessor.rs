@@ -2,6 +2,7 @@
 
 use super::buffers::Buffers;
 use super::json;
+use super::json::index::Shown;
 use crate::error::Error;
 
 /// Type of one component of an element.
@@ -70,7 +71,8 @@ impl Buffers<'_> {
     fn accessor(&self, index: usize) -> Result<&json::Accessor, Error> {
         self.root.accessors.get(index).ok_or_else(|| {
             let count = self.root.accessors.len();
-            Error::new(format!("is pointed to, but the file has {count}")).at(format!("accessor {index}"))
+            Error::new(format!("is pointed to, but the file has {count}"))
+                .at(format!("accessor {}", Shown(index)))
         })
     }
 
