@@ -25,8 +25,8 @@ use super::pdf_content::Press;
 use super::pdf_document::Document;
 use super::pdf_fonts::{Fonts, OBJECTS_PER_FONT};
 use super::pdf_inks::{Plates, srgb_profile};
-use super::pdf_options::{Inks, PdfOptions, Standard};
 use super::pdf_masks::Mask;
+use super::pdf_options::{Inks, PdfOptions, Standard};
 use super::pdf_paints::{write_gradient, write_picture};
 use super::pdf_pictures::Crops;
 use super::pdf_resources::{Ids, write_resources};
@@ -95,7 +95,8 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
     let (picture_ids, mask_ids) = (take(pictures.len()), take(pictures.len()));
     let (pattern_ids, function_ids) = (take(document.gradients.len()), take(document.gradients.len()));
     let font_ids = take(fonts.list.len() * OBJECTS_PER_FONT);
-    let first_pictures = crops.iter().scan(0, |sum, crops| Some(std::mem::replace(sum, *sum + crops.list.len())));
+    let first_pictures =
+        crops.iter().scan(0, |sum, crops| Some(std::mem::replace(sum, *sum + crops.list.len())));
     let masks: Vec<Mask> = drawings(pages)
         .zip(&crops)
         .zip(first_pictures)

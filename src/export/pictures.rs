@@ -59,7 +59,12 @@ impl<'a> Pictures<'a> {
                 *overlap |= pieces_overlap(&image.pieces);
             }
         }
-        pictures.inks.iter_mut().zip(overlap).filter(|(_, overlap)| !overlap).for_each(|(ink, _)| *ink = None);
+        pictures
+            .inks
+            .iter_mut()
+            .zip(overlap)
+            .filter(|(_, overlap)| !overlap)
+            .for_each(|(ink, _)| *ink = None);
         pictures
     }
 

@@ -39,7 +39,8 @@ fn group(group: &Group, to: Transform, pixmap: &mut PixmapMut) -> Option<()> {
         nodes(group, to, pixmap);
         return Some(());
     }
-    if group.mask().is_some() || !group.filters().is_empty() || group.blend_mode() != usvg::BlendMode::Normal {
+    if group.mask().is_some() || !group.filters().is_empty() || group.blend_mode() != usvg::BlendMode::Normal
+    {
         return None;
     }
     let canvas = IntRect::from_xywh(0, 0, pixmap.width(), pixmap.height())?;
@@ -91,7 +92,8 @@ fn clip_areas(parent: &Group, to: Transform, inside: &mut Pixmap) -> Option<()> 
                         let mut own = Pixmap::new(inside.width(), inside.height())?;
                         clip_areas(group, to, &mut own)?;
                         self::clip(clip, to, &mut own)?;
-                        let paint = PixmapPaint { blend_mode: BlendMode::SourceOver, ..PixmapPaint::default() };
+                        let paint =
+                            PixmapPaint { blend_mode: BlendMode::SourceOver, ..PixmapPaint::default() };
                         inside.draw_pixmap(0, 0, own.as_ref(), &paint, Transform::identity(), None);
                     }
                 }

@@ -184,7 +184,12 @@ fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
 
 /// Why no body leaves lines at a moment, in words; `None` if one does.
 #[must_use]
-pub fn why_none(rigged: &Rigged, playing: &[Playing], options: &MotionOptions, scene: &Scene) -> Option<String> {
+pub fn why_none(
+    rigged: &Rigged,
+    playing: &[Playing],
+    options: &MotionOptions,
+    scene: &Scene,
+) -> Option<String> {
     if !scene.movers.as_ref()?.is_empty() {
         return None;
     }
@@ -198,7 +203,9 @@ pub fn why_none(rigged: &Rigged, playing: &[Playing], options: &MotionOptions, s
     };
     let name = rigged.scene.parts.get(body.part).map_or("", |part| &part.name);
     let reason = match choice.speed {
-        _ if choice.asks_page || choice.takes(body, speed) => "what moves has no size at this moment".to_owned(),
+        _ if choice.asks_page || choice.takes(body, speed) => {
+            "what moves has no size at this moment".to_owned()
+        }
         Some(least) => format!(
             "the fastest part, '{name}', goes {speed:.3} units a second, not more than {least:.3}; \
              set motion.speed lower, or name parts with motion.parts"

@@ -67,10 +67,12 @@ fn tremor_and_dashes_end_at_the_border() {
         &["pen.hand.tremor=3", "pen.hand.tremor_length=20"][..],
         &["pen.hand.tremor=2", "pen.dash=[6, 4]"],
         &["pen.swell.taper=20", "pen.hand.overshoot=30", "pen.hand.passes=3", "pen.hand.stray=2"],
-        &["pen.brush={ profile = [[0.0, 0.0], [0.5, 0.5], [0.2, 0.3]] }"],
+        &["pen.brush={ path = 'M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z' }"],
     ] {
         let style = style(sets);
-        for points in [&[(0.0, 50.0), (200.0, 30.0)], &[(60.0, 0.0), (150.0, 100.0)], &[(30.0, 50.0), (80.0, 0.0)]] {
+        for points in
+            [&[(0.0, 50.0), (200.0, 30.0)], &[(60.0, 0.0), (150.0, 100.0)], &[(30.0, 50.0), (80.0, 0.0)]]
+        {
             let marks = framed(&[chain(points, [1.0; 2])], &style);
             assert!(!marks.is_empty());
             for mark in &marks {

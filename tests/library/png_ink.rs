@@ -102,7 +102,8 @@ fn a_circle_is_even_all_round() {
             // Each pixel as several, so that sectors share those that they cut.
             for part in 0..64 {
                 let [x, y] = [k % 120, k / 120].map(|place| place as f64);
-                let point = Point::new(x + (f64::from(part % 8) + 0.5) / 8.0, y + (f64::from(part / 8) + 0.5) / 8.0);
+                let point =
+                    Point::new(x + (f64::from(part % 8) + 0.5) / 8.0, y + (f64::from(part / 8) + 0.5) / 8.0);
                 let way = point - Point::new(60.0, 60.0);
                 let sector = (way.atan2() + PI) / TAU * 16.0;
                 sectors[(sector as usize).min(15)] += dark / 64.0;

@@ -63,7 +63,8 @@ pub(super) fn cut(shape: Shape, frame: Rect, px: f64) -> Option<Shape> {
         Shape::Outline { path, axis, width } => {
             let (kept, kept_axis) = (region.area(&path, tolerance), region.line(&axis));
             // The mean width of what is left, as that of the whole is of the whole.
-            let mean = |path: &kurbo::BezPath, axis: &kurbo::BezPath| path.area().abs() / axis.perimeter(tolerance);
+            let mean =
+                |path: &kurbo::BezPath, axis: &kurbo::BezPath| path.area().abs() / axis.perimeter(tolerance);
             let width = width * mean(&kept, &kept_axis) / mean(&path, &axis);
             if !width.is_finite() {
                 return None;
