@@ -84,6 +84,16 @@ fn tremor_and_dashes_end_at_the_border() {
 }
 
 #[test]
+fn tips_of_brushes_lie_past_the_border() {
+    let style = style(&["pen.brush={ path = 'M0 5L30 0L70 0L100 5L70 10L30 10Z' }"]);
+    let marks = framed(&[chain(&[(0.0, 50.0), (150.0, 50.0)], [1.0; 2])], &style);
+    for x in [0.3, 20.0, 60.0] {
+        assert!(width_at(&marks[0], x, 50.0) > 3.6, "{x}: {}", width_at(&marks[0], x, 50.0));
+    }
+    assert!(width_at(&marks[0], 140.0, 50.0) < 2.0);
+}
+
+#[test]
 fn motion_lines_that_run_out_end_at_the_border() {
     // The picture is 10 units wide; the way began 12 units to the left.
     let model = rigged(vec![unit_box()], vec![going(0, DVec3::X * 12.0)]);

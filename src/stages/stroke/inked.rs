@@ -90,13 +90,12 @@ impl Inked<'_> {
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
         let lifts = hand.overshoot.value > 0.0;
         let leaving = frame::leaving(self.chain, self.axis, context.frame, px);
-        let ends = [0, 1].map(|side| {
-            let leaving = leaving[side].filter(|_| self.joined[side].is_none());
-            End {
-                tapers: self.joined[side].is_none(),
-                runs_on: self.joined[side].is_none() && !self.chain.covered[side],
-                past: leaving.map_or(0.0, |sine| frame::past(sine, self.pen, context.unit)),
-            }
+        let leaving = [0, 1].map(|side| leaving[side].filter(|_| self.joined[side].is_none()));
+        let past = frame::past(leaving, self.axis.length(), self.pen, context.unit);
+        let ends = [0, 1].map(|side| End {
+            tapers: self.joined[side].is_none(),
+            runs_on: self.joined[side].is_none() && !self.chain.covered[side],
+            past: past[side],
         });
         let setting = setting(self.chain, self.pen, self.depths, self.identities, context);
         let mut axis = self.axis.clone();

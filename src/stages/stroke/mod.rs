@@ -231,8 +231,8 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
         let px = context.px();
         let mut axis = Axis::of(chain, px);
         let leaving = frame::leaving(chain, &axis, context.frame, px);
-        for (side, sine) in leaving.into_iter().enumerate() {
-            axis.extend(side, sine.map_or(0.0, |sine| frame::past(sine, pen, context.unit)), px);
+        for (side, past) in frame::past(leaving, axis.length(), pen, context.unit).into_iter().enumerate() {
+            axis.extend(side, past, px);
         }
         let widths = widths::faded(&axis, width, pen.fade);
         let nib = Nib { caps: [pen.cap; 2], join: pen.join, px };
