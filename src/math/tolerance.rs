@@ -19,9 +19,13 @@ pub const F32_STEP: f64 = 1.0 / 8_388_608.0;
 /// step would show, a tenth of a pixel where the model is a thousand wide.
 pub const VISIBLE_STEP: f64 = 1e-4;
 
-/// How far rounding moves a vertex, in steps of its coordinates: half the diagonal of a cell of the lattice, twice. A program that
-/// writes single precision has also computed with it, and a node's matrix is rounded as well.
-pub const ROUNDING_STEPS: f64 = 1.75;
+/// How far rounding to a lattice moves a vertex, in steps of the lattice: half the diagonal of a cell, and a little for what the
+/// program that wrote it computed.
+pub const ROUNDING_OF_LATTICE: f64 = 0.9;
+
+/// How far single precision moves a vertex, in steps of its largest coordinate: twice half the diagonal of a cell. A program that writes
+/// single precision has also computed with it, and the matrix of a node is rounded as well.
+pub const ROUNDING_OF_SINGLE: f64 = 1.75;
 
 /// What moving a model leaves of its coordinates in double precision, as a share of the largest: a few units in the last place.
 pub const ROUNDING: f64 = 1e-15;

@@ -111,6 +111,7 @@ impl Mesh {
             triangles: soup.triangles,
             face_normals,
             carriers,
+            first_piece: None,
             face_part: soup.triangle_part,
             bodies: joined_parts,
             face_material: soup.triangle_material,

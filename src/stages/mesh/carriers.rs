@@ -38,21 +38,17 @@ impl<'a> Faces<'a> {
         Self { positions, triangles, parts, edges, extents }
     }
 
-    /// The widest face of the plane of a face that is reached over ever wider neighbours.
-    pub(crate) fn widest(&self, face: u32) -> Option<u32> {
+    /// The neighbours of a face whose planes hold it, or that lie in its own plane.
+    pub(crate) fn neighbours_in_plane(&self, face: u32) -> Vec<u32> {
         let corners = self.corners(face);
-        let (mut own, mut found) = (height(&corners), None);
-        let mut at = face;
-        loop {
-            let near = self.neighbours(at).filter(|other| self.holds(*other, &corners));
-            let near = near.map(|other| (height(&self.corners(other)), other));
-            let wider = near.filter(|(height, _)| *height > own);
-            let Some(next) = wider.max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1))) else {
-                return found;
-            };
-            (own, at) = next;
-            found = Some(at);
-        }
+        let is_in_plane =
+            |other: &u32| self.holds(*other, &corners) || self.holds(face, &self.corners(*other));
+        self.neighbours(face).filter(is_in_plane).collect()
+    }
+
+    /// The least height of a face.
+    pub(crate) fn height_of(&self, face: u32) -> f64 {
+        height(&self.corners(face))
     }
 
     /// Each unsure face with its carrier, ascending.

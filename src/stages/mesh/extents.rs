@@ -203,8 +203,10 @@ impl Extent {
         let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
         self.weld = (tolerance::WELD_OF_PART * self.scale).max(written);
         // Placing a part in the world rounds its coordinates again.
-        self.step = if single_precision { step.max(tolerance::F32_STEP * largest) } else { step };
-        self.rounding = (tolerance::ROUNDING_STEPS * self.step).min(CONTACT_AT_MOST * self.scale);
+        let of_single = if single_precision { tolerance::F32_STEP * largest } else { 0.0 };
+        self.step = step.max(of_single);
+        let rounding = (tolerance::ROUNDING_OF_LATTICE * step).max(tolerance::ROUNDING_OF_SINGLE * of_single);
+        self.rounding = rounding.min(CONTACT_AT_MOST * self.scale);
         let between = (2.0 * written).max(2.0 * self.rounding).min(CONTACT_AT_MOST * self.scale);
         self.contact = (tolerance::CONTACT_OF_PART * self.scale).max(between);
         self.own = Own { scale: self.scale, low: self.low, high: self.high };

@@ -68,6 +68,8 @@ pub struct Mesh {
     pub face_normals: Vec<[f32; 3]>,
     /// Narrow faces, ascending, each with a wider face in the same plane that knows the normal better: see [`carriers`].
     pub carriers: Vec<[u32; 2]>,
+    /// From this face on, faces are pieces of others, cut so that they bend with a rounded surface; `None` if there are none.
+    pub first_piece: Option<u32>,
     /// Part of each face.
     pub face_part: Vec<PartId>,
     /// For each part the first of the parts whose surfaces continue in each other; empty if each part is a body of its own. See

@@ -117,6 +117,11 @@ impl Kept {
         hosts
     }
 
+    /// How many faces before one are kept.
+    fn before(&self, face: usize) -> usize {
+        self.runs.iter().map(|run| run.end.min(face).saturating_sub(run.start)).sum()
+    }
+
     /// The kept faces among some with their carriers, ascending, as far as these are kept as well.
     fn carriers(&self, carriers: &[[u32; 2]]) -> Vec<[u32; 2]> {
         if carriers.is_empty() {
@@ -241,6 +246,7 @@ fn of_faces(
         extents: mesh.extents.clone(),
         bodies: mesh.bodies.clone(),
         face_normals: kept.carry(part!(mesh, face_normals), normals.into_iter()),
+        first_piece: Some(mesh.first_piece.map_or(kept.count, |first| kept.before(first as usize)) as u32),
         carriers: kept.carriers(&mesh.carriers),
         face_part: kept.carry(part!(mesh, face_part), own_parts.into_iter()),
         face_material: kept.carry(part!(mesh, face_material), own_materials.into_iter()),

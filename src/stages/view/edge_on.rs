@@ -3,10 +3,11 @@
 //! 1. A face is edge-on if the angle between its plane and the line of sight is below
 //!    [`EDGE_ON_SINE`](tolerance::EDGE_ON_SINE): nothing of it can be seen.
 //! 2. Rounding turns a face by up to the rounding divided by its height. Where the angle is smaller than that, the face is *unsure*.
-//! 3. An unsure face follows the widest face of its plane that is connected with it ([`carriers`](crate::mesh::carriers)).
-//! 4. If that one is unsure as well, or there is none, it is edge-on.
+//! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::carriers)) are decided together. They follow the widest sure face of
+//!    the plane next to them.
+//! 4. If there is none, they are edge-on unless all of them turn the same way.
 //!
-//! Edge-on faces count as averted.
+//! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact: nothing rounded their corners.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -22,7 +23,6 @@ const MAX_UNSURE_SINE: f64 = 1e-2;
 
 /// Whether each face turns its outside to the eye, and the faces, ascending, for which this does not follow from their own angle.
 pub(super) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
-    let corners = |face: u32| mesh.corners(FaceId(face));
     let own = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
         frame.faces_eye(a, b, c)
@@ -34,25 +34,50 @@ pub(super) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
     if !mesh.extents.is_rounded() {
         return (facing, Vec::new());
     }
-    let is_unsure = |face: u32| {
-        let rounding = mesh.extent(FaceId(face)).rounding;
-        rounding > 0.0 && is_unsure(frame, &corners(face), rounding)
+    let is_unsure = |face: &u32| {
+        let rounding = mesh.extent(FaceId(*face)).rounding;
+        rounding > 0.0 && is_unsure(frame, &mesh.corners(FaceId(*face)), rounding)
     };
-    let faces = (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
-    let unsure: Vec<u32> = faces.filter(|face| is_unsure(*face)).collect();
-    let planes = Faces::of(mesh);
-    let decide = |face: &u32| {
-        let carrier = planes.widest(*face).filter(|carrier| !is_unsure(*carrier));
-        carrier.is_some_and(|carrier| facing[carrier as usize])
-    };
-    let decided: Vec<bool> = unsure.par_iter().map(decide).collect();
-    for (face, faces_eye) in unsure.iter().zip(decided) {
-        facing[*face as usize] = faces_eye;
-    }
+    let whole = mesh.first_piece.unwrap_or(mesh.triangles.len() as u32);
+    let unsure: Vec<u32> = (0..whole).into_par_iter().with_min_len(GRAIN).filter(is_unsure).collect();
+    decide(&Faces::of(mesh), &unsure, &mut facing);
     let mut others: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(unsure).collect();
     others.sort_unstable();
     others.dedup();
     (facing, others)
+}
+
+/// Decides for each plane in which unsure faces, ascending, are connected.
+fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) {
+    let near: Vec<Vec<u32>> = unsure.par_iter().map(|face| faces.neighbours_in_plane(*face)).collect();
+    let mut is_seen = vec![false; unsure.len()];
+    for first in 0..unsure.len() {
+        let (mut plane, mut open) = (Vec::new(), vec![first]);
+        let mut widest: Option<(f64, u32)> = None;
+        while let Some(at) = open.pop() {
+            if std::mem::replace(&mut is_seen[at], true) {
+                continue;
+            }
+            plane.push(unsure[at]);
+            for other in &near[at] {
+                if let Ok(place) = unsure.binary_search(other) {
+                    open.push(place);
+                    continue;
+                }
+                let height = faces.height_of(*other);
+                let is_wider = |(most, face): &(f64, u32)| height > *most || height == *most && other < face;
+                if widest.as_ref().is_none_or(is_wider) {
+                    widest = Some((height, *other));
+                }
+            }
+        }
+        let is_facing = |face: &u32| facing[*face as usize];
+        let decided = match widest {
+            Some((_, sure)) => is_facing(&sure),
+            None => plane.iter().all(is_facing),
+        };
+        plane.iter().for_each(|face| facing[*face as usize] = decided);
+    }
 }
 
 /// Whether rounding may have turned a triangle through the line of sight.
