@@ -184,6 +184,8 @@ impl<'a> Builder<'a> {
         // Every file of this format stores single precision or less, except where a pose moved it.
         geometry.single_precision = true;
         let position = primitive.attributes.get("POSITION");
+        // Joints place vertices anew, at another scale.
+        let position = position.filter(|_| joints.is_none());
         let step = position.map_or(0.0, |position| self.buffers.step(*position));
         geometry.lattice_step = geometry.lattice_step.max(step);
         append_or_take(&mut geometry.normals, start, streams.normals, [0.0; 3]);

@@ -6,8 +6,8 @@
 //!
 //! 1. Each face has a *facet angle*: the largest turn to a neighbour, of turns below [`MAX_FACET_DEG`].
 //! 2. A segment is *flat* if its faces cross at less than the mean of their facet angles.
-//! 3. A whole curve, from one branching to the next, goes if nearly all of its length is flat, and stays whole otherwise: coarse
-//!    bodies that truly cross do so at a small angle in some places.
+//! 3. A whole curve goes if nearly all of its length is flat, and stays whole otherwise: coarse bodies that truly cross do so at a small
+//!    angle in some places. A curve ends at a branching, and where it runs over a crease onto another surface.
 
 use crate::math::tolerance::{CONTACT_OF_CURVE, MAX_FACET_DEG};
 use crate::mesh::{Dihedral, FaceId, Mesh};
@@ -25,7 +25,7 @@ pub fn without(curves: IntersectionCurves, mesh: &Mesh) -> IntersectionCurves {
         a.distance(b)
     };
     let mut touches = vec![false; curves.segments.len()];
-    for curve in whole_curves(&curves) {
+    for curve in whole_curves(&curves, mesh) {
         let of = |flat_only: bool| -> f64 {
             let counted = curve.iter().map(|s| *s as usize).filter(|s| !flat_only || is_flat[*s]);
             counted.map(|s| length(&curves.segments[s])).sum()
@@ -63,8 +63,8 @@ fn facet_deg(mesh: &Mesh, face: u32) -> f64 {
     [[a, b], [b, c], [c, a]].into_iter().filter_map(turn).fold(0.0, f64::max)
 }
 
-/// The segments of each curve, from one point at which not just two segments end to the next.
-fn whole_curves(curves: &IntersectionCurves) -> Vec<Vec<u32>> {
+/// The segments of each curve, from one point at which it ends to the next.
+fn whole_curves(curves: &IntersectionCurves, mesh: &Mesh) -> Vec<Vec<u32>> {
     let mut at_point: Vec<[u32; 2]> = vec![[NONE; 2]; curves.points.len()];
     let mut count: Vec<u8> = vec![0; curves.points.len()];
     for (number, segment) in curves.segments.iter().enumerate() {
@@ -86,7 +86,11 @@ fn whole_curves(curves: &IntersectionCurves) -> Vec<Vec<u32>> {
             let (mut segment, mut end) = (first as u32, start as usize);
             while count[end] == 2 {
                 let [p, q] = at_point[end];
-                segment = if p == segment { q } else { p };
+                let next = if p == segment { q } else { p };
+                if is_over_crease(mesh, [segment, next].map(|s| curves.segments[s as usize].faces)) {
+                    break;
+                }
+                segment = next;
                 if std::mem::replace(&mut taken[segment as usize], true) {
                     break;
                 }
@@ -98,6 +102,13 @@ fn whole_curves(curves: &IntersectionCurves) -> Vec<Vec<u32>> {
         found.push(curve);
     }
     found
+}
+
+/// Whether one of the two surfaces of a curve is creased between two consecutive segments, whose faces are given.
+fn is_over_crease(mesh: &Mesh, [before, after]: [[u32; 2]; 2]) -> bool {
+    let Some(shared) = before.iter().find(|face| after.contains(face)) else { return false };
+    let other = |faces: [u32; 2]| if faces[0] == *shared { faces[1] } else { faces[0] };
+    Dihedral::of(mesh, [other(before), other(after)], false).turn() >= MAX_FACET_DEG as f32
 }
 
 /// No segment.
