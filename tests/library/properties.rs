@@ -39,6 +39,11 @@ fn splitting_flat_faces_changes_nothing() {
 }
 
 #[test]
+fn winding_changes_nothing() {
+    holds(ROWS, Property::Winding);
+}
+
+#[test]
 fn what_is_hidden_changes_nothing() {
     holds(ROWS, Property::HiddenThings);
 }

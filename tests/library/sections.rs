@@ -16,6 +16,7 @@ use ligne::{Camera, Scene, Style};
 
 use crate::support::dice::Dice;
 use crate::support::models;
+use crate::support::properties::picture::Picture;
 use crate::support::round_solids::icosphere;
 use crate::support::solids::{Solid, cuboid, sphere, torus};
 
@@ -151,6 +152,29 @@ fn cut_faces_are_as_large_as_in_closed_form() {
     let mut crossed = cuboid(DVec3::new(-3.0, -1.0, -1.0), DVec3::new(3.0, 1.0, 1.0));
     crossed.add(cuboid(DVec3::new(-1.0, -3.0, -1.0), DVec3::new(1.0, 3.0, 1.0)));
     close(&cut(scene_of(crossed), &plane(DVec3::ZERO, DVec3::Z), &[]), 20.0);
+}
+
+#[test]
+fn a_hollow_ball_is_cut_and_drawn_alike_however_its_shells_are_wound() {
+    let equator = |radius: f64| 16.0 * sin(TAU / 32.0) * radius * radius;
+    let camera = Camera { width: 300.0, height: 300.0, ..Camera::three_quarter_of(UpAxis::Y) };
+    let styles = ["toon", "pencil", "pencil-object", "technical"];
+    let mut first: Option<Vec<String>> = None;
+    for flags in 0..4 {
+        let wound = |inward: bool, solid: Solid| if inward { inside_out(solid) } else { solid };
+        let mut ball = wound(flags & 1 == 1, sphere(16, 3.0));
+        ball.add(wound(flags & 2 == 2, sphere(16, 2.0)));
+        let section = cut(scene_of(ball), &plane(DVec3::ZERO, DVec3::Z), &[]);
+        let (found, exact) = (area(&section), equator(3.0) - equator(2.0));
+        assert!((found - exact).abs() < 1e-9 * exact, "{flags}: {found} instead of {exact}");
+        assert_eq!(open_edges(&section.scene), 0);
+        let drawn = styles.map(|name| {
+            let style = Style::load(name, &[]).unwrap();
+            let drawing = ligne::render::render(&section.scene, &camera.fit(&section.scene), &style).unwrap();
+            Picture::of_drawing(drawing).bytes().to_owned()
+        });
+        assert!(first.get_or_insert(drawn.to_vec()) == &drawn.to_vec(), "{flags}");
+    }
 }
 
 #[test]

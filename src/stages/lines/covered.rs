@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 
+use super::Lit;
 use crate::mesh::Mesh;
 use crate::raster::{FaceBuffer, Screen};
 use crate::view::View;
@@ -39,6 +40,26 @@ pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
         .with_max_len(1 << 11)
         .map(is_in_sight)
         .collect()
+}
+
+/// For each part whether its faces are drawn where they show their inside: those of solid parts never, those of other parts if any
+/// pixel does. Strokes along hidden insides would change those beside them.
+pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
+    let Lit { mesh, view, solid, .. } = *lit;
+    let count = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
+    // Where the near plane cuts a part open, none is solid.
+    if solid.is_empty() {
+        return vec![true; count];
+    }
+    let mut shows = vec![false; count];
+    if (0..mesh.triangles.len()).any(|face| !view.facing[face] && lit.may_be_seen(face)) {
+        let buffer = FaceBuffer::new(&Screen::new(mesh, view));
+        let fronts = (0..buffer.columns * buffer.rows).filter_map(|pixel| buffer.front(pixel));
+        let insides =
+            fronts.map(|face| face as usize).filter(|face| !view.facing[*face] && lit.may_be_seen(*face));
+        insides.for_each(|face| shows[mesh.face_part[face].index()] = true);
+    }
+    shows
 }
 
 /// Nearness from 0 to 1 is off by no more than this in single precision.

@@ -30,7 +30,7 @@ mod tint_borders;
 pub mod tone_edges;
 pub mod zero_set;
 
-pub(crate) use covered::in_sight;
+pub(crate) use covered::{in_sight, shows_inside};
 pub use edge_search::EdgeSearch;
 pub use image::{ImageOptions, Source};
 pub use inside::InsideOptions;

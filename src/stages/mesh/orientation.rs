@@ -3,8 +3,8 @@
 //! 1. Faces are connected where exactly two faces meet at an edge, of all parts or of one part.
 //! 2. Within a surface, windings are made to agree by union-find with parity. Surfaces with one side (Möbius strips) stay as they are.
 //! 3. A closed surface encloses a positive volume. Each counts on its own, also inside another one.
-//! 4. An open surface is closed by a cone over its border. Where the volume has the same sign for every apex in the convex hull of
-//!    the surface, that sign counts. Otherwise, as in flat sheets, the winding of the larger area stays.
+//! 4. An open surface is closed by a cone over its border. Where the volume has the same sign for every apex in the ball around the
+//!    surface, that sign counts, as for a box without lid. Otherwise, as in sheets, the winding of the larger area stays.
 //!
 //! All sums are taken in a fixed order, so that the number of threads changes nothing.
 
@@ -63,8 +63,8 @@ impl Surfaces {
         let mut sums = mesh.sums(&of_face, is_turned);
         let is_closed: Vec<bool> =
             open.iter().zip(&twisted).map(|(open, twisted)| !open && !twisted).collect();
-        mesh.add_reaches(&of_face, &is_closed, &mut sums);
-        let turns = |surface: usize| !twisted[surface] && sums[surface].turns(is_closed[surface]);
+        mesh.add_radii(&of_face, &is_closed, &mut sums);
+        let turns = |surface: usize| !twisted[surface] && sums[surface].turns();
         let turns: Vec<bool> = (0..count).map(turns).collect();
         if turns.contains(&true) {
             turned.resize(mesh.triangles.len(), false);
@@ -150,8 +150,10 @@ struct Sums {
     volume: f64,
     /// Largest distance from the corner.
     reach: f64,
-    /// How far the surface reaches from the corner against and along `normal`, times its length.
-    along: [f64; 2],
+    /// Sum of the middles of the faces, each times its area.
+    moment: DVec3,
+    /// Largest distance from the centroid; 0 for closed surfaces.
+    radius: f64,
 }
 
 impl Sums {
@@ -162,23 +164,24 @@ impl Sums {
         self.normal += other.normal;
         self.volume += other.volume;
         self.reach = self.reach.max(other.reach);
-        self.along = [self.along[0].min(other.along[0]), self.along[1].max(other.along[1])];
+        self.moment += other.moment;
+        self.radius = self.radius.max(other.radius);
+    }
+
+    /// The centroid of the surface, from the corner.
+    fn centroid(&self) -> DVec3 {
+        if self.area > 0.0 { self.moment / self.area } else { DVec3::ZERO }
     }
 
     /// Whether a surface must be turned as a whole.
-    fn turns(&self, is_closed: bool) -> bool {
+    fn turns(&self) -> bool {
         // The error of a sum of n numbers is at most n units in the last place of the sum of their sizes.
         // Source: Higham, "Accuracy and stability of numerical algorithms", 2002, section 4.2.
         let rounding = f64::from(self.faces.saturating_add(8)) * f64::EPSILON * self.area * self.reach;
         // The volume of the cone from another apex differs by how far that lies along the sum of normals.
-        let [low, high] = if is_closed { [0.0; 2] } else { self.along };
-        if self.volume - high / 3.0 > rounding {
-            false
-        } else if self.volume - low / 3.0 < -rounding {
-            true
-        } else {
-            self.turned_area > self.area - self.turned_area
-        }
+        let volume = self.volume - self.centroid().dot(self.normal) / 3.0;
+        let most = self.normal.length() * self.radius / 3.0 + rounding;
+        if volume.abs() > most { volume < 0.0 } else { self.turned_area > self.area - self.turned_area }
     }
 }
 
@@ -281,28 +284,25 @@ impl Triangles<'_> {
                 normal,
                 volume: a.dot(normal) / 3.0,
                 reach: a.length_squared().max(b.length_squared()).max(c.length_squared()).sqrt(),
-                along: [0.0; 2],
+                moment: (a + b + c) / 3.0 * area,
+                radius: 0.0,
             }
         };
         self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
         sums
     }
 
-    /// Adds how far open surfaces reach along their normals.
-    fn add_reaches(&self, surfaces: &Numbered, is_closed: &[bool], sums: &mut [Sums]) {
+    /// Adds how far open surfaces reach from their centroids.
+    fn add_radii(&self, surfaces: &Numbered, is_closed: &[bool], sums: &mut [Sums]) {
         if !is_closed.contains(&false) {
             return;
         }
-        let normals: Vec<DVec3> = sums.iter().map(|own| own.normal).collect();
+        let centroids: Vec<DVec3> = sums.iter().map(Sums::centroid).collect();
         let of_face = |surface: u32, face: usize| {
-            let mut along = [0.0_f64; 2];
-            if !is_closed[surface as usize] {
-                let normal = normals[surface as usize];
-                for at in self.from_corner(surfaces, surface, face).map(|p| p.dot(normal)) {
-                    along = [along[0].min(at), along[1].max(at)];
-                }
-            }
-            Sums { along, ..Sums::default() }
+            let centroid = centroids[surface as usize];
+            let corners = self.from_corner(surfaces, surface, face).map(|p| p.distance(centroid));
+            let radius = corners.into_iter().fold(0.0, f64::max);
+            Sums { radius: if is_closed[surface as usize] { 0.0 } else { radius }, ..Sums::default() }
         };
         self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
     }

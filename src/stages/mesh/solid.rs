@@ -36,7 +36,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn a_box_is_solid_an_open_one_and_one_inside_out_are_not() {
+    fn boxes_are_solid_however_they_are_wound_and_open_ones_are_not() {
         let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let outward = [[0u32, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
         let mut soup = Soup::default();
@@ -52,6 +52,6 @@ mod tests {
                 soup.triangle_part.push(PartId(part as u32));
             }
         }
-        assert_eq!(solid_parts(&Mesh::build(soup)), [true, false, false]);
+        assert_eq!(solid_parts(&Mesh::build(soup)), [true, false, true]);
     }
 }

@@ -14,7 +14,7 @@ pub use super::chart::Chart;
 use super::chart::Walker;
 use super::ground::PAPER;
 use super::level_curves::are_seen;
-use crate::lines::Lit;
+use crate::lines::{Lit, shows_inside};
 use crate::mesh::{FaceId, Mesh};
 use crate::region::Ground;
 
@@ -103,6 +103,8 @@ pub fn decals(
             found
         })
         .collect();
+    let inside = shows_inside(lit);
+    let shows = |face: u32| lit.view.facing[face as usize] || inside[mesh.face_part[face as usize].index()];
     let walker = Walker { lit, chart };
     let mut anchors: Vec<Anchor> = anchors.into_iter().flatten().collect();
     let outer: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
@@ -118,11 +120,11 @@ pub fn decals(
     let laid: Vec<Laid> = anchors
         .par_iter()
         .with_min_len(64)
-        .filter(|anchor| lit.may_be_seen(anchor.face as usize))
+        .filter(|anchor| shows(anchor.face))
         .filter_map(|anchor| {
             let figure = &figures[anchor.figure as usize];
             let [i, j] = anchor.place.map(|k| k as f64);
-            walker.lay(anchor, figure, figure.period * DVec2::new(i, j), offset)
+            walker.lay(anchor, figure, (figure.period * DVec2::new(i, j), offset), &shows)
         })
         .collect();
     let asked: Vec<(Point, f64)> = laid.iter().flat_map(|laid| laid.asked.iter().copied()).collect();
@@ -289,8 +291,14 @@ fn apart(
 
 /// Leads figures to the page.
 impl Walker<'_> {
-    /// A figure around its middle; none if something of it is behind the eye.
-    fn lay(&self, anchor: &Anchor, figure: &Figure, shift: DVec2, offset: Vec2) -> Option<Laid> {
+    /// A figure around its middle, on faces that are shown; none if something of it is behind the eye.
+    fn lay(
+        &self,
+        anchor: &Anchor,
+        figure: &Figure,
+        (shift, offset): (DVec2, Vec2),
+        shows: impl Fn(u32) -> bool,
+    ) -> Option<Laid> {
         let frame = &self.lit.view.frame;
         let on_page = |p: DVec3| {
             let image = frame.image_from_local(p);
@@ -304,10 +312,9 @@ impl Walker<'_> {
             let every = line.len().div_ceil(ASKED);
             for (k, p) in line.iter().enumerate() {
                 // Neighbours are on the same face, mostly.
-                let shows = |face: u32| self.lit.may_be_seen(face as usize);
                 let (at, there, is_on) = match self.find(face, *p + shift) {
                     Some(at) => (at, face, true),
-                    None => self.walk(anchor.face, *p + shift, shows)?,
+                    None => self.walk(anchor.face, *p + shift, &shows)?,
                 };
                 let (point, nearness) = on_page(at)?;
                 points.push(point);

@@ -9,7 +9,7 @@ use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::lines::Lit;
+use crate::lines::{Lit, shows_inside};
 use crate::mesh::{FaceId, PartId};
 use crate::viewmap::front_faces;
 
@@ -49,13 +49,15 @@ pub fn level_curves(
 ) -> Vec<LevelCurve> {
     const CHUNK: usize = 1 << 11;
     let count = lit.mesh.triangles.len();
+    let inside = shows_inside(lit);
+    let shows = |face: usize| lit.view.facing[face] || inside[lit.mesh.face_part[face].index()];
     let found: Vec<Vec<LevelPiece>> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
             let mut pieces = Vec::new();
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
-                if lit.may_be_seen(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
+                if shows(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
                     trace(lit, face as u32, &value, &is_wanted, &mut pieces);
                 }
             }

@@ -91,7 +91,7 @@ mod tests {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let solid = [[0u32, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
         let mut soup = Soup::default();
-        // A solid, one inside out, one wound both ways, and one without a side.
+        // A solid, one inside out and one wound both ways in the file, and one without a side.
         for kind in 0..4_u32 {
             let first = soup.positions.len() as u32;
             soup.positions.extend(corners.map(|p| p + DVec3::splat(5.0 * f64::from(kind))));
@@ -104,8 +104,7 @@ mod tests {
             }
         }
         let found = outside(&Mesh::build(soup));
-        let wanted = [(Outside::Front, 4), (Outside::Back, 4), (Outside::Unknown, 7)];
-        let wanted: Vec<Outside> = wanted.iter().flat_map(|(side, n)| vec![*side; *n]).collect();
+        let wanted = [vec![Outside::Front; 12], vec![Outside::Unknown; 3]].concat();
         assert_eq!(found, wanted);
     }
 }

@@ -88,11 +88,11 @@ fn outward(mesh: &Mesh) -> Vec<f64> {
 }
 
 #[test]
-fn open_surfaces_that_bulge_show_their_outside() {
+fn open_surfaces_that_enclose_a_volume_show_their_outside() {
     let mut soup = Soup::default();
     ball(&mut soup, DVec3::ZERO, 1.0);
-    // Half a ball, and a fifth of one.
-    for least in [0.0, 0.6] {
+    // Three quarters of a ball, and half of one.
+    for least in [-0.6, 0.0] {
         let mut open = soup.clone();
         open.triangles.retain(|t| t.iter().all(|v| soup.positions[*v as usize].z > least - 1e-9));
         for flip in [false, true] {

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use ligne::scene::Scene;
 
-use super::numbering::{renumbered, with_parts_shuffled};
+use super::numbering::{renumbered, with_faces_turned, with_parts_shuffled};
 use super::shape::{moved, with_faces_split, with_hidden_things};
 use super::subject::Subject;
 use crate::support::dice::Dice;
@@ -23,12 +23,22 @@ pub enum Change {
     AllShuffled,
     /// Faces are cut in three.
     FacesSplit,
+    /// Faces are wound the other way: all of them, all of every other part, or some at random.
+    FacesTurned(Turned),
     /// Things are put into the first places of which nothing is seen.
     HiddenThings { places: usize },
     /// Nothing is done, and so many threads draw.
     Threads(usize),
     /// The scene grows by two hundredths under a camera that stays: no property, for it must be seen.
     Grown,
+}
+
+/// Which faces are wound the other way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Turned {
+    All,
+    OfEveryOtherShape,
+    Some,
 }
 
 /// What a change is about; each is one test.
@@ -42,6 +52,8 @@ pub enum Property {
     OrderOfParts,
     /// How flat faces are cut.
     Cuts,
+    /// Which way round the file gives the corners of faces.
+    Winding,
     /// What is not seen.
     HiddenThings,
     /// How many threads draw.
@@ -70,6 +82,7 @@ impl Change {
             Self::Renumbered | Self::AllShuffled => Property::Numbering,
             Self::PartsShuffled { .. } | Self::PartsReversed => Property::OrderOfParts,
             Self::FacesSplit => Property::Cuts,
+            Self::FacesTurned(_) => Property::Winding,
             Self::HiddenThings { .. } => Property::HiddenThings,
             Self::Threads(_) => Property::Threads,
         }
@@ -92,6 +105,11 @@ impl Change {
             }
             Self::AllShuffled => with(with_parts_shuffled(&renumbered(scene, dice), dice)),
             Self::FacesSplit => with(with_faces_split(scene, dice)),
+            Self::FacesTurned(turned) => with(with_faces_turned(scene, |shape| match turned {
+                Turned::All => true,
+                Turned::OfEveryOtherShape => shape % 2 == 0,
+                Turned::Some => dice.below(2) == 0,
+            })),
             Self::HiddenThings { places } => with(with_hidden_things(subject, places, dice)),
             Self::Threads(_) => subject.clone(),
             Self::Grown => {

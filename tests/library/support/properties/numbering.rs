@@ -103,3 +103,24 @@ pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
     mixed.append(&mut dice.shuffled(faces));
     mixed.join("\n")
 }
+
+/// The same scene with some faces wound the other way; `is_turned` is asked face by face, with the number of the shape.
+pub fn with_faces_turned(scene: &Scene, mut is_turned: impl FnMut(usize) -> bool) -> Scene {
+    let mut scene = scene.clone();
+    for (shape, geometry) in scene.geometries.iter_mut().enumerate() {
+        for face in 0..geometry.triangles.len() {
+            if !is_turned(shape) {
+                continue;
+            }
+            for list in [&mut geometry.triangles, &mut geometry.corner_normals, &mut geometry.corner_uvs] {
+                if let Some(corners) = list.get_mut(face) {
+                    corners.swap(1, 2);
+                }
+            }
+            if let Some(marks) = geometry.edge_marks.get_mut(face) {
+                marks.swap(0, 2);
+            }
+        }
+    }
+    scene
+}

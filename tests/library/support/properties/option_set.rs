@@ -44,10 +44,50 @@ pub const TOON: OptionSet = sheet("toon");
 pub const GOOCH: OptionSet = sheet("gooch");
 pub const COMIC: OptionSet = sheet("comic");
 pub const PENCIL: OptionSet = sheet("pencil");
+pub const PENCIL_OBJECT: OptionSet = sheet("pencil-object");
 pub const PEN: OptionSet = sheet("pen");
 pub const SUGGESTIVE: OptionSet = sheet("suggestive");
 pub const ENGRAVING: OptionSet = sheet("engraving");
 pub const STIPPLE: OptionSet = sheet("stipple");
+
+pub const RIDGES: OptionSet = changed(
+    "ridges and valleys",
+    "ink",
+    &["lines.kinds=[\"contour\", \"crease\", \"ridge\", \"valley\", \"suggestive\"]"],
+);
+pub const APPARENT: OptionSet = changed(
+    "apparent ridges",
+    "ink",
+    &["lines.kinds=[\"contour\", \"ridge\", \"valley\"]", "lines.inside.apparent=true"],
+);
+
+/// All built-in styles.
+pub const BUILT_IN: [OptionSet; 24] = [
+    sheet("blueprint"),
+    sheet("comic-flats"),
+    COMIC,
+    ENGRAVING,
+    sheet("flat"),
+    GOOCH,
+    sheet("gradient"),
+    INK,
+    sheet("noir"),
+    sheet("patent"),
+    PEN,
+    PENCIL_OBJECT,
+    sheet("pencil-plain"),
+    PENCIL,
+    sheet("plotter"),
+    sheet("rim"),
+    sheet("sketch"),
+    STIPPLE,
+    SUGGESTIVE,
+    TECHNICAL,
+    sheet("toon-highlight"),
+    sheet("toon-three"),
+    TOON,
+    sheet("woodcut"),
+];
 
 /// All that a hand does to lines, at once.
 pub const HAND_SETS: [&str; 15] = [

@@ -131,6 +131,40 @@ pub fn round(cameras: usize) -> Vec<Subject> {
     round_solids().into_iter().flat_map(seen).collect()
 }
 
+/// A box, a step and a ball, seen along the faces of the boxes from the front and from above.
+pub fn along_faces() -> Vec<Subject> {
+    let all = || {
+        [
+            cuboid(DVec3::new(-1.5, -0.5, -1.0), DVec3::new(1.5, 0.5, 0.0)),
+            cuboid(DVec3::new(-1.0, -0.5, 0.0), DVec3::new(0.0, 0.5, 0.8)),
+            sphere(16, 0.6).moved(|p| p + DVec3::new(0.9, -0.1, 0.6)),
+        ]
+    };
+    let seen = |name: &str, eye: DVec3| {
+        let mut camera = orthographic(eye, DVec3::ZERO, 4.0);
+        (camera.width, camera.height) = (300.0, 300.0);
+        Subject::new(name, scene(all()), camera)
+    };
+    vec![
+        seen("boxes and a ball, front", DVec3::NEG_Y * 9.0),
+        seen("boxes and a ball, slanting", DVec3::new(4.0, -7.0, 5.0)),
+    ]
+}
+
+/// Flat sheets next to each other, some of which show their back.
+pub fn upright_sheets() -> Subject {
+    let sheet = |k: u32| {
+        let left = DVec3::X * 1.5 * f64::from(k);
+        let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]];
+        let positions = positions.map(|[x, z]| left + DVec3::new(x, 0.2 * x, z)).to_vec();
+        let triangles = if k % 3 == 0 { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 2, 1], [0, 3, 2]] };
+        Solid { positions, triangles }
+    };
+    let mut camera = perspective(DVec3::new(2.0, -8.0, 3.0), DVec3::new(2.5, 0.0, 1.0), 40.0);
+    (camera.width, camera.height) = (400.0, 400.0);
+    Subject::new("upright sheets", scene((0..4).map(sheet)), camera)
+}
+
 /// A ring.
 pub fn ring() -> Subject {
     Subject::framed("a ring", scene([torus(64, 32, 1.0, 0.4)]), 1000.0)

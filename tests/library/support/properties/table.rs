@@ -2,7 +2,7 @@
 
 use super::Row;
 use super::bound::Bound;
-use super::change::Change;
+use super::change::{Change, Turned};
 use super::option_set::*;
 use super::sheets::sheets;
 use super::subject::{self, Subject};
@@ -24,6 +24,12 @@ const BYTES: &[Bound] = &[Bound::Bytes];
 const THREADS: Changes = &[(Change::Threads(1), BYTES), (Change::Threads(4), BYTES)];
 const RENUMBERED: Changes = &[(Change::Renumbered, BYTES)];
 const SHUFFLED: Changes = &[(Change::AllShuffled, BYTES)];
+
+const WOUND: Changes = &[
+    (Change::FacesTurned(Turned::All), BYTES),
+    (Change::FacesTurned(Turned::OfEveryOtherShape), BYTES),
+    (Change::FacesTurned(Turned::Some), BYTES),
+];
 
 const EXACTLY: &[Bound] = &[Bound::by_class(1e-6, 0.02)];
 /// At 1e6 a coordinate is exact to 1e-10, of which each unit takes some hundred px.
@@ -204,6 +210,36 @@ pub const ROWS: &[Row] = &[
         options: &STYLES,
         subjects: || vec![Subject::framed("sheets", sheets(), 300.0)],
         unchanged_by: SHUFFLED,
+        least: 10,
+    },
+    // How files wind the faces of closed surfaces.
+    Row { options: &BUILT_IN, subjects: subject::along_faces, unchanged_by: WOUND, least: 10 },
+    Row {
+        options: &[RIDGES, APPARENT, SUGGESTIVE],
+        subjects: || subject::round(1),
+        unchanged_by: WOUND,
+        least: 10,
+    },
+    Row {
+        options: &[EXACT, INK],
+        subjects: || subject::random(&["boxes", "tori", "tetrahedra", "interpenetrating"], &CAMERAS, 15),
+        unchanged_by: WOUND,
+        least: 10,
+    },
+    Row {
+        options: &[INK, TOON, RIDGES],
+        subjects: || subject::examples(&["knot.ply", "bracket.stl"], 300.0),
+        unchanged_by: WOUND,
+        least: 40,
+    },
+    // Of sheets.
+    Row {
+        options: &[PENCIL_OBJECT, TOON, PEN],
+        subjects: || vec![subject::upright_sheets()],
+        unchanged_by: &[
+            (Change::FacesTurned(Turned::All), BYTES),
+            (Change::FacesTurned(Turned::OfEveryOtherShape), BYTES),
+        ],
         least: 10,
     },
     // Threads.
