@@ -12,6 +12,7 @@ mod far_sides;
 pub mod front;
 pub mod graph;
 pub mod grid;
+mod hosted_line;
 pub mod image;
 mod items;
 pub mod layers;

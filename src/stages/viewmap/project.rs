@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::outer_side::may_bound;
+use super::hosted_line::HostedLine;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, Role};
 use crate::math::tolerance;
 use crate::mesh::Mesh;
@@ -114,24 +114,24 @@ fn project_one(
         a += d * start;
         cut[0] = true;
     }
-    let mut projected = ImageSegment {
+    let bounds = match segment.kind {
+        // The witnesses of a smooth contour say whether there is background beside it.
+        _ if segment.role == Role::Curve => false,
+        LineKind::Contour | LineKind::Border => true,
+        LineKind::Crease | LineKind::Material | LineKind::Intersection => {
+            let hosted = HostedLine { line: [a, b], ends: segment.ends, hosts: segment.hosts };
+            hosted.may_bound(mesh, view, tolerance::BESIDE_PX * view.frame.px())
+        }
+        _ => false,
+    };
+    Some(ImageSegment {
         a,
         b,
         ends: segment.ends,
         cut,
         hosts: segment.hosts,
         source,
-        bounds: false,
+        bounds,
         role: segment.role,
-    };
-    projected.bounds = match segment.kind {
-        // The witnesses of a smooth contour say whether there is background beside it.
-        _ if segment.role == Role::Curve => false,
-        LineKind::Contour | LineKind::Border => true,
-        LineKind::Crease | LineKind::Material | LineKind::Intersection => {
-            may_bound(&projected, mesh, view, tolerance::BESIDE_PX * view.frame.px())
-        }
-        _ => false,
-    };
-    Some(projected)
+    })
 }
