@@ -56,6 +56,7 @@ pub(super) fn scene(
         scene.geometries.push(geometry);
         return scene;
     }
+    scene.unused_vertices = unused(&statements);
     let mut split = Split::new(&statements);
     for &object in &order {
         let own = runs.get(object).map(Vec::as_slice).unwrap_or_default();
@@ -181,6 +182,18 @@ fn whole(statements: Statements) -> Geometry {
         wires,
         ..Geometry::default()
     }
+}
+
+/// How many vertices no triangle and no wire uses.
+fn unused(statements: &Statements) -> u64 {
+    let mut unused = vec![true; statements.positions.len()];
+    let corners = statements.triangles.as_flattened().iter().chain(statements.wires.as_flattened());
+    for corner in corners {
+        if let Some(own) = unused.get_mut(*corner as usize) {
+            *own = false;
+        }
+    }
+    unused.into_iter().filter(|unused| *unused).count() as u64
 }
 
 /// Cuts the arrays of a file into those of its parts.

@@ -183,7 +183,9 @@ fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
         cleaning.collapsed += keep.iter().filter(|k| !**k).count() as u64;
         retain_faces(soup, &keep);
     }
+    let wires = soup.wires.len();
     soup.wires.retain(|w| w.vertices[0] != w.vertices[1]);
+    cleaning.short_wires += (wires - soup.wires.len()) as u64;
 }
 
 /// The vertices on open edges, and how near to each others are the same vertex: by the largest of its parts.
