@@ -18,6 +18,7 @@ pub(crate) mod coarse;
 mod coloured;
 pub mod coordinate;
 pub(crate) mod cutout;
+pub(crate) mod drawn_points;
 mod enclosing;
 pub mod flatten;
 pub mod framing;
