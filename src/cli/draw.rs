@@ -121,7 +121,8 @@ pub(super) fn draw_views(
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
     let told = scene.warnings.lines().into_iter().chain(notes).collect();
-    let mut of_scene = OfScene { triangles: triangles(&scene), told, whole: None };
+    let hidden = wonder::hidden(request, &scene);
+    let mut of_scene = OfScene { triangles: triangles(&scene), told, hidden, whole: None };
     let mut kept = None;
     let enclosed: Vec<_> = eyes.iter().map(|eye| wonder::enclosed(&scene, &eye.camera)).collect();
     watch.lap_ms();
@@ -153,6 +154,8 @@ struct OfScene<'a> {
     triangles: u64,
     /// Its warnings, and what is strange about the call.
     told: Vec<String>,
+    /// Which parts are shown, if others are left out: for drawings that are empty.
+    hidden: Option<String>,
     /// The model itself, where it is still needed.
     whole: Option<&'a Scene>,
 }
@@ -172,7 +175,8 @@ fn draw_view(
     report.counts.triangles = of_scene.triangles;
     report.counts.paths = paths(&drawing);
     let told = of_scene.told.iter().cloned();
-    for warning in told.chain(warning).chain(bare.map(str::to_owned)).chain(enclosed) {
+    let hidden = of_scene.hidden.clone().filter(|_| report.counts.paths == 0);
+    for warning in told.chain(hidden).chain(warning).chain(bare.map(str::to_owned)).chain(enclosed) {
         if !report.warnings.contains(&warning) {
             report.warnings.push(warning);
         }

@@ -6,15 +6,17 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
+use super::left_out::{self, LeftOutInfo};
 use super::model_unit::{self, ModelUnit};
-use super::number::{counted, plain};
+use super::number::{counted, plain, short};
 use super::{pipeline, print};
 use crate::error::Error;
 use crate::math::colour::Colour;
 use crate::pose::{Clip, Rigged};
-use crate::scene::framing::{bounds, world_points};
+use crate::scene::drawn_points::{DrawnPoints, used_points};
+use crate::scene::framing::bounds;
 use crate::scene::texture::picture_of;
-use crate::scene::{Alpha, LightKind, Projection, Scene, UpAxis};
+use crate::scene::{Alpha, Geometry, LightKind, Projection, Scene, UpAxis};
 
 /// Entries of a list that are shown to people; programs get all.
 const SHOWN: usize = 20;
@@ -55,6 +57,10 @@ struct Info {
     cameras: Vec<CameraInfo>,
     animations: Vec<ClipInfo>,
     bounds: Option<BoundsInfo>,
+    /// Faces without area and lines without length, part by part; they count in nothing else.
+    left_out: Vec<LeftOutInfo>,
+    /// Vertices that no face and no line uses.
+    unused_vertices: u64,
     /// What a unit is, where the format or the call says so.
     unit: Option<&'static str>,
     warnings: Vec<String>,
@@ -144,7 +150,10 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
 
 impl Info {
     fn of(scene: &Scene, clips: &[Clip], args: &InfoArgs) -> Self {
-        let points = world_points(scene);
+        let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
+        let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;
+        let unused_vertices = scene.unused_vertices + scene.geometries.iter().map(unused).sum::<u64>();
+        let left_out = left_out::by_part(scene, &drawn);
         let (of_mesh, turned) = pipeline::mesh_findings(scene);
         let turned_of = |part: usize| {
             let own = turned.iter().find(|own| own.part.index() == part);
@@ -156,19 +165,23 @@ impl Info {
         let parts: Vec<PartInfo> = scene
             .parts
             .iter()
+            .zip(&left_out)
             .enumerate()
-            .map(|(number, part)| {
+            .map(|(number, (part, left_out))| {
                 let geometry = scene.geometries.get(part.geometry);
+                let triangles = geometry.map_or(0, |geometry| geometry.triangles.len() as u64);
+                let wires = geometry.map_or(0, |geometry| geometry.wires.len() as u64);
                 PartInfo {
                     name: part.name.clone(),
-                    triangles: geometry.map_or(0, |geometry| geometry.triangles.len() as u64),
-                    wires: geometry.map_or(0, |geometry| geometry.wires.len() as u64),
+                    triangles: triangles - left_out.faces,
+                    wires: wires - left_out.wires,
                     texture_coordinates: geometry.is_some_and(|geometry| !geometry.corner_uvs.is_empty()),
                     vertex_colours: geometry.is_some_and(|geometry| !geometry.colours.is_empty()),
                     turned: turned_of(number),
                 }
             })
             .collect();
+        let left_out = LeftOutInfo::of(scene, &left_out);
         let mut warnings = scene.warnings.clone();
         warnings.extend(&of_mesh);
         let mut warnings = warnings.lines();
@@ -215,6 +228,8 @@ impl Info {
                 max: max.to_array(),
                 size_mm: unit.map(|unit| ((max - min) * unit.mm()).to_array()),
             }),
+            left_out,
+            unused_vertices,
             unit: unit.map(ModelUnit::name),
             warnings,
         }
@@ -233,6 +248,10 @@ impl Info {
             let _ =
                 writeln!(text, "  {}{unit}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
         }
+        if self.unused_vertices > 0 {
+            let _ = writeln!(text, "  {} that no face or line uses", vertices(self.unused_vertices));
+        }
+        left_out::add(&mut text, &self.left_out, SHOWN);
         if let Some(turned) = self.turned.words() {
             let _ = writeln!(text, "  {turned}: wound inward or against their neighbours in the file");
         }
@@ -346,16 +365,6 @@ fn named(name: &str) -> &str {
     if name.is_empty() { "(no name)" } else { name }
 }
 
-/// A coordinate with six digits that count.
-fn short(value: f64) -> String {
-    let large = value.abs() >= 1e9 || (value != 0.0 && value.abs() < 1e-4);
-    if large {
-        return format!("{value:.5e}");
-    }
-    let before_point = if value.abs() < 1.0 { 0 } else { value.abs() as u64 }.to_string().len();
-    plain(value, 7_usize.saturating_sub(before_point).min(6))
-}
-
 /// A heading with the count, and the entries below it; nothing for an empty list.
 fn list(text: &mut String, noun: &str, entries: impl ExactSizeIterator<Item = String>) {
     let n = entries.len();
@@ -378,7 +387,7 @@ mod tests {
 
     use super::*;
     use crate::pose::{Channel, Interpolation, Property, Target, Track};
-    use crate::scene::{Geometry, Material, Part};
+    use crate::scene::{Material, Part};
 
     fn scene(parts: usize) -> Scene {
         let geometry = Geometry {
@@ -483,12 +492,5 @@ mod tests {
         assert!(
             Info::of(&scene(0), &[], &args("m.obj")).text().starts_with("m.obj: OBJ, y up\n  0 triangles")
         );
-    }
-
-    #[test]
-    fn coordinates_are_short() {
-        let numbers = [0.0, -1.5, 4_600_000.123, 1e-7, 3e9, 77.990_000_1, 0.25];
-        let texts = ["0", "-1.5", "4600000", "1.00000e-7", "3.00000e9", "77.99", "0.25"];
-        assert_eq!(numbers.map(short), texts);
     }
 }

@@ -34,6 +34,16 @@ pub(super) fn plain(value: f64, decimals: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// A coordinate with six digits that count.
+pub(super) fn short(value: f64) -> String {
+    let large = value.abs() >= 1e9 || (value != 0.0 && value.abs() < 1e-4);
+    if large {
+        return format!("{value:.5e}");
+    }
+    let before_point = if value.abs() < 1.0 { 0 } else { value.abs() as u64 }.to_string().len();
+    plain(value, 7_usize.saturating_sub(before_point).min(6))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -48,5 +58,12 @@ mod tests {
         assert_eq!([999, 18_249, 999_949, 999_950].map(bytes), ["999 B", "18.2 kB", "999.9 kB", "1.0 MB"]);
         assert_eq!([210.0, 297.5, -0.0, 0.12345].map(|v| plain(v, 3)), ["210", "297.5", "0", "0.123"]);
         assert_eq!(plain(100.0, 0), "100");
+    }
+
+    #[test]
+    fn coordinates_are_short() {
+        let numbers = [0.0, -1.5, 4_600_000.123, 1e-7, 3e9, 77.990_000_1, 0.25];
+        let texts = ["0", "-1.5", "4600000", "1.00000e-7", "3.00000e9", "77.99", "0.25"];
+        assert_eq!(numbers.map(short), texts);
     }
 }

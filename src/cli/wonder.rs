@@ -14,6 +14,9 @@ use crate::scene::{Camera, Projection, Scene};
 /// A drawing smaller than this share of the page's shorter side is next to nothing.
 const SPECK: f64 = 0.02;
 
+/// Names of parts in a warning, at most.
+const SHOWN_NAMES: usize = 8;
+
 /// The patterns among `--only` and `--hide` that no part fits.
 pub(super) fn unmatched(scene: &Scene, only: &[String], hide: &[String]) -> Vec<String> {
     let fits = |glob: &str| scene.parts.iter().any(|part| glob_matches(glob, &part.name));
@@ -61,7 +64,18 @@ pub(super) fn enclosed(scene: &Scene, camera: &Camera) -> Option<String> {
     Some(format!("the eye is inside `{}`: what is drawn is seen from within", part.name))
 }
 
-/// Says so where a drawing has nothing in it, or next to nothing.
+/// Which parts were left out, where nothing is drawn of the others.
+pub(super) fn hidden(request: &DrawRequest, scene: &Scene) -> Option<String> {
+    if request.only.is_empty() && request.hide.is_empty() {
+        return None;
+    }
+    let mut names: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).take(SHOWN_NAMES).collect();
+    names.dedup();
+    let more = if scene.parts.len() > SHOWN_NAMES { " and others" } else { "" };
+    Some(format!("--only and --hide leave nothing else to draw than {}{more}", names.join(", ")))
+}
+
+/// Says so where a drawing has next to nothing in it.
 pub(super) fn next_to_nothing(drawing: &Drawing) -> Option<String> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let boxes = marks.map(|mark| mark.path.bounding_box()).filter(|own| own.is_finite());
@@ -76,9 +90,7 @@ pub(super) fn next_to_nothing(drawing: &Drawing) -> Option<String> {
         }
         all = Some(union);
     }
-    let Some(all) = all else {
-        return Some("the drawing is empty: no line of the model is in sight".to_owned());
-    };
+    let all = all?;
     let (width, height) = (plain(all.width(), 1), plain(all.height(), 1));
     Some(format!("all that is drawn is {width} x {height} {} large", page.unit.name()))
 }

@@ -14,6 +14,7 @@ use glam::{DAffine3, DVec3};
 
 pub use trails::{TRAIL, with_trails};
 
+use crate::mesh::area::has_own_area;
 use crate::scene::Scene;
 use columns::{Columns, Grid};
 
@@ -131,7 +132,8 @@ fn body(scene: &Scene, part: usize) -> Vec<[DVec3; 3]> {
     let part = &scene.parts[part];
     let Some(geometry) = scene.geometry_of(part) else { return Vec::new() };
     let corner = |v: u32| geometry.positions.get(v as usize).copied().unwrap_or_default();
-    geometry.triangles.iter().map(|t| t.map(|v| part.world_from_part.transform_point3(corner(v)))).collect()
+    let corners = |t: &[u32; 3]| t.map(|v| part.world_from_part.transform_point3(corner(v)));
+    geometry.triangles.iter().map(corners).filter(|corners| has_own_area(*corners)).collect()
 }
 
 fn grid(axis: DVec3, step: f64) -> Grid {

@@ -12,6 +12,7 @@ use crate::math::noise::hash;
 use crate::math::tolerance::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
 use crate::mesh::EdgeMark;
 use crate::mesh::space_curve::{CELLS, along_curve};
+use crate::scene::drawn_points::DrawnPoints;
 use crate::scene::{Geometry, Material, Scene};
 
 /// The triangles of a scene that are drawn, each geometry once.
@@ -203,8 +204,8 @@ fn shown(scene: &Scene) -> Vec<Option<Shown>> {
 /// Within which distance the vertices of a geometry are one where they lie on open edges.
 fn reach(geometry: &Geometry) -> f64 {
     let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for point in &geometry.positions {
-        (least, greatest) = (least.min(*point), greatest.max(*point));
+    for point in DrawnPoints::of_geometry(geometry) {
+        (least, greatest) = (least.min(point), greatest.max(point));
     }
     let largest = least.abs().max(greatest.abs()).max_element();
     let written = if geometry.single_precision { WELD_OF_F32_COORDINATE * largest } else { 0.0 };
@@ -223,8 +224,8 @@ impl Frame {
         let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for (geometry, shown) in scene.geometries.iter().zip(shown) {
             let Some(shown) = shown else { continue };
-            for point in &geometry.positions {
-                let point = shown.place.transform_point3(*point);
+            for point in DrawnPoints::of_geometry(geometry) {
+                let point = shown.place.transform_point3(point);
                 (least, greatest) = (least.min(point), greatest.max(point));
             }
         }

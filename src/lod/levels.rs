@@ -98,6 +98,7 @@ impl<'a> Levels<'a> {
             lights: scene.lights.clone(),
             cameras: scene.cameras.clone(),
             warnings: scene.warnings.clone(),
+            unused_vertices: scene.unused_vertices,
             movers: scene.movers.clone(),
         })
     }

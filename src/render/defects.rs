@@ -11,6 +11,7 @@ pub fn of_mesh(mesh: &Mesh, scene: &Scene) -> Warnings {
     let mut warnings = Warnings::default();
     let c = &mesh.cleaning;
     warnings.count("faces with two corners at one place were left out", c.collapsed);
+    warnings.count("lines with both ends at one place were left out", c.short_wires);
     warnings.count("doubled faces were left out", c.doubled);
     warnings.count("faces without area", c.degenerate);
     if c.non_manifold > 0 {

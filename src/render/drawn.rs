@@ -16,7 +16,7 @@ use super::prepared::Prepared;
 use super::report::{self, Report, Stopwatch};
 use super::stage::Stage;
 use super::stages::{self, Made};
-use super::{defects, hatching, hidden, image, under};
+use super::{defects, empty, hatching, hidden, image, under};
 use crate::drawing::{Drawing, Layer, Page, Unit};
 use crate::error::Error;
 use crate::hatch::{self, Hatched};
@@ -201,6 +201,10 @@ impl Prepared<'_> {
         report.warnings.extend(hatching::too_dark(style, page.unit));
         if style.motion.enabled && scene.movers.is_none() {
             report.warnings.push(motion::NO_MOMENT.to_owned());
+        }
+        if stage.is_none() && empty::shows_nothing(&layers) {
+            let seen = (&surface.mesh, view);
+            report.warnings.push(empty::reason(scene, seen, style, !chains.is_empty()));
         }
         let warnings = report.warnings.clone();
         (Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report)

@@ -24,6 +24,7 @@ mod at_rest;
 mod beside;
 pub mod defects;
 mod drawn;
+mod empty;
 mod fills;
 mod glass;
 mod hatching;

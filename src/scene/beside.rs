@@ -1,21 +1,33 @@
-//! Files that a model names.
+//! Files that a model names: read only from the folder of the model, and found there by another spelling of their name.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::Error;
+
+/// Names of a folder that are looked at, at most.
+const MAX_NAMES: usize = 1 << 16;
+
+/// Steps of a path, counted from its end, that are looked for in the model's folder, at most.
+const MAX_STEPS: usize = 16;
 
 /// The bytes of a file beside the model, by the name the model calls it.
 ///
 /// # Errors
-/// If the name leads outside the model's folder, or the file cannot be read.
+/// If the name, or a link it stands for, leads outside the model's folder, or the file cannot be read.
 pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
     if !stays_inside(name) {
         return Err(Error::new(format!("{name} lies outside the model's folder")).in_file(model));
     }
-    let path = model.parent().unwrap_or(Path::new("")).join(name);
+    let folder = folder_of(model);
+    let path = folder.join(name);
     if !path.is_file() {
         return Err(Error::new(format!("{name} is missing")).in_file(model));
+    }
+    if !is_within(folder, &path) {
+        return Err(Error::new(format!("{name} is a link out of the model's folder")).in_file(model));
     }
     fs::read(&path).map_err(|e| Error::io("cannot be read", e).in_file(path))
 }
@@ -38,6 +50,103 @@ pub fn stays_inside(path: &str) -> bool {
     !path.starts_with(['/', '\\']) && !path.contains([':', '\0'])
 }
 
+/// The folder that a model lies in.
+fn folder_of(model: &Path) -> &Path {
+    model.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Whether a file lies in a folder once links are followed.
+fn is_within(folder: &Path, file: &Path) -> bool {
+    match (folder.canonicalize(), file.canonicalize()) {
+        (Ok(folder), Ok(file)) => file.starts_with(folder),
+        _ => false,
+    }
+}
+
+/// The files in a model's folder and in those below it. Each folder is listed once.
+#[derive(Debug)]
+pub(crate) struct Neighbours {
+    folder: PathBuf,
+    /// The names in each folder listed so far, by their lower case; the folders as seen from the model.
+    listed: RefCell<BTreeMap<String, BTreeMap<String, Vec<String>>>>,
+}
+
+impl Neighbours {
+    /// Those of a model file.
+    pub fn of(model: &Path) -> Self {
+        Self { folder: folder_of(model).to_path_buf(), listed: RefCell::default() }
+    }
+
+    /// Whether a path, as seen from the model and written with slashes, is that of a file in its folder.
+    pub fn has(&self, path: &str) -> bool {
+        let file = self.folder.join(path);
+        stays_inside(path) && file.is_file() && is_within(&self.folder, &file)
+    }
+
+    /// The file that a name may mean if there is none of exactly this name, as seen from the model: the one at the longest
+    /// end of the path that is there, in any letter case. `C:\work\maps\Wall.PNG` is `maps/wall.png`, or else `wall.png`.
+    ///
+    /// The path is looked for in `below`, the folder of the file that names it (empty, or with a slash at its end), and then
+    /// beside the model. Of several names that differ in case only, the first in alphabetical order is taken.
+    pub fn find(&self, below: &str, name: &str) -> Option<String> {
+        let mut steps: Vec<&str> = Vec::new();
+        for step in name.split(['/', '\\']) {
+            match step {
+                "" | "." => {}
+                // What stands before leads elsewhere.
+                ".." => steps.clear(),
+                // A drive or a protocol.
+                _ if step.contains([':', '\0']) => steps.clear(),
+                _ => steps.push(step),
+            }
+        }
+        let steps = steps.get(steps.len().saturating_sub(MAX_STEPS)..)?;
+        let mut folders = vec![below.trim_end_matches('/')];
+        folders.extend((!below.is_empty()).then_some(""));
+        (0..steps.len()).find_map(|from| {
+            let end = steps.get(from..)?;
+            folders.iter().find_map(|folder| self.spelt(folder, end))
+        })
+    }
+
+    /// The file at some steps below a folder, in any letter case.
+    fn spelt(&self, folder: &str, steps: &[&str]) -> Option<String> {
+        let mut path = folder.to_owned();
+        for step in steps {
+            let alike = self.names(&path, &step.to_lowercase());
+            let name = alike.iter().find(|name| name == step).or(alike.first())?;
+            if !path.is_empty() {
+                path.push('/');
+            }
+            path.push_str(name);
+        }
+        self.has(&path).then_some(path)
+    }
+
+    /// The names in a folder that are alike but for their case, in alphabetical order.
+    fn names(&self, folder: &str, lower: &str) -> Vec<String> {
+        let mut listed = self.listed.borrow_mut();
+        if !listed.contains_key(folder) {
+            listed.insert(folder.to_owned(), self.list(folder));
+        }
+        listed.get(folder).and_then(|names| names.get(lower)).cloned().unwrap_or_default()
+    }
+
+    fn list(&self, folder: &str) -> BTreeMap<String, Vec<String>> {
+        let mut names: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let path = self.folder.join(folder);
+        if !(folder.is_empty() || is_within(&self.folder, &path)) {
+            return names;
+        }
+        let entries = fs::read_dir(path).into_iter().flatten().flatten().take(MAX_NAMES);
+        for name in entries.filter_map(|entry| entry.file_name().into_string().ok()) {
+            names.entry(name.to_lowercase()).or_default().push(name);
+        }
+        names.values_mut().for_each(|alike| alike.sort_unstable());
+        names
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -50,5 +159,84 @@ mod tests {
         for bad in ["../a", "a/../../b", "/a", "\\a", "C:\\a", "http://a/b", "a\\..\\..\\b", "a\0"] {
             assert!(!stays_inside(bad), "{bad}");
         }
+    }
+
+    /// A folder of files, gone when it is dropped.
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str, files: &[&str]) -> Self {
+            let folder = std::env::temp_dir().join(format!("ligne-{name}-{}", std::process::id()));
+            for file in files {
+                let path = folder.join(file);
+                fs::create_dir_all(path.parent().unwrap()).unwrap();
+                fs::write(path, file).unwrap();
+            }
+            Self(folder)
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            _ = fs::remove_dir_all(&self.0);
+        }
+    }
+
+    #[test]
+    fn files_are_found_by_the_end_of_their_path_in_any_case() {
+        let files = [
+            "models/Wall.PNG",
+            "models/maps/wood.png",
+            "models/maps/Wall.png",
+            "models/lib/wood.PNG",
+            "secret.png",
+        ];
+        let folder = Folder::new("beside", &files);
+        let beside = Neighbours::of(&folder.0.join("models/a.obj"));
+        for (below, name, wanted) in [
+            ("", "wall.png", Some("Wall.PNG")),
+            ("", "C:\\work\\wall.png", Some("Wall.PNG")),
+            ("", "C:\\work\\MAPS\\wall.png", Some("maps/Wall.png")),
+            ("", "/home/a/Maps/Wood.Png", Some("maps/wood.png")),
+            ("", "../textures/wall.png", Some("Wall.PNG")),
+            ("", "maps/../../wall.png", Some("Wall.PNG")),
+            ("", "http://example.org/wall.png", Some("Wall.PNG")),
+            ("", "\\\\server\\share\\wall.png", Some("Wall.PNG")),
+            ("lib/", "wood.png", Some("lib/wood.PNG")),
+            ("lib/", "wall.png", Some("Wall.PNG")),
+            ("", "wood.png", None),
+            ("", "../secret.png", None),
+            ("", "C:secret.png", None),
+            ("", "maps", None),
+            ("", "..", None),
+            ("", "", None),
+        ] {
+            assert_eq!(beside.find(below, name).as_deref(), wanted, "{below} {name}");
+        }
+        assert!(beside.has("maps/wood.png") && !beside.has("../secret.png") && !beside.has("maps"));
+        let long = "a/".repeat(100_000) + "wall.png";
+        assert_eq!(beside.find("", &long).as_deref(), Some("Wall.PNG"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_that_lead_out_of_the_folder_are_not_followed() {
+        use std::os::unix::fs::symlink;
+        let folder = Folder::new("links", &["models/real.png", "outside/secret.png"]);
+        let models = folder.0.join("models");
+        symlink(folder.0.join("outside/secret.png"), models.join("linked.png")).unwrap();
+        symlink(folder.0.join("outside"), models.join("maps")).unwrap();
+        symlink("real.png", models.join("same.png")).unwrap();
+        let model = models.join("a.obj");
+        let beside = Neighbours::of(&model);
+        for name in ["linked.png", "LINKED.png", "maps/secret.png", "C:\\maps\\secret.png"] {
+            assert_eq!(beside.find("", name), None, "{name}");
+        }
+        for name in ["linked.png", "maps/secret.png"] {
+            let error = read_beside(&model, name).unwrap_err().to_string();
+            assert!(error.contains("is a link out of the model's folder"), "{error}");
+        }
+        assert_eq!(beside.find("", "SAME.PNG").as_deref(), Some("same.png"));
+        assert_eq!(read_beside(&model, "same.png").unwrap(), b"models/real.png");
     }
 }

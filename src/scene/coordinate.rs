@@ -1,6 +1,10 @@
-//! Which coordinates can be drawn.
+//! Which coordinates can be drawn, and the box round points.
 
 use glam::DVec3;
+use rayon::prelude::*;
+
+/// Points handled at once by one thread.
+const CHUNK: usize = 1 << 14;
 
 /// Coordinates beyond this are refused like those that are not numbers: products of four of them
 /// no longer fit into an `f64`.
@@ -16,6 +20,20 @@ pub fn is_drawable(point: DVec3) -> bool {
 /// How faces and lines left out for their coordinates are called in the warnings.
 pub(crate) const NOT_DRAWABLE: &str =
     "faces or lines left out, with coordinates that are not numbers or too large";
+
+/// Corners of the box round all finite points, or `None` if there are none.
+#[must_use]
+pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
+    let of_chunk = |chunk: &[DVec3]| {
+        let finite = chunk.iter().filter(|p| p.is_finite());
+        finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
+    };
+    let (low, high) = points
+        .par_chunks(CHUNK)
+        .map(of_chunk)
+        .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    (low.is_finite() && high.is_finite()).then_some((low, high))
+}
 
 #[cfg(test)]
 mod tests {

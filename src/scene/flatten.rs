@@ -1,14 +1,11 @@
 //! Flattening: all instances of a scene into one [`Soup`] in world space, and what can be known of it before.
 
-use std::borrow::Cow;
-use std::sync::atomic::AtomicBool;
-use std::sync::atomic::Ordering::Relaxed;
-
 use glam::{DAffine3, DMat3, DVec3};
 use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
 use super::coordinate::is_drawable;
+use super::framing::{bounds, world_points};
 use super::{Geometry, Paints, Part, Scene};
 use crate::math::grain::GRAIN;
 use crate::mesh::{EdgeMark, MaterialId, PaintId, PartId, Soup, Wire};
@@ -102,31 +99,11 @@ impl Scene {
         drop(rooms);
     }
 
-    /// Box around all that can be drawn, in world space: least and greatest coordinates. None
-    /// where nothing can be drawn.
+    /// Box around all that is drawn, in world space: least and greatest coordinates. Faces without area and wires without
+    /// length do not count. None where nothing can be drawn.
     #[must_use]
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let mut used: Vec<Option<Cow<[DVec3]>>> = vec![None; self.geometries.len()];
-        let mut bounds: Option<(DVec3, DVec3)> = None;
-        for part in &self.parts {
-            let Some(geometry) = self.geometry_of(part) else { continue };
-            let Some(points) = used.get_mut(part.geometry) else { continue };
-            let points = points.get_or_insert_with(|| used_points(geometry));
-            let place = &part.world_from_part;
-            let is_identity = *place == DAffine3::IDENTITY;
-            let mut own: Option<(DVec3, DVec3)> = bounds;
-            for &point in points.iter() {
-                let point = if is_identity { point } else { place.transform_point3(point) };
-                let (least, greatest) = own.get_or_insert((point, point));
-                *least = least.min(point);
-                *greatest = greatest.max(point);
-            }
-            // A part that reaches beyond all numbers is not drawn.
-            if own.is_none_or(|(least, greatest)| is_drawable(least) && is_drawable(greatest)) {
-                bounds = own;
-            }
-        }
-        bounds
+        bounds(&world_points(self))
     }
 
     /// How many triangles are drawn, each instance counted.
@@ -142,22 +119,6 @@ impl Scene {
         let can_be_placed = determinant != 0.0 && determinant.is_finite() && part.world_from_part.is_finite();
         self.geometries.get(part.geometry).filter(|_| can_be_placed)
     }
-}
-
-/// The positions that triangles or wires use, each once; usually all.
-pub(crate) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
-    let used: Vec<AtomicBool> = geometry.positions.iter().map(|_| AtomicBool::new(false)).collect();
-    let mark = |corner: &u32| {
-        if let Some(used) = used.get(*corner as usize) {
-            used.store(true, Relaxed);
-        }
-    };
-    geometry.triangles.par_iter().with_min_len(GRAIN).for_each(|corners| corners.iter().for_each(mark));
-    geometry.wires.as_flattened().iter().for_each(mark);
-    if used.iter().all(|used| used.load(Relaxed)) {
-        return Cow::Borrowed(&geometry.positions);
-    }
-    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.into_inner().then_some(p)).collect()
 }
 
 fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, default_material: u32) {

@@ -7,13 +7,11 @@
 //! one maximum over all points, `max(p.x - t p.z)`, and the nearest eye from which everything is
 //! seen follows from two opposite planes: exact, from the vertices and not from their box.
 
-use std::borrow::Cow;
-
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::coordinate::is_drawable;
-use super::flatten::used_points;
+pub use super::coordinate::bounds;
+use super::drawn_points::DrawnPoints;
 use super::{Camera, Projection, Scene};
 use crate::math::function::tan;
 
@@ -198,45 +196,17 @@ fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -
     (DVec3::new((r - l) / 2.0, (t - b) / 2.0, -near - diagonal), span)
 }
 
-/// Corners of the box round all finite points, or `None` if there are none.
-#[must_use]
-pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
-    let of_chunk = |chunk: &[DVec3]| {
-        let finite = chunk.iter().filter(|p| p.is_finite());
-        finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
-    };
-    let (low, high) = points
-        .par_chunks(CHUNK)
-        .map(of_chunk)
-        .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    (low.is_finite() && high.is_finite()).then_some((low, high))
-}
-
-/// World positions of all vertices that triangles and wires use, part by part; what
+/// World positions of all vertices that are drawn, part by part: those of triangles with an area and of wires with a length. What
 /// [`Scene::to_soup`] leaves out is left out here.
 #[must_use]
 pub fn world_points(scene: &Scene) -> Vec<DVec3> {
-    let used: Vec<Cow<[DVec3]>> = scene.geometries.par_iter().map(used_points).collect();
-    let mut points = Vec::new();
-    for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
-        let Some(positions) = used.get(part.geometry) else { continue };
-        let first = points.len();
-        if part.world_from_part == DAffine3::IDENTITY {
-            points.extend_from_slice(positions);
-        } else {
-            let placed = positions.par_iter().with_min_len(CHUNK);
-            points.par_extend(placed.map(|&p| part.world_from_part.transform_point3(p)));
-        }
-        let own = points.get(first..).unwrap_or_default();
-        if !own.par_iter().with_min_len(CHUNK).all(|&p| is_drawable(p)) {
-            points.truncate(first);
-        }
-    }
-    points
+    DrawnPoints::of(scene).points
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::DAffine3;
+
     use super::*;
     use crate::scene::{Geometry, NamedView, Part, UpAxis};
 

@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::math::tolerance::F32_STEP;
 use crate::mesh::EdgeMark;
+use crate::mesh::area::has_own_area;
 
 /// A shape: triangles and wires in its own space.
 ///
@@ -48,8 +49,24 @@ impl Geometry {
         if !self.single_precision {
             return self.lattice_step;
         }
-        let largest = self.positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
-        self.lattice_step.max(F32_STEP * largest)
+        self.lattice_step.max(F32_STEP * self.largest())
+    }
+
+    /// The largest coordinate, local units, of faces with an area and wires with a length; of all where there are none.
+    fn largest(&self) -> f64 {
+        let at = |vertex: u32| self.positions.get(vertex as usize).copied().unwrap_or_default();
+        let size = |vertex: u32| at(vertex).abs().max_element();
+        let all = self.positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
+        let reaches = |corners: &[u32; 3]| corners.iter().any(|v| size(*v) >= all);
+        let counts = |corners: &[u32; 3]| has_own_area(corners.map(at));
+        if self.triangles.iter().any(|corners| reaches(corners) && counts(corners)) {
+            return all;
+        }
+        // What is largest does not count.
+        let faces = self.triangles.iter().filter(|corners| counts(corners)).flatten();
+        let wires = self.wires.iter().filter(|[a, b]| at(*a) != at(*b)).flatten();
+        let counted = faces.chain(wires).map(|v| size(*v)).fold(0.0, f64::max);
+        if counted > 0.0 { counted } else { all }
     }
 
     /// The colour of a vertex, linear RGBA, if it has one.

@@ -18,6 +18,7 @@ pub(crate) mod coarse;
 mod coloured;
 pub mod coordinate;
 pub(crate) mod cutout;
+pub(crate) mod drawn_points;
 mod enclosing;
 pub mod flatten;
 pub mod framing;
@@ -93,6 +94,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The file's cameras, in world space.
     pub cameras: Vec<NamedCamera>,
+    /// Vertices of the file that no face or line uses and that no geometry holds.
+    pub unused_vertices: u64,
     /// What moves at this moment and may leave motion lines; `None` where nobody asked (see [`crate::motion`]).
     pub movers: Option<Vec<Mover>>,
     /// What had to be dropped or mended while reading.
@@ -147,15 +150,20 @@ pub(crate) fn drawable(scene: Scene) -> Result<Scene, Error> {
     if scene.geometries.iter().any(|g| !g.triangles.is_empty() || !g.wires.is_empty()) {
         return Ok(scene);
     }
-    let points: usize = scene.geometries.iter().map(|g| g.positions.len()).sum();
-    let lines = scene.warnings.lines();
-    let left_out = lines.iter().find(|line| line.contains("left out"));
-    let message = match (left_out, points) {
-        (Some(line), _) => format!("{line}; nothing to draw"),
-        (None, 0) => "no faces and no lines; nothing to draw".to_owned(),
-        (None, _) => "only points; nothing to draw".to_owned(),
+    let points = scene.geometries.iter().any(|g| !g.positions.is_empty());
+    Err(nothing_to_draw(&scene.warnings, points))
+}
+
+/// The error of a file without a face or a line that can be drawn: what was left out of it, or whether it has points.
+pub(crate) fn nothing_to_draw(warnings: &Warnings, has_points: bool) -> Error {
+    let left_out: Vec<String> =
+        warnings.lines().into_iter().filter(|line| line.contains("left out")).collect();
+    let message = match (left_out.is_empty(), has_points) {
+        (false, _) => format!("{}; nothing to draw", left_out.join("; ")),
+        (true, false) => "no faces and no lines; nothing to draw".to_owned(),
+        (true, true) => "only points; nothing to draw".to_owned(),
     };
-    Err(Error::new(message).of_kind(ErrorKind::Empty))
+    Error::new(message).of_kind(ErrorKind::Empty)
 }
 
 #[cfg(test)]

@@ -74,13 +74,20 @@ impl Spots {
         }
     }
 
-    /// Tells of the spots, if there were any.
-    pub fn warn(self, warnings: &mut Warnings) {
-        let Some(first) = self.first else { return };
-        warnings.note(match self.others {
+    /// What there is to say of the spots, if there are any.
+    pub fn sentence(self) -> Option<String> {
+        let first = self.first?;
+        Some(match self.others {
             0 => first,
             others => format!("{first}; {others} more like it"),
-        });
+        })
+    }
+
+    /// Tells of the spots, if there were any.
+    pub fn warn(self, warnings: &mut Warnings) {
+        if let Some(sentence) = self.sentence() {
+            warnings.note(sentence);
+        }
     }
 }
 

@@ -11,6 +11,7 @@ use super::plane::Plane;
 use crate::math::tolerance;
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
+use crate::scene::drawn_points::DrawnPoints;
 
 /// What is left of a shape.
 #[derive(Debug, Default)]
@@ -48,7 +49,8 @@ fn side(plane: &Plane, p: DVec3, reach: f64) -> i8 {
 /// What rounding leaves of the coordinates of a shape, world.
 pub(super) fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
     let size = |p: &DVec3| place.transform_point3(*p).abs().max_element();
-    let largest = geometry.positions.iter().map(size).filter(|size| size.is_finite()).fold(0.0, f64::max);
+    let points = DrawnPoints::of_geometry(geometry);
+    let largest = points.iter().map(size).filter(|size| size.is_finite()).fold(0.0, f64::max);
     largest * if geometry.single_precision { tolerance::WELD_OF_F32_COORDINATE } else { tolerance::ROUNDING }
 }
 

@@ -165,7 +165,7 @@ fn broken_files_are_refused_by_name_or_drawn_with_a_warning() {
         assert!(error.contains(words) && error.contains(file), "{file}: {error}");
     }
     let drawn = [
-        ("nan-positions.gltf", Some("triangles with a corner that is not a number")),
+        ("nan-positions.gltf", Some("triangles left out, with a corner that is not a number")),
         ("indices-not-multiple-of-three.gltf", Some("left over")),
         ("missing-texture.gltf", Some("missing-texture.png")),
         ("corrupt-texture.gltf", Some("damaged")),

@@ -7,6 +7,7 @@ use super::json;
 use super::json::index::Shown;
 use super::uri;
 use crate::pose::factors::{AlphaMode, Factors};
+use crate::scene::beside::Neighbours;
 use crate::scene::{Filter, Material, Warnings, Wrap};
 
 /// The path of a texture beside the model, or its bytes.
@@ -15,11 +16,40 @@ type TextureSource = (Option<String>, Option<Arc<[u8]>>);
 /// Bytes of an image that are looked at to tell whether it is one.
 const HEAD: usize = 32;
 
+/// The files beside a model.
+#[derive(Clone, Copy)]
+pub struct Files<'a> {
+    /// Reads the beginning of one.
+    pub fetch: &'a Fetch<'a>,
+    /// All of them; none if the model is not in a file.
+    pub all: Option<&'a Neighbours>,
+}
+
+impl Files<'_> {
+    /// The beginning of the file that a relative URI names, its path, and whether that is the path of the URI: if no file is
+    /// there, the one of its name is taken.
+    fn head(&self, uri: &str) -> Result<(Vec<u8>, String, bool), String> {
+        let message = match uri::inside_folder(uri) {
+            Err(message) => message,
+            Ok(path) if self.all.is_some_and(|all| !all.has(&path)) => {
+                format!("`{path}` is not a file in the model's folder")
+            }
+            Ok(path) => match (self.fetch)(&path, HEAD) {
+                Ok(bytes) => return Ok((bytes, path, true)),
+                Err(error) => format!("`{path}` cannot be read ({error})"),
+            },
+        };
+        let found = self.all.and_then(|all| all.find("", &uri::decoded(uri)));
+        let read = found.and_then(|path| Some(((self.fetch)(&path, HEAD).ok()?, path, false)));
+        read.ok_or(message)
+    }
+}
+
 /// All materials of a file; whatever is wrong with their textures is only a warning.
-pub fn materials(buffers: &Buffers, fetch: &Fetch, warnings: &mut Warnings) -> Vec<Material> {
+pub fn materials(buffers: &Buffers, files: Files, warnings: &mut Warnings) -> Vec<Material> {
     let read = |material: &json::Material| {
         let texture =
-            base_texture(material).and_then(|texture| image(texture, material, buffers, fetch, warnings));
+            base_texture(material).and_then(|texture| image(texture, material, buffers, files, warnings));
         let (texture, picture) = texture.unwrap_or_default();
         let mut made = Material {
             name: material.name.clone().unwrap_or_default(),
@@ -100,14 +130,14 @@ fn image(
     texture: &json::TextureUse,
     material: &json::Material,
     buffers: &Buffers,
-    fetch: &Fetch,
+    files: Files,
     warnings: &mut Warnings,
 ) -> Option<TextureSource> {
     let root = buffers.root;
+    let mut other_file = None;
     let mut broken = |number: usize, what: String| {
-        let of = material.name.as_ref().map_or_else(String::new, |name| format!(" of material `{name}`"));
         let number = Shown(number);
-        warnings.note(format!("texture {number}{of}: {what}; the plain colour is drawn instead"));
+        warnings.note(format!("texture {number}{}: {what}; the plain colour is drawn instead", of(material)));
         None
     };
     let number = texture.index;
@@ -128,12 +158,13 @@ fn image(
         (Some(text), _) => match uri::data(text) {
             Some(Ok(bytes)) => (bytes, None),
             Some(Err(message)) => return broken(number, message),
-            None => match uri::inside_folder(text) {
+            None => match files.head(text) {
                 Err(message) => return broken(number, message),
-                Ok(path) => match fetch(&path, HEAD) {
-                    Err(error) => return broken(number, format!("`{path}` cannot be read ({error})")),
-                    Ok(bytes) => (bytes, Some(path)),
-                },
+                Ok((bytes, path, is_named)) => {
+                    other_file =
+                        (!is_named).then(|| format!("`{}` is not there; {path} is used", uri::shown(text)));
+                    (bytes, Some(path))
+                }
             },
         },
         (None, Some(view)) => match buffers.view(view) {
@@ -145,8 +176,16 @@ fn image(
     if !is_image(&bytes) {
         return broken(number, format!("image {source} is damaged or of an unknown format"));
     }
+    if let Some(other) = other_file {
+        warnings.note(format!("texture {number}{}: {other}", of(material)));
+    }
     let inside = path.is_none().then(|| Arc::from(bytes));
     Some((path, inside))
+}
+
+/// The material that a texture is of, if it has a name.
+fn of(material: &json::Material) -> String {
+    material.name.as_ref().map_or_else(String::new, |name| format!(" of material `{name}`"))
 }
 
 /// Whether bytes begin as PNG, JPEG, WebP, KTX2, DDS or AVIF images do.
@@ -174,7 +213,7 @@ mod tests {
         };
         let buffers = Buffers::gather(&root, None, &fetch).unwrap();
         let mut warnings = Warnings::default();
-        (materials(&buffers, &fetch, &mut warnings), warnings)
+        (materials(&buffers, Files { fetch: &fetch, all: None }, &mut warnings), warnings)
     }
 
     #[test]

@@ -265,9 +265,10 @@ impl<'a> Builder<'a> {
         marks.retain(|_| kept.next().copied().unwrap_or(true));
         shape.wires.retain(|ends| ends.iter().all(sound));
         let dropped = |before: usize, after: usize| (before - after) as u64;
-        warnings
-            .count("triangles with a corner that is not a number", dropped(before.0, shape.triangles.len()));
-        warnings.count("lines with an end that is not a number", dropped(before.1, shape.wires.len()));
+        let (triangles, lines) =
+            (dropped(before.0, shape.triangles.len()), dropped(before.1, shape.wires.len()));
+        warnings.count("triangles left out, with a corner that is not a number", triangles);
+        warnings.count("lines left out, with an end that is not a number", lines);
     }
 
     fn append(&mut self, block: Block, shape: Shape, marks: Vec<[EdgeMark; 3]>) {

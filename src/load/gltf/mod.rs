@@ -36,8 +36,10 @@ use std::path::Path;
 
 use self::buffers::{Buffers, Fetch};
 use self::json::Root;
+use self::materials::Files;
 use crate::error::Error;
 use crate::pose::{Rig, Rigged};
+use crate::scene::beside::Neighbours;
 use crate::scene::{Scene, UpAxis, Warnings, coarse};
 
 /// Reads a `.gltf` or `.glb` file; buffers beside it are read too, if they lie in its folder.
@@ -60,7 +62,9 @@ fn read_file(path: &Path, rigged: bool) -> Result<Rigged, Error> {
     let bytes = fs::read(path).map_err(|error| Error::io("cannot be read", error).in_file(path))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let fetch = |name: &str, most: usize| head_of(&folder.join(name), most);
-    let mut read = read_all(&bytes, &fetch, rigged).map_err(|error| error.in_file(path))?;
+    let all = Neighbours::of(path);
+    let files = Files { fetch: &fetch, all: Some(&all) };
+    let mut read = read_all(&bytes, files, rigged).map_err(|error| error.in_file(path))?;
     read.scene.file = Some(path.to_path_buf());
     Ok(read)
 }
@@ -71,7 +75,7 @@ fn read_file(path: &Path, rigged: bool) -> Result<Rigged, Error> {
 /// # Errors
 /// As [`read`], without the name of the file.
 pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
-    Ok(read_all(bytes, fetch, false)?.scene)
+    Ok(read_all(bytes, Files { fetch, all: None }, false)?.scene)
 }
 
 /// Reads bytes as [`read_bytes`] does, with the animations and what these move.
@@ -79,20 +83,20 @@ pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
 /// # Errors
 /// As [`read_bytes`].
 pub fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
-    read_all(bytes, fetch, true)
+    read_all(bytes, Files { fetch, all: None }, true)
 }
 
 /// The scene, and if `rigged`, what moves it.
-fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> {
+fn read_all(bytes: &[u8], files: Files, rigged: bool) -> Result<Rigged, Error> {
     let mut warnings = Warnings::default();
     let container = container::split(bytes, &mut warnings)?;
     let root = root(container.json, &mut warnings)?;
     extensions::check(&root.extensions_required)?;
-    let buffers = Buffers::gather(&root, container.bin, fetch)?;
+    let buffers = Buffers::gather(&root, container.bin, files.fetch)?;
     let mut nodes = nodes::Hierarchy::new(&root, &mut warnings)?;
     let clips = if rigged { animations::clips(&buffers, &nodes.rest, &mut warnings) } else { Vec::new() };
     nodes.wake(&root, &clips)?;
-    let materials = materials::materials(&buffers, fetch, &mut warnings);
+    let materials = materials::materials(&buffers, files, &mut warnings);
     let (cameras, of_cameras) = views::cameras(&root, &nodes, &mut warnings);
     let (lights, of_lights) = views::lights(&root, &nodes, &mut warnings);
     let (format, up) = ("glTF", UpAxis::Y);

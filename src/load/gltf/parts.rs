@@ -10,10 +10,10 @@ use super::json::index::Shown;
 use super::missing::Missing;
 use super::nodes::{self, Hierarchy};
 use super::{instancing, mesh, pose};
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::pose::rig::{Form, Skin};
 use crate::pose::{Property, Rig};
-use crate::scene::{Geometry, Material, Part, Scene, Warnings};
+use crate::scene::{Geometry, Material, Part, Scene, Warnings, nothing_to_draw};
 
 /// Most parts a scene may have: instances cost a file almost nothing.
 const MOST_PARTS: usize = 10_000_000;
@@ -130,12 +130,17 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
     }
     if scene.parts.is_empty() {
         if let [first, ..] = lost.lines().as_slice() {
-            return Err(Error::new(format!("{first}; nothing to draw")));
+            return Err(Error::new(format!("{first}; nothing to draw")).of_kind(ErrorKind::Empty));
+        }
+        let meshes = || nodes.shown.iter().filter_map(|node| buffers.root.nodes.get(*node)?.mesh);
+        if meshes().next().is_some() {
+            let shown = meshes().filter_map(|mesh| buffers.root.meshes.get(mesh));
+            let has_points = shown.flat_map(|mesh| &mesh.primitives).any(|own| own.mode == Some(0));
+            return Err(nothing_to_draw(&scene.warnings, has_points));
         }
         let nodes = nodes.shown.len();
-        return Err(Error::new(format!(
-            "nothing to draw: no triangle and no line in the {nodes} nodes of the scene"
-        )));
+        let message = format!("nothing to draw: no mesh in the {nodes} nodes of the scene");
+        return Err(Error::new(message).of_kind(ErrorKind::Empty));
     }
     if scene
         .geometries

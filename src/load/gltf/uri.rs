@@ -59,6 +59,11 @@ pub fn inside_folder(uri: &str) -> Result<String, String> {
     Ok(parts.join("/"))
 }
 
+/// What a URI says without its escapes.
+pub fn decoded(uri: &str) -> String {
+    String::from_utf8_lossy(&percent_decoded(uri)).into_owned()
+}
+
 /// A URI short enough for a message.
 pub fn shown(uri: &str) -> Cow<'_, str> {
     match uri.char_indices().nth(80) {

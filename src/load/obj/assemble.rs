@@ -3,21 +3,24 @@
 use glam::DAffine3;
 use rustc_hash::FxHashMap;
 
-use super::library;
+use super::library::{self, Place};
 use super::statements::{FaceGroup, NONE, Object, Statements};
 use crate::load::text::decode;
 use crate::math::colour::linear;
-use crate::scene::beside::stays_inside;
+use crate::scene::beside::{Neighbours, stays_inside};
 use crate::scene::{Geometry, Material, Part, Scene, UpAxis, Warnings};
 
 /// One geometry a part, each with just the vertices it uses.
+///
+/// `library` reads a library by its path as seen from the model, `files` are those in the model's folder.
 pub(super) fn scene(
     mut statements: Statements,
     stem: &str,
     library: impl FnMut(&str) -> Option<Vec<u8>>,
+    files: Option<&Neighbours>,
 ) -> Scene {
     let mut warnings = std::mem::take(&mut statements.warnings);
-    let materials = materials(&statements, library, &mut warnings);
+    let materials = materials(&statements, library, files, &mut warnings);
     let mut scene = Scene { format: "OBJ", up: UpAxis::Y, materials, warnings, ..Scene::default() };
 
     let mut runs: Vec<Vec<FaceGroup>> = vec![Vec::new(); statements.objects.len()];
@@ -53,6 +56,7 @@ pub(super) fn scene(
         scene.geometries.push(geometry);
         return scene;
     }
+    scene.unused_vertices = unused(&statements);
     let mut split = Split::new(&statements);
     for &object in &order {
         let own = runs.get(object).map(Vec::as_slice).unwrap_or_default();
@@ -67,19 +71,29 @@ pub(super) fn scene(
 fn materials(
     statements: &Statements,
     mut library: impl FnMut(&str) -> Option<Vec<u8>>,
+    files: Option<&Neighbours>,
     warnings: &mut Warnings,
 ) -> Vec<Material> {
     let mut defined = Vec::new();
     let mut all_found = true;
     let mut load = |name: &str, warnings: &mut Warnings| {
-        let path = name.replace('\\', "/");
-        if !stays_inside(&path) {
-            warnings.note(format!("material library {name} lies outside the model's folder and is left out"));
-            return true;
+        let mut path = name.replace('\\', "/");
+        let is_inside = stays_inside(&path);
+        let mut bytes = if is_inside { library(&path) } else { None };
+        if let Some(found) = files.filter(|_| bytes.is_none()).and_then(|files| files.find("", name)) {
+            bytes = library(&found);
+            warnings.note(format!("material library {name} is not there; {found} is used"));
+            path = found;
         }
-        let Some(bytes) = library(&path) else { return false };
+        let Some(bytes) = bytes else {
+            if !is_inside {
+                let why = "lies outside the model's folder and is left out";
+                warnings.note(format!("material library {name} {why}"));
+            }
+            return !is_inside;
+        };
         let folder = path.rfind('/').map_or("", |slash| path.get(..=slash).unwrap_or_default());
-        library::parse(&bytes, folder, &mut defined, warnings);
+        library::parse(&bytes, Place { folder, files }, &mut defined, warnings);
         true
     };
     for name in &statements.libraries {
@@ -168,6 +182,18 @@ fn whole(statements: Statements) -> Geometry {
         wires,
         ..Geometry::default()
     }
+}
+
+/// How many vertices no triangle and no wire uses.
+fn unused(statements: &Statements) -> u64 {
+    let mut unused = vec![true; statements.positions.len()];
+    let corners = statements.triangles.as_flattened().iter().chain(statements.wires.as_flattened());
+    for corner in corners {
+        if let Some(own) = unused.get_mut(*corner as usize) {
+            *own = false;
+        }
+    }
+    unused.into_iter().filter(|unused| *unused).count() as u64
 }
 
 /// Cuts the arrays of a file into those of its parts.

@@ -4,16 +4,24 @@ use crate::load::text::{Cursor, decode, utf8};
 use crate::math::colour::Colour;
 use crate::scene::Material;
 use crate::scene::Wrap;
-use crate::scene::beside::stays_inside;
+use crate::scene::beside::{Neighbours, stays_inside};
 use crate::scene::material::{Gloss, Placing};
 use crate::scene::warnings::Warnings;
 
 /// The exponent of a material that says how strongly it shines, but no more.
 const DEFAULT_EXPONENT: f32 = 40.0;
 
-/// Adds the materials of a library; `folder` is where it lies as seen from the model, empty or
-/// with a slash at the end. Colours are taken as sRGB, as most programs do.
-pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, warnings: &mut Warnings) {
+/// Where a library lies, and what lies there.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// Its folder as seen from the model, empty or with a slash at the end.
+    pub folder: &'a str,
+    /// The files in the model's folder; none if the model is not in a file.
+    pub files: Option<&'a Neighbours>,
+}
+
+/// Adds the materials of a library. Colours are taken as sRGB, as most programs do.
+pub(super) fn parse(bytes: &[u8], place: Place, materials: &mut Vec<Material>, warnings: &mut Warnings) {
     let text = utf8(bytes);
     let mut cursor = Cursor::new(&text);
     let mut current: Option<Material> = None;
@@ -75,14 +83,14 @@ pub(super) fn parse(bytes: &[u8], folder: &str, materials: &mut Vec<Material>, w
             }
             b"map_Kd" => {
                 let statement = cursor.rest_of_line();
-                if let Some(path) = texture_path(statement, folder, &material.name, warnings) {
+                if let Some(path) = texture_path(statement, place, &material.name, warnings) {
                     material.texture = Some(path);
                     let texture = texture(statement);
                     (material.placing, material.wrap) = (texture.placing, texture.wrap);
                 }
             }
             b"map_d" => {
-                if let Some(path) = texture_path(cursor.rest_of_line(), folder, &material.name, warnings) {
+                if let Some(path) = texture_path(cursor.rest_of_line(), place, &material.name, warnings) {
                     material.opacity_map = Some(path);
                 }
             }
@@ -110,17 +118,27 @@ fn byte(channel: f64) -> u8 {
 }
 
 /// Where the file of a texture statement lies as seen from the model; none, with a warning, if outside of its folder.
-fn texture_path(statement: &[u8], folder: &str, material: &str, warnings: &mut Warnings) -> Option<String> {
+///
+/// Many libraries hold the paths of the machine that wrote them, or names in another letter case: then the file of that
+/// name beside the model is meant.
+fn texture_path(statement: &[u8], place: Place, material: &str, warnings: &mut Warnings) -> Option<String> {
     let name = texture(statement).name;
     if name.is_empty() {
         return None;
     }
-    let path = format!("{folder}{}", name.replace('\\', "/"));
-    if stays_inside(&path) && !name.starts_with(['/', '\\']) {
+    let path = format!("{}{}", place.folder, name.replace('\\', "/"));
+    let is_inside = stays_inside(&path) && !name.starts_with(['/', '\\']);
+    if let Some(files) = place.files.filter(|files| !(is_inside && files.has(&path)))
+        && let Some(found) = files.find(place.folder, &name)
+    {
+        warnings.note(format!("texture {name} of material `{material}` is not there; {found} is used"));
+        return Some(found);
+    }
+    if is_inside {
         return Some(path);
     }
     warnings.note(format!(
-        "texture {name} of material `{material}` lies outside the model's folder and is left out"
+        "texture {name} of material `{material}` lies outside the model's folder, where no file has its name; it is left out"
     ));
     None
 }
@@ -177,7 +195,8 @@ mod tests {
 
     fn read(text: &str) -> (Vec<Material>, Warnings) {
         let (mut materials, mut warnings) = (Vec::new(), Warnings::default());
-        parse(text.as_bytes(), "maps/", &mut materials, &mut warnings);
+        let place = Place { folder: "maps/", files: None };
+        parse(text.as_bytes(), place, &mut materials, &mut warnings);
         (materials, warnings)
     }
 
@@ -212,7 +231,7 @@ mod tests {
         let (little, big) = (units().flat_map(u16::to_le_bytes), units().flat_map(u16::to_be_bytes));
         for bytes in [text.as_bytes().to_vec(), little.collect(), big.collect()] {
             let (mut materials, mut warnings) = (Vec::new(), Warnings::default());
-            parse(&bytes, "", &mut materials, &mut warnings);
+            parse(&bytes, Place { folder: "", files: None }, &mut materials, &mut warnings);
             assert_eq!((materials[0].name.as_str(), materials[0].colour), ("é", Colour::rgb(255, 0, 0)));
         }
     }

@@ -14,6 +14,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::load::text::utf8;
+use crate::scene::beside::{Neighbours, read_beside};
 use crate::scene::{Scene, coarse};
 
 /// Reads an OBJ file and the libraries beside it.
@@ -21,8 +22,9 @@ use crate::scene::{Scene, coarse};
 /// # Errors
 /// Names the file and the line if an index points nowhere, or says that nothing can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
+    let files = Neighbours::of(path);
     super::read_with(path, |bytes, stem| {
-        read_bytes(bytes, stem, |name| crate::scene::beside::read_beside(path, name).ok())
+        read_with_files(bytes, stem, |name| read_beside(path, name).ok(), Some(&files))
     })
 }
 
@@ -36,9 +38,18 @@ pub fn read_bytes(
     stem: &str,
     library: impl FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<Scene, Error> {
+    read_with_files(bytes, stem, library, None)
+}
+
+fn read_with_files(
+    bytes: &[u8],
+    stem: &str,
+    library: impl FnMut(&str) -> Option<Vec<u8>>,
+    files: Option<&Neighbours>,
+) -> Result<Scene, Error> {
     let bytes = &*utf8(bytes);
     let statements = statements::Statements::parse(bytes)?;
-    let scene = assemble::scene(statements, stem, library);
+    let scene = assemble::scene(statements, stem, library, files);
     if bytes.contains(&0) {
         return crate::scene::drawable(scene).map_err(|_| {
             Error::new("this is binary data, not OBJ text; nothing to draw").remedy("check the file's ending")

@@ -15,7 +15,7 @@ use plain::{Corner, NO_CORNER, plain_position};
 use crate::error::Error;
 use crate::load::shown;
 use crate::load::text::Cursor;
-use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
+use crate::scene::coordinate::is_drawable;
 use crate::scene::warnings::{Spots, Warnings};
 
 /// Triangles and wires that follow one another in the same part with the same material.
@@ -58,6 +58,8 @@ pub(super) struct Statements<'a> {
     pub libraries: Vec<&'a [u8]>,
     /// Whether there are positions that cannot be drawn.
     pub has_bad_positions: bool,
+    /// Vertices of which only x and y are written.
+    flat_vertices: usize,
     pub warnings: Warnings,
 }
 
@@ -77,15 +79,26 @@ impl From<Error> for Stop {
 impl<'a> Statements<'a> {
     /// Parses the file.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, Error> {
-        match Parser::new(bytes, Vec::new()).run() {
+        let statements = Self::parse_as(bytes, false)?;
+        // A drawing in the plane: no vertex has a z.
+        if statements.flat_vertices > 0 && statements.flat_vertices == statements.positions.len() {
+            return Self::parse_as(bytes, true);
+        }
+        Ok(statements)
+    }
+
+    /// Parses the file; `is_flat` if a vertex of two coordinates lies in the plane z = 0.
+    fn parse_as(bytes: &'a [u8], is_flat: bool) -> Result<Self, Error> {
+        let parser = |positions| Parser { is_flat, ..Parser::new(bytes, positions) };
+        match parser(Vec::new()).run() {
             Ok(statements) => Ok(statements),
             Err(Stop::Error(error)) => Err(error),
             Err(Stop::FaceFirst) => {
                 // Some writers put the faces first; cutting polygons needs all positions by then.
-                let mut parser = Parser::new(bytes, Vec::new());
-                parser.only_vertices = true;
-                let vertices = parser.run().map_err(Stop::into_error)?;
-                Parser::new(bytes, vertices.positions).run().map_err(Stop::into_error)
+                let mut first = parser(Vec::new());
+                first.only_vertices = true;
+                let vertices = first.run().map_err(Stop::into_error)?;
+                parser(vertices.positions).run().map_err(Stop::into_error)
             }
         }
     }
@@ -108,6 +121,8 @@ struct Parser<'a> {
     position_count: usize,
     second_pass: bool,
     only_vertices: bool,
+    /// Whether vertices of two coordinates lie in the plane z = 0.
+    is_flat: bool,
     corners: Vec<Corner>,
     points: Vec<DVec3>,
     cut: Vec<[u32; 3]>,
@@ -116,11 +131,16 @@ struct Parser<'a> {
     material: Option<usize>,
     groups: rustc_hash::FxHashMap<&'a [u8], usize>,
     material_ids: rustc_hash::FxHashMap<&'a [u8], usize>,
-    unusable: u64,
+    /// Faces and lines left out because of a corner without a place.
+    unusable: [u64; 2],
     too_short: u64,
     points_passed: u64,
     not_understood: u64,
     odd_numbers: Spots,
+    /// Vertices with a coordinate that cannot be read or drawn.
+    unplaced: Spots,
+    /// Whether the vertex at hand is one.
+    is_unplaced: bool,
 }
 
 impl<'a> Parser<'a> {
@@ -134,6 +154,7 @@ impl<'a> Parser<'a> {
             position_count: 0,
             second_pass,
             only_vertices: false,
+            is_flat: false,
             corners: Vec::new(),
             points: Vec::new(),
             cut: Vec::new(),
@@ -142,11 +163,13 @@ impl<'a> Parser<'a> {
             material: None,
             groups: Default::default(),
             material_ids: Default::default(),
-            unusable: 0,
+            unusable: [0; 2],
             too_short: 0,
             points_passed: 0,
             not_understood: 0,
             odd_numbers: Spots::default(),
+            unplaced: Spots::default(),
+            is_unplaced: false,
         }
     }
 
@@ -172,7 +195,13 @@ impl<'a> Parser<'a> {
         }
         self.close_run();
         let Self { mut out, unusable, too_short, points_passed, not_understood, odd_numbers, .. } = self;
-        out.warnings.count(NOT_DRAWABLE, unusable);
+        let (is_flat, unplaced) = (self.is_flat, self.unplaced);
+        if let Some(vertices) = unplaced.sentence() {
+            out.warnings.note(format!("{vertices}; {}", numbers::left_out(unusable)));
+        }
+        if is_flat {
+            out.warnings.note("no vertex has a z coordinate; all are drawn at z = 0");
+        }
         out.warnings.count("faces or lines left out, with too few corners", too_short);
         out.warnings.count("points left out", points_passed);
         out.warnings.count("lines left out that are not OBJ statements", not_understood);
@@ -332,45 +361,6 @@ impl<'a> Parser<'a> {
         if !self.second_pass {
             self.out.has_bad_positions |= !is_drawable(point);
             self.out.positions.push(point);
-        }
-    }
-
-    #[inline(never)]
-    fn any_position(&mut self) {
-        let point = DVec3::new(self.number(), self.number(), self.number());
-        let id = self.position_count;
-        self.add_position(point);
-        self.cursor.skip_blanks();
-        if !self.cursor.at_line_end() {
-            self.colour(id);
-        }
-    }
-
-    #[cold]
-    fn colour(&mut self, id: usize) {
-        let mut extra = [0.0_f32; 4];
-        let mut count = 0;
-        while !self.cursor.at_line_end() {
-            let start = self.cursor.at;
-            let Some(read) = self.cursor.number() else {
-                let mut place = self.cursor.clone();
-                self.odd_numbers.add(|| {
-                    format!("line {}: `{}` after a vertex is passed over", place.line(), shown(place.word()))
-                });
-                return self.pass_line();
-            };
-            let value = self.settled(start, Some(read)) as f32;
-            if let Some(slot) = extra.get_mut(count) {
-                *slot = value;
-            }
-            count += 1;
-            self.cursor.skip_blanks();
-        }
-        if count >= 3 {
-            let [r, g, b, _] = extra;
-            // White for those before it that have none.
-            self.out.colours.resize(id, [1.0; 3]);
-            self.out.colours.push([r, g, b]);
         }
     }
 

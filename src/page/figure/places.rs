@@ -3,7 +3,7 @@
 use glam::DVec3;
 use kurbo::{Point, Rect};
 
-use crate::scene::framing::world_points;
+use crate::scene::drawn_points::DrawnPoints;
 use crate::scene::select::glob_matches;
 use crate::scene::{Camera, Scene};
 use crate::view::Frame;
@@ -32,8 +32,7 @@ pub fn is_named(glob: &str, name: &str) -> bool {
 
 /// The points of the parts that are meant by a pattern, world.
 pub(crate) fn part_points(scene: &Scene, glob: &str) -> Vec<DVec3> {
-    let parts = scene.parts.iter().filter(|part| is_named(glob, &part.name)).cloned().collect();
-    world_points(&Scene { parts, geometries: scene.geometries.clone(), ..Scene::default() })
+    DrawnPoints::of_parts(scene, |part| is_named(glob, &part.name)).points
 }
 
 /// Where the parts that are meant by a pattern are, those before the eye.
@@ -41,10 +40,10 @@ pub(crate) fn part_points(scene: &Scene, glob: &str) -> Vec<DVec3> {
 pub fn places(scene: &Scene, camera: &Camera, glob: &str) -> Vec<Place> {
     let frame = Frame::new(camera, DVec3::ZERO);
     let mut places = Vec::new();
-    for part in scene.parts.iter().filter(|part| is_named(glob, &part.name)) {
-        let Some(geometry) = scene.geometry_of(part) else { continue };
-        let own = crate::scene::flatten::used_points(geometry);
-        let seen = own.iter().map(|p| part.world_from_part.transform_point3(*p));
+    let drawn = DrawnPoints::of_parts(scene, |part| is_named(glob, &part.name));
+    for own in &drawn.parts {
+        let Some(part) = scene.parts.get(own.part) else { continue };
+        let seen = drawn.points.get(own.points.clone()).unwrap_or_default().iter().copied();
         let before = seen.filter(|p| !frame.perspective || frame.depth(*p) > 0.0);
         let image = before.map(|p| frame.image_from_camera(frame.camera_from_local(p)));
         let hull = hull(image.map(|p| Point::new(p.x, p.y)).filter(|p| p.is_finite()).collect());

@@ -16,6 +16,7 @@ use crate::math::glob::Glob;
 use crate::mesh::Mesh;
 use crate::page::source::Source;
 use crate::scene::Scene;
+use crate::scene::drawn_points::DrawnPoints;
 use crate::shape::{Cylinder, cylinders};
 
 /// What names of places end with.
@@ -84,12 +85,7 @@ fn point(
         return Err(source.unknown(&Spanned::new(told.span(), name.clone()), "place", &known));
     }
     let glob = Glob::new(part);
-    let mut points = Vec::new();
-    for part in scene.parts.iter().filter(|part| glob.matches(&part.name)) {
-        let Some(shape) = scene.geometry_of(part) else { continue };
-        let used = shape.triangles.as_flattened().iter().filter_map(|v| shape.positions.get(*v as usize));
-        points.extend(used.map(|p| part.world_from_part.transform_point3(*p)));
-    }
+    let points = DrawnPoints::of_parts(scene, |part| glob.matches(&part.name)).points;
     if points.is_empty() {
         let message = format!("there is no part `{part}`");
         return Err(source.fault(&told.span(), &message, "`ligne info MODEL` lists them; * is any text"));

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::area::{has_own_area, may_have_flat_faces};
 use super::bodies::bodies;
 use super::carriers::{Faces, take_over};
 use super::clean::{one_of_doubles, retain_faces};
@@ -24,13 +25,18 @@ impl Mesh {
     #[must_use]
     pub fn build(mut soup: Soup) -> Self {
         let mut cleaning = Cleaning::default();
-        let Some((low, high)) = bounds(&soup) else {
+        let Some((low, high)) = bounds(&soup, |_| true) else {
+            cleaning.short_wires = soup.wires.len() as u64;
             return Self { cleaning, ..Self::default() };
         };
+        // What is left out does not count in where the model is and how large it is.
+        let has_flat_faces = may_have_flat_faces(&soup.positions, &soup.triangles, (low, high));
+        let counted = if has_flat_faces { bounds(&soup, has_own_area) } else { None };
         // The sum makes zeros positive.
         soup.positions.par_iter_mut().for_each(|p| *p += DVec3::ZERO);
         cleaning.welded = order::by_place(&mut soup, low.abs().max(high.abs()).max_element());
-        let origin = extents::origin(low, high);
+        let (counted_low, counted_high) = counted.unwrap_or((low, high));
+        let origin = extents::origin(counted_low, counted_high);
         if origin != DVec3::ZERO {
             soup.positions.par_iter_mut().for_each(|p| *p -= origin);
         }
@@ -47,7 +53,7 @@ impl Mesh {
         }
 
         let of_bodies = |soup: &Soup, bodies: &[_]| {
-            Extents::new(soup, origin).united(bodies, origin, soup.single_precision)
+            Extents::new(soup, origin, has_flat_faces).united(bodies, origin, soup.single_precision)
         };
         let mut joined_parts = bodies(&soup.triangle_part, &edges);
         let mut extents = of_bodies(&soup, &joined_parts);
@@ -146,8 +152,8 @@ fn turn(soup: &mut Soup, surfaces: &Surfaces, counts: &mut Vec<TurnedFaces>) -> 
     any
 }
 
-/// The box around all vertices that a face or wire uses.
-fn bounds(soup: &Soup) -> Option<(DVec3, DVec3)> {
+/// The box around all vertices of faces for which `counts` holds and of wires that have a length.
+fn bounds(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DVec3, DVec3)> {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let grow = |(low, high): (DVec3, DVec3), v: u32| {
         let p = soup.positions[v as usize];
@@ -157,9 +163,14 @@ fn bounds(soup: &Soup) -> Option<(DVec3, DVec3)> {
     let faces = soup
         .triangles
         .par_chunks(1 << 14)
-        .map(|chunk| chunk.iter().flatten().fold(nothing, |b, v| grow(b, *v)))
+        .map(|chunk| {
+            let counted = chunk.iter().filter(|t| counts(t.map(|v| soup.positions[v as usize])));
+            counted.flatten().fold(nothing, |b, v| grow(b, *v))
+        })
         .reduce(|| nothing, join);
-    let all = soup.wires.iter().flat_map(|w| w.vertices).fold(faces, grow);
+    let wires = soup.wires.iter().map(|wire| wire.vertices);
+    let long = wires.filter(|[a, b]| soup.positions[*a as usize] != soup.positions[*b as usize]);
+    let all = long.flatten().fold(faces, grow);
     (all.0.x <= all.1.x).then_some(all)
 }
 
@@ -184,7 +195,9 @@ fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
         cleaning.collapsed += keep.iter().filter(|k| !**k).count() as u64;
         retain_faces(soup, &keep);
     }
+    let wires = soup.wires.len();
     soup.wires.retain(|w| w.vertices[0] != w.vertices[1]);
+    cleaning.short_wires += (wires - soup.wires.len()) as u64;
 }
 
 /// The vertices on open edges, and how near to each others are the same vertex: by the largest of its parts.

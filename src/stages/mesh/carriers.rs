@@ -15,6 +15,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::area::has_area;
 use super::{EdgeFaces, Edges, Extents, Mesh, PartId};
 use crate::math::grain::GRAIN;
 use crate::math::tolerance;
@@ -68,10 +69,10 @@ impl<'a> Faces<'a> {
 
     fn is_unsure(&self, face: u32) -> bool {
         let rounding = self.rounding(face);
-        let height = height(&self.corners(face));
+        let corners = self.corners(face);
+        let height = height(&corners);
         // Faces without area are looked through.
-        let has_area =
-            height > tolerance::DEGENERATE_HEIGHT_OF_PART * self.extents.of(self.parts[face as usize]).scale;
+        let has_area = has_area(corners, self.extents.of(self.parts[face as usize]).scale);
         rounding > 0.0 && has_area && height * tolerance::UNSURE_SINE < 2.0 * rounding
     }
 

@@ -12,6 +12,8 @@ pub struct Cleaning {
     pub welded: u64,
     /// Faces dropped because two of their corners were one place.
     pub collapsed: u64,
+    /// Wires dropped because both of their ends were one place.
+    pub short_wires: u64,
     /// Faces dropped because another face of the part had the same corners.
     pub doubled: u64,
     /// Faces kept that have no area: they join their neighbours but hide nothing.

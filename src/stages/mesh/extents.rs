@@ -8,6 +8,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::area::{has_own_area, scale_of};
 use super::{FaceId, Mesh, PartId, Soup};
 use crate::math::grain::GRAIN;
 use crate::math::power::power_of_two_above;
@@ -16,10 +17,6 @@ use crate::math::tolerance;
 /// The origin of a mesh lies on a grid with steps of this many times the power of two above its size, so
 /// that parts that come and go do not move it.
 const ORIGIN_OF_SIZE: f64 = 256.0;
-
-/// Coordinates are known to some sixteen digits: no part is measured by less than this share of its largest
-/// coordinate.
-const SCALE_OF_LARGEST: f64 = 1.0 / 256.0;
 
 /// Contact by the precision of a file's coordinates never reaches farther than this share of the part: a file
 /// that says so little of a part says nothing of what touches it.
@@ -99,7 +96,26 @@ pub struct Extents {
 
 impl Extents {
     /// The extents of what is in a soup, whose positions are relative to `origin`.
-    pub(super) fn new(soup: &Soup, origin: DVec3) -> Self {
+    ///
+    /// With `has_flat_faces`, faces without area do not count in the extent of their part, unless it has no others.
+    pub(super) fn new(soup: &Soup, origin: DVec3, has_flat_faces: bool) -> Self {
+        let mut extents = Self::of_all(soup, |_| true);
+        if has_flat_faces {
+            let counted = Self::of_all(soup, has_own_area);
+            for (own, counted) in extents.of_part.iter_mut().zip(counted.of_part) {
+                // A part of nothing but such faces keeps their box.
+                *own = if counted.low.x <= counted.high.x { counted } else { *own };
+            }
+        }
+        for (part, extent) in extents.of_part.iter_mut().enumerate() {
+            let step = soup.steps.get(part).copied().unwrap_or_default();
+            extent.measure(origin, soup.single_precision, step);
+        }
+        extents
+    }
+
+    /// The boxes of all parts, by the triangles for which `counts` holds and the wires that have a length.
+    fn of_all(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Self {
         let part = |face: usize| soup.triangle_part.get(face).copied().unwrap_or_default();
         type Boxes = Vec<(PartId, DVec3, DVec3)>;
         let grow = |boxes: &mut Boxes, part: PartId, vertices: &[u32]| {
@@ -119,7 +135,11 @@ impl Extents {
             .enumerate()
             .map(|(chunk, faces)| {
                 let mut boxes = Boxes::new();
-                faces.iter().enumerate().for_each(|(i, t)| grow(&mut boxes, part(chunk * GRAIN + i), t));
+                for (i, t) in faces.iter().enumerate() {
+                    if counts(t.map(|v| soup.positions[v as usize])) {
+                        grow(&mut boxes, part(chunk * GRAIN + i), t);
+                    }
+                }
                 boxes
             })
             .collect();
@@ -133,10 +153,6 @@ impl Extents {
             for extent in [&mut of_part[part.index()], &mut all] {
                 (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
             }
-        }
-        for (part, extent) in of_part.iter_mut().enumerate() {
-            let step = soup.steps.get(part).copied().unwrap_or_default();
-            extent.measure(origin, soup.single_precision, step);
         }
         Self { of_part, middle: all.middle(), diagonal: all.diagonal() }
     }
@@ -195,9 +211,7 @@ impl Extent {
         if self.low.x > self.high.x {
             return;
         }
-        let diagonal = self.diagonal();
-        let largest = self.low.abs().max(self.high.abs()).max_element();
-        self.scale = diagonal.max(SCALE_OF_LARGEST * largest);
+        self.scale = scale_of(self.low, self.high);
         let (low, high) = (self.low + origin, self.high + origin);
         let largest = low.abs().max(high.abs()).max_element();
         let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
@@ -217,7 +231,7 @@ impl Extent {
 
 /// The zero of a mesh whose box is given: zero itself, unless the model lies far from it for its size. It
 /// lies on a coarse grid, and subtracting it rounds nothing.
-pub(super) fn origin(low: DVec3, high: DVec3) -> DVec3 {
+pub(crate) fn origin(low: DVec3, high: DVec3) -> DVec3 {
     let middle = low / 2.0 + high / 2.0;
     let size = low.distance(high);
     if size == 0.0 {
@@ -240,6 +254,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{MaterialId, Wire};
 
     #[test]
     fn the_origin_is_zero_near_zero_and_near_the_model_far_away() {
@@ -269,5 +284,32 @@ mod tests {
         }
         let (middle, radius) = far.extents.ball();
         assert!(far.positions.iter().all(|p| p.distance(middle) <= radius));
+    }
+
+    #[test]
+    fn faces_without_area_and_wires_without_length_do_not_count() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let far = [[1e6, 0.0, 0.0], [1e6 + 1.0, 0.0, 0.0], [1e6 + 2.0, 0.0, 0.0]].map(DVec3::from_array);
+        // The model itself may lie far from zero, and the face at zero.
+        for shift in [DVec3::ZERO, DVec3::new(-1e6, 0.0, 0.0)] {
+            let wire = Wire { vertices: [5, 5], part: PartId(0), material: MaterialId(0) };
+            let soup = |triangles: &[[u32; 3]], parts: &[PartId]| Soup {
+                positions: corners.into_iter().chain(far).map(|p| p + shift).collect(),
+                triangles: triangles.to_vec(),
+                triangle_part: parts.to_vec(),
+                wires: vec![wire],
+                ..Soup::default()
+            };
+            let plain = Mesh::build(soup(&[[0, 1, 2]], &[PartId(0)]));
+            let flat = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0); 2]));
+            assert_eq!(plain.extents.of(PartId(0)), flat.extents.of(PartId(0)), "{shift}");
+            assert_eq!((plain.origin, flat.cleaning.degenerate > 0), (flat.origin, true));
+            // A part of such faces alone.
+            let apart = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0), PartId(1)]));
+            assert_eq!(plain.extents.of(PartId(0)), apart.extents.of(PartId(0)));
+            assert_eq!(apart.extents.of(PartId(1)).diagonal(), 2.0);
+            let (middle, radius) = flat.extents.ball();
+            assert!(flat.positions.iter().all(|p| p.distance(middle) <= radius));
+        }
     }
 }

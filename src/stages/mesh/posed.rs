@@ -75,7 +75,7 @@ impl Mesh {
             steps: soup.steps.clone(),
             ..Soup::default()
         };
-        let extents = Extents::new(&moved, self.origin);
+        let extents = Extents::new(&moved, self.origin, true);
         let extents = extents.united(&self.bodies, self.origin, moved.single_precision);
         let together = TOGETHER * extents.diagonal;
         let parted = |(vertex, p): (&u32, &DVec3)| {

@@ -100,7 +100,7 @@ impl Parser<'_> {
             self.corners.push(corner);
         }
         if self.out.has_bad_positions && self.corners.iter().any(|c| !is_drawable(self.point(c[0]))) {
-            self.unusable += 1;
+            self.unusable[0] += 1;
             return Ok(());
         }
         self.cut_corners();
@@ -172,7 +172,7 @@ impl Parser<'_> {
         for pair in self.corners.windows(2) {
             if let [a, b] = pair {
                 if self.out.has_bad_positions && [a, b].iter().any(|c| !is_drawable(self.point(c[0]))) {
-                    self.unusable += 1;
+                    self.unusable[1] += 1;
                 } else {
                     self.out.wires.push([a[0], b[0]]);
                 }

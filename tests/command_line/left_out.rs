@@ -1,0 +1,152 @@
+//! What is left out of a model: faces without area, lines without length, corners without a place. It counts in nothing, and
+//! drawings without a mark say why.
+
+use serde_json::Value;
+
+use crate::folder::{CUBES, Folder};
+
+/// Far away from the cubes: a face on a line, one of one place, and a line without length.
+const FAR: &str = "v 5000 10 3\nv 5001 11 4\nv 5002 12 5\nf 17 18 19\nf 17 17 18\nl 19 19\n";
+
+/// The drawing without its title.
+fn body(svg: &str) -> String {
+    svg.lines().filter(|line| !line.starts_with("<title>")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn what_is_left_out_counts_in_no_frame() {
+    let folder = Folder::with_cubes("left-out");
+    folder.write("far.obj", &format!("{CUBES}{FAR}"));
+    for options in [
+        "",
+        "--view front",
+        "--style technical --view top",
+        "--style toon",
+        "--style engraving --azimuth 200",
+        "--section z --view front",
+        "--explode y",
+    ] {
+        folder.ligne(&format!("draw cubes.obj a.svg {options}")).done();
+        let run = folder.ligne(&format!("draw far.obj b.svg {options}"));
+        assert!(run.done().err.contains("without area"), "{run:?}");
+        assert_eq!(body(&folder.text("a.svg")), body(&folder.text("b.svg")), "{options}");
+    }
+    let film = |model: &str| {
+        folder.ligne(&format!("animate {model} {model}-%d.svg --turntable 3 --size 200")).done();
+        (0..3).map(|k| body(&folder.text(&format!("{model}-{k}.svg")))).collect::<Vec<_>>()
+    };
+    assert_eq!(film("cubes.obj"), film("far.obj"));
+    // A sheet bears the name of its model.
+    let page = "[page]\nkind = \"sheet\"\nsize = \"A4\"\nmodel = { file = \"m.obj\", up = \"z\" }\n\
+                views = [\"front\", \"top\", \"left\"]\nparts_list = true\n";
+    let sheet = |name: &str, model: &str| {
+        folder.write(&format!("{name}/m.obj"), model);
+        folder.write(&format!("{name}/m.toml"), page);
+        folder.ligne(&format!("page {name}/m.toml {name}.svg")).done();
+        folder.text(&format!("{name}.svg"))
+    };
+    assert_eq!(sheet("cubes", CUBES), sheet("far", &format!("{CUBES}{FAR}")));
+}
+
+#[test]
+fn info_says_what_is_left_out_and_where() {
+    let folder = Folder::with_cubes("left-out-info");
+    folder.write("far.obj", &format!("{CUBES}{FAR}v 1 2 3\n"));
+    let text = folder.ligne("info far.obj").done().out.clone();
+    for wanted in [
+        "24 triangles, 16 vertices\n  2 x 3.5 x 2, from (-1, -1, -1) to (1, 2.5, 1)\n",
+        "  1 vertex that no face or line uses\n",
+        "  left out: 2 faces without area and 1 line without length in knob, the first at (5000, 10, 3)\n",
+        "    knob: 12 triangles\n",
+    ] {
+        assert!(text.contains(wanted), "{text}");
+    }
+    let json: Value = serde_json::from_str(&folder.ligne("info far.obj --json").done().out).expect("JSON");
+    let left_out =
+        serde_json::json!([{ "part": "knob", "faces": 2, "lines": 1, "first_at": [5000.0, 10.0, 3.0] }]);
+    assert_eq!((&json["left_out"], &json["unused_vertices"]), (&left_out, &Value::from(1)));
+    assert_eq!(json["bounds"]["max"], serde_json::json!([1.0, 2.5, 1.0]));
+}
+
+#[test]
+fn a_corner_without_a_place_is_named_and_what_needs_it_is_left_out() {
+    let folder = Folder::with_cubes("no-place");
+    folder.write("one.obj", &CUBES.replacen("v -1 1 -1\n", "v -1 1 ?\n", 1));
+    let run = folder.ligne("draw one.obj one.svg");
+    let told = "line 5: `?` is not a number; 3 faces left out, with such a corner";
+    assert!(run.done().err.contains(told), "{run:?}");
+    let svg = folder.text("one.svg");
+    folder.ligne("draw cubes.obj all.svg").done();
+    assert!(svg.contains("<path") && svg != folder.text("all.svg"));
+    folder.write("none.obj", "v [0] [0] [0]\nv [1] [0] [0]\nv [0] [1] [0]\nf 1 2 3\n");
+    let run = folder.ligne("draw none.obj none.svg");
+    run.refused(
+        "line 1: `[0]` is not a number; 2 more like it; 1 face left out, with such a corner; nothing to draw",
+    );
+    assert!(!folder.names().contains(&"none.svg".to_owned()));
+}
+
+#[test]
+fn empty_drawings_say_why() {
+    let folder = Folder::with_cubes("empty");
+    folder.write("needle.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    folder.write("two.obj", &format!("o needle\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n{}", cubes_after(3)));
+    for (call, wanted) in [
+        ("draw needle.obj", "the drawing is empty: no face has an area"),
+        ("draw two.obj --only needle", "--only and --hide leave nothing else to draw than needle"),
+        (
+            "draw cubes.obj --set lines.enabled=false",
+            "the drawing is empty: the style draws neither lines nor surfaces",
+        ),
+        (
+            "draw cubes.obj --set lines.kinds=[\"wire\"]",
+            "the drawing is empty: no line of the model is in sight",
+        ),
+    ] {
+        let mut words: Vec<&str> = call.split_whitespace().collect();
+        words.push("a.svg");
+        let run = folder.run(&words);
+        assert!(run.done().err.contains(wanted), "{run:?}");
+    }
+}
+
+/// The cubes, behind some vertices of another part.
+fn cubes_after(vertices: usize) -> String {
+    let moved = |line: &str| match line.strip_prefix("f ") {
+        Some(face) => {
+            let corners = face
+                .split_whitespace()
+                .map(|v| (v.parse::<usize>().expect("an index") + vertices).to_string());
+            format!("f {}\n", corners.collect::<Vec<_>>().join(" "))
+        }
+        None => format!("{line}\n"),
+    };
+    CUBES.lines().map(moved).collect()
+}
+
+#[test]
+fn pictures_and_libraries_are_found_by_their_names() {
+    let folder = Folder::new("pictures");
+    let png = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/trellis-hole.png"));
+    let png = png.expect("a picture of this project");
+    folder.write("Maps/a.txt", "");
+    for name in ["Maps/Wall.PNG", "wall.png"] {
+        std::fs::write(folder.path(name), &png).expect("a picture");
+    }
+    folder.write("Q.MTL", "newmtl a\nmap_Kd C:\\work\\maps\\WALL.png\nnewmtl b\nmap_Kd ..\\..\\Wall.Png\nnewmtl c\nmap_Kd /etc/passwd\n");
+    let quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    let faces: String = ["a", "b", "c"].map(|m| format!("usemtl {m}\nf 1/1 2/2 3/3 4/4\n")).concat();
+    folder.write("q.obj", &format!("mtllib C:\\work\\q.mtl\n{quad}{faces}"));
+    let run = folder.ligne("draw q.obj q.svg --style flat");
+    for wanted in [
+        "material library C:\\work\\q.mtl is not there; Q.MTL is used",
+        "texture C:\\work\\maps\\WALL.png of material `a` is not there; Maps/Wall.PNG is used",
+        "texture ..\\..\\Wall.Png of material `b` is not there; wall.png is used",
+        "texture /etc/passwd of material `c` lies outside the model's folder, where no file has its name; it is left out",
+    ] {
+        assert!(run.done().err.contains(wanted), "{run:?}");
+    }
+    let json: Value = serde_json::from_str(&folder.ligne("info q.obj --json").done().out).expect("JSON");
+    assert_eq!(json["materials"][0]["texture"], "Maps/Wall.PNG");
+    assert!(json["materials"][0]["texture_size"].is_array(), "{json}");
+}
