@@ -227,15 +227,3 @@ fn pieces_of_a_half_clear_picture_make_one_even_stroke() {
         assert!(!svg.contains("<mask ") && svg.contains("clip-path="), "{svg}");
     }
 }
-
-#[test]
-fn masked_strokes_look_in_svg_as_in_png() {
-    let drawing = drawing(vec![brushed(&picture(|_| 143), 33.0, 7)]);
-    let svg = drawing.to_svg(&SvgOptions::default());
-    let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap();
-    let mut pixmap = tiny_skia::Pixmap::new(120, 120).unwrap();
-    resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixmap.as_mut());
-    let own = drawing.to_pixels(&PngOptions::default()).unwrap();
-    let far = pixmap.data().chunks_exact(4).zip(own.rgba.chunks_exact(4)).map(|(a, b)| a[0].abs_diff(b[0]));
-    assert!(far.max().unwrap_or(0) < 40);
-}
