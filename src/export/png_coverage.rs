@@ -11,7 +11,7 @@
 use tiny_skia::{Path, PathSegment, PixmapMut, Point, PremultipliedColorU8, Transform};
 
 /// Largest distance between a curve and its chords, px. A chord is never too long by more than this, whatever the curve.
-const FLATNESS_PX: f64 = 0.02;
+const FLATNESS_PX: f64 = 0.01;
 
 /// Most chords of one curve.
 const MAX_CHORDS: f64 = 1000.0;
