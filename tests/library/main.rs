@@ -54,6 +54,7 @@ mod part_groups;
 mod patterns;
 mod picture_fills;
 mod pointers;
+mod polygon_diagonals;
 mod poses;
 mod precedence;
 mod prepared;

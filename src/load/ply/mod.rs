@@ -17,6 +17,7 @@ use self::header::Header;
 use super::read_with;
 use super::text::Cursor;
 use crate::error::Error;
+use crate::mesh::EdgeMark;
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
 use crate::scene::drawable;
 use crate::scene::{Geometry, Part, Scene, UpAxis};
@@ -41,6 +42,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let mut geometry = Geometry::default();
     let mut has_vertices = false;
     let mut triangles = Vec::new();
+    let mut edge_marks = Vec::new();
     let mut unusable = 0;
     for element in &header.elements {
         match element.name.as_str() {
@@ -62,6 +64,10 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
                 }
                 scene.warnings.extend(&faces.warnings);
                 unusable += faces.unusable;
+                if !faces.edge_marks.is_empty() {
+                    edge_marks.resize(triangles.len(), [EdgeMark::Unmarked; 3]);
+                    edge_marks.extend(faces.edge_marks);
+                }
                 if triangles.is_empty() {
                     triangles = faces.triangles
                 } else {
@@ -72,7 +78,11 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
         }
     }
     scene.warnings.count(NOT_DRAWABLE, unusable);
+    if !edge_marks.is_empty() {
+        edge_marks.resize(triangles.len(), [EdgeMark::Unmarked; 3]);
+    }
     geometry.triangles = triangles;
+    geometry.edge_marks = edge_marks;
     // No triangle uses these any more.
     for position in geometry.positions.iter_mut().filter(|p| !is_drawable(**p)) {
         *position = glam::DVec3::ZERO;
