@@ -46,6 +46,7 @@ mod motion;
 mod motion_styles;
 mod narrow_roundings;
 mod needles;
+mod one_plane;
 mod pages;
 mod painted_surfaces;
 mod panels;

@@ -16,6 +16,7 @@ mod levels;
 pub mod line;
 pub mod lit;
 pub mod options;
+mod overlaid;
 mod painted_face;
 pub mod smooth_contours;
 mod strides;
@@ -78,6 +79,14 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;
+    let (asked, overlap) = (options, overlaid::is_asked(mesh));
+    let with_borders = || {
+        let more =
+            [LineKind::Border, LineKind::Material].into_iter().filter(|kind| !options.kinds.contains(kind));
+        LineOptions { kinds: options.kinds.iter().copied().chain(more).collect(), ..options.clone() }
+    };
+    let with_borders = overlap.then(with_borders);
+    let options = with_borders.as_ref().unwrap_or(options);
     let along_edges = || match known.search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, options),
         Some(search) => {
@@ -97,6 +106,8 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     // None of them needs another.
     let ((segments, contours), curves) = rayon::join(|| rayon::join(along_edges, contours), curves);
     lines.segments = segments;
+    let options = asked;
+    let overlaid = overlap.then(|| overlaid::settle(mesh, &mut lines.segments, options));
     if let Some((contours, facing)) = contours {
         lines.append_contours(contours);
         folds::tell(mesh, view, smooth, &facing, &mut lines.segments);
@@ -117,6 +128,9 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     }
     if options.kinds.contains(&LineKind::Wire) {
         lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));
+    }
+    if let Some(overlaid) = overlaid {
+        overlaid.append_to(mesh, &mut lines);
     }
     tell_origins(surface, &mut lines);
     lines

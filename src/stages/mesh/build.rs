@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
+use super::overlaps::overlays;
 use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
 use crate::math::grain::GRAIN;
 
@@ -71,7 +72,7 @@ impl Mesh {
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
         soup.triangle_material.resize(soup.triangles.len(), super::MaterialId::default());
-        Self {
+        let mut mesh = Self {
             origin,
             extents,
             positions: soup.positions,
@@ -86,10 +87,13 @@ impl Mesh {
             corner_uvs: soup.corner_uvs,
             corner_colours: soup.corner_colours,
             edge_marks: soup.edge_marks,
+            overlays: Vec::new(),
             edges,
             wires: soup.wires,
             cleaning,
-        }
+        };
+        mesh.overlays = overlays(&mesh);
+        mesh
     }
 }
 

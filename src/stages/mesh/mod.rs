@@ -3,6 +3,7 @@
 pub mod build;
 mod changed_edges;
 pub mod clean;
+mod common_area;
 mod counting_sort;
 mod cuts;
 pub mod dihedral;
@@ -15,8 +16,10 @@ mod first_edges;
 pub(crate) mod groups;
 pub mod ids;
 pub mod lattice;
+mod mixed_places;
 pub mod needle;
 mod order;
+mod overlaps;
 mod places;
 pub mod posed;
 mod seams;
@@ -38,6 +41,7 @@ pub use extents::{Extent, Extents};
 pub(crate) use first_edges::FirstEdges;
 pub use groups::{Groups, Numbered};
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
+pub use overlaps::Overlay;
 pub use posed::Sources;
 pub(crate) use shares::{Share, share_count, shares};
 pub use soup::{EdgeMark, Soup, Wire};
@@ -79,6 +83,8 @@ pub struct Mesh {
     pub corner_colours: Vec<[[f32; 3]; 3]>,
     /// What the file says about the sides 0-1, 1-2, 2-0 of each face, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
+    /// The place of each face among surfaces of unlike colours that overlap in one plane; empty if none do.
+    pub overlays: Vec<Overlay>,
     /// Which faces meet at which edge.
     pub edges: Edges,
     /// Lines without faces; their vertices are vertices of the mesh.

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::face_normals::face_normals;
+use super::overlaps::overlays;
 use super::{Extents, Mesh, Soup};
 
 /// Vertices that are one at rest are one in a pose if they are no farther apart than this part of all: what rounding of joints does.
@@ -84,13 +85,15 @@ impl Mesh {
         }
         let scale = |face: usize| extents.of(moved.triangle_part[face]).scale;
         let face_normals = face_normals(&moved.positions, &moved.triangles, scale);
-        Some(Self {
+        let mut posed = Self {
             face_normals,
             normals: soup.normals.clone(),
             positions: moved.positions,
             extents,
             ..self.clone()
-        })
+        };
+        posed.overlays = overlays(&posed);
+        Some(posed)
     }
 }
 
