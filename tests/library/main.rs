@@ -35,6 +35,7 @@ mod image_lines;
 mod inked_lines;
 mod inked_models;
 mod intersections;
+mod isophote_lines;
 mod lattice;
 mod lines_inside;
 mod loading;

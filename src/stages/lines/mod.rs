@@ -26,6 +26,7 @@ mod texture_scale;
 mod textured;
 pub mod textures;
 mod tint_borders;
+pub mod tone_changes;
 pub mod tone_edges;
 pub mod zero_set;
 
