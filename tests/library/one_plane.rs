@@ -236,3 +236,33 @@ fn borders_of_materials_on_a_flat_face_have_corners() {
 fn nearest_point(p: Point, segment: [Point; 2]) -> Point {
     segment[0].lerp(segment[1], nearest_on(p, segment))
 }
+
+#[test]
+fn a_block_let_into_another_has_a_thin_rim() {
+    // A red block inside a grey one, with its top in the plane of the other's.
+    let mut text = String::from("mtllib colours.mtl\n");
+    for (name, low, high) in
+        [("grey", [0.0, 0.0, 0.0], [40.0, 40.0, 10.0]), ("red", [10.0, 12.0, 4.0], [30.0, 22.0, 10.0])]
+    {
+        text += &format!("o {name}\nusemtl {name}\n");
+        for k in 0..8_usize {
+            let side = |axis: usize, high_at: bool| if high_at { high[axis] } else { low[axis] };
+            let (x, y) = (side(0, k % 4 == 1 || k % 4 == 2), side(1, k % 4 > 1));
+            text += &format!("v {x} {y} {}\n", side(2, k > 3));
+        }
+        text += "f -5 -6 -7 -8\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\n";
+    }
+    let scene =
+        ligne::load::obj::read_bytes(text.as_bytes(), "blocks", |_| Some(COLOURS.into())).expect("a model");
+    let top = [(10.0, 12.0), (30.0, 12.0), (30.0, 22.0), (10.0, 22.0)].map(|(x, y)| DVec3::new(x, y, 10.0));
+    for way in [DVec3::new(0.5, -0.6, 0.6), DVec3::new(-0.7, 0.2, 0.3), DVec3::new(0.1, 0.2, 0.9)] {
+        let camera =
+            orthographic(DVec3::new(20.0, 20.0, 5.0) + way * 90.0, DVec3::new(20.0, 20.0, 5.0), 60.0);
+        let drawing = render(&scene, &camera, &flat()).expect("a drawing");
+        let rim = image(&Eye::new(&camera), DMat3::IDENTITY, &top);
+        let red = painted(&drawing, "red") / rim.area().abs();
+        assert!((red - 1.0).abs() < 1e-3, "{red} of the top from {way}");
+        let off = length(&lines(&drawing, "material")) - around(&rim);
+        assert!(off.abs() < 0.5, "{off} px too long from {way}");
+    }
+}

@@ -108,7 +108,7 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     let ((segments, contours), curves) = rayon::join(|| rayon::join(along_edges, contours), curves);
     lines.segments = segments;
     let options = asked;
-    let overlaid = overlap.then(|| overlaid::settle(mesh, &mut lines.segments, options));
+    let overlaid = overlap.then(|| overlaid::settle(mesh, view, &mut lines.segments, options));
     if let Some((contours, facing)) = contours {
         lines.append_contours(contours);
         folds::tell(mesh, view, smooth, &facing, &mut lines.segments);

@@ -1,15 +1,16 @@
 //! Borders of surfaces that overlap others in one plane: what is on top on both sides of them says what line they are.
 //!
 //! The rim of a label on a wall is an edge with one face, but no border of what is seen: it parts two materials, as if the wall had a
-//! hole for the label. Where such an edge runs under another surface of its plane there is no line. So each edge is cut where what is
+//! hole for the label. So does the rim of a body that is let into the wall. Where such an edge runs under another surface of its plane there is no line. So each edge is cut where what is
 //! on top changes just beside it, on one side or the other.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE};
+use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::view::View;
 
 /// What is on top is asked so many times the reach of contact beside an edge.
 const BESIDE: f64 = 4.0;
@@ -30,39 +31,69 @@ pub(super) fn is_asked(mesh: &Mesh) -> bool {
     !mesh.overlays.is_empty()
 }
 
-/// Takes out the borders and material boundaries that lie in planes where surfaces overlap, and says what they are instead. Of other
-/// kinds than `options` has none are left.
-pub(super) fn settle(mesh: &Mesh, segments: &mut Vec<FeatureSegment>, options: &LineOptions) -> Overlaid {
+/// Takes out the edges that lie in planes where surfaces overlap, and says what they are instead. Of other kinds than `options` has none
+/// are left.
+pub(super) fn settle(
+    mesh: &Mesh,
+    view: &View,
+    segments: &mut Vec<FeatureSegment>,
+    options: &LineOptions,
+) -> Overlaid {
     let mut faces_of: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
     for (overlay, face) in mesh.overlays.iter().zip(0..).filter(|(overlay, _)| overlay.plane != 0) {
         faces_of.entry(overlay.plane).or_default().push(face);
     }
-    let plane = |segment: &FeatureSegment| {
-        let [first, second] = segment.hosts;
-        let is_flat = second == NO_FACE || mesh.share_plane(first, second);
-        let is_kind = matches!(segment.kind, LineKind::Border | LineKind::Material);
-        Some(mesh.overlay(first).plane).filter(|plane| is_kind && is_flat && *plane != 0)
-    };
-    let settled: Vec<Vec<Piece>> = segments
+    let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
+    let settled: Vec<Option<Vec<Piece>>> = segments
         .par_iter()
         .map(|segment| {
-            let faces = plane(segment).and_then(|plane| faces_of.get(&plane));
-            faces.map_or_else(Vec::new, |faces| {
-                Rim::new(mesh, segment).map_or_else(Vec::new, |rim| rim.pieces(faces))
-            })
+            let host = host_in_plane(mesh, view, segment)?;
+            let faces = faces_of.get(&mesh.overlay(host).plane)?;
+            let pieces = Rim::new(mesh, segment, host)?.pieces(faces);
+            // An edge that stays what it is stays where it is.
+            let is_one =
+                matches!(pieces.as_slice(), [piece] if piece.is_whole() && piece.kind == segment.kind);
+            (!is_one).then_some(pieces)
         })
         .collect();
     let mut overlaid = Overlaid::default();
-    let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
-    for (segment, pieces) in segments.iter().zip(settled) {
-        overlaid.add(mesh, segment, pieces.into_iter().filter(|piece| is_wanted(piece.kind)));
+    for (segment, pieces) in segments.iter().zip(&settled) {
+        let pieces = pieces.iter().flatten().filter(|piece| is_wanted(piece.kind));
+        overlaid.add(mesh, segment, pieces);
     }
-    segments.retain(|segment| plane(segment).is_none() && is_wanted(segment.kind));
+    let mut settled = settled.into_iter();
+    segments.retain(|segment| settled.next().flatten().is_none() && is_wanted(segment.kind));
     overlaid
 }
 
+/// The face of an edge in whose plane surfaces overlap, if the edge has nothing on the eye's side of that plane: borders, edges
+/// between materials in it, and edges at which a body goes on behind it.
+fn host_in_plane(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> Option<u32> {
+    let [first, second] = segment.hosts;
+    match segment.kind {
+        LineKind::Border => Some(first).filter(|face| second == NO_FACE && mesh.overlay(*face).plane != 0),
+        LineKind::Material if mesh.share_plane(first, second) => Some(first),
+        LineKind::Contour | LineKind::Crease | LineKind::Material
+            if segment.role == Role::Line && second != NO_FACE =>
+        {
+            let goes_behind = |own: u32, other: u32| {
+                let [a, b, c] = mesh.corners(FaceId(own));
+                let normal = (b - a).cross(c - a).normalize_or_zero();
+                let third = mesh.triangles[other as usize].into_iter().find(|v| !segment.ends.contains(v));
+                let height = third.map_or(0.0, |v| (mesh.positions[v as usize] - a).dot(normal));
+                height * view.frame.to_eye(a).dot(normal) < 0.0
+            };
+            [[first, second], [second, first]].into_iter().find_map(|[own, other]| {
+                let is_alone = mesh.overlay(own).plane != 0 && !mesh.share_plane(own, other);
+                (is_alone && goes_behind(own, other)).then_some(own)
+            })
+        }
+        _ => None,
+    }
+}
+
 impl Overlaid {
-    fn add(&mut self, mesh: &Mesh, segment: &FeatureSegment, pieces: impl Iterator<Item = Piece>) {
+    fn add<'a>(&mut self, mesh: &Mesh, segment: &FeatureSegment, pieces: impl Iterator<Item = &'a Piece>) {
         let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
         let mut last: Option<(f64, u32)> = None;
         for piece in pieces {
@@ -80,10 +111,11 @@ impl Overlaid {
             };
             let ends = [end(piece.start, segment.ends[0]), end(piece.end, segment.ends[1])];
             let is_material = piece.kind == LineKind::Material;
+            let [first, second] = segment.hosts;
             self.pieces.push(FeatureSegment {
                 ends,
                 kind: piece.kind,
-                hosts: [segment.hosts[0], if is_material { piece.beyond } else { segment.hosts[1] }],
+                hosts: [first, if second == NO_FACE { piece.beyond } else { second }],
                 both_seen: is_material || segment.both_seen,
                 strength: if is_material { 0.0 } else { segment.strength },
                 smooth: false,
@@ -112,13 +144,22 @@ struct Piece {
     beyond: u32,
 }
 
+impl Piece {
+    fn is_whole(&self) -> bool {
+        self.start <= 0.0 && self.end >= 1.0
+    }
+}
+
 /// An edge in a plane, and how to look at what lies beside it.
 struct Rim<'a> {
     mesh: &'a Mesh,
-    hosts: [u32; 2],
+    /// The face from which it looks outward.
+    host: u32,
     kind: LineKind,
+    /// Whether it is a line of the plane alone, and not one of a body.
+    is_flat: bool,
     from: DVec3,
-    /// Along the edge, and from it into its first face: unit vectors.
+    /// Along the edge, and from it into that face: unit vectors.
     along: DVec3,
     inward: DVec3,
     length: f64,
@@ -126,16 +167,17 @@ struct Rim<'a> {
 }
 
 impl<'a> Rim<'a> {
-    fn new(mesh: &'a Mesh, segment: &FeatureSegment) -> Option<Self> {
-        let face = segment.hosts[0];
+    fn new(mesh: &'a Mesh, segment: &FeatureSegment, host: u32) -> Option<Self> {
         let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
-        let third = mesh.triangles[face as usize].into_iter().find(|v| !segment.ends.contains(v))?;
+        let third = mesh.triangles[host as usize].into_iter().find(|v| !segment.ends.contains(v))?;
         let along = (b - a).try_normalize()?;
         let over = mesh.positions[VertexId(third).index()] - a;
         let inward = (over - along * over.dot(along)).try_normalize()?;
-        let beside = BESIDE * mesh.extent(FaceId(face)).contact;
-        let (hosts, kind, length) = (segment.hosts, segment.kind, a.distance(b));
-        Some(Self { mesh, hosts, kind, from: a, along, inward, length, beside })
+        let beside = BESIDE * mesh.extent(FaceId(host)).contact;
+        let [first, second] = segment.hosts;
+        let is_flat = second == NO_FACE || mesh.share_plane(first, second);
+        let (kind, length) = (segment.kind, a.distance(b));
+        Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, beside })
     }
 
     /// The pieces that are lines, from end to end, given all faces of the plane.
@@ -183,17 +225,15 @@ impl<'a> Rim<'a> {
     /// What line there is between what is on top on both sides, and the face beyond it.
     fn line(&self, within: Option<u32>, beyond: Option<u32>) -> Option<(LineKind, u32)> {
         let mesh = self.mesh;
-        let own = within.unwrap_or(self.hosts[0]);
-        let Some(beyond) = beyond else {
-            let kind = if self.hosts[1] == NO_FACE { self.kind } else { LineKind::Border };
-            return Some((kind, NO_FACE));
-        };
+        let own = within.unwrap_or(self.host);
+        let Some(beyond) = beyond else { return Some((self.kind, NO_FACE)) };
         let material = |face: u32| mesh.face_material[face as usize];
+        // Edges of bodies are drawn where they run across a surface of their plane, as where colours are alike.
         if mesh.overlay(own).rank == mesh.overlay(beyond).rank {
-            return None;
+            return (!self.is_flat).then_some((self.kind, beyond));
         }
         match (material(own) == material(beyond), self.kind) {
-            (true, LineKind::Material) => None,
+            (true, LineKind::Material) if self.is_flat => None,
             (true, kind) => Some((kind, beyond)),
             (false, _) => Some((LineKind::Material, beyond)),
         }
