@@ -1,8 +1,8 @@
 //! Borders of surfaces that overlap others in one plane: what is on top on both sides of them says what line they are.
 //!
 //! The rim of a label on a wall is an edge with one face, but no border of what is seen: it parts two materials, as if the wall had a
-//! hole for the label. So does the rim of a body that is let into the wall. Where such an edge runs under another surface of its plane there is no line. So each edge is cut where what is
-//! on top changes just beside it, on one side or the other.
+//! hole for the label. So does the rim of a body that is let into the wall. Where a rim runs under another surface of its plane there is
+//! no line. So each edge is cut where what is on top changes just beside it, on one side or the other.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
