@@ -11,6 +11,7 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
+mod diagonals;
 pub mod gltf;
 mod large_file;
 pub mod obj;

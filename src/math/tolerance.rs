@@ -79,6 +79,10 @@ pub const LEAST_FACING: f64 = 1e-10;
 /// this may be seen edge-on: twice what [`EDGE_ON_SINE`] says, for rounding.
 pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_SINE;
 
+/// A polygon of a file that turns by more than this (degrees) at a diagonal is folded there, and may have a crease; less is a surface that
+/// bends. The default of `lines.crease_deg`: what is sharp enough for a crease anywhere.
+pub const FOLDED_POLYGON_DEG: f64 = 40.0;
+
 /// A surface this near in depth (fraction of its part) touches a line rather than hiding it.
 pub const CONTACT_OF_PART: f64 = 5e-7;
 

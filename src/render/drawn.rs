@@ -83,7 +83,7 @@ impl Prepared<'_> {
         stage: Option<Stage>,
     ) -> (Drawing, Report) {
         let Self { scene, style, paints, .. } = self;
-        let OnView { surface, view, lines, textures, fills, mut map, .. } = on_view;
+        let OnView { surface, view, lines, unchanged, textures, fills, mut map, .. } = on_view;
         let OnView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
         let mut layers: Vec<Layer> = hatch::paper(&page, &style.paper, style.seed).into_iter().collect();
         let lit = fills.filter(|_| fills::is_lit(style));
@@ -103,7 +103,7 @@ impl Prepared<'_> {
         let link = || {
             let mut watch = Stopwatch::start();
             if fills.is_some() {
-                fills::keep_inked(&mut map, style);
+                fills::keep_inked(&mut map, style, &unchanged);
             }
             let lines = image::joined(&mut map, lines, surface, view, style, page.unit);
             let joining = watch.lap_ms();
@@ -127,7 +127,7 @@ impl Prepared<'_> {
         watch.lap_ms();
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
-                fills::keep_inked(veiled, style);
+                fills::keep_inked(veiled, style, &unchanged);
                 centre_on_page(veiled, &view.frame, &page);
             }));
         }

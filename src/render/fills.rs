@@ -15,7 +15,9 @@ use crate::field::{ShadedNormals, Shading, ToneOptions};
 use crate::hatch::{Direction, HatchLayer, PatternFixed};
 use crate::lines::{
     FeatureLines, LineKind, LineOptions, Lit, Source, Surface, Textures, in_sight, isophotes,
-    texture_borders, tone_edges,
+    texture_borders,
+    tone_changes::{self, Darkens, ToneBorders},
+    tone_edges,
 };
 use crate::math::colour::Colour;
 use crate::mesh::{EdgeSet, FaceId, Mesh, PaintId, PartId};
@@ -33,9 +35,15 @@ pub(super) fn is_lit(style: &Style) -> bool {
     style.region.enabled || style.hatch.enabled
 }
 
-/// Whether a style asks what is painted on the surface: for that, or for lines between painted colours.
+/// Whether a style draws lines where tones change, whether it paints them or not.
+pub(super) fn asks_isophotes(style: &Style) -> bool {
+    let lines = &style.lines;
+    lines.enabled && lines.source != Source::Image && lines.kinds.contains(&LineKind::Isophote)
+}
+
+/// Whether a style asks what is painted on the surface: for that, for lines between painted colours, or between tones.
 pub(super) fn asks_surface(style: &Style) -> bool {
-    is_lit(style) || asks_artist(style)
+    is_lit(style) || asks_artist(style) || asks_isophotes(style)
 }
 
 /// Whether a style draws lines between painted colours.
@@ -53,16 +61,21 @@ pub(super) fn lays_through(style: &Style) -> bool {
 /// What shadows that things cast are to darken.
 fn darkened(style: &Style) -> Darkened {
     Darkened {
-        tones: style.region.enabled && style.tones.cast_shadows,
+        tones: has_tones(style) && style.tones.cast_shadows,
         bins: style.hatch.enabled && style.hatch.cast_shadows,
     }
 }
 
-/// The tones of a style; one for all where no regions are painted.
+/// Whether light falls into tones: where these are painted, or lines between them are drawn.
+fn has_tones(style: &Style) -> bool {
+    style.region.enabled || asks_isophotes(style)
+}
+
+/// The tones of a style; one for all where none are asked for.
 fn tones(style: &Style) -> ToneOptions {
     let Darkened { tones, bins } = darkened(style);
     let cast_shadows = tones || bins;
-    if style.region.enabled {
+    if has_tones(style) {
         return ToneOptions { cast_shadows, ..style.tones.clone() };
     }
     ToneOptions { scale: Scale::Thresholds(Vec::new()), cast_shadows, ..ToneOptions::default() }
@@ -103,11 +116,16 @@ pub(super) fn paint_colours(paints: &[Paint], scene: &Scene, style: &Style) -> V
     paints.iter().map(|paint| instead(paint).unwrap_or(paint.colour)).collect()
 }
 
-/// Leaves only lines that are drawn.
-pub(super) fn keep_inked(map: &mut ViewMap, style: &Style) {
+/// Leaves only lines that are drawn; tone borders among the segments of `unchanged`, ascending, are not.
+pub(super) fn keep_inked(map: &mut ViewMap, style: &Style, unchanged: &[u32]) {
     let lines = &style.lines;
     let on_surface = lines.enabled && lines.source != Source::Image;
-    map.edges.retain(|edge| on_surface && lines.kinds.contains(&edge.kind));
+    let is_unchanged = |segment: u32| unchanged.binary_search(&segment).is_ok();
+    map.edges.retain(|edge| {
+        on_surface
+            && lines.kinds.contains(&edge.kind)
+            && !(edge.kind == LineKind::Isophote && is_unchanged(edge.segment))
+    });
 }
 
 /// What regions need of a surface beside its lines; the same for all views.
@@ -268,15 +286,34 @@ impl<'a> Fills<'a> {
         }
     }
 
-    /// Adds where the tone changes to the lines whose visibility is decided.
-    pub fn add_tone_borders(&self, lines: &mut FeatureLines) {
+    /// Adds where the tone may change to the lines whose visibility is decided. Where these are to be `inked`, returns the numbers of
+    /// the segments at which it does not change, ascending.
+    pub fn add_tone_borders(&self, lines: &mut FeatureLines, inked: bool) -> Vec<u32> {
         let lit = self.lit();
+        let first = lines.segments.len();
         let seams = tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
         // What one sees through casts no shadow, and hides nothing from the second look.
         let sees_through = !std::ptr::eq(self.casting, lit.mesh);
-        isophotes::find(&lit, &self.masks, sees_through, lines);
+        let edges = first..lines.segments.len();
+        let traced = isophotes::find(&lit, &self.masks, sees_through, lines);
+        let isophotes = edges.end..lines.segments.len();
         texture_borders::find(&lit, seams, lines);
+        let first = lines.segments.len();
         self.shadows.lines.append_to(lit.mesh, lines);
+        if !inked {
+            return Vec::new();
+        }
+        let casters = self.shadows.lines.segments.iter().map(|segment| segment.caster).collect();
+        let shadows = first..lines.segments.len();
+        let borders = ToneBorders { edges, isophotes, traced, shadows, casters };
+        let Darkened { tones, bins } = self.darkened;
+        tone_changes::unchanged(
+            &lit,
+            &borders,
+            Darkens { tones, bins },
+            |points| self.shadowed(points),
+            lines,
+        )
     }
 
     /// What the eye sees, cut by these borders.

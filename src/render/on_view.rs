@@ -16,6 +16,8 @@ pub(super) struct OnView<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
+    /// The tone borders among them at which no tone changes, by their numbers, ascending.
+    pub unchanged: Vec<u32>,
     /// Where lines or surfaces have colours.
     pub textures: Option<&'a Textures>,
     /// Where surfaces are painted or hatched.
@@ -89,15 +91,27 @@ impl Prepared<'_> {
             moved.into_iter().fold(fills, Fills::laid_at)
         });
         warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
-        if let Some(fills) = &fills {
-            fills.add_tone_borders(&mut lines);
-        }
+        let inked = fills::asks_isophotes(style);
+        let unchanged =
+            fills.as_ref().map(|fills| fills.add_tone_borders(&mut lines, inked)).unwrap_or_default();
         report.stages_ms.features = watch.lap_ms();
 
         let map = viewmap::build_with(&surface.mesh, &view, &lines, sought, covers.as_ref());
         report.stages_ms.visibility = watch.lap_ms();
         let behind = panes.as_ref().map(|panes| panes.look_behind(&surface.mesh, &view, &lines, sought));
         let (view, lines, fills, textures) = (&view, &lines, fills.as_ref(), textures.as_ref());
-        call(OnView { surface, view, lines, textures, fills, map, behind, report, watch, warnings })
+        call(OnView {
+            surface,
+            view,
+            lines,
+            unchanged,
+            textures,
+            fills,
+            map,
+            behind,
+            report,
+            watch,
+            warnings,
+        })
     }
 }

@@ -7,6 +7,7 @@ use super::library::{self, Place};
 use super::statements::{FaceGroup, NONE, Object, Statements};
 use crate::load::text::decode;
 use crate::math::colour::linear;
+use crate::mesh::EdgeMark;
 use crate::scene::beside::{Neighbours, stays_inside};
 use crate::scene::{Geometry, Material, Part, Scene, UpAxis, Warnings};
 
@@ -171,6 +172,10 @@ fn whole(statements: Statements) -> Geometry {
     let corner_normals = pad(statements.corner_normals, normals.len());
     let corner_uvs = pad(statements.corner_uvs, uvs.len());
     let colours = colours.into_iter().map(rgba).collect();
+    let mut edge_marks = statements.edge_marks;
+    if !edge_marks.is_empty() {
+        edge_marks.resize(triangles.len(), [EdgeMark::Unmarked; 3]);
+    }
     Geometry {
         positions,
         triangles,
@@ -179,6 +184,7 @@ fn whole(statements: Statements) -> Geometry {
         uvs,
         corner_uvs,
         colours,
+        edge_marks,
         wires,
         ..Geometry::default()
     }
@@ -216,17 +222,18 @@ impl<'a> Split<'a> {
 
     fn geometry(&mut self, runs: &[FaceGroup]) -> Geometry {
         let from = self.statements;
-        let mut triangles = gather(&from.triangles, runs);
+        let mut triangles = gather(&from.triangles, runs, [NONE; 3]);
         let mut wires: Vec<[u32; 2]> =
             runs.iter().filter_map(|run| from.wires.get(run.wires.clone())).flatten().copied().collect();
         let kept = self.positions.renumber(&mut [triangles.as_flattened_mut(), wires.as_flattened_mut()]);
         let positions = pick(&from.positions, &kept);
         let colours = pick(&from.colours, &kept).into_iter().map(rgba).collect();
 
-        let mut corner_normals = gather(&from.corner_normals, runs);
+        let mut corner_normals = gather(&from.corner_normals, runs, [NONE; 3]);
         let normals = pick(&from.normals, &self.normals.renumber(&mut [corner_normals.as_flattened_mut()]));
-        let mut corner_uvs = gather(&from.corner_uvs, runs);
+        let mut corner_uvs = gather(&from.corner_uvs, runs, [NONE; 3]);
         let uvs = pick(&from.uvs, &self.uvs.renumber(&mut [corner_uvs.as_flattened_mut()]));
+        let edge_marks = gather(&from.edge_marks, runs, [EdgeMark::Unmarked; 3]);
         if normals.is_empty() {
             corner_normals.clear();
         }
@@ -241,14 +248,15 @@ impl<'a> Split<'a> {
             uvs,
             corner_uvs,
             colours,
+            edge_marks,
             wires,
             ..Geometry::default()
         }
     }
 }
 
-/// The corners of the triangles of some runs; none where the file has none.
-fn gather(all: &[[u32; 3]], runs: &[FaceGroup]) -> Vec<[u32; 3]> {
+/// What the triangles of some runs have, `nothing` beyond the last of `all`; none where the file has none.
+fn gather<T: Copy>(all: &[T], runs: &[FaceGroup], nothing: T) -> Vec<T> {
     let count = runs.iter().map(|run| run.triangles.len()).sum();
     let mut corners = Vec::with_capacity(if all.is_empty() { 0 } else { count });
     if all.is_empty() {
@@ -258,7 +266,7 @@ fn gather(all: &[[u32; 3]], runs: &[FaceGroup]) -> Vec<[u32; 3]> {
         let end = run.triangles.end.min(all.len());
         let have = all.get(run.triangles.start.min(end)..end).unwrap_or_default();
         corners.extend_from_slice(have);
-        corners.extend(std::iter::repeat_n([NONE; 3], run.triangles.len() - have.len()));
+        corners.extend(std::iter::repeat_n(nothing, run.triangles.len() - have.len()));
     }
     corners
 }

@@ -13,8 +13,10 @@ pub(super) use plain::NONE;
 use plain::{Corner, NO_CORNER, plain_position};
 
 use crate::error::Error;
+use crate::load::diagonals::Diagonals;
 use crate::load::shown;
 use crate::load::text::Cursor;
+use crate::mesh::EdgeMark;
 use crate::scene::coordinate::is_drawable;
 use crate::scene::warnings::{Spots, Warnings};
 
@@ -50,6 +52,8 @@ pub(super) struct Statements<'a> {
     /// As long as `triangles` or shorter: the rest has none.
     pub corner_uvs: Vec<[u32; 3]>,
     pub corner_normals: Vec<[u32; 3]>,
+    /// As long as `triangles` or shorter: the rest is unmarked.
+    pub edge_marks: Vec<[EdgeMark; 3]>,
     pub wires: Vec<[u32; 2]>,
     pub runs: Vec<FaceGroup>,
     pub objects: Vec<Object<'a>>,
@@ -126,6 +130,7 @@ struct Parser<'a> {
     corners: Vec<Corner>,
     points: Vec<DVec3>,
     cut: Vec<[u32; 3]>,
+    diagonals: Diagonals,
     has_objects: bool,
     object: usize,
     material: Option<usize>,
@@ -158,6 +163,7 @@ impl<'a> Parser<'a> {
             corners: Vec::new(),
             points: Vec::new(),
             cut: Vec::new(),
+            diagonals: Diagonals::default(),
             has_objects: false,
             object: 0,
             material: None,

@@ -7,8 +7,10 @@ use super::body::{Body, Row, place};
 use super::header::{Element, Encoding, Scalar};
 use super::vertices::{COLOURS, find};
 use crate::error::Error;
+use crate::load::diagonals::Diagonals;
 use crate::load::polygon::{self, CutOutcome};
 use crate::math::colour::Colour;
+use crate::mesh::EdgeMark;
 use crate::scene::coordinate::is_drawable;
 use crate::scene::warnings::Warnings;
 
@@ -24,10 +26,13 @@ pub(super) struct Faces<'a> {
     corners: Vec<u32>,
     points: Vec<DVec3>,
     cut: Vec<[u32; 3]>,
+    diagonals: Diagonals,
     /// The triangles so far.
     pub triangles: Vec<[u32; 3]>,
     /// Colour of each triangle; empty where faces have none.
     pub colours: Vec<Option<Colour>>,
+    /// The marks of their sides: as long as `triangles` or shorter, the rest is unmarked.
+    pub edge_marks: Vec<[EdgeMark; 3]>,
     /// Faces left out for their coordinates.
     pub unusable: u64,
     pub warnings: Warnings,
@@ -42,8 +47,10 @@ impl<'a> Faces<'a> {
             corners: Vec::new(),
             points: Vec::new(),
             cut: Vec::new(),
+            diagonals: Diagonals::default(),
             triangles: Vec::new(),
             colours: Vec::new(),
+            edge_marks: Vec::new(),
             unusable: 0,
             warnings: Warnings::default(),
         }
@@ -156,6 +163,11 @@ impl<'a> Faces<'a> {
             self.warnings.count("concave polygons with too many corners, cut roughly", 1);
         }
         let id = |corner: u32| corners.get(corner as usize).copied().unwrap_or_default();
+        if self.cut.len() > 1 {
+            self.diagonals.of(&self.points);
+            self.edge_marks.resize(self.triangles.len(), [EdgeMark::Unmarked; 3]);
+            self.edge_marks.extend(self.cut.iter().map(|triangle| self.diagonals.marks(*triangle)));
+        }
         self.triangles.extend(self.cut.iter().map(|triangle| triangle.map(id)));
     }
 }

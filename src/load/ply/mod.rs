@@ -23,6 +23,7 @@ use super::text::Cursor;
 use super::triangle_colours;
 use crate::error::Error;
 use crate::math::colour::Colour;
+use crate::mesh::EdgeMark;
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
 use crate::scene::drawable;
 use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings, coarse};
@@ -106,6 +107,10 @@ impl Model {
             self.colours.resize(self.geometry.triangles.len(), None);
             self.colours.extend(faces.colours);
         }
+        if !faces.edge_marks.is_empty() {
+            self.geometry.edge_marks.resize(self.geometry.triangles.len(), [EdgeMark::Unmarked; 3]);
+            self.geometry.edge_marks.extend(faces.edge_marks);
+        }
         let triangles = faces.triangles;
         if self.geometry.triangles.is_empty() {
             self.geometry.triangles = triangles;
@@ -120,6 +125,9 @@ impl Model {
         let Self { mut geometry, colours, warnings, unusable } = self;
         let mut scene = Scene { format: "PLY", up: UpAxis::Y, warnings, ..Scene::default() };
         scene.warnings.count(NOT_DRAWABLE, unusable);
+        if !geometry.edge_marks.is_empty() {
+            geometry.edge_marks.resize(geometry.triangles.len(), [EdgeMark::Unmarked; 3]);
+        }
         // No triangle uses these any more.
         for position in geometry.positions.iter_mut().filter(|p| !is_drawable(**p)) {
             *position = glam::DVec3::ZERO;

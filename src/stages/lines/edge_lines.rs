@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::math::grain::GRAIN;
 use crate::math::joined::joined;
-use crate::mesh::dihedral::{mark, runs_up};
+use crate::mesh::dihedral::{is_unfolded_diagonal, mark, runs_up};
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::needle::{Beyond, seen_from};
 use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, MaterialId, Mesh};
@@ -216,10 +216,13 @@ impl<'a> Finder<'a> {
             return None;
         };
         let nearer = if facing[first as usize] { first } else { second };
+        let dihedral = Dihedral::of(self.mesh, [first, second], same_way);
+        // Where materials meet on a flat face, corners of the line are corners of what is painted there.
+        let is_painted = kind == LineKind::Material && dihedral.is_flat(self.mesh, edge);
         Some(FeatureSegment {
             both_seen: !contour,
-            smooth: !hard && !self.wrinkles.contains(edge),
-            strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
+            smooth: !hard && !self.wrinkles.contains(edge) && !is_painted,
+            strength: dihedral.turn(),
             ..self.segment(edge, kind, nearer, [first, second])
         })
     }
@@ -271,7 +274,10 @@ impl<'a> Finder<'a> {
         }
         let side = |f: u32| self.view.facing[f as usize] == runs_up(mesh, edge, f);
         let contour = real.iter().all(|f| side(*f)) || real.iter().all(|f| !side(*f));
-        let turn = self.corner_turn(edge, &real).max(self.own_turn(edge, &real));
+        let own_turn = self.own_turn(edge, &real);
+        let turn = self.corner_turn(edge, &real);
+        let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, real.iter().copied()), turn);
+        let turn = if is_diagonal { own_turn } else { turn.max(own_turn) };
         let other_material = self.materials_change(edge, &real);
         let kind = if contour && self.wants(LineKind::Contour) {
             LineKind::Contour
@@ -367,7 +373,10 @@ impl<'a> Finder<'a> {
             let own: Vec<u32> = faces.iter().copied().filter(|f| part(f) == part(first)).collect();
             if let [a, b] = *own.as_slice() {
                 let same_way = runs_up(mesh, edge, a) == runs_up(mesh, edge, b);
-                most = most.max(Dihedral::of(mesh, [a, b], same_way).sure_turn(mesh));
+                let dihedral = Dihedral::of(mesh, [a, b], same_way);
+                if !is_unfolded_diagonal(mark(mesh, edge, [a, b]), dihedral.turn()) {
+                    most = most.max(dihedral.sure_turn(mesh));
+                }
             }
         }
         most

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::covered::in_sight;
 use super::levels::{Band, Found, Measures, Node};
 use super::line::segment;
+use super::tone_changes::Traced;
 use super::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::field::{Slope, SurfacePoint};
 use crate::math::grain::GRAIN;
@@ -19,12 +20,12 @@ use crate::math::tolerance;
 use crate::mesh::{FaceId, PaintId};
 
 /// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow. With `sees_through` gradients have
-/// steps behind other faces too.
-pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) {
+/// steps behind other faces too. Returns what each of them was traced for, in order.
+pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) -> Vec<Traced> {
     const CHUNK: usize = 1 << 9;
     let count = lit.mesh.triangles.len();
     let ready = Ready::new(lit, shadowed, sees_through);
-    let found: Vec<Vec<Found>> = (0..count.div_ceil(CHUNK))
+    let found: Vec<(Vec<Found>, Vec<Traced>)> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
@@ -34,19 +35,23 @@ pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut Feature
                     tracer.trace(face as u32, shadowed);
                 }
             }
-            tracer.found
+            (tracer.found, tracer.traced)
         })
         .collect();
+    let (found, traced): (Vec<Vec<Found>>, Vec<Vec<Traced>>) = found.into_iter().unzip();
     let piece = |(face, ends): Found| (face, LineKind::Isophote, ends);
     lines.append_in_faces(lit.mesh, &found, piece, |face, kind, ends| {
         segment(lit.mesh, face, [face, NO_FACE], kind, ends)
     });
+    traced.concat()
 }
 
 struct Tracer<'a> {
     lit: &'a Lit<'a>,
     ready: &'a Ready,
     found: Vec<Found>,
+    /// What each of these was traced for.
+    traced: Vec<Traced>,
 }
 
 /// What is the same for all faces.
@@ -103,7 +108,7 @@ impl Ready {
 
 impl<'a> Tracer<'a> {
     fn new(lit: &'a Lit<'a>, ready: &'a Ready) -> Self {
-        Self { lit, ready, found: Vec::new() }
+        Self { lit, ready, found: Vec::new(), traced: Vec::new() }
     }
 
     /// Whether no level can be crossed on a face, told from the values at its corners.
@@ -157,6 +162,7 @@ impl<'a> Tracer<'a> {
                     let band = self.band((face, &n), measures, channel, levels, *shadowed);
                     let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
                     band.trace(nodes, &mut self.found);
+                    self.traced.resize(self.found.len(), Traced { channel, shadowed: *shadowed });
                 }
             }
         }

@@ -18,6 +18,7 @@ mod levels;
 pub mod line;
 pub mod lit;
 pub mod options;
+mod overlaid;
 mod painted_face;
 pub mod smooth_contours;
 mod strides;
@@ -27,6 +28,7 @@ mod texture_scale;
 mod textured;
 pub mod textures;
 mod tint_borders;
+pub mod tone_changes;
 pub mod tone_edges;
 pub mod zero_set;
 
@@ -80,6 +82,14 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;
+    let (asked, overlap) = (options, overlaid::is_asked(mesh));
+    let with_borders = || {
+        let more =
+            [LineKind::Border, LineKind::Material].into_iter().filter(|kind| !options.kinds.contains(kind));
+        LineOptions { kinds: options.kinds.iter().copied().chain(more).collect(), ..options.clone() }
+    };
+    let with_borders = overlap.then(with_borders);
+    let options = with_borders.as_ref().unwrap_or(options);
     let along_edges = || match known.search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, options),
         Some(search) => {
@@ -104,6 +114,8 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     } else {
         Vec::new()
     };
+    let options = asked;
+    let overlaid = overlap.then(|| overlaid::settle(mesh, view, &mut lines.segments, options));
     if let Some((contours, facing)) = contours {
         lines.append_contours(contours);
         folds::tell(mesh, view, smooth, &facing, &mut lines.segments);
@@ -123,6 +135,9 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
         inside::find(mesh, view, smooth, &curvature, options, &mut lines);
     }
     lines.segments.extend(wires.iter().map(FeatureSegment::of_wire));
+    if let Some(overlaid) = overlaid {
+        overlaid.append_to(mesh, &mut lines);
+    }
     tell_origins(surface, &mut lines);
     lines
 }

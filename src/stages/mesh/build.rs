@@ -10,6 +10,7 @@ use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
 use super::orientation::{Surfaces, Triangles, TurnedFaces, turn_faces};
+use super::overlaps::overlays;
 use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
 use crate::math::grain::GRAIN;
 
@@ -110,7 +111,7 @@ impl Mesh {
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
         soup.triangle_material.resize(soup.triangles.len(), super::MaterialId::default());
-        Self {
+        let mut mesh = Self {
             origin,
             extents,
             positions: soup.positions,
@@ -128,11 +129,14 @@ impl Mesh {
             corner_uvs: soup.corner_uvs,
             corner_colours: soup.corner_colours,
             edge_marks: soup.edge_marks,
+            overlays: Vec::new(),
             edges,
             wires: soup.wires,
             cleaning,
             turned,
-        }
+        };
+        mesh.overlays = overlays(&mesh);
+        mesh
     }
 }
 

@@ -88,6 +88,25 @@ impl Dihedral {
         least + (2.0 * rounding / height).min(1.0).to_degrees()
     }
 
+    /// Whether the surface is flat at an edge of the mesh, as far as the numbers of the file can tell: the corners of both faces that
+    /// are not on the edge lie within `contact` of a plane through it.
+    #[must_use]
+    pub fn is_flat(&self, mesh: &Mesh, edge: usize) -> bool {
+        let [first, second] = self.faces;
+        let ends = mesh.edges.vertices[edge];
+        let [a, b] = ends.map(|v| mesh.positions[v as usize]);
+        let third = |face: u32| {
+            let corner = mesh.triangles[face as usize].iter().find(|v| !ends.contains(v));
+            corner.map_or(a, |v| mesh.positions[*v as usize])
+        };
+        let (across, over) = ((b - a).cross(third(first) - a), third(second) - a);
+        // Heights over the edge, and how far the second corner lies from the plane of the first face.
+        let [own, other] = [across, (b - a).cross(over)].map(|area| area.length() / a.distance(b));
+        let away = across.normalize_or_zero().dot(over).abs();
+        let contact = [first, second].map(|face| mesh.extent(FaceId(face)).contact);
+        self.cosine > 0.0 && away * own <= contact[0].max(contact[1]) * (own + other)
+    }
+
     /// The normals of the two faces, both on the side that the first one calls outside.
     #[must_use]
     pub fn normals(&self, mesh: &Mesh) -> [DVec3; 2] {
@@ -113,6 +132,12 @@ fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<Dihedral> 
     (first != second).then(|| Dihedral::of(mesh, [first, second], false))
 }
 
+/// Whether an edge is a diagonal of a polygon of the file that turns there, by so many degrees, too little to be folded.
+#[must_use]
+pub fn is_unfolded_diagonal(mark: EdgeMark, turn: f32) -> bool {
+    mark == EdgeMark::Diagonal && f64::from(turn) <= tolerance::FOLDED_POLYGON_DEG
+}
+
 /// Whether a face runs along one of its edges from the smaller vertex to the larger one.
 #[must_use]
 pub fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
@@ -121,22 +146,28 @@ pub fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
     [(a, b), (b, c), (c, a)].contains(&(lo, hi))
 }
 
-/// What the file says of an edge through some of its faces; the strongest mark counts.
+/// What the file says of an edge through some of its faces; the strongest mark counts. It is a diagonal only if all of these faces
+/// that have it as a side say so: a diagonal of one polygon may be a side of another.
 #[must_use]
-pub fn mark(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> EdgeMark {
+pub fn mark(mesh: &Mesh, edge: usize, faces: impl IntoIterator<Item = u32>) -> EdgeMark {
     if mesh.edge_marks.is_empty() {
         return EdgeMark::Unmarked;
     }
     let [lo, hi] = mesh.edges.vertices[edge];
-    let mut strongest = EdgeMark::Unmarked;
+    let mut strongest = None;
     for face in faces {
         let [a, b, c] = mesh.triangles[face as usize];
         for (side, (u, v)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-            let mark = mesh.edge_marks[face as usize][side];
-            if (u.min(v), u.max(v)) == (lo, hi) && mark as u8 > strongest as u8 {
-                strongest = mark;
+            if (u.min(v), u.max(v)) != (lo, hi) {
+                continue;
             }
+            let mark = mesh.edge_marks[face as usize][side];
+            strongest = match strongest {
+                None | Some(EdgeMark::Diagonal) => Some(mark),
+                Some(before) if mark == EdgeMark::Diagonal => Some(before),
+                Some(before) => Some(if mark as u8 > before as u8 { mark } else { before }),
+            };
         }
     }
-    strongest
+    strongest.unwrap_or_default()
 }

@@ -220,7 +220,7 @@ impl Extent {
         let of_single = if single_precision { tolerance::F32_STEP * largest } else { 0.0 };
         self.step = step.max(of_single);
         // A lattice that can be seen is the shape itself.
-        let step = if step <= tolerance::VISIBLE_STEP * diagonal { step } else { 0.0 };
+        let step = if step <= tolerance::VISIBLE_STEP * self.diagonal() { step } else { 0.0 };
         let rounding = (tolerance::ROUNDING_OF_LATTICE * step).max(tolerance::ROUNDING_OF_SINGLE * of_single);
         self.rounding = rounding.min(CONTACT_AT_MOST * self.scale);
         let between = (2.0 * written).max(2.0 * self.rounding).min(CONTACT_AT_MOST * self.scale);

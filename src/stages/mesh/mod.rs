@@ -6,6 +6,7 @@ pub mod build;
 pub mod carriers;
 mod changed_edges;
 pub mod clean;
+mod common_area;
 mod counting_sort;
 mod cuts;
 pub mod dihedral;
@@ -18,9 +19,11 @@ mod first_edges;
 pub(crate) mod groups;
 pub mod ids;
 pub mod lattice;
+mod mixed_places;
 pub mod needle;
 mod order;
 pub(crate) mod orientation;
+mod overlaps;
 mod places;
 pub mod posed;
 mod seams;
@@ -43,6 +46,7 @@ pub(crate) use first_edges::FirstEdges;
 pub use groups::{Groups, Numbered};
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use orientation::TurnedFaces;
+pub use overlaps::Overlay;
 pub use posed::Sources;
 pub(crate) use shares::{Share, share_count, shares};
 pub use soup::{EdgeMark, Soup, Wire};
@@ -92,6 +96,8 @@ pub struct Mesh {
     pub corner_colours: Vec<[[f32; 3]; 3]>,
     /// What the file says about the sides 0-1, 1-2, 2-0 of each face, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
+    /// The place of each face among surfaces of unlike colours that overlap in one plane; empty if none do.
+    pub overlays: Vec<Overlay>,
     /// Which faces meet at which edge.
     pub edges: Edges,
     /// Lines without faces; their vertices are vertices of the mesh.

@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 
 use super::carriers::{Faces, take_over};
 use super::face_normals::face_normals;
+use super::overlaps::overlays;
 use super::{Extents, Mesh, Soup};
 
 /// Vertices that are one at rest are one in a pose if they are no farther apart than this part of all: what rounding of joints does.
@@ -91,14 +92,16 @@ impl Mesh {
         let carriers =
             Faces { positions, triangles, parts, edges: &self.edges, extents: &extents }.carriers();
         take_over(&carriers, &mut face_normals);
-        Some(Self {
+        let mut posed = Self {
             face_normals,
             carriers,
             normals: soup.normals.clone(),
             positions: moved.positions,
             extents,
             ..self.clone()
-        })
+        };
+        posed.overlays = overlays(&posed);
+        Some(posed)
     }
 }
 

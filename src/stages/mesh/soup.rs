@@ -21,6 +21,9 @@ pub enum EdgeMark {
     Covered = 4,
     /// Always a crease, which belongs to this triangle: where a face ends along which a section is cut.
     Cut = 5,
+    /// A diagonal that the reader added inside a polygon of the file: no crease unless the polygon is folded there by more than
+    /// [`tolerance::FOLDED_POLYGON_DEG`](crate::math::tolerance::FOLDED_POLYGON_DEG).
+    Diagonal = 6,
 }
 
 /// A line of the model that belongs to no face: OBJ `l`, glTF line primitives.

@@ -10,7 +10,7 @@ use super::crease_chains::{Chain, Fold, Folds, folds};
 use super::roughness::Roughness;
 use super::wrinkles::wrinkles;
 use crate::math::function::cos;
-use crate::mesh::dihedral::{Dihedral, mark};
+use crate::mesh::dihedral::{Dihedral, is_unfolded_diagonal, mark};
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::{EdgeMark, Mesh, Turns};
 
@@ -169,13 +169,25 @@ impl HardEdges {
         if mesh.edge_marks.is_empty() {
             return self;
         }
+        // Most files have none of those that make creases: then only sharp edges are looked at.
+        let makes = |mark: &EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Cut);
+        let makes_creases = mesh.edge_marks.par_iter().any(|marks| marks.iter().any(makes));
         for edge in 0..mesh.edges.len() {
+            if !makes_creases && !self.is_hard(edge) {
+                continue;
+            }
             let Some(dihedral) = Dihedral::at(mesh, edge) else { continue };
             let bit = 1 << (edge % 64);
-            match mark(mesh, edge, dihedral.faces) {
+            let mark = mark(mesh, edge, dihedral.faces);
+            match mark {
                 EdgeMark::Unmarked => {}
                 EdgeMark::Hard | EdgeMark::Cut => self.bits[edge / 64] |= bit,
                 EdgeMark::Hidden | EdgeMark::Contour | EdgeMark::Covered => self.bits[edge / 64] &= !bit,
+                EdgeMark::Diagonal => {
+                    if is_unfolded_diagonal(mark, dihedral.turn()) {
+                        self.bits[edge / 64] &= !bit;
+                    }
+                }
             }
         }
         self.count = count(&self.bits);

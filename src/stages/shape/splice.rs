@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::SmoothNormals;
 use crate::mesh::face_normals::face_normals;
-use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, Overlay, PaintId, PartId};
 
 /// Texture coordinates and colours of new corners are rounded to this part.
 const UV_STEPS: f64 = 65536.0;
@@ -235,6 +235,8 @@ fn of_faces(
     let own_materials: Vec<MaterialId> = pieces.iter().map(|piece| mesh.face_material[own(piece)]).collect();
     let own_paints: Vec<PaintId> =
         pieces.iter().filter_map(|piece| mesh.face_paint.get(own(piece)).copied()).collect();
+    let own_overlays: Vec<Overlay> =
+        pieces.iter().filter_map(|piece| mesh.overlays.get(own(piece)).copied()).collect();
     let finer = Mesh {
         uvs: extended(part!(mesh, uvs), &new_uvs),
         corner_uvs: kept.carry(part!(mesh, corner_uvs), corner_uvs.into_iter()),
@@ -251,6 +253,7 @@ fn of_faces(
         face_part: kept.carry(part!(mesh, face_part), own_parts.into_iter()),
         face_material: kept.carry(part!(mesh, face_material), own_materials.into_iter()),
         face_paint: kept.carry(part!(mesh, face_paint), own_paints.into_iter()),
+        overlays: kept.carry(part!(mesh, overlays), own_overlays.into_iter()),
         edge_marks: kept.carry(part!(mesh, edge_marks), pieces.iter().map(|piece| piece.marks)),
         triangles: kept.carry(part!(mesh, triangles), triangles.iter().copied()),
         edges: Edges::default(),

@@ -37,7 +37,8 @@ const MOST_CELLS: usize = 512;
 /// The face nearest to the eye at each of some points in user units; `None` where there is none.
 ///
 /// Faces without area or seen edge-on cover nothing. A point on the edge between two faces gets
-/// one of them, of equally near ones that of the lesser id, on any number of threads.
+/// one of them, of equally near ones that of the lesser id, on any number of threads. Where surfaces of unlike colours overlap in
+/// one plane, it is the one that is on top there: see [`Overlay`](crate::mesh::Overlay).
 #[must_use]
 pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Front>> {
     let Some(grid) = PointGrid::new(points) else { return Vec::new() };
@@ -67,12 +68,20 @@ pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Fro
         })
         .collect();
     let mut fronts: Vec<Option<Front>> = vec![None; points.len()];
-    for (point, hit) in tasks.into_iter().flatten() {
-        let front = &mut fronts[point as usize];
+    for (point, hit) in tasks.iter().flatten() {
+        let front = &mut fronts[*point as usize];
         let nearer =
             |f: &Front| hit.nearness > f.nearness || (hit.nearness == f.nearness && hit.face < f.face);
         if front.as_ref().is_none_or(nearer) {
-            *front = Some(hit);
+            *front = Some(*hit);
+        }
+    }
+    // Which of surfaces in one plane is nearer says rounding alone.
+    for (point, hit) in tasks.iter().flatten().filter(|_| !mesh.overlays.is_empty()) {
+        if let Some(front) = &mut fronts[*point as usize]
+            && mesh.is_over(hit.face, front.face)
+        {
+            *front = *hit;
         }
     }
     fronts

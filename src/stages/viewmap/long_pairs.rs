@@ -241,7 +241,9 @@ impl<'a> Long<'a> {
                     break;
                 }
                 let mark = &mut seen.marks[*number as usize];
-                if std::mem::replace(mark, seen.last) == seen.last || segment.hosts.contains(&occluder.face) {
+                if std::mem::replace(mark, seen.last) == seen.last
+                    || triangles.mesh.touches(segment.hosts, occluder.face)
+                {
                     continue;
                 }
                 *tests += 1;

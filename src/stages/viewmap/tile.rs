@@ -294,7 +294,7 @@ impl Context<'_> {
             if b[0] > bounds[1] || b[1] < bounds[0] || b[2] > bounds[3] || b[3] < bounds[2] {
                 continue;
             }
-            if segment.hosts.contains(&triangles.face(reach.id)) {
+            if triangles.mesh.touches(segment.hosts, triangles.face(reach.id)) {
                 continue;
             }
             *tests += 1;

@@ -255,7 +255,7 @@ mod tests {
             |error| error,
             |s| {
                 let places = (s.positions, s.colours, s.uvs, s.normals, s.triangles);
-                let faces = (s.corner_uvs, s.corner_normals, s.wires, s.runs, s.objects);
+                let faces = (s.corner_uvs, s.corner_normals, s.edge_marks, s.wires, s.runs, s.objects);
                 format!("{places:?} {faces:?} {:?} {}", s.materials, s.warnings.lines().join("\n"))
             },
         )

@@ -7,6 +7,7 @@ use super::{Parser, Stop};
 use crate::error::Error;
 use crate::load::polygon::{self, CutOutcome};
 use crate::load::text::Cursor;
+use crate::mesh::EdgeMark;
 use crate::scene::coordinate::is_drawable;
 
 impl Parser<'_> {
@@ -110,13 +111,14 @@ impl Parser<'_> {
     /// Adds the triangles of a face, whose corners are `corners`.
     pub(super) fn cut_corners(&mut self) {
         match *self.corners.as_slice() {
-            [a, b, c] => self.triangle(a, b, c),
+            [a, b, c] => self.triangle([a, b, c], [EdgeMark::Unmarked; 3]),
             [a, b, c, d] => {
                 let corners = [a, b, c, d];
                 let [p, q, r, s] = corners.map(|c| self.point(c[0]));
+                self.diagonals.of(&[p, q, r, s]);
                 for triangle in polygon::quad(p, q, r, s) {
-                    let [a, b, c] = triangle.map(|i| corners[i as usize % 4]);
-                    self.triangle(a, b, c);
+                    let marks = self.diagonals.marks(triangle);
+                    self.triangle(triangle.map(|i| corners[i as usize % 4]), marks);
                 }
             }
             [] | [_] | [_, _] => self.too_short += 1,
@@ -134,9 +136,10 @@ impl Parser<'_> {
         if polygon::triangulate(&points, &mut cut) == CutOutcome::TooLarge {
             self.out.warnings.count("concave polygons with too many corners, cut roughly", 1);
         }
-        for &[a, b, c] in &cut {
-            if let [Some(&a), Some(&b), Some(&c)] = [a, b, c].map(|i| corners.get(i as usize)) {
-                self.triangle(a, b, c);
+        self.diagonals.of(&points);
+        for triangle in &cut {
+            if let [Some(&a), Some(&b), Some(&c)] = triangle.map(|i| corners.get(i as usize)) {
+                self.triangle([a, b, c], self.diagonals.marks(*triangle));
             }
         }
         (self.corners, self.points, self.cut) = (corners, points, cut);
@@ -148,7 +151,7 @@ impl Parser<'_> {
     }
 
     #[inline]
-    fn triangle(&mut self, a: Corner, b: Corner, c: Corner) {
+    fn triangle(&mut self, [a, b, c]: [Corner; 3], marks: [EdgeMark; 3]) {
         let count = self.out.triangles.len();
         self.out.triangles.push([a[0], b[0], c[0]]);
         if (a[1] & b[1] & c[1]) != NONE {
@@ -158,6 +161,10 @@ impl Parser<'_> {
         if (a[2] & b[2] & c[2]) != NONE {
             self.out.corner_normals.resize(count, [NONE; 3]);
             self.out.corner_normals.push([a[2], b[2], c[2]]);
+        }
+        if marks != [EdgeMark::Unmarked; 3] {
+            self.out.edge_marks.resize(count, [EdgeMark::Unmarked; 3]);
+            self.out.edge_marks.push(marks);
         }
     }
 

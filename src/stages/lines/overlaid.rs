@@ -1,0 +1,259 @@
+//! Borders of surfaces that overlap others in one plane: what is on top on both sides of them says what line they are.
+//!
+//! The rim of a label on a wall is an edge with one face, but no border of what is seen: it parts two materials, as if the wall had a
+//! hole for the label. So does the rim of a body that is let into the wall. Where a rim runs under another surface of its plane there is
+//! no line. So each edge is cut where what is on top changes just beside it, on one side or the other.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
+use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::view::View;
+
+/// What is on top is asked so many times the reach of contact beside an edge.
+const BESIDE: f64 = 4.0;
+
+/// Pieces shorter than so many times that are cut off by where it is asked, not by what is there.
+const SHORTEST: f64 = 8.0;
+
+/// The lines that edges in overlapping planes are, in place of what they are by themselves.
+#[derive(Default)]
+pub(super) struct Overlaid {
+    /// Pieces of edges; ends beyond the mesh's vertices are numbers of `points`.
+    pieces: Vec<FeatureSegment>,
+    points: Vec<DVec3>,
+}
+
+/// Whether there are such edges: borders are then sought whatever kinds are.
+pub(super) fn is_asked(mesh: &Mesh) -> bool {
+    !mesh.overlays.is_empty()
+}
+
+/// Takes out the edges that lie in planes where surfaces overlap, and says what they are instead. Of other kinds than `options` has none
+/// are left.
+pub(super) fn settle(
+    mesh: &Mesh,
+    view: &View,
+    segments: &mut Vec<FeatureSegment>,
+    options: &LineOptions,
+) -> Overlaid {
+    let mut faces_of: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+    for (overlay, face) in mesh.overlays.iter().zip(0..).filter(|(overlay, _)| overlay.plane != 0) {
+        faces_of.entry(overlay.plane).or_default().push(face);
+    }
+    let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
+    let settled: Vec<Option<Vec<Piece>>> = segments
+        .par_iter()
+        .map(|segment| {
+            let host = host_in_plane(mesh, view, segment)?;
+            let faces = faces_of.get(&mesh.overlay(host).plane)?;
+            let pieces = Rim::new(mesh, segment, host)?.pieces(faces);
+            // An edge that stays what it is stays where it is.
+            let is_one =
+                matches!(pieces.as_slice(), [piece] if piece.is_whole() && piece.kind == segment.kind);
+            (!is_one).then_some(pieces)
+        })
+        .collect();
+    let mut overlaid = Overlaid::default();
+    for (segment, pieces) in segments.iter().zip(&settled) {
+        let pieces = pieces.iter().flatten().filter(|piece| is_wanted(piece.kind));
+        overlaid.add(mesh, segment, pieces);
+    }
+    let mut settled = settled.into_iter();
+    segments.retain(|segment| settled.next().flatten().is_none() && is_wanted(segment.kind));
+    overlaid
+}
+
+/// The face of an edge in whose plane surfaces overlap, if the edge has nothing on the eye's side of that plane: borders, edges
+/// between materials in it, and edges at which a body goes on behind it.
+fn host_in_plane(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> Option<u32> {
+    let [first, second] = segment.hosts;
+    match segment.kind {
+        LineKind::Border => Some(first).filter(|face| second == NO_FACE && mesh.overlay(*face).plane != 0),
+        LineKind::Material if mesh.share_plane(first, second) => Some(first),
+        LineKind::Contour | LineKind::Crease | LineKind::Material
+            if segment.role == Role::Line && second != NO_FACE =>
+        {
+            let goes_behind = |own: u32, other: u32| {
+                let [a, b, c] = mesh.corners(FaceId(own));
+                let normal = (b - a).cross(c - a).normalize_or_zero();
+                let third = mesh.triangles[other as usize].into_iter().find(|v| !segment.ends.contains(v));
+                let height = third.map_or(0.0, |v| (mesh.positions[v as usize] - a).dot(normal));
+                height * view.frame.to_eye(a).dot(normal) < 0.0
+            };
+            [[first, second], [second, first]].into_iter().find_map(|[own, other]| {
+                let is_alone = mesh.overlay(own).plane != 0 && !mesh.share_plane(own, other);
+                (is_alone && goes_behind(own, other)).then_some(own)
+            })
+        }
+        _ => None,
+    }
+}
+
+impl Overlaid {
+    fn add<'a>(&mut self, mesh: &Mesh, segment: &FeatureSegment, pieces: impl Iterator<Item = &'a Piece>) {
+        let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
+        let mut last: Option<(f64, u32)> = None;
+        for piece in pieces {
+            let mut end = |t: f64, whole: u32| {
+                if t <= 0.0 || t >= 1.0 {
+                    return whole;
+                }
+                if let Some((_, id)) = last.filter(|(at, _)| *at == t) {
+                    return id;
+                }
+                self.points.push(a.lerp(b, t));
+                let id = (mesh.positions.len() + self.points.len() - 1) as u32;
+                last = Some((t, id));
+                id
+            };
+            let ends = [end(piece.start, segment.ends[0]), end(piece.end, segment.ends[1])];
+            let is_material = piece.kind == LineKind::Material;
+            let [first, second] = segment.hosts;
+            self.pieces.push(FeatureSegment {
+                ends,
+                kind: piece.kind,
+                hosts: [first, if second == NO_FACE { piece.beyond } else { second }],
+                both_seen: is_material || segment.both_seen,
+                strength: if is_material { 0.0 } else { segment.strength },
+                smooth: false,
+                ..*segment
+            });
+        }
+    }
+
+    /// Adds them to all lines.
+    pub(super) fn append_to(self, mesh: &Mesh, lines: &mut FeatureLines) {
+        let vertices = mesh.positions.len() as u32;
+        let shift = lines.points.len() as u32;
+        lines.points.extend(self.points);
+        let moved = |end: u32| if end < vertices { end } else { end + shift };
+        let pieces = self.pieces.into_iter();
+        lines.segments.extend(pieces.map(|piece| FeatureSegment { ends: piece.ends.map(moved), ..piece }));
+    }
+}
+
+/// A piece of an edge that is a line.
+struct Piece {
+    start: f64,
+    end: f64,
+    kind: LineKind,
+    /// The face on top beyond the edge.
+    beyond: u32,
+}
+
+impl Piece {
+    fn is_whole(&self) -> bool {
+        self.start <= 0.0 && self.end >= 1.0
+    }
+}
+
+/// An edge in a plane, and how to look at what lies beside it.
+struct Rim<'a> {
+    mesh: &'a Mesh,
+    /// The face from which it looks outward.
+    host: u32,
+    kind: LineKind,
+    /// Whether it is a line of the plane alone, and not one of a body.
+    is_flat: bool,
+    from: DVec3,
+    /// Along the edge, and from it into that face: unit vectors.
+    along: DVec3,
+    inward: DVec3,
+    length: f64,
+    beside: f64,
+}
+
+impl<'a> Rim<'a> {
+    fn new(mesh: &'a Mesh, segment: &FeatureSegment, host: u32) -> Option<Self> {
+        let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
+        let third = mesh.triangles[host as usize].into_iter().find(|v| !segment.ends.contains(v))?;
+        let along = (b - a).try_normalize()?;
+        let over = mesh.positions[VertexId(third).index()] - a;
+        let inward = (over - along * over.dot(along)).try_normalize()?;
+        let beside = BESIDE * mesh.extent(FaceId(host)).contact;
+        let [first, second] = segment.hosts;
+        let is_flat = second == NO_FACE || mesh.share_plane(first, second);
+        let (kind, length) = (segment.kind, a.distance(b));
+        Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, beside })
+    }
+
+    /// The pieces that are lines, from end to end, given all faces of the plane.
+    fn pieces(&self, faces: &[u32]) -> Vec<Piece> {
+        // What each face covers of the lines to both sides.
+        let covers = [1.0, -1.0].map(|side| {
+            let covered = |face: &u32| Some((self.covered(*face, side * self.beside)?, *face));
+            faces.iter().filter_map(covered).collect::<Vec<_>>()
+        });
+        let mut cuts: Vec<f64> =
+            covers.iter().flatten().flat_map(|((start, end), _)| [*start, *end]).collect();
+        let least = SHORTEST * self.beside / self.length;
+        cuts.retain(|t| *t > least && *t < 1.0 - least);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|b, a| *b - *a < least);
+        let ends: Vec<f64> = [0.0].into_iter().chain(cuts).chain([1.0]).collect();
+        let mut pieces: Vec<(Piece, [u32; 2])> = Vec::new();
+        for pair in ends.windows(2) {
+            let (start, end) = (pair[0], pair[1]);
+            let at = f64::midpoint(start, end);
+            let [within, beyond] = [0, 1].map(|side| self.top(&covers[side], at));
+            let Some((kind, beyond)) = self.line(within, beyond) else { continue };
+            let rank = |face: u32| self.mesh.overlay(face).rank;
+            let sides =
+                [within.map_or(u32::MAX, rank), if beyond == NO_FACE { u32::MAX } else { rank(beyond) }];
+            match pieces
+                .last_mut()
+                .filter(|(last, own)| last.end == start && last.kind == kind && *own == sides)
+            {
+                Some((last, _)) => last.end = end,
+                None => pieces.push((Piece { start, end, kind, beyond }, sides)),
+            }
+        }
+        pieces.into_iter().map(|(piece, _)| piece).collect()
+    }
+
+    /// The face on top of those that cover a place.
+    fn top(&self, covers: &[((f64, f64), u32)], at: f64) -> Option<u32> {
+        let there = covers.iter().filter(|((start, end), _)| (*start..=*end).contains(&at));
+        there
+            .map(|(_, face)| *face)
+            .max_by_key(|face| (self.mesh.overlay(*face).rank, std::cmp::Reverse(*face)))
+    }
+
+    /// What line there is between what is on top on both sides, and the face beyond it.
+    fn line(&self, within: Option<u32>, beyond: Option<u32>) -> Option<(LineKind, u32)> {
+        let mesh = self.mesh;
+        let own = within.unwrap_or(self.host);
+        let Some(beyond) = beyond else { return Some((self.kind, NO_FACE)) };
+        let material = |face: u32| mesh.face_material[face as usize];
+        // Edges of bodies are drawn where they run across a surface of their plane, as where colours are alike.
+        if mesh.overlay(own).rank == mesh.overlay(beyond).rank {
+            return (!self.is_flat).then_some((self.kind, beyond));
+        }
+        match (material(own) == material(beyond), self.kind) {
+            (true, LineKind::Material) if self.is_flat => None,
+            (true, kind) => Some((kind, beyond)),
+            (false, _) => Some((LineKind::Material, beyond)),
+        }
+    }
+
+    /// Between which parts of the edge's length a face covers the line that runs so far inward of it.
+    fn covered(&self, face: u32, inward: f64) -> Option<(f64, f64)> {
+        let flat = |p: DVec3| {
+            let way = p - self.from;
+            DVec2::new(way.dot(self.along) / self.length, way.dot(self.inward) - inward)
+        };
+        let corners = self.mesh.corners(FaceId(face)).map(flat);
+        let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
+        for k in 0..3 {
+            let (p, q) = (corners[k], corners[(k + 1) % 3]);
+            if (p.y < 0.0) != (q.y < 0.0) {
+                let at = p.x + (q.x - p.x) * (p.y / (p.y - q.y));
+                (start, end) = (start.min(at), end.max(at));
+            }
+        }
+        (start < end && end > 0.0 && start < 1.0).then_some((start, end))
+    }
+}

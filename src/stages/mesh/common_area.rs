@@ -1,0 +1,50 @@
+//! [`common_area`]: whether two triangles overlap in one plane.
+//!
+//! One is clipped by the sides of the other, after Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
+
+use glam::{DVec2, DVec3};
+
+/// Planes whose normals lie at a smaller cosine are not compared.
+const MIN_COSINE: f64 = 0.999;
+
+/// Whether two triangles have a common area, seen along the normal of the first, that is wider than `contact`, and over all of which their
+/// planes are no farther apart.
+pub(super) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> bool {
+    let [a, b, c] = *one;
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let own = (two[1] - two[0]).cross(two[2] - two[0]);
+    let lean = own.dot(normal);
+    let Some(right) = (b - a).try_normalize().filter(|_| lean.abs() > MIN_COSINE * own.length()) else {
+        return false;
+    };
+    let up = normal.cross(right);
+    let flat = |p: DVec3| DVec2::new((p - a).dot(right), (p - a).dot(up));
+    let corners = one.map(flat);
+    let mut polygon = two.map(flat).to_vec();
+    for k in 0..3 {
+        let (from, to) = (corners[k], corners[(k + 1) % 3]);
+        polygon = left_of(&polygon, from, to - from);
+    }
+    let next = || polygon.iter().cycle().skip(1);
+    let area: f64 = polygon.iter().zip(next()).map(|(p, q)| p.perp_dot(*q)).sum();
+    let around: f64 = polygon.iter().zip(next()).map(|(p, q)| p.distance(*q)).sum();
+    // How far the plane of the second lies over a point of the first.
+    let height = |p: &DVec2| own.dot(two[0] - (a + right * p.x + up * p.y)) / lean;
+    polygon.len() > 2 && area.abs() > contact * around && polygon.iter().all(|p| height(p).abs() <= contact)
+}
+
+/// What of a convex polygon lies to the left of a line.
+fn left_of(polygon: &[DVec2], from: DVec2, way: DVec2) -> Vec<DVec2> {
+    let side = |p: &DVec2| way.perp_dot(*p - from);
+    let mut left = Vec::with_capacity(polygon.len() + 1);
+    for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        let (at_p, at_q) = (side(p), side(q));
+        if at_p >= 0.0 {
+            left.push(*p);
+        }
+        if at_p.partial_cmp(&0.0) != at_q.partial_cmp(&0.0) && at_p * at_q < 0.0 {
+            left.push(p.lerp(*q, at_p / (at_p - at_q)));
+        }
+    }
+    left
+}

@@ -1,0 +1,407 @@
+//! [`Overlay`]: surfaces of unlike colours that overlap in one plane, as a label on a wall does, and which of them is on top.
+//!
+//! A surface is a connected flat patch of one part, material and paint. Two surfaces overlap if triangles of them have a common area,
+//! over all of which the planes lie within contact. What overlaps, directly or through others, is one plane. In it the smaller surface
+//! is on top; of equal ones that whose part, then whose material, comes later in the file. The order is the same in every view and
+//! from both sides.
+//!
+//! 1. Flat edges join faces to surfaces.
+//! 2. Surfaces are sorted by the cell of their plane: squares of its normal's coordinates, and its distance from the middle.
+//! 3. In each cell with unlike colours boxes are swept along an axis; where two meet, triangles are clipped by triangles.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::common_area::common_area;
+use super::dihedral::{Dihedral, runs_up};
+use super::mixed_places::near_other_colours;
+use super::{EdgeFaces, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::math::grain::GRAIN;
+use crate::math::grouped::{Grouped, grouped_pairs};
+
+/// The place of a face among surfaces that overlap in one plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Overlay {
+    /// The number of the plane, from 1; 0 where the face overlaps nothing.
+    pub plane: u32,
+    /// The number of its surface, from the lowest up.
+    pub rank: u32,
+}
+
+/// Normals cells are this wide, squares of coordinates.
+const NORMAL_CELL: f64 = 1.0 / 16.0;
+
+/// Planes are told apart by their distance from the middle in so many steps of the model's diagonal.
+const DISTANCE_STEPS: f64 = 4096.0;
+
+/// Surfaces whose normal rounding may turn by more than this (radians), or whose plane lies in more cells than this, are passed over.
+const MAX_TURN: f64 = 1e-2;
+const MAX_CELLS: i64 = 64;
+
+/// Faces are flat neighbours only if the cosine between their normals is greater.
+const FLAT_COSINE: f32 = 0.999;
+
+/// Pairs of surfaces, and of triangles, after which the search ends.
+const MAX_TESTS: usize = 50_000_000;
+
+/// For each face its place among surfaces that overlap; empty if none do.
+pub(super) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
+    let colour = |face: u32| colour(mesh, face);
+    let count = mesh.triangles.len() as u32;
+    let is_alike = |face: u32| colour(face) == colour(0);
+    if count == 0 || (0..count).into_par_iter().with_min_len(GRAIN).all(is_alike) {
+        return Vec::new();
+    }
+    let surfaces = Surfaces::of(mesh);
+    let mut planes = Joined::new(surfaces.all.len());
+    let related = surfaces.related(mesh, &mut planes);
+    if !related {
+        return Vec::new();
+    }
+    let mut numbers: Vec<(u32, u32)> =
+        (0..surfaces.all.len() as u32).map(|surface| (planes.root(surface), surface)).collect();
+    numbers.sort_unstable();
+    let mut of_surface = vec![Overlay::default(); surfaces.all.len()];
+    let mut plane = 0;
+    for same in numbers.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+        plane += 1;
+        let mut order: Vec<u32> = same.iter().map(|(_, surface)| *surface).collect();
+        surfaces.sort_upwards(&mut order);
+        for (surface, rank) in order.into_iter().zip(0..) {
+            of_surface[surface as usize] = Overlay { plane, rank };
+        }
+    }
+    let of_face = |surface: &u32| of_surface.get(*surface as usize).copied().unwrap_or_default();
+    surfaces.of_face.iter().map(of_face).collect()
+}
+
+impl Mesh {
+    /// The place of a face among surfaces that overlap in one plane.
+    #[inline]
+    #[must_use]
+    pub fn overlay(&self, face: u32) -> Overlay {
+        self.overlays.get(face as usize).copied().unwrap_or_default()
+    }
+
+    /// Whether two faces are of surfaces that overlap in one plane, or are of the same one of these.
+    #[inline]
+    #[must_use]
+    pub fn share_plane(&self, a: u32, b: u32) -> bool {
+        let plane = self.overlay(a).plane;
+        plane != 0 && plane == self.overlay(b).plane
+    }
+
+    /// Whether a face is one of the two that a line lies on, or lies in one plane with one of these: then it never hides the line.
+    #[inline]
+    #[must_use]
+    pub fn touches(&self, hosts: [u32; 2], face: u32) -> bool {
+        hosts.contains(&face)
+            || (!self.overlays.is_empty() && hosts.iter().any(|host| self.share_plane(*host, face)))
+    }
+
+    /// Whether a face is on top of another one that lies in the same plane.
+    #[inline]
+    #[must_use]
+    pub fn is_over(&self, face: u32, other: u32) -> bool {
+        self.share_plane(face, other) && self.overlay(face).rank > self.overlay(other).rank
+    }
+}
+
+/// What the colour of a face comes from.
+fn colour(mesh: &Mesh, face: u32) -> (MaterialId, PaintId) {
+    (mesh.face_material[face as usize], mesh.paint(FaceId(face)))
+}
+
+/// Sets that are joined one by one.
+struct Joined(Vec<u32>);
+
+impl Joined {
+    fn new(count: usize) -> Self {
+        Self((0..count as u32).collect())
+    }
+
+    fn root(&mut self, of: u32) -> u32 {
+        let mut at = of;
+        while self.0[at as usize] != at {
+            self.0[at as usize] = self.0[self.0[at as usize] as usize];
+            at = self.0[at as usize];
+        }
+        at
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+/// A connected flat patch of one part, material and paint.
+#[derive(Debug, Clone, Copy)]
+struct FlatSurface {
+    part: PartId,
+    colour: (MaterialId, PaintId),
+    area: f64,
+    low: DVec3,
+    high: DVec3,
+    /// Its largest face, and the area of that.
+    largest: (u32, f64),
+    contact: f64,
+}
+
+struct Surfaces {
+    all: Vec<FlatSurface>,
+    /// For each face its surface; none without area, and where no other colour is near.
+    of_face: Vec<u32>,
+    faces: Grouped<u32>,
+}
+
+impl Surfaces {
+    fn of(mesh: &Mesh) -> Self {
+        let owner = |face: u32| (mesh.face_part[face as usize], colour(mesh, face));
+        let is_one = |faces: [u32; 2], edge: usize| {
+            let [a, b] = faces;
+            if owner(a) != owner(b) || faces.iter().any(|face| mesh.is_degenerate(FaceId(*face))) {
+                return false;
+            }
+            let same_way = runs_up(mesh, edge, a) == runs_up(mesh, edge, b);
+            let dihedral = Dihedral::of(mesh, faces, same_way);
+            dihedral.cosine > FLAT_COSINE && dihedral.is_flat(mesh, edge)
+        };
+        let joined_at = |edge: usize| -> Vec<[u32; 2]> {
+            match mesh.edges.faces(edge) {
+                EdgeFaces::One(_) => Vec::new(),
+                EdgeFaces::Two { faces, .. } => {
+                    Some(faces).filter(|f| is_one(*f, edge)).into_iter().collect()
+                }
+                EdgeFaces::Many(faces) => {
+                    // Neighbours in the list are enough where all are one surface; else some of its patches stay apart.
+                    let pairs = faces
+                        .iter()
+                        .enumerate()
+                        .flat_map(|(k, a)| faces[..k].iter().rev().take(8).map(|b| [*b, *a]));
+                    pairs.filter(|pair| is_one(*pair, edge)).collect()
+                }
+            }
+        };
+        let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
+        let pairs: Vec<[u32; 2]> = edges.flat_map_iter(joined_at).collect();
+        let mut joined = Joined::new(mesh.triangles.len());
+        pairs.into_iter().for_each(|[a, b]| joined.join(a, b));
+        // Patches none of whose faces comes near another colour are passed over.
+        let near = near_other_colours(mesh, |face| mesh.paint(FaceId(face)).0);
+        let mut is_asked = vec![false; near.len()];
+        for face in (0..near.len() as u32).filter(|face| near[*face as usize]) {
+            is_asked[joined.root(face) as usize] = true;
+        }
+        let (mut all, mut of_face): (Vec<FlatSurface>, Vec<u32>) = (Vec::new(), Vec::new());
+        for face in 0..mesh.triangles.len() as u32 {
+            let root = joined.root(face);
+            if mesh.is_degenerate(FaceId(face)) || !is_asked[root as usize] {
+                of_face.push(u32::MAX);
+                continue;
+            }
+            let [a, b, c] = mesh.corners(FaceId(face));
+            let area = (b - a).cross(c - a).length() / 2.0;
+            let surface = if root == face { all.len() as u32 } else { of_face[root as usize] };
+            of_face.push(surface);
+            if root == face {
+                let (part, colour) = owner(face);
+                let contact = mesh.extent(FaceId(face)).contact;
+                let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                all.push(FlatSurface { part, colour, area: 0.0, low, high, largest: (face, area), contact });
+            }
+            let own = &mut all[surface as usize];
+            own.area += area;
+            (own.low, own.high) = (own.low.min(a).min(b).min(c), own.high.max(a).max(b).max(c));
+            if area > own.largest.1 {
+                own.largest = (face, area);
+            }
+        }
+        let is_real = |(surface, _): &(usize, u32)| *surface < all.len();
+        let numbered = of_face.iter().map(|surface| *surface as usize).zip(0..).filter(is_real);
+        let faces = grouped_pairs(all.len(), numbered);
+        Self { all, of_face, faces }
+    }
+
+    /// Orders surfaces of a plane from the lowest up.
+    fn sort_upwards(&self, order: &mut [u32]) {
+        let of = |surface: &u32| &self.all[*surface as usize];
+        let in_file = |surface: &u32| (of(surface).part, of(surface).colour, of(surface).largest.0);
+        order.sort_by(|a, b| of(b).area.total_cmp(&of(a).area).then_with(|| in_file(a).cmp(&in_file(b))));
+        // Areas that differ by no more than rounding are equal.
+        let is_equal = |a: &u32, b: &u32| {
+            let reach = |own: &FlatSurface| 2.0 * own.contact * own.low.distance(own.high);
+            (of(a).area - of(b).area).abs() <= reach(of(a)) + reach(of(b))
+        };
+        order.chunk_by_mut(is_equal).for_each(|equal| equal.sort_by_key(in_file));
+    }
+
+    /// Joins the surfaces of unlike colours that overlap; whether any do.
+    fn related(&self, mesh: &Mesh, planes: &mut Joined) -> bool {
+        let cells = (0..self.all.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let mut cells: Vec<([i64; 3], u32)> =
+            cells.flat_map_iter(|surface| self.cells(mesh, surface)).collect();
+        cells.par_sort_unstable();
+        let (mut tests, mut related) = (0, false);
+        for cell in cells.chunk_by(|a, b| a.0 == b.0) {
+            let colour = |at: &([i64; 3], u32)| self.all[at.1 as usize].colour;
+            if cell.iter().all(|at| colour(at) == colour(&cell[0])) {
+                continue;
+            }
+            let mut own: Vec<u32> = cell.iter().map(|(_, surface)| *surface).collect();
+            let axis = self.widest_axis(&own);
+            let (low, high) =
+                (|s: u32| self.all[s as usize].low[axis], |s: u32| self.all[s as usize].high[axis]);
+            own.sort_by(|a, b| low(*a).total_cmp(&low(*b)).then(a.cmp(b)));
+            for (k, first) in own.iter().enumerate() {
+                let reach = high(*first) + self.all[*first as usize].contact;
+                for other in own[k + 1..].iter().take_while(|other| low(**other) <= reach) {
+                    tests += 1;
+                    if tests > MAX_TESTS {
+                        return related;
+                    }
+                    if self.all[*first as usize].colour != self.all[*other as usize].colour
+                        && self.overlap(mesh, *first, *other, &mut tests)
+                    {
+                        planes.join(*first, *other);
+                        related = true;
+                    }
+                }
+            }
+        }
+        related
+    }
+
+    /// The axis along which some surfaces lie farthest apart.
+    fn widest_axis(&self, own: &[u32]) -> usize {
+        let boxes = || own.iter().map(|surface| &self.all[*surface as usize]);
+        let low = boxes().fold(DVec3::INFINITY, |low, own| low.min(own.low));
+        let high = boxes().fold(DVec3::NEG_INFINITY, |high, own| high.max(own.low));
+        let size = high - low;
+        (1..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest })
+    }
+
+    /// The cells that the plane of a surface may lie in, with the surface.
+    fn cells(&self, mesh: &Mesh, surface: u32) -> Vec<([i64; 3], u32)> {
+        let own = &self.all[surface as usize];
+        let [a, b, c] = mesh.corners(FaceId(own.largest.0));
+        let across = (b - a).cross(c - a);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        // Each corner is known within half of contact.
+        let turn = 2.0 * own.contact * longest / across.length();
+        let (normal, way) = (across.normalize_or_zero(), a - mesh.extents.middle);
+        let distance = normal.dot(way).abs();
+        let reach = turn * (way.length() + longest) + 2.0 * own.contact;
+        let range =
+            |value: f64, reach: f64| (((value - reach).floor() as i64), ((value + reach).floor() as i64));
+        let squares = normal * normal / NORMAL_CELL;
+        let step = (mesh.extents.diagonal / DISTANCE_STEPS).max(f64::MIN_POSITIVE);
+        let (d0, d1) = range(distance / step, reach / step);
+        if turn.is_nan() || turn > MAX_TURN || d1 - d0 >= MAX_CELLS {
+            return Vec::new();
+        }
+        let [(x0, x1), (y0, y1)] = [squares.x, squares.y].map(|s| range(s, 2.0 * turn / NORMAL_CELL));
+        let mut cells = Vec::with_capacity(1);
+        for x in x0..=x1 {
+            for y in y0..=y1 {
+                cells.extend((d0..=d1).map(|d| ([x, y, d], surface)));
+            }
+        }
+        cells
+    }
+
+    /// Whether triangles of two surfaces have a common area in one plane.
+    fn overlap(&self, mesh: &Mesh, first: u32, other: u32, tests: &mut usize) -> bool {
+        let (one, two) = (&self.all[first as usize], &self.all[other as usize]);
+        let contact = one.contact.max(two.contact);
+        let meets = |low: DVec3, high: DVec3, own: &FlatSurface| {
+            low.cmple(own.high + contact).all() && high.cmpge(own.low - contact).all()
+        };
+        if !meets(one.low, one.high, two) {
+            return false;
+        }
+        let near = |surface: u32, to: &FlatSurface| -> Vec<[DVec3; 3]> {
+            let corners = self.faces.of(surface as usize).iter().map(|face| mesh.corners(FaceId(*face)));
+            corners.filter(|[a, b, c]| meets(a.min(*b).min(*c), a.max(*b).max(*c), to)).collect()
+        };
+        *tests += self.faces.of(first as usize).len() + self.faces.of(other as usize).len();
+        let (one, two) = (near(first, two), near(other, one));
+        for a in &one {
+            *tests += two.len();
+            if *tests > MAX_TESTS {
+                return false;
+            }
+            if two.iter().any(|b| common_area(a, b, contact)) {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    /// Squares with a corner, a size and a material, each of its own part if it says so.
+    fn squares(some: &[([f64; 3], f64, u32, u32)]) -> Soup {
+        let mut soup = Soup::default();
+        for (corner, size, material, part) in some {
+            let first = soup.positions.len() as u32;
+            for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+                soup.positions.push(DVec3::from(*corner) + DVec3::new(x, y, 0.0) * *size);
+            }
+            soup.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+            soup.triangle_material.extend([MaterialId(*material); 2]);
+            soup.triangle_part.extend([PartId(*part); 2]);
+        }
+        soup
+    }
+
+    /// Of each material the rank of its faces, 0 where it overlaps nothing and else one more.
+    fn ranks(mesh: &Mesh, materials: u32) -> Vec<u32> {
+        let rank = |material: u32| {
+            let own = (0..mesh.triangles.len() as u32)
+                .filter(|face| mesh.face_material[*face as usize] == MaterialId(material));
+            let ranks: Vec<u32> = own
+                .map(|face| mesh.overlay(face))
+                .map(|o| if o.plane == 0 { 0 } else { o.rank + 1 })
+                .collect();
+            assert!(ranks.iter().all(|rank| *rank == ranks[0]), "{ranks:?}");
+            ranks[0]
+        };
+        (0..materials).map(rank).collect()
+    }
+
+    #[test]
+    fn the_smaller_surface_is_on_top_and_of_equal_ones_the_later() {
+        let wall = ([0.0; 3], 10.0, 0, 0);
+        let label = |at: [f64; 3], size, material| (at, size, material, 0);
+        let of = |some: &[_], count| ranks(&Mesh::build(squares(some)), count);
+        assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1)], 2), [1, 2]);
+        assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1), label([3.0, 4.0, 0.0], 1.0, 2)], 3), [1, 2, 3]);
+        assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 10.0, 1)], 2), [1, 2]);
+        // Beside it, apart from it, and of its own colour.
+        assert_eq!(of(&[wall, label([10.0, 3.0, 0.0], 3.0, 1)], 2), [0, 0]);
+        assert_eq!(of(&[wall, label([2.0, 3.0, 0.01], 3.0, 1)], 2), [0, 0]);
+        assert_eq!(of(&[wall, (([2.0, 3.0, 0.0]), 3.0, 0, 1)], 1), [0]);
+    }
+
+    #[test]
+    fn turned_and_rounded_surfaces_overlap_as_they_did() {
+        let turn = glam::DMat3::from_axis_angle(DVec3::new(0.3, -0.5, 0.81).normalize(), 0.7);
+        for far in [0.0, 700.0] {
+            let mut soup = squares(&[
+                ([0.0; 3], 40.0, 0, 0),
+                ([12.0, 8.0, 0.0], 12.0, 1, 1),
+                ([30.0, 30.0, 0.5], 5.0, 2, 2),
+            ]);
+            for p in &mut soup.positions {
+                *p = (turn * *p + DVec3::splat(far)).as_vec3().as_dvec3();
+            }
+            soup.single_precision = true;
+            assert_eq!(ranks(&Mesh::build(soup), 3), [1, 2, 0], "{far}");
+        }
+    }
+}
