@@ -62,6 +62,7 @@ mod properties;
 mod random_widths;
 mod regions;
 mod seams;
+mod rewriting;
 mod section_areas;
 mod sections;
 mod shadows;
