@@ -47,6 +47,8 @@ struct Info {
     triangles: u64,
     /// As stored, those that are drawn; instances counted each.
     vertices: u64,
+    /// Triangles that the file winds inward or against their neighbours; they are drawn turned.
+    turned: TurnedInfo,
     parts: Vec<PartInfo>,
     materials: Vec<MaterialInfo>,
     lights: Vec<LightInfo>,
@@ -67,6 +69,14 @@ struct PartInfo {
     texture_coordinates: bool,
     /// Whether its vertices are painted.
     vertex_colours: bool,
+    turned: TurnedInfo,
+}
+
+/// How many triangles are turned, and in how many connected surfaces.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+struct TurnedInfo {
+    triangles: u64,
+    surfaces: u64,
 }
 
 #[derive(Debug, Serialize)]
@@ -135,10 +145,19 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
 impl Info {
     fn of(scene: &Scene, clips: &[Clip], args: &InfoArgs) -> Self {
         let points = world_points(scene);
+        let (of_mesh, turned) = pipeline::mesh_findings(scene);
+        let turned_of = |part: usize| {
+            let own = turned.iter().find(|own| own.part.index() == part);
+            own.map_or_else(TurnedInfo::default, |own| TurnedInfo {
+                triangles: own.faces,
+                surfaces: own.surfaces,
+            })
+        };
         let parts: Vec<PartInfo> = scene
             .parts
             .iter()
-            .map(|part| {
+            .enumerate()
+            .map(|(number, part)| {
                 let geometry = scene.geometries.get(part.geometry);
                 PartInfo {
                     name: part.name.clone(),
@@ -146,11 +165,12 @@ impl Info {
                     wires: geometry.map_or(0, |geometry| geometry.wires.len() as u64),
                     texture_coordinates: geometry.is_some_and(|geometry| !geometry.corner_uvs.is_empty()),
                     vertex_colours: geometry.is_some_and(|geometry| !geometry.colours.is_empty()),
+                    turned: turned_of(number),
                 }
             })
             .collect();
         let mut warnings = scene.warnings.clone();
-        warnings.extend(&pipeline::mesh_warnings(scene));
+        warnings.extend(&of_mesh);
         let mut warnings = warnings.lines();
         let bounds = bounds(&points);
         let unit =
@@ -167,6 +187,10 @@ impl Info {
             },
             triangles: parts.iter().map(|part| part.triangles).sum(),
             vertices: points.len() as u64,
+            turned: TurnedInfo {
+                triangles: turned.iter().map(|own| own.faces).sum(),
+                surfaces: turned.iter().map(|own| own.surfaces).sum(),
+            },
             parts,
             materials: scene.materials.iter().map(|material| MaterialInfo::of(scene, material)).collect(),
             lights: scene
@@ -209,6 +233,9 @@ impl Info {
             let _ =
                 writeln!(text, "  {}{unit}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
         }
+        if let Some(turned) = self.turned.words() {
+            let _ = writeln!(text, "  {turned}: wound inward or against their neighbours in the file");
+        }
         list(&mut text, "part", self.parts.iter().map(PartInfo::line));
         list(&mut text, "material", self.materials.iter().map(MaterialInfo::line));
         list(&mut text, "light", self.lights.iter().map(|light| aside(&light.name, light.kind)));
@@ -245,7 +272,18 @@ impl PartInfo {
             (false, true) => ", coloured vertices",
             (false, false) => "",
         };
-        format!("{}: {}{lines}{painted}", named(&self.name), counted(self.triangles, "triangle"))
+        let turned = self.turned.words().map_or_else(String::new, |turned| format!(", {turned}"));
+        format!("{}: {}{lines}{painted}{turned}", named(&self.name), counted(self.triangles, "triangle"))
+    }
+}
+
+impl TurnedInfo {
+    /// The counts, for people; none if nothing is turned.
+    fn words(&self) -> Option<String> {
+        let Self { triangles, surfaces } = *self;
+        let is_any = triangles > 0;
+        is_any
+            .then(|| format!("{} turned in {}", counted(triangles, "triangle"), counted(surfaces, "surface")))
     }
 }
 
@@ -404,6 +442,29 @@ mod tests {
         scene.geometries[0].colours = vec![[1.0; 4]; 3];
         let text = Info::of(&scene, &[], &args("m.obj")).text();
         assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
+    }
+
+    #[test]
+    fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
+        let mut scene = scene(2);
+        scene.geometries[0].positions.push(DVec3::Z);
+        // A tetrahedron that is wound inward.
+        scene.geometries[0].triangles = vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]];
+        scene.geometries[0].wires.clear();
+        let mut right = scene.geometries[0].clone();
+        right.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        scene.geometries.push(right);
+        scene.parts[1].geometry = 1;
+        let info = Info::of(&scene, &[], &args("m.obj"));
+        let text = info.text();
+        let wanted = "  4 triangles turned in 1 surface: wound inward or against their neighbours in the file\n  2 parts:\n    \
+                      bolt 0: 4 triangles, 4 triangles turned in 1 surface\n    bolt 1: 4 triangles\n";
+        assert!(text.contains(wanted), "{text}");
+        let value: serde_json::Value = serde_json::from_str(&serde_json::to_string(&info)?)?;
+        assert_eq!(value["turned"], serde_json::json!({"triangles": 4, "surfaces": 1}));
+        assert_eq!(value["parts"][0]["turned"]["triangles"], 4);
+        assert_eq!(value["parts"][1]["turned"]["triangles"], 0);
+        Ok(())
     }
 
     #[test]

@@ -37,6 +37,8 @@ mod pdf_fonts;
 #[cfg(feature = "pdf")]
 mod pdf_inks;
 #[cfg(feature = "pdf")]
+mod pdf_masks;
+#[cfg(feature = "pdf")]
 pub mod pdf_options;
 #[cfg(feature = "pdf")]
 pub mod pdf_pages;
@@ -59,7 +61,11 @@ pub mod png;
 #[cfg(feature = "png")]
 mod png_composition;
 #[cfg(feature = "png")]
+mod png_coverage;
+#[cfg(feature = "png")]
 mod png_image;
+#[cfg(feature = "png")]
+pub(crate) mod png_tree;
 pub mod svg;
 mod svg_composition;
 mod svg_image;

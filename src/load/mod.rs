@@ -16,8 +16,10 @@ mod large_file;
 pub mod obj;
 pub mod ply;
 mod polygon;
+mod precision;
 pub mod stl;
 mod text;
+mod triangle_colours;
 
 use std::fs;
 use std::io::{ErrorKind, Read};
@@ -136,10 +138,10 @@ fn read_bytes<T: From<Scene>>(
     const STEM: &str = "model";
     refuse_strange_bytes(bytes)?;
     match format {
-        ModelFormat::Obj => obj::read_bytes(bytes, STEM, |_| None).map(T::from),
+        ModelFormat::Obj => measured(obj::read_bytes(bytes, STEM, |_| None)).map(T::from),
         ModelFormat::Gltf => read_gltf(bytes, &|_, _| Err(ErrorKind::NotFound.into())),
-        ModelFormat::Stl => stl::read_bytes(bytes, STEM).map(T::from),
-        ModelFormat::Ply => ply::read_bytes(bytes, STEM).map(T::from),
+        ModelFormat::Stl => measured(stl::read_bytes(bytes, STEM)).map(T::from),
+        ModelFormat::Ply => measured(ply::read_bytes(bytes, STEM)).map(T::from),
     }
 }
 
@@ -154,9 +156,17 @@ pub(super) fn read_with(
 ) -> Result<Scene, Error> {
     let bytes = large_file::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let mut scene = reader(&bytes, &stem).map_err(|error| error.in_file(path))?;
+    let mut scene = measured(reader(&bytes, &stem)).map_err(|error| error.in_file(path))?;
     scene.file = Some(path.to_path_buf());
     Ok(scene)
+}
+
+/// A scene that was read, with the precision of its coordinates.
+fn measured(scene: Result<Scene, Error>) -> Result<Scene, Error> {
+    scene.map(|mut scene| {
+        precision::measure(&mut scene);
+        scene
+    })
 }
 
 fn cannot_be_read(error: std::io::Error) -> Error {

@@ -1,7 +1,9 @@
 //! STL, binary and text.
 //!
 //! Source: 3D Systems, *StereoLithography Interface Specification* (1989). z is taken to point up.
-//! Normals are passed over: the order of the corners says the same, and many files hold zeros.
+//! Normals are passed over: the order of the corners says the same, and many files hold zeros. Colours are those of `colours`.
+
+mod colours;
 
 use std::path::Path;
 
@@ -13,7 +15,8 @@ use super::text::{Cursor, decode};
 use crate::error::Error;
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
 use crate::scene::drawable;
-use crate::scene::{Geometry, Part, Scene, UpAxis};
+use crate::scene::warnings::Spots;
+use crate::scene::{Geometry, Part, Scene, UpAxis, coarse};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -37,7 +40,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     } else {
         read_binary(bytes, stem, &mut scene)?
     }
-    drawable(scene)
+    drawable(scene).map(coarse::checked)
 }
 
 /// How many triangles a binary file says it has.
@@ -85,23 +88,49 @@ fn read_binary(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error>
     geometry.positions.reserve(count as usize / 2 + 3);
     let mut recent = Recent::new();
     let mut unusable = 0;
+    let mut attributes = 0;
     for record in body.chunks_exact(RECORD).take(count as usize) {
-        let mut corners = [[0_u32; 3]; 3];
-        for (value, four) in
-            corners.as_flattened_mut().iter_mut().zip(record.get(12..48).unwrap_or_default().chunks_exact(4))
-        {
-            *value = <[u8; 4]>::try_from(four).map(u32::from_le_bytes).unwrap_or_default();
-        }
-        // An exponent of all ones is no number.
-        if corners.as_flattened().iter().any(|bits| bits & 0x7f80_0000 == 0x7f80_0000) {
+        attributes |= attribute(record);
+        let corners = corner_bits(record);
+        if is_odd(&corners) {
             unusable += 1;
             continue;
         }
         geometry.triangles.push(corners.map(|bits| recent.vertex(bits, &mut geometry.positions)));
     }
     scene.warnings.count(NOT_DRAWABLE, unusable);
+    let header = bytes.get(..80).unwrap_or_default();
+    if attributes != 0 || colours::has_part_colour(header) {
+        let sound = body.chunks_exact(RECORD).take(count as usize).filter(|record| !has_odd_corner(record));
+        let attributes: Vec<u16> = sound.map(attribute).collect();
+        colours::paint(header, &attributes, &mut geometry, scene);
+    }
     add_part(scene, stem.to_owned(), geometry);
     Ok(())
+}
+
+/// The "attribute byte count" of a triangle, where colours stand.
+fn attribute(record: &[u8]) -> u16 {
+    record.get(48..).and_then(|rest| rest.first_chunk()).copied().map_or(0, u16::from_le_bytes)
+}
+
+/// Bits of the three corners of a triangle.
+fn corner_bits(record: &[u8]) -> [[u32; 3]; 3] {
+    let mut corners = [[0_u32; 3]; 3];
+    let stored = record.get(12..48).unwrap_or_default().chunks_exact(4);
+    for (value, four) in corners.as_flattened_mut().iter_mut().zip(stored) {
+        *value = four.first_chunk().copied().map(u32::from_le_bytes).unwrap_or_default();
+    }
+    corners
+}
+
+/// Whether a coordinate is no number: its exponent is all ones.
+fn is_odd(corners: &[[u32; 3]; 3]) -> bool {
+    corners.as_flattened().iter().any(|bits| bits & 0x7f80_0000 == 0x7f80_0000)
+}
+
+fn has_odd_corner(record: &[u8]) -> bool {
+    is_odd(&corner_bits(record))
 }
 
 /// The vertices met last, by the bits of their coordinates.
@@ -140,7 +169,7 @@ impl Recent {
 }
 
 fn read_text(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error> {
-    let mut text = Text { cursor: Cursor::new(bytes), word_at: 0 };
+    let mut text = Text { cursor: Cursor::new(bytes), word_at: 0, lacks_end: Spots::default() };
     let mut unusable = 0;
     loop {
         let keyword = text.word();
@@ -159,12 +188,15 @@ fn read_text(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error> {
         }
     }
     scene.warnings.count(NOT_DRAWABLE, unusable);
+    text.lacks_end.warn(&mut scene.warnings);
     Ok(())
 }
 
 struct Text<'a> {
     cursor: Cursor<'a>,
     word_at: usize,
+    /// Solids without `endsolid`.
+    lacks_end: Spots,
 }
 
 impl<'a> Text<'a> {
@@ -203,7 +235,7 @@ impl<'a> Text<'a> {
         Error::new(format!("`{}` stands where {wanted} should", super::shown(found))).at(place)
     }
 
-    /// The facets up to `endsolid`.
+    /// The facets up to `endsolid`. A file that ends between two facets, or a next `solid` there, ends it too, with a warning.
     fn solid(&mut self, unusable: &mut u64) -> Result<Geometry, Error> {
         let mut geometry = Geometry::default();
         let mut ids: FxHashMap<[u64; 3], u32> = FxHashMap::default();
@@ -211,6 +243,14 @@ impl<'a> Text<'a> {
             let keyword = self.word();
             if keyword.eq_ignore_ascii_case(b"endsolid") {
                 self.cursor.rest_of_line();
+                return Ok(geometry);
+            }
+            if keyword.is_empty() || keyword.eq_ignore_ascii_case(b"solid") {
+                self.cursor.at = self.word_at;
+                let line = self.cursor.line();
+                self.lacks_end.add(|| {
+                    format!("line {line}: the solid ends without `endsolid`; the file may be cut off after its last whole facet")
+                });
                 return Ok(geometry);
             }
             if !keyword.eq_ignore_ascii_case(b"facet") {
@@ -246,89 +286,4 @@ impl<'a> Text<'a> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FACET: &str =
-        "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 .0\nendloop\nendfacet\n";
-
-    fn binary(header: &str, triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
-        let mut bytes = vec![b' '; 80];
-        bytes[..header.len()].copy_from_slice(header.as_bytes());
-        bytes.extend((triangles.len() as u32).to_le_bytes());
-        for triangle in triangles {
-            bytes.extend([0; 12]);
-            bytes.extend(triangle.iter().flatten().flat_map(|v| v.to_le_bytes()));
-            bytes.extend([0; 2]);
-        }
-        bytes
-    }
-
-    const CORNER: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
-
-    fn error(bytes: &[u8]) -> String {
-        read_bytes(bytes, "stem").unwrap_err().to_string()
-    }
-
-    #[test]
-    fn binary_may_begin_with_solid() {
-        let turned = [CORNER[1], CORNER[0], [0.0, 0.0, -1.0]];
-        let scene = read_bytes(&binary("solid trap", &[CORNER, turned]), "stem").unwrap();
-        let geometry = &scene.geometries[0];
-        assert_eq!(geometry.triangles, [[0, 1, 2], [1, 0, 3]]);
-        assert_eq!(geometry.positions[2], DVec3::new(0.0, 1.0, 0.5));
-        assert!(geometry.single_precision);
-        assert_eq!((scene.parts[0].name.as_str(), scene.up), ("stem", UpAxis::Z));
-    }
-
-    #[test]
-    fn cut_off_files_are_refused() {
-        let bytes = binary("", &[CORNER; 3]);
-        assert!(error(&bytes[..bytes.len() - 1]).contains("says it has 3 triangles, but ends after 2"));
-        assert!(error(&bytes[..50]).contains("too few"));
-        let mut huge = bytes.clone();
-        huge[80..84].copy_from_slice(&[255; 4]);
-        assert!(error(&huge).contains("4294967295"));
-        let mut long = bytes;
-        long.push(0);
-        assert_eq!(
-            read_bytes(&long, "").unwrap().warnings.lines(),
-            ["1 bytes after the last triangle left out"]
-        );
-    }
-
-    #[test]
-    fn text_solids_become_parts() {
-        let text = format!("solid one a\n{FACET}endsolid one a\r\nSOLID\n{}endsolid", FACET.to_uppercase());
-        let scene = read_bytes(text.as_bytes(), "stem").unwrap();
-        let names: Vec<_> = scene.parts.iter().map(|p| p.name.as_str()).collect();
-        assert_eq!(names, ["one a", "stem"]);
-        assert_eq!(scene.geometries[1].positions.len(), 3);
-        assert!(!scene.geometries[0].single_precision);
-    }
-
-    #[test]
-    fn text_errors_name_the_line() {
-        assert_eq!(
-            error(b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 a"),
-            "line 4: `a` stands where a number should"
-        );
-        assert!(
-            error(b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0").contains("line 4: the file ends")
-        );
-        assert!(error(b"solid x\nendsolid\nnonsense").contains("line 3: `nonsense`"));
-        assert!(error(b"solid x\nendsolid x").contains("nothing to draw"));
-    }
-
-    #[test]
-    fn what_is_no_number_is_left_out() {
-        let text = format!("solid\n{FACET}{}endsolid", FACET.replace("vertex 1", "vertex nan"));
-        let scene = read_bytes(text.as_bytes(), "").unwrap();
-        assert_eq!((scene.geometries[0].triangles.len(), scene.warnings.lines().len()), (1, 1));
-        let mut bad = CORNER;
-        bad[2][1] = f32::INFINITY;
-        let scene = read_bytes(&binary("", &[bad, CORNER]), "").unwrap();
-        assert_eq!((scene.geometries[0].triangles.len(), scene.warnings.lines().len()), (1, 1));
-        assert!(error(&binary("", &[bad])).contains("nothing to draw"));
-    }
-}
+mod tests;

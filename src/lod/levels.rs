@@ -115,6 +115,7 @@ impl<'a> Levels<'a> {
             wires: from.wires.clone(),
             material: from.material,
             single_precision: from.single_precision,
+            lattice_step: from.lattice_step,
             triangle_material: picked(&from.triangle_material, kept.iter().map(of_face)),
             edge_marks: picked(&from.edge_marks, kept.iter().map(of_face)),
             ..Geometry::default()

@@ -12,6 +12,17 @@ pub const WELD_OF_PART: f64 = 1e-8;
 /// one and a half units in the last place of an `f32`.
 pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 
+/// The distance between neighbouring numbers in single precision, as a fraction of the number, at most.
+pub const F32_STEP: f64 = 1.0 / 8_388_608.0;
+
+/// A file whose coordinates have a coarser step than this, as a fraction of its size, did not round them but wrote short numbers: such a
+/// step would show, a tenth of a pixel where the model is a thousand wide.
+pub const VISIBLE_STEP: f64 = 1e-4;
+
+/// How far rounding moves a vertex, in steps of its coordinates: half the diagonal of a cell of the lattice, twice. A program that
+/// writes single precision has also computed with it, and a node's matrix is rounded as well.
+pub const ROUNDING_STEPS: f64 = 1.75;
+
 /// What moving a model leaves of its coordinates in double precision, as a share of the largest: a few units in the last place.
 pub const ROUNDING: f64 = 1e-15;
 
@@ -19,9 +30,20 @@ pub const ROUNDING: f64 = 1e-15;
 /// pixel where the part is a thousand wide.
 pub const SEAM_OF_PART: f64 = 1e-4;
 
+/// Coordinates in steps above this fraction of the model are too coarse for it: as much as [`SEAM_OF_PART`].
+pub const COARSE_OF_MODEL: f64 = 1e-4;
+
 /// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
 /// normal worth asking.
 pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;
+
+/// A face whose normal rounding may have turned by more than an angle with this sine takes over that of a wider face in its plane: a
+/// degree, below which neither creases nor tones change.
+pub const UNSURE_SINE: f64 = 0.0175;
+
+/// Degrees by which angles between faces are off because their normals are kept in single precision: at 15 degrees four times as much
+/// as the rounding of two normals.
+pub const ANGLE_DEG: f64 = 1e-4;
 
 /// A vertex this near to the plane of a triangle (fraction of the part) lies in it, where surfaces
 /// are tested for passing through each other.
@@ -30,16 +52,28 @@ pub const PLANE_OF_PART: f64 = 1e-12;
 /// Two triangles whose common part is no longer than this fraction of the part merely touch.
 pub const OVERLAP_OF_PART: f64 = 1e-9;
 
+/// Two triangles whose common part is no longer than this many times what rounding moves a vertex by merely touch.
+pub const OVERLAP_OF_ROUNDING: f64 = 4.0;
+
+/// Surfaces that turn from one facet to the next by this many degrees or more are not round there: the default limit of creases.
+pub const MAX_FACET_DEG: f64 = 40.0;
+
+/// A curve of intersection is a contact of round surfaces if at least this share of its length is.
+pub const CONTACT_OF_CURVE: f64 = 0.9;
+
 /// Planes at an angle of this sine or less are parallel, and have no line in common.
 pub const PARALLEL_SINE: f64 = 1e-9;
 
-/// A face whose normal is within this cosine of a right angle to the line of sight is seen
-/// edge-on, and counts as averted.
-pub const EDGE_ON_COSINE: f64 = 1e-10;
+/// A face at less than an angle with this sine to the line of sight is seen edge-on, and counts as averted: a face as wide as the
+/// picture is then no wider than 0.003 px of a thousand. Cameras of single precision are off by less.
+pub const EDGE_ON_SINE: f64 = 3e-6;
+
+/// Normals at less than this cosine to the line of sight count as having this one, where is divided by it.
+pub const LEAST_FACING: f64 = 1e-10;
 
 /// A plane whose distance from the eye, as a fraction of how far they may be apart, is no more than
-/// this may be seen edge-on: twice what [`EDGE_ON_COSINE`] says, for rounding.
-pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_COSINE;
+/// this may be seen edge-on: twice what [`EDGE_ON_SINE`] says, for rounding.
+pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_SINE;
 
 /// A surface this near in depth (fraction of its part) touches a line rather than hiding it.
 pub const CONTACT_OF_PART: f64 = 5e-7;

@@ -12,7 +12,7 @@ use crate::mesh::{FaceId, Mesh};
 use crate::region::Ground;
 use crate::region::decals::{Chart, Figure, MOST_FIGURES, count, decals};
 use crate::scene::{Scene, UpAxis};
-use crate::view::Frame;
+use crate::view::{Frame, View};
 
 /// Texture coordinates that cover less than this part of what is usual in their part are none.
 const NO_TEXTURE: f64 = 1e-4;
@@ -41,7 +41,7 @@ pub(super) fn laid(
     };
     let wanted: Vec<bool> =
         (0..mesh.triangles.len() as u32).map(|face| own.material.matches(material(face))).collect();
-    let mut plane = Plane::new(mesh, scene, own.angle.to_radians(), in_model(size, &lit.view.frame));
+    let mut plane = Plane::new(lit, scene, own.angle.to_radians(), in_model(size, &lit.view.frame));
     let chart = |plane: &Plane, face: u32| wanted[face as usize].then(|| plane.chart(face)).flatten();
     let most = count(mesh, |face| chart(&plane, face), &figures);
     plane.spacing *= (most / MOST_FIGURES).sqrt().max(1.0);
@@ -79,6 +79,7 @@ fn figures(own: &Pattern, width: f64) -> (Vec<Figure>, Vec<bool>) {
 /// How a plane with squares of side 1 lies on the faces.
 struct Plane<'a> {
     mesh: &'a Mesh,
+    view: &'a View,
     /// The axes of each part: across, upwards, and out of the plane of both; and where they meet.
     parts: Vec<(DMat3, DVec3)>,
     /// Lengths of a unit of texture coordinates, and whether v runs upwards, in each part.
@@ -89,7 +90,8 @@ struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    fn new(mesh: &'a Mesh, scene: &Scene, angle: f64, spacing: f64) -> Self {
+    fn new(lit: &Lit<'a>, scene: &Scene, angle: f64, spacing: f64) -> Self {
+        let mesh = lit.mesh;
         let of_part = |part: &crate::scene::Part| {
             let matrix = part.world_from_part.matrix3;
             let up = if scene.up == UpAxis::Y { matrix.y_axis } else { matrix.z_axis };
@@ -109,6 +111,7 @@ impl<'a> Plane<'a> {
         }
         Self {
             mesh,
+            view: lit.view,
             parts: scene.parts.iter().map(of_part).collect(),
             textures: scales.into_iter().zip(turns).map(|(scale, turn)| (scale, turn >= 0.0)).collect(),
             turn: DVec2::new(cos(angle), sin(angle)),
@@ -135,7 +138,7 @@ impl<'a> Plane<'a> {
             }
         }
         let (axes, origin) = self.parts.get(part)?;
-        let own = axes.transpose() * normal;
+        let own = axes.transpose() * if self.view.facing[face as usize] { normal } else { -normal };
         let (axis, _) = own
             .abs()
             .to_array()

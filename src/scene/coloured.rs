@@ -64,8 +64,7 @@ impl Coloured {
 
 /// The linear light of the colours at the corners of a triangle.
 pub(super) fn tints_of(geometry: &Geometry, triangle: usize) -> Option<[Vec3; 3]> {
-    let [a, b, c] =
-        geometry.triangles.get(triangle)?.map(|corner| geometry.colours.get(corner as usize).copied());
+    let [a, b, c] = geometry.triangles.get(triangle)?.map(|corner| geometry.colour_of(corner));
     Some([a?, b?, c?].map(|[r, g, b, _]| Vec3::new(r, g, b)))
 }
 

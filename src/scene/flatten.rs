@@ -37,6 +37,8 @@ impl Scene {
         let soup = match self.only_one().filter(|_| paints.is_none()) {
             Some(only) => {
                 let mut from = std::mem::take(&mut self.geometries[only]);
+                // Single precision is a lattice as well, once it is known how large the numbers are.
+                from.lattice_step = from.step();
                 let (positions, triangles) =
                     (std::mem::take(&mut from.positions), std::mem::take(&mut from.triangles));
                 let mut soup = Soup { positions, triangles, ..Soup::default() };
@@ -232,6 +234,18 @@ fn append_attributes(
         material: MaterialId(material),
     }));
     soup.single_precision |= from.single_precision;
+    let step = from.step() * longest_axis(place);
+    if step > 0.0 {
+        let part = part.index();
+        soup.steps.resize(soup.steps.len().max(part + 1), 0.0);
+        soup.steps[part] = step;
+    }
+}
+
+/// By how much a placement stretches lengths, at most along one of the axes of the shape.
+fn longest_axis(place: &DAffine3) -> f64 {
+    let axes = place.matrix3;
+    axes.x_axis.length().max(axes.y_axis.length()).max(axes.z_axis.length())
 }
 
 /// More values than these all threads write: it takes each a fraction of a nanosecond.
@@ -258,7 +272,7 @@ fn append_paints(soup: &mut Soup, paints: &[PaintId]) {
 fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
     let white = [1.0; 4];
     let colour = |v: u32| {
-        let [r, g, b, _] = from.colours.get(v as usize).copied().unwrap_or(white);
+        let [r, g, b, _] = from.colour_of(v).unwrap_or(white);
         [r, g, b]
     };
     let missing = soup.triangles.len() - soup.corner_colours.len();

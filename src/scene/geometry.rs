@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
+use crate::math::tolerance::F32_STEP;
 use crate::mesh::EdgeMark;
 
 /// A shape: triangles and wires in its own space.
@@ -26,7 +27,7 @@ pub struct Geometry {
     pub uvs: Vec<[f32; 2]>,
     /// For each triangle the texture coordinates of its corners (`u32::MAX` = none), or empty.
     pub corner_uvs: Vec<[u32; 3]>,
-    /// Linear RGBA of each vertex, or empty.
+    /// Linear RGBA of each vertex, not finite for one without a colour; or empty.
     pub colours: Vec<[f32; 4]>,
     /// For each triangle the marks of its sides 0-1, 1-2, 2-0, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
@@ -34,9 +35,29 @@ pub struct Geometry {
     pub wires: Vec<[u32; 2]>,
     /// Whether the positions were stored in single precision.
     pub single_precision: bool,
+    /// The step of the lattice to which the file rounded the positions, local units: a decimal of a text, a step of whole
+    /// numbers; 0 where it is not known, and for single precision.
+    pub lattice_step: f64,
 }
 
 impl Geometry {
+    /// The distance between neighbouring coordinates that the file could have written, at its largest coordinate, local units;
+    /// 0 for numbers in double precision.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        if !self.single_precision {
+            return self.lattice_step;
+        }
+        let largest = self.positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
+        self.lattice_step.max(F32_STEP * largest)
+    }
+
+    /// The colour of a vertex, linear RGBA, if it has one.
+    #[must_use]
+    pub fn colour_of(&self, vertex: u32) -> Option<[f32; 4]> {
+        self.colours.get(vertex as usize).copied().filter(|colour| colour.iter().all(|c| c.is_finite()))
+    }
+
     /// The material of a triangle.
     #[must_use]
     pub fn material_of(&self, triangle: usize) -> Option<u32> {

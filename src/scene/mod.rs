@@ -14,6 +14,7 @@
 pub(crate) mod beside;
 pub mod camera;
 pub mod camera_record;
+pub(crate) mod coarse;
 mod coloured;
 pub mod coordinate;
 pub(crate) mod cutout;

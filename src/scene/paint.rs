@@ -93,8 +93,12 @@ impl Paints {
             }
             paints.triangles.push(Vec::new());
         }
+        let count = materials.len();
         for (id, ((list, texture), material)) in coloured.iter().zip(textures).zip(materials).enumerate() {
-            let factor = Factor { base: material.colour, multiplies: scene.format == "glTF" };
+            // Colours of vertices without a material stand on white (glTF 2.0, section 3.9.6): they are not dimmed by the grey
+            // of what has neither. Readers put such a material last.
+            let is_none = id + 2 >= count && *material == without;
+            let factor = Factor { base: material.colour, multiplies: scene.format == "glTF" && !is_none };
             let is_tinted = list.iter().any(|own| own.painted.is_some());
             let texture = texture.filter(|_| !list.is_empty());
             match (texture, options.fill) {

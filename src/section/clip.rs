@@ -113,6 +113,7 @@ impl<'a> Clipper<'a> {
             uvs: shape.uvs.clone(),
             colours: shape.colours.clone(),
             single_precision: shape.single_precision,
+            lattice_step: shape.lattice_step,
             ..Geometry::default()
         };
         Self {
@@ -349,6 +350,7 @@ fn push_between<const N: usize>(
 pub(super) fn by_place(positions: &[DVec3]) -> Vec<u32> {
     let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
     known.reserve(positions.len());
-    let bits = |p: &DVec3| p.to_array().map(f64::to_bits);
+    // The sum makes zeros positive.
+    let bits = |p: &DVec3| (*p + DVec3::ZERO).to_array().map(f64::to_bits);
     positions.iter().enumerate().map(|(v, p)| *known.entry(bits(p)).or_insert(v as u32)).collect()
 }

@@ -21,6 +21,7 @@ mod outlines;
 pub mod plane;
 mod seam;
 pub mod told;
+mod winding;
 
 use glam::{DAffine3, DVec2};
 
@@ -67,7 +68,8 @@ pub fn material_name(kind: usize) -> String {
 /// Cuts a scene along a plane, and leaves what lies behind it.
 ///
 /// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
-/// the part. They cover what the part's outlines in the plane go round, by number of turns; what lies within several parts has the one of
+/// the part. They cover what the part's outlines in the plane go round, by number of turns. How the file winds a surface does not
+/// matter: a closed surface inside another one bounds a void. What lies within several parts has the one of
 /// the least volume. Outlines that do not close, where a surface is open, are left open and counted in the warnings of the scene. Of parts
 /// whose name fits `uncut` nothing is cut off where the plane goes through them.
 #[must_use]
@@ -88,10 +90,11 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let (behind, before) = clip::reaches(shape, &place, plane, reach);
         *keep = behind || !before;
         if behind && before && !stays {
-            let cut = clipped(shape, &place, (plane, reach));
+            let shape = winding::wound_right(shape, &clip::by_place(&shape.positions));
+            let cut = clipped(&shape, &place, (plane, reach));
             unclosed += cap::closed(&cut).1;
             numbers.push(number);
-            opened.push(Opened { cut, volume: volume(shape, &place), reach });
+            opened.push(Opened { cut, volume: volume(&shape, &place), reach });
         }
     }
     let made = capped(&mut opened, plane);
@@ -187,7 +190,8 @@ fn clipped(shape: &Geometry, place: &DAffine3, (plane, rounding): (&Plane, f64))
     }
     let reaches = vec![reach; used.len()];
     let Some(joined) = weld::near(&world, &used, &reaches) else { return cut };
-    let again = clip::clip(shape, place, (plane, rounding), Some(&joined));
+    let shape = winding::wound_right(shape, &joined);
+    let again = clip::clip(&shape, place, (plane, rounding), Some(&joined));
     let (_, still) = cap::closed(&again);
     if still < unclosed { again } else { cut }
 }

@@ -24,7 +24,7 @@ fn check(surface: &Surface, search: &EdgeSearch, camera: &Camera, options: &Line
     assert_eq!(lines::extract_with(surface, known, &view, options), plain, "{camera:?}");
 
     let found = search.tree().candidates(view.frame.homogeneous_eye()).items;
-    let with_fixed = search.candidates(&view.frame).items;
+    let with_fixed = search.candidates(&surface.mesh, view).items;
     assert!(with_fixed.is_sorted() && with_fixed.windows(2).all(|w| w[0] != w[1]));
     assert_eq!(with_fixed.len(), found.len() + search.fixed().len());
     let contours = plain.segments.iter().filter(|s| s.kind == LineKind::Contour).count();

@@ -289,6 +289,81 @@ fn what_is_painted_apart_is_not_sewn() {
     }
 }
 
+/// A wedge of an angle along x, with corners in its sharp edge on both sides.
+fn wedge(degrees: f64, corners: [&[f64]; 2]) -> Solid {
+    let (half, long) = (degrees.to_radians() / 2.0, 3.0);
+    let far = [-half, half].map(|turn| DVec3::new(0.0, cos(turn), sin(turn)) * 2.0);
+    let mut solid = Solid::default();
+    let mut polygon = |points: &[DVec3]| {
+        let triangles = (2..points.len() as u32).map(|k| [0, k - 1, k]).collect();
+        solid.add(Solid { positions: points.to_vec(), triangles });
+    };
+    let at = |p: DVec3, x: f64| p + DVec3::X * x;
+    // A fan round a far corner, so that no triangle has all its corners on the sharp edge.
+    for (k, own) in corners.into_iter().enumerate() {
+        let mut points = vec![at(far[k], 0.0), DVec3::ZERO];
+        points.extend(own.iter().map(|x| at(DVec3::ZERO, *x)));
+        points.extend([at(DVec3::ZERO, long), at(far[k], long)]);
+        if k == 0 {
+            points[1..].reverse();
+        }
+        polygon(&points);
+    }
+    polygon(&[far[0], far[1], at(far[1], long), at(far[0], long)]);
+    polygon(&[DVec3::ZERO, far[1], far[0]]);
+    polygon(&[at(DVec3::ZERO, long), at(far[0], long), at(far[1], long)]);
+    solid
+}
+
+#[test]
+fn a_corner_in_an_edge_is_sewn_however_sharp_the_edge_is() {
+    let mut dice = Dice::new(3);
+    for degrees in [3.0, 20.0, 45.0, 59.0, 61.0, 90.0, 130.0] {
+        for corners in
+            [[&[1.0][..], &[]], [&[], &[0.4, 2.2]], [&[1.0], &[2.0]], [&[0.5, 1.0, 2.9], &[0.7, 0.8]]]
+        {
+            let turn = dice.turn();
+            // As written with six decimals, and as it is.
+            for rounded in [false, true] {
+                let round = |p: DVec3| if rounded { (p * 1e6).round() / 1e6 } else { p };
+                let [own, plain] = [corners, [&[][..], &[][..]]]
+                    .map(|corners| wedge(degrees, corners).moved(|p| round(turn * p)));
+                let open = open_and_sharp(&mesh(&own), 45.0)[0];
+                assert_eq!(open, 0, "{degrees} degrees, {corners:?}, rounded: {rounded}");
+                let way = dice.direction() * 9.0;
+                let [own, plain] = [own, plain].map(|solid| {
+                    let drawn = stages(&scene([solid]), &perspective(way, DVec3::ZERO, 40.0), &exact());
+                    assert!(drawn.visible_of(LineKind::Border).is_empty());
+                    [drawn.visible(), drawn.outline()]
+                        .map(|lines| lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>())
+                });
+                let off = [0, 1].map(|k| (own[k] - plain[k]).abs());
+                assert!(
+                    off[0] < 0.01 && off[1] < 0.01,
+                    "{degrees} degrees, {corners:?}: {own:?} and {plain:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_sides_of_a_card_that_share_no_corner_stay_apart() {
+    // Front and back, nearer to each other than the sides of seams are, each parted in a place of its own.
+    let mut card = Solid::default();
+    for (z, part) in [(0.0, 0.3), (5e-5, 0.6)] {
+        let mut side = Solid::default();
+        tile(&mut side, DVec3::Z * z, DVec3::X * part, DVec3::Y);
+        tile(&mut side, DVec3::new(part, 0.0, z), DVec3::X * (1.0 - part), DVec3::Y);
+        if z == 0.0 {
+            side.triangles.iter_mut().for_each(|triangle| triangle.reverse());
+        }
+        card.add(side);
+    }
+    let own = mesh(&card);
+    assert_eq!((own.triangles.len(), open_and_sharp(&own, 45.0)[0]), (8, 12));
+}
+
 #[test]
 fn surfaces_of_different_parts_are_not_sewn() {
     let solid = |low: f64, high: f64| {

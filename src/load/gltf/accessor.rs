@@ -2,6 +2,7 @@
 
 use super::buffers::Buffers;
 use super::json;
+use super::json::index::Shown;
 use crate::error::Error;
 
 /// Type of one component of an element.
@@ -70,7 +71,8 @@ impl Buffers<'_> {
     fn accessor(&self, index: usize) -> Result<&json::Accessor, Error> {
         self.root.accessors.get(index).ok_or_else(|| {
             let count = self.root.accessors.len();
-            Error::new(format!("is pointed to, but the file has {count}")).at(format!("accessor {index}"))
+            Error::new(format!("is pointed to, but the file has {count}"))
+                .at(format!("accessor {}", Shown(index)))
         })
     }
 
@@ -110,6 +112,20 @@ impl Buffers<'_> {
             self.patch(&mut values, sparse, elements, make).map_err(place)?;
         }
         Ok(values)
+    }
+
+    /// The step of the values of an accessor that are stored as whole numbers; 0 for floating-point numbers.
+    pub fn step(&self, index: usize) -> f64 {
+        let Ok(accessor) = self.accessor(index) else { return 0.0 };
+        let largest = match Component::new(accessor.component_type) {
+            Ok(Component::I8) => f64::from(i8::MAX),
+            Ok(Component::U8) => f64::from(u8::MAX),
+            Ok(Component::I16) => f64::from(i16::MAX),
+            Ok(Component::U16) => f64::from(u16::MAX),
+            Ok(Component::U32) => f64::from(u32::MAX),
+            Ok(Component::F32) | Err(_) => return 0.0,
+        };
+        if accessor.normalized { 1.0 / largest } else { 1.0 }
     }
 
     /// Indices of a primitive.

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::io;
 
+use super::json::index::Shown;
 use super::json::{Buffer, Root};
 use super::{meshopt, uri};
 use crate::error::Error;
@@ -40,7 +41,7 @@ impl<'a> Buffers<'a> {
 
     /// The bytes of a view and its stride, if it has one.
     pub fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), Error> {
-        let place = || format!("bufferView {index}");
+        let place = || format!("bufferView {}", Shown(index));
         let Some((view, cell)) = self.root.buffer_views.get(index).zip(self.decompressed.get(index)) else {
             let count = self.root.buffer_views.len();
             return Err(Error::new(format!("is pointed to, but the file has {count}")).at(place()));
@@ -63,7 +64,8 @@ impl<'a> Buffers<'a> {
     fn range(&self, buffer: usize, start: usize, length: usize) -> Result<&[u8], Error> {
         let Some(bytes) = self.buffers.get(buffer) else {
             return Err(Error::new(format!(
-                "points to buffer {buffer}, the file has {}",
+                "points to buffer {}, the file has {}",
+                Shown(buffer),
                 self.buffers.len()
             )));
         };

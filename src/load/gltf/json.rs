@@ -1,6 +1,7 @@
 //! The JSON of a glTF file, as far as a drawing needs it; unknown keys are passed over.
 
 mod buffers;
+pub mod index;
 mod materials;
 
 use std::collections::BTreeMap;
@@ -127,8 +128,11 @@ pub struct SceneNodes {
 pub struct Node {
     pub name: Option<String>,
     pub children: Vec<usize>,
+    #[serde(deserialize_with = "index::optional")]
     pub mesh: Option<usize>,
+    #[serde(deserialize_with = "index::optional")]
     pub skin: Option<usize>,
+    #[serde(deserialize_with = "index::optional")]
     pub camera: Option<usize>,
     pub matrix: Option<[f64; 16]>,
     pub translation: Option<[f64; 3]>,
@@ -152,11 +156,13 @@ pub struct NodeExtensions {
 
 #[derive(Debug, Deserialize)]
 pub struct LightUse {
+    #[serde(deserialize_with = "index::one")]
     pub light: usize,
 }
 
 #[derive(Debug, Deserialize)]
 pub struct Instancing {
+    #[serde(deserialize_with = "index::named")]
     pub attributes: BTreeMap<String, usize>,
 }
 
@@ -176,10 +182,14 @@ pub struct Mesh {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Primitive {
+    #[serde(deserialize_with = "index::named")]
     pub attributes: BTreeMap<String, usize>,
+    #[serde(deserialize_with = "index::optional")]
     pub indices: Option<usize>,
+    #[serde(deserialize_with = "index::optional")]
     pub material: Option<usize>,
     pub mode: Option<u32>,
+    #[serde(deserialize_with = "index::all_named")]
     pub targets: Vec<BTreeMap<String, usize>>,
     pub extensions: PrimitiveExtensions,
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::buffers::{Buffers, Fetch};
 use super::json;
+use super::json::index::Shown;
 use super::uri;
 use crate::pose::factors::{AlphaMode, Factors};
 use crate::scene::{Filter, Material, Warnings, Wrap};
@@ -105,6 +106,7 @@ fn image(
     let root = buffers.root;
     let mut broken = |number: usize, what: String| {
         let of = material.name.as_ref().map_or_else(String::new, |name| format!(" of material `{name}`"));
+        let number = Shown(number);
         warnings.note(format!("texture {number}{of}: {what}; the plain colour is drawn instead"));
         None
     };
@@ -117,7 +119,10 @@ fn image(
         [&other.basisu, &other.webp, &other.avif].into_iter().flatten().find_map(|other| other.source);
     let source = entry.source.or(other)?;
     let Some(image) = root.images.get(source) else {
-        return broken(number, format!("it shows image {source}, but the file has {}", root.images.len()));
+        return broken(
+            number,
+            format!("it shows image {}, but the file has {}", Shown(source), root.images.len()),
+        );
     };
     let (bytes, path) = match (&image.uri, image.buffer_view) {
         (Some(text), _) => match uri::data(text) {

@@ -6,8 +6,10 @@ use glam::{DAffine3, DVec3};
 
 use super::buffers::Buffers;
 use super::json::Primitive;
+use super::json::index::Shown;
+use super::missing::Missing;
 use super::primitive::{Mode, Shape};
-use super::{edges, pose, vertices};
+use super::{edges, materials, pose, uri, vertices};
 use crate::error::Error;
 use crate::mesh::EdgeMark;
 use crate::pose::Body;
@@ -26,6 +28,7 @@ pub fn geometry(
     number: usize,
     (weights, joints, rigged): (&[f64], Option<&[DAffine3]>, bool),
     warnings: &mut Warnings,
+    missing: &mut Missing,
 ) -> Result<(Geometry, Vec<Body>), Error> {
     let Some(mesh) = buffers.root.meshes.get(number) else {
         let message = format!("is pointed to, but the file has {}", buffers.root.meshes.len());
@@ -42,9 +45,12 @@ pub fn geometry(
         painted: Vec::new(),
         wire_material: None,
     };
+    let name = mesh.name.as_deref().filter(|name| !name.is_empty());
+    let name = name.map_or_else(String::new, |name| format!(" of `{}`", uri::shown(name)));
     for (index, primitive) in mesh.primitives.iter().enumerate() {
-        builder.add(primitive, warnings).map_err(|error| {
-            let here = format!("mesh {number} primitive {index}");
+        let here = || format!("mesh {number} primitive {index}{name}");
+        builder.add(primitive, &here, warnings, missing).map_err(|error| {
+            let here = here();
             let place = match &error.place {
                 Some(place) => format!("{here}: {place}"),
                 None => here,
@@ -86,10 +92,21 @@ struct Block {
 }
 
 impl<'a> Builder<'a> {
-    fn add(&mut self, primitive: &'a Primitive, warnings: &mut Warnings) -> Result<(), Error> {
+    /// Adds a primitive; `here` names it.
+    fn add(
+        &mut self,
+        primitive: &'a Primitive,
+        here: &dyn Fn() -> String,
+        warnings: &mut Warnings,
+        missing: &mut Missing,
+    ) -> Result<(), Error> {
         let materials = self.buffers.root.materials.len();
-        if let Some(material) = primitive.material.filter(|material| *material >= materials) {
-            return Err(Error::new(format!("has material {material}, but the file has {materials}")));
+        let material = primitive.material.filter(|material| *material < materials);
+        if let (Some(number), None) = (primitive.material, material) {
+            missing.materials.add(|| {
+                let (here, number) = (here(), Shown(number));
+                format!("{here}: has material {number}, but the file has {materials}; it is drawn without a material")
+            });
         }
         let mode = Mode::new(primitive.mode)?;
         if mode == Mode::Points {
@@ -111,11 +128,25 @@ impl<'a> Builder<'a> {
         }
         self.drop_unsound(block, &mut shape, &mut marks, warnings);
         if !shape.wires.is_empty() {
-            self.wire_material = self.wire_material.or(primitive.material);
+            self.wire_material = self.wire_material.or(material);
         }
-        self.painted.push((primitive.material, shape.triangles.len()));
+        if !block.uvs && !shape.triangles.is_empty() && self.wants_uvs(material) {
+            missing.uvs.add(|| {
+                let (here, wanted) = (here(), vertices::uv_name(self.buffers, primitive));
+                format!("{here}: its texture wants {wanted}, which it does not have; the plain colour is drawn instead")
+            });
+        }
+        self.painted.push((material, shape.triangles.len()));
         self.append(block, shape, marks);
         Ok(())
+    }
+
+    /// Whether a material has a texture that lies on texture coordinates.
+    fn wants_uvs(&self, material: Option<usize>) -> bool {
+        let root = self.buffers.root;
+        let material = material.and_then(|material| root.materials.get(material));
+        let texture = material.and_then(materials::base_texture);
+        texture.is_some_and(|texture| texture.index < root.textures.len())
     }
 
     /// The vertices of a primitive, read if no primitive before had the same ones; and the
@@ -152,9 +183,12 @@ impl<'a> Builder<'a> {
         let geometry = &mut self.geometry;
         // Every file of this format stores single precision or less, except where a pose moved it.
         geometry.single_precision = true;
+        let position = primitive.attributes.get("POSITION");
+        let step = position.map_or(0.0, |position| self.buffers.step(*position));
+        geometry.lattice_step = geometry.lattice_step.max(step);
         append_or_take(&mut geometry.normals, start, streams.normals, [0.0; 3]);
         append_or_take(&mut geometry.uvs, start, streams.uvs, [0.0; 2]);
-        append_or_take(&mut geometry.colours, start, streams.colours, [1.0; 4]);
+        append_or_take(&mut geometry.colours, start, streams.colours, [f32::NAN; 4]);
         append_or_take(&mut geometry.positions, start, streams.positions, DVec3::ZERO);
         if shareable {
             self.blocks.push((key, block));
@@ -252,6 +286,9 @@ impl<'a> Builder<'a> {
         let sound = geometry.positions.iter().copied().find(|position| position.is_finite());
         for position in geometry.positions.iter_mut().filter(|position| !position.is_finite()) {
             *position = sound.unwrap_or_default();
+        }
+        if !geometry.colours.is_empty() {
+            geometry.colours.resize(geometry.positions.len(), [f32::NAN; 4]);
         }
         let plain = self.buffers.root.materials.len();
         let mut used =

@@ -18,6 +18,7 @@ mod json;
 mod materials;
 mod mesh;
 mod meshopt;
+mod missing;
 mod nodes;
 mod parts;
 mod pointers;
@@ -37,7 +38,7 @@ use self::buffers::{Buffers, Fetch};
 use self::json::Root;
 use crate::error::Error;
 use crate::pose::{Rig, Rigged};
-use crate::scene::{Scene, UpAxis, Warnings};
+use crate::scene::{Scene, UpAxis, Warnings, coarse};
 
 /// Reads a `.gltf` or `.glb` file; buffers beside it are read too, if they lie in its folder.
 ///
@@ -92,8 +93,8 @@ fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> 
     let clips = if rigged { animations::clips(&buffers, &nodes.rest, &mut warnings) } else { Vec::new() };
     nodes.wake(&root, &clips)?;
     let materials = materials::materials(&buffers, fetch, &mut warnings);
-    let (cameras, of_cameras) = views::cameras(&root, &nodes, &mut warnings)?;
-    let (lights, of_lights) = views::lights(&root, &nodes, &mut warnings)?;
+    let (cameras, of_cameras) = views::cameras(&root, &nodes, &mut warnings);
+    let (lights, of_lights) = views::lights(&root, &nodes, &mut warnings);
     let (format, up) = ("glTF", UpAxis::Y);
     let mut scene = Scene { format, up, materials, cameras, lights, warnings, ..Scene::default() };
     let mut rig = Rig { clips, cameras: of_cameras, lights: of_lights, ..Rig::default() };
@@ -104,6 +105,7 @@ fn read_all(bytes: &[u8], fetch: &Fetch, rigged: bool) -> Result<Rigged, Error> 
         (rig.nodes, rig.order) = (nodes.rest, nodes.order);
         rig.materials = root.materials.iter().map(materials::factors).collect();
     }
+    coarse::warn(&mut scene);
     Ok(Rigged { scene, rig })
 }
 

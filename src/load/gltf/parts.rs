@@ -6,12 +6,14 @@ use std::collections::btree_map::Entry;
 use glam::{DAffine3, DVec3};
 
 use super::buffers::Buffers;
+use super::json::index::Shown;
+use super::missing::Missing;
 use super::nodes::{self, Hierarchy};
 use super::{instancing, mesh, pose};
 use crate::error::Error;
 use crate::pose::rig::{Form, Skin};
 use crate::pose::{Property, Rig};
-use crate::scene::{Geometry, Material, Part, Scene};
+use crate::scene::{Geometry, Material, Part, Scene, Warnings};
 
 /// Most parts a scene may have: instances cost a file almost nothing.
 const MOST_PARTS: usize = 10_000_000;
@@ -20,7 +22,7 @@ const MOST_PARTS: usize = 10_000_000;
 const LARGEST_COORDINATE: f64 = 1e50;
 
 /// A mesh as a node shows it: with its weights, and with its skin; and the node, if its weights change in time.
-type Shown = (usize, Option<usize>, Vec<u64>, Option<usize>);
+type Key = (usize, Option<usize>, Vec<u64>, Option<usize>);
 
 /// Adds geometries and parts to the scene; each mesh is stored once for each pose it is shown in. If there are clips, what moves
 /// geometries and parts is added to the rig.
@@ -34,31 +36,48 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
         }
     }
     let mut skins: BTreeMap<usize, Skin> = BTreeMap::new();
-    let mut known: BTreeMap<Shown, usize> = BTreeMap::new();
+    let mut known: BTreeMap<Key, usize> = BTreeMap::new();
     let mut reach: Vec<DVec3> = Vec::new();
+    let mut missing = Missing::default();
+    let no_weights: Vec<f64> = Vec::new();
     for &index in &nodes.shown {
         let (Some(node), Some(&world)) = (buffers.root.nodes.get(index), nodes.world.get(index)) else {
             continue;
         };
         let Some(number) = node.mesh else { continue };
-        let here = |error: Error| match error.place {
-            Some(_) => error,
-            None => error.at(format!("node {index}")),
+        let here = |error: Error| {
+            let node = format!("node {index}");
+            let place = error.place.as_ref().map_or_else(|| node.clone(), |place| format!("{node}: {place}"));
+            error.at(place)
         };
         let weights = match (&node.weights, buffers.root.meshes.get(number)) {
             (Some(weights), _) => weights,
             (None, Some(mesh)) => &mesh.weights,
-            (None, None) => {
-                let message = format!("has mesh {number}, but the file has {}", buffers.root.meshes.len());
-                return Err(here(Error::new(message)));
-            }
+            (None, None) => &no_weights,
         };
+        if number >= buffers.root.meshes.len() {
+            missing.meshes.add(|| {
+                let (name, number, count) =
+                    (nodes::name(buffers.root, index), Shown(number), buffers.root.meshes.len());
+                format!("node {index}: has mesh {number}, but the file has {count}; `{name}` is left out")
+            });
+            continue;
+        }
+        let skin = node.skin.filter(|skin| *skin < buffers.root.skins.len());
+        if let (Some(number), None) = (node.skin, skin) {
+            missing.skins.add(|| {
+                let (number, count) = (Shown(number), buffers.root.skins.len());
+                format!(
+                    "node {index}: has skin {number}, but the file has {count}; it is drawn as if it had none"
+                )
+            });
+        }
         let own = Some(index).filter(|_| morphing.get(index).copied().unwrap_or(false));
-        let key: Shown = (number, node.skin, weights.iter().map(|weight| weight.to_bits()).collect(), own);
+        let key: Key = (number, skin, weights.iter().map(|weight| weight.to_bits()).collect(), own);
         let geometry = match known.get(&key) {
             Some(geometry) => *geometry,
             None => {
-                let joints = match node.skin {
+                let joints = match skin {
                     Some(skin) => {
                         let own = match skins.entry(skin) {
                             Entry::Occupied(known) => known.into_mut(),
@@ -69,9 +88,10 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
                     None => None,
                 };
                 let asked = (weights.as_slice(), joints.as_deref(), rigged);
-                let (made, bodies) = mesh::geometry(buffers, number, asked, &mut scene.warnings)?;
+                let (made, bodies) =
+                    mesh::geometry(buffers, number, asked, &mut scene.warnings, &mut missing)?;
                 if rigged {
-                    rig.forms.push(Form { node: index, skin: node.skin, bodies });
+                    rig.forms.push(Form { node: index, skin, bodies });
                 }
                 reach
                     .push(made.positions.iter().fold(DVec3::ZERO, |most, position| most.max(position.abs())));
@@ -81,7 +101,7 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
             }
         };
         // The joints have carried a skinned mesh into the world already.
-        let world = if node.skin.is_some() { DAffine3::IDENTITY } else { world };
+        let world = if skin.is_some() { DAffine3::IDENTITY } else { world };
         let places = match &node.extensions.instancing {
             Some(instancing) => instancing::places(buffers, instancing).map_err(here)?,
             None => vec![DAffine3::IDENTITY],
@@ -100,12 +120,18 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
         }
     }
     drop_empty(scene, rig);
+    let mut lost = Warnings::default();
+    missing.warn(&mut lost);
+    scene.warnings.extend(&lost);
     if rigged {
         let most = skins.keys().last().map_or(0, |skin| skin + 1);
         let none = Skin { joints: Vec::new(), binds: Vec::new() };
         rig.skins = (0..most).map(|skin| skins.remove(&skin).unwrap_or_else(|| none.clone())).collect();
     }
     if scene.parts.is_empty() {
+        if let [first, ..] = lost.lines().as_slice() {
+            return Err(Error::new(format!("{first}; nothing to draw")));
+        }
         let nodes = nodes.shown.len();
         return Err(Error::new(format!(
             "nothing to draw: no triangle and no line in the {nodes} nodes of the scene"

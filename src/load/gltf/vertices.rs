@@ -48,7 +48,7 @@ fn colours(buffers: &Buffers, accessor: usize) -> Result<Vec<[f32; 4]>, Error> {
 }
 
 /// The set of texture coordinates that the base-colour texture uses.
-fn uv_name(buffers: &Buffers, primitive: &Primitive) -> String {
+pub fn uv_name(buffers: &Buffers, primitive: &Primitive) -> String {
     let material = primitive.material.and_then(|material| buffers.root.materials.get(material));
     let texture = material.and_then(materials::base_texture);
     let moved = texture.and_then(|texture| texture.extensions.transform.as_ref()?.tex_coord);

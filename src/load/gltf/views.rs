@@ -4,27 +4,30 @@ use std::f64::consts::{FRAC_PI_4, PI};
 
 use glam::{DAffine3, DVec3};
 
+use super::json::index::Shown;
 use super::json::{Camera as JsonCamera, Light as JsonLight, Root};
 use super::nodes::Hierarchy;
-use crate::error::Error;
 use crate::pose::rig::Held;
+use crate::scene::warnings::Spots;
 use crate::scene::{Camera, Light, LightKind, NamedCamera, Projection, Warnings};
 
 /// Height of the frame of a file's camera, px.
 const FRAME_PX: f64 = 1000.0;
 
 /// The cameras of the nodes that are shown, and which of the file they are in which node.
-pub fn cameras(
-    root: &Root,
-    nodes: &Hierarchy,
-    warnings: &mut Warnings,
-) -> Result<(Vec<NamedCamera>, Vec<Held>), Error> {
+pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<NamedCamera>, Vec<Held>) {
     let (mut cameras, mut holders) = (Vec::new(), Vec::new());
+    let mut missing = Spots::default();
     for (index, node, world) in shown(root, nodes) {
         let Some(number) = node.camera else { continue };
         let Some(camera) = root.cameras.get(number) else {
-            let message = format!("has camera {number}, but the file has {}", root.cameras.len());
-            return Err(Error::new(message).at(format!("node {index}")));
+            missing.add(|| {
+                let (camera, count) = (Shown(number), root.cameras.len());
+                format!(
+                    "node {index}: has camera {camera}, but the file has {count}; there is no view from it"
+                )
+            });
+            continue;
         };
         let named = [&camera.name, &node.name].into_iter().flatten().find(|name| !name.is_empty());
         let name = named.cloned().unwrap_or_else(|| format!("camera {number}"));
@@ -36,7 +39,8 @@ pub fn cameras(
             None => warnings.note(format!("camera `{name}` sees nothing and is left out")),
         }
     }
-    Ok((cameras, holders))
+    missing.warn(warnings);
+    (cameras, holders)
 }
 
 /// A camera sits at the origin of its node and looks along -z with y up; glTF ignores the node's
@@ -64,18 +68,18 @@ fn look(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
 }
 
 /// The lights (KHR_lights_punctual) of the nodes that are shown, and which of the file they are in which node.
-pub fn lights(
-    root: &Root,
-    nodes: &Hierarchy,
-    warnings: &mut Warnings,
-) -> Result<(Vec<Light>, Vec<Held>), Error> {
+pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<Light>, Vec<Held>) {
     let known = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
     let (mut lights, mut holders) = (Vec::new(), Vec::new());
+    let mut missing = Spots::default();
     for (index, node, world) in shown(root, nodes) {
         let Some(number) = node.extensions.light.as_ref().map(|light| light.light) else { continue };
         let Some(light) = known.get(number) else {
-            let message = format!("has light {number}, but the file has {}", known.len());
-            return Err(Error::new(message).at(format!("node {index}")));
+            missing.add(|| {
+                let (light, count) = (Shown(number), known.len());
+                format!("node {index}: has light {light}, but the file has {count}; it gives no light")
+            });
+            continue;
         };
         match kind(light, world) {
             Some(kind) => {
@@ -91,7 +95,8 @@ pub fn lights(
             None => warnings.note(format!("light {number} of unknown kind or without direction is left out")),
         }
     }
-    Ok((lights, holders))
+    missing.warn(warnings);
+    (lights, holders)
 }
 
 fn kind(light: &JsonLight, world: DAffine3) -> Option<LightKind> {

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::load::text::utf8;
-use crate::scene::Scene;
+use crate::scene::{Scene, coarse};
 
 /// Reads an OBJ file and the libraries beside it.
 ///
@@ -44,7 +44,7 @@ pub fn read_bytes(
             Error::new("this is binary data, not OBJ text; nothing to draw").remedy("check the file's ending")
         });
     }
-    crate::scene::drawable(scene)
+    crate::scene::drawable(scene).map(coarse::checked)
 }
 
 #[cfg(test)]

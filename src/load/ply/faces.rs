@@ -5,8 +5,10 @@ use rayon::prelude::*;
 
 use super::body::{Body, Row, place};
 use super::header::{Element, Encoding, Scalar};
+use super::vertices::{COLOURS, find};
 use crate::error::Error;
 use crate::load::polygon::{self, CutOutcome};
+use crate::math::colour::Colour;
 use crate::scene::coordinate::is_drawable;
 use crate::scene::warnings::Warnings;
 
@@ -24,6 +26,8 @@ pub(super) struct Faces<'a> {
     cut: Vec<[u32; 3]>,
     /// The triangles so far.
     pub triangles: Vec<[u32; 3]>,
+    /// Colour of each triangle; empty where faces have none.
+    pub colours: Vec<Option<Colour>>,
     /// Faces left out for their coordinates.
     pub unusable: u64,
     pub warnings: Warnings,
@@ -39,6 +43,7 @@ impl<'a> Faces<'a> {
             points: Vec::new(),
             cut: Vec::new(),
             triangles: Vec::new(),
+            colours: Vec::new(),
             unusable: 0,
             warnings: Warnings::default(),
         }
@@ -52,7 +57,8 @@ impl<'a> Faces<'a> {
             return skip(body, element);
         };
         self.triangles.reserve(count);
-        let packed = Packed::new(body, element, list);
+        let colour = ColourColumns::new(element);
+        let packed = Packed::new(body, element, list).filter(|_| colour.is_none());
         let mut too_short = 0;
         let mut row = Row::default();
         let first = packed.as_ref().map_or(0, |packed| self.first_triangles(packed, body, count));
@@ -70,17 +76,20 @@ impl<'a> Faces<'a> {
             let mut corners = std::mem::take(&mut self.corners);
             corners.clear();
             for &index in row.list(list) {
-                let Some(index) = self.index(index) else {
+                let Some(index) = index_of(index, self.positions) else {
                     start.skip_space();
                     let line = (body.encoding == Encoding::Text).then(|| format!("line {}", start.line()));
                     let place = line.unwrap_or_else(|| place(element, number));
-                    return Err(self.no_vertex(index).at(place));
+                    return Err(no_vertex(index, self.positions).at(place));
                 };
                 corners.push(index);
             }
             too_short += u64::from(corners.len() < 3);
             self.polygon(&corners);
             self.corners = corners;
+            if let Some(colour) = &colour {
+                self.colours.resize(self.triangles.len(), Some(colour.of(&row)));
+            }
         }
         self.warnings.count("faces left out, with too few corners", too_short);
         Ok(())
@@ -117,10 +126,11 @@ impl<'a> Faces<'a> {
             body.row(element, number, &mut row)?;
             let values = row.list(list);
             for strip in values.split(|&index| index == -1.0) {
-                let ids: Option<Vec<u32>> = strip.iter().map(|&index| self.index(index)).collect();
+                let ids: Option<Vec<u32>> =
+                    strip.iter().map(|&index| index_of(index, self.positions)).collect();
                 let Some(ids) = ids else {
-                    let bad = strip.iter().copied().find(|&index| self.index(index).is_none());
-                    return Err(self.no_vertex(bad.unwrap_or_default()).at(place(element, number)));
+                    let bad = strip.iter().copied().find(|&index| index_of(index, self.positions).is_none());
+                    return Err(no_vertex(bad.unwrap_or_default(), self.positions).at(place(element, number)));
                 };
                 for (i, corners) in ids.windows(3).enumerate() {
                     let &[a, b, c] = corners else { continue };
@@ -132,19 +142,6 @@ impl<'a> Faces<'a> {
             }
         }
         Ok(())
-    }
-
-    fn index(&self, value: f64) -> Option<u32> {
-        let exists = value >= 0.0
-            && value < self.positions.len().min(u32::MAX as usize) as f64
-            && value.fract() == 0.0;
-        exists.then_some(value as u32)
-    }
-
-    #[cold]
-    fn no_vertex(&self, index: f64) -> Error {
-        Error::new(format!("vertex {index} does not exist; the file has {}", self.positions.len()))
-            .remedy("indices count from 0")
     }
 
     fn polygon(&mut self, corners: &[u32]) {
@@ -160,6 +157,47 @@ impl<'a> Faces<'a> {
         }
         let id = |corner: u32| corners.get(corner as usize).copied().unwrap_or_default();
         self.triangles.extend(self.cut.iter().map(|triangle| triangle.map(id)));
+    }
+}
+
+/// The vertex that a number of the file points to.
+pub(super) fn index_of(value: f64, positions: &[DVec3]) -> Option<u32> {
+    let exists =
+        value >= 0.0 && value < positions.len().min(u32::MAX as usize) as f64 && value.fract() == 0.0;
+    exists.then_some(value as u32)
+}
+
+/// The error for a number that points to no vertex.
+#[cold]
+pub(super) fn no_vertex(index: f64, positions: &[DVec3]) -> Error {
+    Error::new(format!("vertex {index} does not exist; the file has {}", positions.len()))
+        .remedy("indices count from 0")
+}
+
+/// The properties of a face that hold its colour.
+struct ColourColumns {
+    channels: [(usize, Scalar); 3],
+    alpha: Option<(usize, Scalar)>,
+}
+
+impl ColourColumns {
+    fn new(element: &Element) -> Option<Self> {
+        let kind = |property: usize| element.properties.get(property).map_or(Scalar::U8, |p| p.kind);
+        let channels = COLOURS.iter().find_map(|names| find(element, *names))?;
+        let is_number = |property: &usize| !is_list(element, *property);
+        let alpha = element.find(&["alpha", "diffuse_alpha", "a"]).filter(is_number);
+        channels.iter().all(is_number).then(|| Self {
+            channels: channels.map(|property| (property, kind(property))),
+            alpha: alpha.map(|property| (property, kind(property))),
+        })
+    }
+
+    fn of(&self, row: &Row) -> Colour {
+        let byte = |(property, kind): (usize, Scalar)| {
+            (row.value(property) / kind.full() * 255.0).round().clamp(0.0, 255.0) as u8
+        };
+        let [r, g, b] = self.channels.map(byte);
+        Colour { r, g, b, a: self.alpha.map_or(255, byte) }
     }
 }
 

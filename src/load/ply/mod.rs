@@ -1,8 +1,12 @@
 //! PLY, text and binary of either byte order.
 //!
+//! Elements may come in any order. Faces, strips and edges that stand before the vertices are skipped, and read once the vertices
+//! are known. Faces with colours get materials in these colours; edges become wires. Other elements are skipped.
+//!
 //! Source: Greg Turk, *The PLY Polygon File Format* (1994). y is taken to point up.
 
 mod body;
+mod edges;
 mod faces;
 mod header;
 mod vertices;
@@ -13,13 +17,15 @@ use glam::DAffine3;
 
 use self::body::Body;
 use self::faces::Faces;
-use self::header::Header;
+use self::header::{Element, Header};
 use super::read_with;
 use super::text::Cursor;
+use super::triangle_colours;
 use crate::error::Error;
+use crate::math::colour::Colour;
 use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
 use crate::scene::drawable;
-use crate::scene::{Geometry, Part, Scene, UpAxis};
+use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings, coarse};
 
 /// Reads a PLY file.
 ///
@@ -37,55 +43,107 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let header = Header::parse(bytes)?;
     let mut body = Body { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };
-    let mut scene = Scene { format: "PLY", up: UpAxis::Y, warnings: header.warnings, ..Scene::default() };
-    let mut geometry = Geometry::default();
+    let mut model = Model { warnings: header.warnings, ..Model::default() };
     let mut has_vertices = false;
-    let mut triangles = Vec::new();
-    let mut unusable = 0;
+    // Elements that need the vertices, and where their rows begin.
+    let mut waiting: Vec<(&Element, usize)> = Vec::new();
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" if !has_vertices => {
-                geometry = vertices::read(&mut body, element)?;
+                model.geometry = vertices::read(&mut body, element)?;
                 has_vertices = true;
+                let end = body.cursor.at;
+                for (element, start) in std::mem::take(&mut waiting) {
+                    body.cursor.at = start;
+                    model.connect(&mut body, element)?;
+                }
+                body.cursor.at = end;
             }
-            name @ ("face" | "tristrips") => {
-                if !has_vertices {
-                    return Err(
-                        Error::new("the faces stand before the vertices").at(format!("element {name}"))
-                    );
-                }
-                let mut faces = Faces::new(&geometry.positions);
-                if name == "face" {
-                    faces.polygons(&mut body, element)?
-                } else {
-                    faces.strips(&mut body, element)?
-                }
-                scene.warnings.extend(&faces.warnings);
-                unusable += faces.unusable;
-                if triangles.is_empty() {
-                    triangles = faces.triangles
-                } else {
-                    triangles.extend(faces.triangles)
-                }
+            "face" | "tristrips" | "edge" if has_vertices => model.connect(&mut body, element)?,
+            "face" | "tristrips" | "edge" => {
+                waiting.push((element, body.cursor.at));
+                faces::skip(&mut body, element)?;
             }
             _ => faces::skip(&mut body, element)?,
         }
     }
-    scene.warnings.count(NOT_DRAWABLE, unusable);
-    geometry.triangles = triangles;
-    // No triangle uses these any more.
-    for position in geometry.positions.iter_mut().filter(|p| !is_drawable(**p)) {
-        *position = glam::DVec3::ZERO;
+    if let Some((element, _)) = waiting.iter().find(|(element, _)| element.count > 0) {
+        return Err(Error::new("the file has no vertices for them").at(format!("element {}", element.name)));
     }
-    if !geometry.normals.is_empty() {
-        geometry.corner_normals.clone_from(&geometry.triangles);
+    model.into_scene(stem)
+}
+
+/// What was read of a file.
+#[derive(Default)]
+struct Model {
+    geometry: Geometry,
+    /// Colours of the triangles; shorter than these or empty where elements have none.
+    colours: Vec<Option<Colour>>,
+    warnings: Warnings,
+    /// Faces and edges left out for their coordinates.
+    unusable: u64,
+}
+
+impl Model {
+    /// Reads the rows of an element that points to vertices.
+    fn connect(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
+        if element.name == "edge" {
+            let edges = edges::read(body, element, &self.geometry.positions)?;
+            self.warnings.extend(&edges.warnings);
+            self.unusable += edges.unusable;
+            self.geometry.wires.extend(edges.wires);
+            return Ok(());
+        }
+        let mut faces = Faces::new(&self.geometry.positions);
+        if element.name == "face" {
+            faces.polygons(body, element)?;
+        } else {
+            faces.strips(body, element)?;
+        }
+        self.warnings.extend(&faces.warnings);
+        self.unusable += faces.unusable;
+        if !faces.colours.is_empty() {
+            self.colours.resize(self.geometry.triangles.len(), None);
+            self.colours.extend(faces.colours);
+        }
+        let triangles = faces.triangles;
+        if self.geometry.triangles.is_empty() {
+            self.geometry.triangles = triangles;
+        } else {
+            self.geometry.triangles.extend(triangles);
+        }
+        Ok(())
     }
-    if !geometry.uvs.is_empty() {
-        geometry.corner_uvs.clone_from(&geometry.triangles);
+
+    /// The scene of one part.
+    fn into_scene(self, stem: &str) -> Result<Scene, Error> {
+        let Self { mut geometry, colours, warnings, unusable } = self;
+        let mut scene = Scene { format: "PLY", up: UpAxis::Y, warnings, ..Scene::default() };
+        scene.warnings.count(NOT_DRAWABLE, unusable);
+        // No triangle uses these any more.
+        for position in geometry.positions.iter_mut().filter(|p| !is_drawable(**p)) {
+            *position = glam::DVec3::ZERO;
+        }
+        if !geometry.normals.is_empty() {
+            geometry.corner_normals.clone_from(&geometry.triangles);
+        }
+        if !geometry.uvs.is_empty() {
+            geometry.corner_uvs.clone_from(&geometry.triangles);
+        }
+        if !colours.is_empty() {
+            if geometry.colours.iter().any(|[r, g, b, _]| [*r, *g, *b] != [1.0; 3]) {
+                scene
+                    .warnings
+                    .note("colours of faces left out: the vertices have colours too, and those are drawn");
+            } else {
+                geometry.colours.clear();
+                triangle_colours::paint(&mut geometry, &colours, &mut scene.materials);
+            }
+        }
+        scene.geometries.push(geometry);
+        scene.parts.push(Part { name: stem.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY });
+        drawable(scene).map(coarse::checked)
     }
-    scene.geometries.push(geometry);
-    scene.parts.push(Part { name: stem.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY });
-    drawable(scene)
 }
 
 #[cfg(test)]

@@ -194,3 +194,157 @@ fn the_first_triangle_of_many_that_points_nowhere_is_named() {
     let error = error(bytes);
     assert!(error.contains("vertex 5 does not exist") && error.contains("23456"), "{error}");
 }
+
+/// The rows of a table: names of elements, their properties, and rows of numbers, as text or binary. A property that is a list has its
+/// length in front.
+fn encoded(format: &str, elements: &[(&str, &[&str], &[&[f64]])]) -> Vec<u8> {
+    let mut head = format!("ply\nformat {format} 1.0\n");
+    let mut body = Vec::new();
+    for (name, properties, rows) in elements {
+        head += &format!("element {name} {}\n", rows.len());
+        for property in *properties {
+            head += &format!("property {property}\n");
+        }
+        for row in *rows {
+            if format == "ascii" {
+                let words: Vec<String> = row.iter().map(f64::to_string).collect();
+                body.extend(format!("{}\n", words.join(" ")).into_bytes());
+                continue;
+            }
+            let mut numbers = row.iter().copied();
+            let mut put = |kind: &str, value: f64| {
+                let little: Vec<u8> = match kind {
+                    "uchar" => vec![value as u8],
+                    "ushort" => (value as u16).to_le_bytes().to_vec(),
+                    "int" => (value as i32).to_le_bytes().to_vec(),
+                    _ => (value as f32).to_le_bytes().to_vec(),
+                };
+                if format.contains("big") { body.extend(little.iter().rev()) } else { body.extend(little) }
+            };
+            for property in *properties {
+                match *property.split(' ').collect::<Vec<_>>() {
+                    ["list", length, kind, _] => {
+                        let count = numbers.next().unwrap();
+                        put(length, count);
+                        (0..count as usize).for_each(|_| put(kind, numbers.next().unwrap()));
+                    }
+                    [kind, _] => put(kind, numbers.next().unwrap()),
+                    _ => unreachable!(),
+                }
+            }
+        }
+    }
+    [head.into_bytes(), b"end_header\n".to_vec(), body].concat()
+}
+
+const FORMATS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
+
+const XYZ: &[&str] = &["float x", "float y", "float z"];
+
+const SQUARE: &[&[f64]] = &[&[0.0, 0.0, 0.0], &[1.0, 0.0, 0.0], &[1.0, 1.0, 0.0], &[0.0, 1.0, 0.0]];
+
+#[test]
+fn elements_come_in_any_order() {
+    let vertices = ("vertex", XYZ, SQUARE);
+    let faces: (&str, &[&str], &[&[f64]]) =
+        ("face", &["list uchar int vertex_indices"], &[&[3.0, 0.0, 1.0, 2.0], &[4.0, 0.0, 1.0, 2.0, 3.0]]);
+    let strips: (&str, &[&str], &[&[f64]]) =
+        ("tristrips", &["list int int vertex_indices"], &[&[3.0, 1.0, 2.0, 3.0]]);
+    let edges: (&str, &[&str], &[&[f64]]) = ("edge", &["int vertex1", "int vertex2"], &[&[1.0, 3.0]]);
+    let other: (&str, &[&str], &[&[f64]]) =
+        ("camera", &["float view", "list uchar float more"], &[&[0.5, 2.0, 1.0, 2.0], &[0.5, 0.0]]);
+    for format in FORMATS {
+        let usual = read(encoded(format, &[vertices, other, faces, strips, edges]));
+        let usual = &usual.geometries[0];
+        assert_eq!((usual.triangles.len(), usual.wires.as_slice()), (4, &[[1, 3]][..]));
+        for order in [[faces, strips, other, edges, vertices], [other, faces, strips, vertices, edges]] {
+            let scene = read(encoded(format, &order));
+            let geometry = &scene.geometries[0];
+            assert_eq!(geometry.positions, usual.positions, "{format}");
+            assert_eq!((&geometry.triangles, &geometry.wires), (&usual.triangles, &usual.wires), "{format}");
+        }
+        let lost = encoded(format, &[other, faces]);
+        assert!(error(&lost).contains("element face: the file has no vertices"), "{}", error(&lost));
+        let bad: (&str, &[&str], &[&[f64]]) =
+            ("face", &["list uchar int vertex_indices"], &[&[3.0, 0.0, 1.0, 4.0]]);
+        let text = error(encoded(format, &[bad, vertices]));
+        assert!(text.contains("vertex 4 does not exist"), "{text}");
+        assert!(text.contains(if format == "ascii" { "line 9" } else { "face 0" }), "{text}");
+        let whole = encoded(format, &[faces, vertices]);
+        assert!(read_bytes(&whole[..whole.len() - 4], "").is_err());
+    }
+}
+
+#[test]
+fn faces_have_their_colours() {
+    let red_and_blue: &[&[f64]] =
+        &[&[4.0, 0.0, 1.0, 2.0, 3.0, 255.0, 0.0, 0.0, 255.0], &[3.0, 0.0, 1.0, 2.0, 0.0, 0.0, 255.0, 255.0]];
+    let shares: Vec<Vec<f64>> = red_and_blue
+        .iter()
+        .map(|row| {
+            let colour = row.len() - 4;
+            row.iter().enumerate().map(|(k, v)| if k < colour { *v } else { v / 255.0 }).collect()
+        })
+        .collect();
+    let shares: Vec<&[f64]> = shares.iter().map(Vec::as_slice).collect();
+    let list = "list uchar int vertex_indices";
+    let tables: [(&[&str], &[&[f64]]); 3] = [
+        (&[list, "uchar red", "uchar green", "uchar blue", "uchar alpha"], red_and_blue),
+        (&[list, "uchar r", "uchar g", "uchar b", "uchar a"], red_and_blue),
+        (
+            &[list, "float diffuse_red", "float diffuse_green", "float diffuse_blue", "float diffuse_alpha"],
+            &shares,
+        ),
+    ];
+    for format in FORMATS {
+        for (properties, rows) in tables {
+            let scene = read(encoded(format, &[("face", properties, rows), ("vertex", XYZ, SQUARE)]));
+            let names: Vec<_> = scene.materials.iter().map(|own| own.name.as_str()).collect();
+            assert_eq!(names, ["#0000ff", "#ff0000"], "{format} {properties:?}");
+            assert_eq!(scene.geometries[0].triangle_material, [1, 1, 0], "{format}");
+            assert!(scene.warnings.is_empty());
+        }
+    }
+    // Colours of vertices are finer, unless all of them are white.
+    let coloured = ["float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"];
+    for (green, materials) in [(0.0, 0), (255.0, 2)] {
+        let vertices: Vec<Vec<f64>> =
+            SQUARE.iter().map(|p| [p, &[255.0, green, 255.0][..]].concat()).collect();
+        let vertices: Vec<&[f64]> = vertices.iter().map(Vec::as_slice).collect();
+        let scene =
+            read(encoded("ascii", &[("vertex", &coloured, &vertices), ("face", tables[0].0, red_and_blue)]));
+        assert_eq!(
+            (scene.materials.len(), scene.warnings.lines().len()),
+            (materials, usize::from(materials == 0))
+        );
+        assert_eq!(scene.geometries[0].colours.is_empty(), materials > 0);
+    }
+}
+
+#[test]
+fn edges_are_wires() {
+    for names in [["vertex1", "vertex2"], ["v1", "v2"], ["v0", "v1"]] {
+        for format in FORMATS {
+            let ends = names.map(|name| format!("ushort {name}"));
+            let properties = [ends[0].as_str(), ends[1].as_str(), "uchar red", "uchar green", "uchar blue"];
+            let rows: &[&[f64]] = &[&[0.0, 1.0, 255.0, 0.0, 0.0], &[2.0, 3.0, 0.0, 0.0, 255.0]];
+            let scene = read(encoded(format, &[("vertex", XYZ, SQUARE), ("edge", &properties, rows)]));
+            assert_eq!(scene.geometries[0].wires, [[0, 1], [2, 3]], "{format} {names:?}");
+            assert!(scene.warnings.lines()[0].contains("colours of edges"));
+        }
+    }
+    let ends: &[&str] = &["int vertex1", "int vertex2"];
+    let text = error(encoded("ascii", &[("vertex", XYZ, SQUARE), ("edge", ends, &[&[0.0, 4.0]])]));
+    assert!(text.contains("line 14: vertex 4 does not exist"), "{text}");
+    let text =
+        error(encoded("binary_big_endian", &[("edge", ends, &[&[-1.0, 0.0]]), ("vertex", XYZ, SQUARE)]));
+    assert!(text.contains("edge 0: vertex -1 does not exist"), "{text}");
+    let text = error(encoded(
+        "ascii",
+        &[("vertex", XYZ, SQUARE), ("edge", &["int from", "int to"], &[&[0.0, 1.0]])],
+    ));
+    assert!(text.contains("edges without vertex1 and vertex2 left out; nothing to draw"), "{text}");
+    let lost: &[&[f64]] = &[&[f64::NAN, 0.0, 0.0], &[1.0, 0.0, 0.0], &[0.0, 1.0, 0.0]];
+    let scene = read(encoded("ascii", &[("vertex", XYZ, lost), ("edge", ends, &[&[0.0, 1.0], &[1.0, 2.0]])]));
+    assert_eq!((scene.geometries[0].wires.as_slice(), scene.warnings.lines().len()), (&[[1, 2]][..], 1));
+}

@@ -21,8 +21,12 @@ struct Columns {
     uv: Option<[usize; 2]>,
 }
 
+/// Names of the channels of a colour.
+pub(super) const COLOURS: [[&str; 3]; 3] =
+    [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"], ["r", "g", "b"]];
+
 /// All of some properties, or none.
-fn find<const N: usize>(element: &Element, names: [&str; N]) -> Option<[usize; N]> {
+pub(super) fn find<const N: usize>(element: &Element, names: [&str; N]) -> Option<[usize; N]> {
     let mut found = [0; N];
     for (slot, name) in found.iter_mut().zip(names) {
         *slot = element.find(&[name])?;
@@ -32,9 +36,7 @@ fn find<const N: usize>(element: &Element, names: [&str; N]) -> Option<[usize; N
 
 impl Columns {
     fn new(element: &Element) -> Option<Self> {
-        let colour = find(element, ["red", "green", "blue"])
-            .or_else(|| find(element, ["diffuse_red", "diffuse_green", "diffuse_blue"]))
-            .or_else(|| find(element, ["r", "g", "b"]));
+        let colour = COLOURS.iter().find_map(|names| find(element, *names));
         let uv = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
         Some(Self {
             position: find(element, ["x", "y", "z"])?,

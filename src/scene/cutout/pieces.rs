@@ -30,6 +30,7 @@ impl<'a> Rebuilt<'a> {
             wires: from.wires.clone(),
             material: from.material,
             single_precision: from.single_precision,
+            lattice_step: from.lattice_step,
             ..Geometry::default()
         };
         Self { from, to, origins: Vec::new(), on_sides: FxHashMap::default() }

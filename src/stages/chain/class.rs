@@ -1,15 +1,17 @@
 //! [`Class`]: what must be equal of view edges that join into one line.
 
 use crate::lines::LineKind;
+use crate::mesh::bodies::body_of;
 use crate::mesh::{MaterialId, PartId};
 use crate::shape::Origin;
-use crate::viewmap::ViewEdge;
+use crate::viewmap::{ViewEdge, ViewMap};
 
 /// Edges of equal class may join into one chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Class {
     pub kind: LineKind,
-    pub part: PartId,
+    /// The first part of the body: a line goes on from part to part of one surface.
+    pub body: PartId,
     pub material: MaterialId,
     pub hidden: bool,
     pub silhouette: bool,
@@ -19,10 +21,10 @@ pub(super) struct Class {
 
 impl Class {
     /// The class of an edge as the view map has it. Hidden pieces of any invisibility are one class.
-    pub fn of(edge: &ViewEdge) -> Self {
+    pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
         Self {
             kind: edge.kind,
-            part: edge.part,
+            body: body_of(&map.bodies, edge.part),
             material: edge.material,
             hidden: edge.invisibility > 0,
             silhouette: edge.silhouette,
@@ -32,7 +34,7 @@ impl Class {
     }
 
     /// The class without what may change along one line of the surface.
-    pub fn of_source(edge: &ViewEdge) -> Self {
-        Self { hidden: false, silhouette: false, both_seen: false, ..Self::of(edge) }
+    pub fn of_source(map: &ViewMap, edge: &ViewEdge) -> Self {
+        Self { hidden: false, silhouette: false, both_seen: false, ..Self::of(map, edge) }
     }
 }

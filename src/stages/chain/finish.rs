@@ -234,7 +234,7 @@ fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
 /// Adds a line that begins where the other ends.
 fn append(line: &mut Line, part: &Line) {
     for i in 0..part.len() {
-        line.push(part.points[i], part.samples[i], part.soft[i], part.silhouette[i]);
+        line.push_of(part.points[i], part.samples[i], part.soft[i], part.silhouette[i], part.part[i]);
     }
 }
 

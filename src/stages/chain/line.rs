@@ -5,6 +5,7 @@ use kurbo::Point;
 use super::Sample;
 use super::step::Step;
 use crate::math::plane::length;
+use crate::mesh::PartId;
 use crate::viewmap::{ViewMap, ViewVertex};
 
 /// A polyline in user units. A closed one does not repeat its first point.
@@ -18,6 +19,8 @@ pub(super) struct Line {
     pub soft: Vec<bool>,
     /// Whether the piece that follows each point has background behind it; likewise.
     pub silhouette: Vec<bool>,
+    /// The part of the piece that follows each point; likewise.
+    pub part: Vec<PartId>,
     pub closed: bool,
 }
 
@@ -29,12 +32,12 @@ impl Line {
         for step in steps {
             let vertex = &map.vertices[step.from(map).index()];
             let edge = &map.edges[step.edge as usize];
-            line.push(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette);
+            line.push_of(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette, edge.part);
         }
         if let (false, Some(last)) = (closed, steps.last()) {
             let vertex = &map.vertices[last.to(map).index()];
             let edge = &map.edges[last.edge as usize];
-            line.push(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette);
+            line.push_of(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette, edge.part);
         }
         while closed && line.points.len() > 1 && line.points.first() == line.points.last() {
             line.pop();
@@ -48,16 +51,25 @@ impl Line {
             samples: Vec::with_capacity(count),
             soft: Vec::with_capacity(count),
             silhouette: Vec::with_capacity(count),
+            part: Vec::with_capacity(count),
             closed: false,
         }
     }
 
-    /// Adds a point, or renews the last one if it lies there already.
+    /// Adds a point of a line of the first part, or renews the last one if it lies there already.
     pub fn push(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool) {
+        self.push_of(point, sample, soft, silhouette, PartId::default());
+    }
+
+    /// Adds a point, or renews the last one if it lies there already.
+    pub fn push_of(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool, part: PartId) {
         if self.points.last() == Some(&point) {
             if let (Some(was_soft), Some(was)) = (self.soft.last_mut(), self.silhouette.last_mut()) {
                 *was_soft = soft;
                 *was = silhouette;
+            }
+            if let Some(was) = self.part.last_mut() {
+                *was = part;
             }
             return;
         }
@@ -65,6 +77,7 @@ impl Line {
         self.samples.push(sample);
         self.soft.push(soft);
         self.silhouette.push(silhouette);
+        self.part.push(part);
     }
 
     /// Takes the last point away.
@@ -73,6 +86,7 @@ impl Line {
         self.samples.pop();
         self.soft.pop();
         self.silhouette.pop();
+        self.part.pop();
     }
 
     pub fn len(&self) -> usize {
@@ -116,6 +130,7 @@ impl Line {
             samples: self.samples[first..=last].to_vec(),
             soft: self.soft[first..=last].to_vec(),
             silhouette: self.silhouette[first..=last].to_vec(),
+            part: self.part[first..=last].to_vec(),
             closed: false,
         }
     }
@@ -127,6 +142,7 @@ impl Line {
             samples: index.iter().map(|i| self.samples[*i]).collect(),
             soft: index.iter().map(|i| self.soft[*i]).collect(),
             silhouette: index.iter().map(|i| self.silhouette[*i]).collect(),
+            part: index.iter().map(|i| self.part[*i]).collect(),
             closed: self.closed,
         }
     }

@@ -12,6 +12,7 @@ pub(crate) mod identity;
 mod line;
 mod link;
 pub mod options;
+mod part_runs;
 mod partners;
 mod raw;
 pub mod removed;
@@ -42,6 +43,7 @@ use crate::mesh::{MaterialId, PartId};
 use crate::viewmap::{Ahead, ViewMap};
 use finish::{Tolerances, finish};
 use line::Line;
+use part_runs::{PartRuns, Piece};
 use raw::Raw;
 use removed::Bin;
 use tidy::tidied;
@@ -58,7 +60,7 @@ pub struct Chain {
     pub closed: bool,
     /// What line it is.
     pub kind: LineKind,
-    /// A contour with background behind it.
+    /// Whether there is background on one side of it.
     pub silhouette: bool,
     /// Number of surfaces that hide it; 0 = visible. Hidden pieces of different number join, and
     /// the chain has the smallest.
@@ -92,7 +94,8 @@ const DIRECTION_PX: f64 = 3.0;
 /// Joins the view edges end to end and makes drawn lines of them; hidden ones only if `hidden` has
 /// them drawn.
 ///
-/// Visible and hidden edges, kinds, parts and materials never join. With every option off each
+/// Visible and hidden edges, kinds, bodies and materials never join. Lines that go on from part to part of a body are cut there
+/// once they are finished. With every option off each
 /// edge longer than nothing is in exactly one chain and no point is moved; points between pieces
 /// of one straight line are left out. Chains come in the order of the feature segments they begin
 /// with.
@@ -147,7 +150,7 @@ fn link_with(
         points: true,
     };
     let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, ahead, bin);
-    raws.into_par_iter().with_max_len(8).map(|raw| chain(raw, t)).collect()
+    raws.into_par_iter().with_max_len(8).flat_map_iter(|raw| chains(raw, t)).collect()
 }
 
 /// The curve through a line that is drawn like chains are: smooth and fitted where `soft` says that
@@ -190,7 +193,8 @@ const MOTION_FIT: f64 = 0.25;
 /// Lines found in the image were pulled taut: smoothing may move them this many times farther.
 const IMAGE_SMOOTH: f64 = 0.5;
 
-fn chain(raw: Raw, mut t: Tolerances) -> Chain {
+/// The chains of a line: one for each part of the body along it.
+fn chains(raw: Raw, mut t: Tolerances) -> Vec<Chain> {
     if raw.class.kind.is_inside() {
         t.smooth *= INSIDE_SMOOTH;
     }
@@ -203,23 +207,37 @@ fn chain(raw: Raw, mut t: Tolerances) -> Chain {
         t.fit *= MOTION_FIT;
         t.clean = true;
     }
+    let (runs, part) = (PartRuns::of(&raw.line), raw.line.part.first().copied().unwrap_or_default());
     let (line, path) = finish(raw.line, t);
-    Chain {
-        samples: line.samples,
-        points: line.points,
+    let chain = Chain {
+        samples: Vec::new(),
+        points: Vec::new(),
         closed: line.closed,
         kind: raw.class.kind,
         silhouette: raw.class.silhouette,
         invisibility: raw.invisibility,
         veiled: false,
         both_seen: raw.class.both_seen,
-        part: raw.class.part,
+        part,
         material: raw.class.material,
         smooth: raw.smooth,
         covered: raw.covered,
         segment: raw.segment,
         identity: 0,
         places: Arc::default(),
-        path,
-    }
+        path: BezPath::new(),
+    };
+    let Some(runs) = runs else {
+        return vec![Chain { samples: line.samples, points: line.points, path, ..chain }];
+    };
+    let of_part = |piece: Piece| Chain {
+        samples: piece.line.samples,
+        points: piece.line.points,
+        path: piece.path,
+        closed: false,
+        part: piece.part,
+        covered: [0, 1].map(|end| piece.is_end[end] && raw.covered[end]),
+        ..chain.clone()
+    };
+    runs.cut(&line, &path, t.px).into_iter().map(of_part).collect()
 }

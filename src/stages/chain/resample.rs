@@ -22,6 +22,7 @@ pub(super) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
         samples: Vec::with_capacity(last),
         soft: Vec::with_capacity(last),
         silhouette: Vec::with_capacity(last),
+        part: Vec::with_capacity(last),
         closed: line.closed,
     };
     let (mut side, mut before) = (0, 0.0);
@@ -37,6 +38,7 @@ pub(super) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
         even.samples.push(line.samples[i].lerp(line.samples[j], t));
         even.soft.push(line.soft[i]);
         even.silhouette.push(line.silhouette[i]);
+        even.part.push(line.part[i]);
     }
     if !line.closed {
         // Ends stay to the bit.

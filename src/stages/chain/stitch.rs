@@ -344,15 +344,20 @@ fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<SeamEnd>, e
     let index = |k: usize| if backwards { n - 1 - k } else { k };
     let first = begin.map_or(0, |cut| cut.next);
     let last = n - end.map_or(0, |cut| cut.next);
+    // The side between two points that follow each other on the walk begins at the lesser of them.
+    let side_before = |k: usize| index(k.saturating_sub(1)).min(index(k.min(n - 1)));
     if let Some(cut) = begin {
-        whole.push(cut.point, cut.sample, true, line.silhouette[index(first.min(n - 1))]);
+        let side = side_before(first);
+        whole.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
     }
     for k in first..last.max(first) {
         // Walked backwards, the side after a point is the one before it.
         let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
-        whole.push(line.points[index(k)], line.samples[index(k)], line.soft[side], line.silhouette[side]);
+        let (soft, silhouette) = (line.soft[side], line.silhouette[side]);
+        whole.push_of(line.points[index(k)], line.samples[index(k)], soft, silhouette, line.part[side]);
     }
     if let Some(cut) = end {
-        whole.push(cut.point, cut.sample, true, line.silhouette[index(last.max(1) - 1)]);
+        let side = side_before(last);
+        whole.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
     }
 }

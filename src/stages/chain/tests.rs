@@ -233,6 +233,33 @@ fn contours_that_face_each_other_across_a_gap_are_one_line() {
 }
 
 #[test]
+fn a_long_side_beside_a_seam_keeps_its_silhouette() {
+    let wave = |k: i32| (f64::from(k), 50.0 + 5.0 * sin(f64::from(k) / 20.0));
+    let outline: Vec<(f64, f64)> = (0..=100).map(wave).collect();
+    let (x, y) = wave(103);
+    // One side of the outline, and a bit with surface on both sides that is too short to be drawn.
+    let short = vec![(x, y), (x + 60.0, y - 20.0), (x + 60.1, y - 20.05)];
+    for (turn_first, turn_second) in [(false, false), (false, true), (true, false), (true, true)] {
+        let turned = |line: &[(f64, f64)], turn: bool| {
+            let mut line = line.to_vec();
+            if turn {
+                line.reverse();
+            }
+            (line, LineKind::Contour, true)
+        };
+        let mut map = map_of(&[turned(&outline, turn_first), turned(&short, turn_second)]);
+        map.edges.iter_mut().for_each(|edge| edge.silhouette = true);
+        map.edges[if turn_second { 100 } else { 101 }].silhouette = false;
+        let chains = linked(&map, &ChainOptions::default(), Unit::Px);
+        assert_eq!(
+            chains.iter().map(|c| c.silhouette).collect::<Vec<_>>(),
+            [true],
+            "{turn_first} {turn_second}"
+        );
+    }
+}
+
+#[test]
 fn lines_that_pass_each_other_are_one_line() {
     let first: Vec<(f64, f64)> = (0..=110).map(|k| (f64::from(k), 50.0)).collect();
     let second: Vec<(f64, f64)> = (100..=200).map(|k| (f64::from(k), 50.8)).collect();

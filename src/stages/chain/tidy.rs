@@ -42,14 +42,14 @@ pub(super) fn tidied(
     ahead: Option<&Ahead>,
     bin: &mut Bin,
 ) -> Vec<Raw> {
-    let mut classes: Vec<Option<Class>> = map.edges.par_iter().map(|e| Some(Class::of(e))).collect();
+    let mut classes: Vec<Option<Class>> = map.edges.par_iter().map(|e| Some(Class::of(map, e))).collect();
     if tidy > 0.0 {
         leave_out_needles(map, &mut classes, bin);
         // Lines of other kinds have no gaps, and what continues a line is of its own kind.
         let is_contour = |e: &ViewEdge| e.kind == LineKind::Contour;
         if map.edges.par_iter().any(|e| e.invisibility > 0 && e.smooth && is_contour(e)) {
             let source = |(e, class): (&ViewEdge, &Option<Class>)| {
-                class.filter(|_| is_contour(e)).map(|_| Class::of_source(e))
+                class.filter(|_| is_contour(e)).map(|_| Class::of_source(map, e))
             };
             let sources: Vec<Option<Class>> = map.edges.par_iter().zip(&classes).map(source).collect();
             bridge(map, &routes(map, &sources, window), GAP * tidy, ahead, &mut classes);

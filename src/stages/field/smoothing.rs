@@ -28,7 +28,7 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
         return;
     }
     let near = |corners: &[u32; 3]| corners.iter().any(|v| values[*v as usize].abs() < NEAR_ZERO);
-    let rounds = |face: u32| rounds_of[mesh.face_part[face as usize].index()];
+    let rounds = |face: u32| rounds_of[mesh.body(face).index()];
     let mut faces: Vec<(u32, [u32; 3])> = (0..mesh.triangles.len() as u32)
         .into_par_iter()
         .with_min_len(GRAIN)
@@ -88,11 +88,12 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
     }
 }
 
-/// How often to average the values of each part: as many rounds as make up the radius, by the usual length of
+/// How often to average the values of each body, by its first part: as many rounds as make up the radius, by the usual length of
 /// an edge of the part, at its middle.
 fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<u32> {
     let mut count_of: Vec<usize> = Vec::new();
-    for part in &mesh.face_part {
+    let faces = 0..mesh.triangles.len() as u32;
+    for part in faces.clone().map(|face| mesh.body(face)) {
         if count_of.len() <= part.index() {
             count_of.resize(part.index() + 1, 0);
         }
@@ -101,10 +102,10 @@ fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<u32> {
     // Some thousand faces of each part tell how long its edges are.
     let mut faces_of: Vec<Vec<u32>> = vec![Vec::new(); count_of.len()];
     let mut passed = vec![0usize; count_of.len()];
-    for (face, part) in mesh.face_part.iter().enumerate() {
-        let part = part.index();
+    for face in faces {
+        let part = mesh.body(face).index();
         if passed[part] == 0 {
-            faces_of[part].push(face as u32);
+            faces_of[part].push(face);
             passed[part] = (count_of[part] / 4096).max(1);
         }
         passed[part] -= 1;

@@ -350,14 +350,15 @@ impl<'a> Finder<'a> {
         let above = angles.iter().find(|x| **x > eye).copied();
         let (low, high) =
             (below.unwrap_or(angles[angles.len() - 1] - turn_round), above.unwrap_or(angles[0] + turn_round));
-        (std::f64::consts::PI - (high - low)).abs().to_degrees() as f32
+        let doubt = faces.iter().map(|f| Dihedral::doubt_of(mesh, *f)).fold(0.0, f64::max);
+        ((std::f64::consts::PI - (high - low)).abs().to_degrees() - 2.0 * doubt) as f32
     }
 
-    /// The largest turn between the two faces that one part has at the edge: where parts touch,
+    /// The largest turn between the two faces that one body has at the edge: where bodies touch,
     /// each keeps its own creases.
     fn own_turn(&self, edge: usize, faces: &[u32]) -> f32 {
         let mesh = self.mesh;
-        let part = |f: &u32| mesh.face_part[*f as usize];
+        let part = |f: &u32| mesh.body(*f);
         if faces.iter().all(|f| part(f) == part(&faces[0])) {
             return 0.0;
         }
@@ -366,7 +367,7 @@ impl<'a> Finder<'a> {
             let own: Vec<u32> = faces.iter().copied().filter(|f| part(f) == part(first)).collect();
             if let [a, b] = *own.as_slice() {
                 let same_way = runs_up(mesh, edge, a) == runs_up(mesh, edge, b);
-                most = most.max(Dihedral::of(mesh, [a, b], same_way).turn());
+                most = most.max(Dihedral::of(mesh, [a, b], same_way).sure_turn(mesh));
             }
         }
         most

@@ -9,7 +9,7 @@
 use super::Surface;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::trees::{DualFound, DualTree};
-use crate::view::Frame;
+use crate::view::View;
 
 /// The edges of a surface, ready for many views.
 #[derive(Debug, Clone, Default)]
@@ -58,10 +58,23 @@ impl EdgeSearch {
         &self.tree
     }
 
-    /// All edges that may be lines, ascending, and how many boxes were looked at to find them.
+    /// All edges of the mesh that may be lines in a view of it, ascending, and how many boxes were looked at to find them.
     #[must_use]
-    pub fn candidates(&self, frame: &Frame) -> DualFound {
-        let mut found = self.tree.candidates(frame.homogeneous_eye());
+    pub fn candidates(&self, mesh: &Mesh, view: &View) -> DualFound {
+        let mut found = self.tree.candidates(view.frame.homogeneous_eye());
+        if !view.unsure.is_empty() {
+            // The tree knows only the angles of these faces, which do not decide about them.
+            let sides = |face: &u32| {
+                let [a, b, c] = mesh.triangles[*face as usize];
+                [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)])
+            };
+            let edges = view.unsure.iter().flat_map(sides);
+            found
+                .items
+                .extend(edges.filter_map(|e| mesh.edges.vertices.binary_search(&e).ok()).map(|e| e as u32));
+            found.items.sort_unstable();
+            found.items.dedup();
+        }
         let (mut sorted, mut fixed) =
             (Vec::with_capacity(found.items.len() + self.fixed.len()), self.fixed.iter().copied().peekable());
         for edge in found.items {
@@ -71,6 +84,7 @@ impl EdgeSearch {
             sorted.push(edge);
         }
         sorted.extend(fixed);
+        sorted.dedup();
         found.items = sorted;
         found
     }

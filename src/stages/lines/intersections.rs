@@ -9,6 +9,7 @@
 
 use rayon::prelude::*;
 
+use super::contacts;
 use super::surface::Finer;
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::math::grain::GRAIN;
@@ -18,6 +19,7 @@ use crate::shape::Origin;
 use crate::trees::finer::{Hosts, PairSearch};
 use crate::trees::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
 use crate::trees::trace::Tracer;
+use crate::trees::triangle_pair::PairTolerance;
 use crate::view::View;
 
 /// Meshes with at most this many triangles are searched in full, which takes no longer.
@@ -78,7 +80,8 @@ fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
 #[must_use]
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
-    intersections_of_parts(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
+    contacts::without(intersections_of_parts(&input(mesh, &active), tolerance), mesh)
 }
 
 /// The curves of a mesh between faces that are not `out_of_sight`: of [`all_curves`] every segment of which something shows.
@@ -88,14 +91,15 @@ pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Intersection
         *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
     });
     let active = out_of_sight;
-    intersections_of_parts(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
+    contacts::without(intersections_of_parts(&input(mesh, &active), tolerance), mesh)
 }
 
 /// All curves of a mesh, so that those of finer meshes made of it are found sooner: [`curves_of_finer`].
 #[must_use]
 pub fn search(mesh: &Mesh) -> PairSearch {
     let active = active(mesh);
-    PairSearch::new(&input(mesh, &active), |face| mesh.extent(FaceId(face)).scale)
+    PairSearch::new(&input(mesh, &active), |face| PairTolerance::of_part(mesh.extent(FaceId(face))))
 }
 
 /// All curves of a surface some of whose faces were cut, with the help of a [`search`] of the mesh it was made of:
@@ -105,8 +109,8 @@ pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves
     let mesh = &finer.surface.mesh;
     let active = active(mesh);
     let hosts = Hosts { faces: &finer.hosts, kept: finer.kept };
-    let scale = |face| mesh.extent(FaceId(face)).scale;
-    search.curves_of_finer(&input(mesh, &active), hosts, scale)
+    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
+    contacts::without(search.curves_of_finer(&input(mesh, &active), hosts, tolerance), mesh)
 }
 
 /// Which faces have area; empty if all have.
@@ -127,5 +131,5 @@ pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
     let buffer = FaceBuffer::new(&Screen::new(mesh, view));
     let active = strangers::find(mesh, &buffer);
     let tracer = Tracer::new(mesh);
-    tracer.curves(&tracer.pairs_among(&active))
+    contacts::without(tracer.curves(&tracer.pairs_among(&active)), mesh)
 }

@@ -80,7 +80,7 @@ impl Lit<'_> {
 
     /// Whether the eye may see a face: not the averted ones of solid parts.
     #[inline]
-    pub(super) fn may_be_seen(&self, face: usize) -> bool {
+    pub(crate) fn may_be_seen(&self, face: usize) -> bool {
         let solid = || self.solid.get(self.mesh.face_part[face].index()).copied().unwrap_or_default();
         self.view.facing[face] || !solid()
     }

@@ -1,11 +1,13 @@
 //! Feature lines: curves on the surface that may be drawn.
 
 mod colour_cells;
+mod contacts;
 mod covered;
 mod drawn;
 pub mod edge_lines;
 pub mod edge_search;
 mod folds;
+mod free_wires;
 pub mod image;
 mod in_faces;
 pub mod inside;
@@ -81,7 +83,7 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     let along_edges = || match known.search.filter(|search| search.fits(mesh)) {
         None => edge_lines::find(surface, view, options),
         Some(search) => {
-            let among = search.candidates(&view.frame).items;
+            let among = search.candidates(mesh, view).items;
             edge_lines::find_among(&among, surface, view, options)
         }
     };
@@ -97,6 +99,11 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     // None of them needs another.
     let ((segments, contours), curves) = rayon::join(|| rayon::join(along_edges, contours), curves);
     lines.segments = segments;
+    let wires = if options.kinds.contains(&LineKind::Wire) && !mesh.wires.is_empty() {
+        free_wires::find(mesh, &lines.segments)
+    } else {
+        Vec::new()
+    };
     if let Some((contours, facing)) = contours {
         lines.append_contours(contours);
         folds::tell(mesh, view, smooth, &facing, &mut lines.segments);
@@ -115,9 +122,7 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
         let curvature = inside::curvature(mesh, smooth, &options.inside);
         inside::find(mesh, view, smooth, &curvature, options, &mut lines);
     }
-    if options.kinds.contains(&LineKind::Wire) {
-        lines.segments.extend(mesh.wires.iter().map(FeatureSegment::of_wire));
-    }
+    lines.segments.extend(wires.iter().map(FeatureSegment::of_wire));
     tell_origins(surface, &mut lines);
     lines
 }

@@ -3,9 +3,12 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::bodies::bodies;
+use super::carriers::{Faces, take_over};
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
 use super::face_normals::face_normals;
+use super::orientation::{Surfaces, Triangles, TurnedFaces, turn_faces};
 use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
 use crate::math::grain::GRAIN;
 
@@ -14,7 +17,8 @@ impl Mesh {
     ///
     /// Vertices at the same place are joined (see [`weld`]), faces with repeated corners and
     /// faces that stand twice in one part are dropped, open edges that lie along each other are sewn (see
-    /// `seams`), everything is counted in [`Mesh::cleaning`]. However the soup numbers its vertices, whatever the order of its faces
+    /// `seams`), everything is counted in [`Mesh::cleaning`]. Faces that are wound inward or against their neighbours
+    /// are turned (see `orientation`) and counted in [`Mesh::turned`]. However the soup numbers its vertices, whatever the order of its faces
     /// and whichever corner they begin with, the mesh is the same; only parts and materials keep
     /// their order.
     #[must_use]
@@ -32,13 +36,27 @@ impl Mesh {
         }
         drop_collapsed(&mut soup, &mut cleaning);
         let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
+        let mut turned = Vec::new();
+        // Closed surfaces come first, so that all that follows is as if the file had wound them right.
+        let mut surfaces = surfaces(&soup, &edges);
+        let mut is_final = !surfaces.has_open();
+        surfaces.turn_closed_only();
+        if turn(&mut soup, &surfaces, &mut turned) {
+            order::faces_by_place(&mut soup);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+        }
 
-        let extents = Extents::new(&soup, origin);
+        let of_bodies = |soup: &Soup, bodies: &[_]| {
+            Extents::new(soup, origin).united(bodies, origin, soup.single_precision)
+        };
+        let mut joined_parts = bodies(&soup.triangle_part, &edges);
+        let mut extents = of_bodies(&soup, &joined_parts);
         let (borders, reaches) = border_vertices(&soup, &edges, &extents);
         if let Some(joined) = weld::near(&soup.positions, &borders, &reaches) {
             replace_vertices(&mut soup, &joined, &mut cleaning);
             drop_collapsed(&mut soup, &mut cleaning);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
+            is_final = false;
         }
         if let Some(keep) = one_of_doubles(&soup, &edges) {
             cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
@@ -47,6 +65,7 @@ impl Mesh {
             let of = |keep: &bool| if *keep { left.next() } else { None }.unwrap_or(u32::MAX);
             let renamed: Vec<u32> = keep.iter().map(of).collect();
             edges = edges.without(&renamed, &soup.triangles);
+            is_final = false;
         }
         let mut seams = seams::find(&soup, &edges, &extents, true);
         if !seams.joined.is_empty() {
@@ -63,10 +82,24 @@ impl Mesh {
             changed.extend(before..soup.triangles.len() as u32);
             edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
         }
+        if !is_final {
+            let surfaces = self::surfaces(&soup, &edges);
+            if turn(&mut soup, &surfaces, &mut turned) {
+                edges.turn(&surfaces.turned);
+            }
+        }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
+        let found = bodies(&soup.triangle_part, &edges);
+        if found != joined_parts {
+            extents = of_bodies(&soup, &found);
+            joined_parts = found;
+        }
         let scale = |face: usize| extents.of(soup.triangle_part[face]).scale;
-        let face_normals = face_normals(&soup.positions, &soup.triangles, scale);
+        let mut face_normals = face_normals(&soup.positions, &soup.triangles, scale);
+        let Soup { positions, triangles, triangle_part: parts, .. } = &soup;
+        let carriers = Faces { positions, triangles, parts, edges: &edges, extents: &extents }.carriers();
+        take_over(&carriers, &mut face_normals);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
@@ -77,7 +110,9 @@ impl Mesh {
             positions: soup.positions,
             triangles: soup.triangles,
             face_normals,
+            carriers,
             face_part: soup.triangle_part,
+            bodies: joined_parts,
             face_material: soup.triangle_material,
             face_paint: soup.triangle_paint,
             normals: soup.normals,
@@ -89,8 +124,25 @@ impl Mesh {
             edges,
             wires: soup.wires,
             cleaning,
+            turned,
         }
     }
+}
+
+/// The connected surfaces of a soup.
+fn surfaces(soup: &Soup, edges: &Edges) -> Surfaces {
+    let Soup { positions, triangles, triangle_part: parts, .. } = soup;
+    Surfaces::new(&Triangles { positions, triangles, parts, edges })
+}
+
+/// Turns and counts the faces that must be turned; false if there are none.
+fn turn(soup: &mut Soup, surfaces: &Surfaces, counts: &mut Vec<TurnedFaces>) -> bool {
+    let any = !surfaces.turned.is_empty();
+    if any {
+        turn_faces(soup, &surfaces.turned);
+        surfaces.count(&soup.triangle_part, counts);
+    }
+    any
 }
 
 /// The box around all vertices that a face or wire uses.

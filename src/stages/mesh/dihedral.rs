@@ -6,8 +6,9 @@
 use glam::DVec3;
 
 use super::needle::{Beyond, seen_from};
-use super::{EdgeFaces, EdgeMark, FaceId, Mesh};
+use super::{EdgeFaces, EdgeMark, FaceId, Mesh, carriers};
 use crate::math::function::acos;
+use crate::math::tolerance;
 
 /// Two faces with area that meet at an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +58,34 @@ impl Dihedral {
     #[must_use]
     pub fn turn(&self) -> f32 {
         turn_of(self.cosine)
+    }
+
+    /// Degrees by which the surface turns for sure: the rest may come from the rounding of the corners. Limits of angles are
+    /// compared with this, so that what turns by the limit itself is never above it, however it is written.
+    #[must_use]
+    pub fn sure_turn(&self, mesh: &Mesh) -> f32 {
+        self.turn() - self.doubt(mesh)
+    }
+
+    /// Degrees by which the angle may be off.
+    fn doubt(&self, mesh: &Mesh) -> f32 {
+        let [a, b] = self.faces.map(|face| Self::doubt_of(mesh, face));
+        (a + b) as f32
+    }
+
+    /// Degrees by which rounding may have turned the normal of a face.
+    #[must_use]
+    pub fn doubt_of(mesh: &Mesh, face: u32) -> f64 {
+        let least = tolerance::ANGLE_DEG / 2.0;
+        let rounding = mesh.extent(FaceId(face)).rounding;
+        if rounding == 0.0 {
+            return least;
+        }
+        let own = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
+        let face = own.map_or(face, |at| mesh.carriers[at][1]);
+        let height = carriers::height(&mesh.corners(FaceId(face)));
+        // Doubts are small, and an arc is as long as its sine there.
+        least + (2.0 * rounding / height).min(1.0).to_degrees()
     }
 
     /// The normals of the two faces, both on the side that the first one calls outside.

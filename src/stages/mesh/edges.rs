@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 
 use super::shares::{Share, share_count, shares};
+use crate::math::grain::GRAIN;
 
 pub(super) const NONE: u32 = u32::MAX;
 pub(super) const MANY: u32 = u32::MAX - 1;
@@ -141,6 +142,17 @@ impl Edges {
                 EdgeFaces::Two { faces: [first, second & !SAME_WAY], same_way: second & SAME_WAY != 0 }
             }
         }
+    }
+
+    /// Updates which faces run along an edge the same way after some faces were turned.
+    pub(super) fn turn(&mut self, turned: &[bool]) {
+        let is_turned = |face: u32| turned.get(face as usize).copied().unwrap_or_default();
+        self.faces.par_iter_mut().with_min_len(GRAIN).for_each(|[first, second]| {
+            let has_two = *first != MANY && *second != NONE;
+            if has_two && is_turned(*first) != is_turned(*second & !SAME_WAY) {
+                *second ^= SAME_WAY;
+            }
+        });
     }
 
     /// Number of edges with one face.

@@ -38,11 +38,33 @@ pub struct Extent {
     pub contact: f64,
     /// Vertices this near are one vertex, world units.
     pub weld: f64,
+    /// The step of its coordinates as the file wrote them, world units; 0 where they are exact.
+    pub step: f64,
+    /// How far rounding may have moved a vertex, world units; 0 where coordinates are exact.
+    pub rounding: f64,
+    /// What the part is without the rest of its body.
+    own: Own,
+}
+
+/// The scale and the box of a part alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Own {
+    scale: f64,
+    low: DVec3,
+    high: DVec3,
 }
 
 impl Extent {
-    const NOTHING: Self =
-        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, scale: 0.0, contact: 0.0, weld: 0.0 };
+    const NOTHING: Self = Self {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
+        scale: 0.0,
+        contact: 0.0,
+        weld: 0.0,
+        step: 0.0,
+        rounding: 0.0,
+        own: Own { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
+    };
 
     /// Diagonal of the box, world units.
     #[must_use]
@@ -50,12 +72,12 @@ impl Extent {
         if self.low.x <= self.high.x { self.low.distance(self.high) } else { 0.0 }
     }
 
-    /// The order of two parts by their size, then by where they are, which does not depend on that in the file.
+    /// The order of two parts by their own size, then by where they are, which does not depend on that in the file.
     #[must_use]
     pub fn precedence(&self, other: &Self) -> Ordering {
-        let place = |extent: &Self| [extent.low.to_array(), extent.high.to_array()];
-        let by_place = || place(self).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
-        self.scale.total_cmp(&other.scale).then_with(by_place)
+        let place = |own: &Own| [own.low.to_array(), own.high.to_array()];
+        let by_place = || place(&self.own).partial_cmp(&place(&other.own)).unwrap_or(Ordering::Equal);
+        self.own.scale.total_cmp(&other.own.scale).then_with(by_place)
     }
 
     /// Middle of the box, local space.
@@ -112,8 +134,9 @@ impl Extents {
                 (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
             }
         }
-        for extent in &mut of_part {
-            extent.measure(origin, soup.single_precision);
+        for (part, extent) in of_part.iter_mut().enumerate() {
+            let step = soup.steps.get(part).copied().unwrap_or_default();
+            extent.measure(origin, soup.single_precision, step);
         }
         Self { of_part, middle: all.middle(), diagonal: all.diagonal() }
     }
@@ -122,6 +145,12 @@ impl Extents {
     #[must_use]
     pub fn of(&self, part: PartId) -> &Extent {
         self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
+    }
+
+    /// Whether the coordinates of some part are rounded.
+    #[must_use]
+    pub fn is_rounded(&self) -> bool {
+        self.of_part.iter().any(|part| part.rounding > 0.0)
     }
 
     /// A ball that holds all vertices: its middle, local space, and its radius. Both are rounded, so that they
@@ -140,8 +169,29 @@ impl Extents {
     }
 }
 
+impl Extents {
+    /// The same, but that each part has the extent of its body: the union of those of its parts. The order of parts stays that of
+    /// their own sizes.
+    pub(super) fn united(mut self, bodies: &[PartId], origin: DVec3, single_precision: bool) -> Self {
+        if bodies.is_empty() {
+            return self;
+        }
+        let mut of_body = vec![Extent::NOTHING; self.of_part.len()];
+        for (extent, body) in self.of_part.iter().zip(bodies) {
+            let own = &mut of_body[body.index()];
+            (own.low, own.high) = (own.low.min(extent.low), own.high.max(extent.high));
+            own.step = own.step.max(extent.step);
+        }
+        of_body.iter_mut().for_each(|extent| extent.measure(origin, single_precision, extent.step));
+        for (extent, body) in self.of_part.iter_mut().zip(bodies) {
+            *extent = Extent { own: extent.own, ..of_body[body.index()] };
+        }
+        self
+    }
+}
+
 impl Extent {
-    fn measure(&mut self, origin: DVec3, single_precision: bool) {
+    fn measure(&mut self, origin: DVec3, single_precision: bool, step: f64) {
         if self.low.x > self.high.x {
             return;
         }
@@ -152,8 +202,12 @@ impl Extent {
         let largest = low.abs().max(high.abs()).max_element();
         let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
         self.weld = (tolerance::WELD_OF_PART * self.scale).max(written);
-        self.contact =
-            (tolerance::CONTACT_OF_PART * self.scale).max((2.0 * written).min(CONTACT_AT_MOST * self.scale));
+        // Placing a part in the world rounds its coordinates again.
+        self.step = if single_precision { step.max(tolerance::F32_STEP * largest) } else { step };
+        self.rounding = (tolerance::ROUNDING_STEPS * self.step).min(CONTACT_AT_MOST * self.scale);
+        let between = (2.0 * written).max(2.0 * self.rounding).min(CONTACT_AT_MOST * self.scale);
+        self.contact = (tolerance::CONTACT_OF_PART * self.scale).max(between);
+        self.own = Own { scale: self.scale, low: self.low, high: self.high };
     }
 }
 

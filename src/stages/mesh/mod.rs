@@ -1,6 +1,8 @@
 //! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
+pub(crate) mod bodies;
 pub mod build;
+pub mod carriers;
 mod changed_edges;
 pub mod clean;
 mod counting_sort;
@@ -17,6 +19,7 @@ pub mod ids;
 pub mod lattice;
 pub mod needle;
 mod order;
+pub(crate) mod orientation;
 mod places;
 pub mod posed;
 mod seams;
@@ -38,6 +41,7 @@ pub use extents::{Extent, Extents};
 pub(crate) use first_edges::FirstEdges;
 pub use groups::{Groups, Numbered};
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
+pub use orientation::TurnedFaces;
 pub use posed::Sources;
 pub(crate) use shares::{Share, share_count, shares};
 pub use soup::{EdgeMark, Soup, Wire};
@@ -57,12 +61,18 @@ pub struct Mesh {
     pub extents: Extents,
     /// Vertices, world units relative to `origin`.
     pub positions: Vec<DVec3>,
-    /// Vertex ids of each face, counter-clockwise seen from outside as far as the file is right.
+    /// Vertex ids of each face, counter-clockwise seen from outside; in surfaces without an outside, such as flat sheets, as the
+    /// file winds them.
     pub triangles: Vec<[u32; 3]>,
     /// Unit normal of each face; zero for degenerate faces.
     pub face_normals: Vec<[f32; 3]>,
+    /// Narrow faces, ascending, each with a wider face in the same plane that knows the normal better: see [`carriers`].
+    pub carriers: Vec<[u32; 2]>,
     /// Part of each face.
     pub face_part: Vec<PartId>,
+    /// For each part the first of the parts whose surfaces continue in each other; empty if each part is a body of its own. See
+    /// [`Mesh::body`].
+    pub bodies: Vec<PartId>,
     /// Material of each face.
     pub face_material: Vec<MaterialId>,
     /// Paint of each face, or empty where each has that of its material: see [`Mesh::paint`].
@@ -85,6 +95,8 @@ pub struct Mesh {
     pub wires: Vec<Wire>,
     /// What was mended.
     pub cleaning: Cleaning,
+    /// Faces that the file winds inward or against their neighbours: one entry for each part that has any, in the order of parts.
+    pub turned: Vec<TurnedFaces>,
 }
 
 impl Mesh {

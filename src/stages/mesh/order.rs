@@ -75,6 +75,12 @@ pub(super) fn by_place(soup: &mut Soup, largest: f64) -> u64 {
     (before - soup.positions.len()) as u64
 }
 
+/// Orders the faces of a soup again, after some of them were turned.
+pub(super) fn faces_by_place(soup: &mut Soup) {
+    let same: Vec<u32> = (0..soup.positions.len() as u32).collect();
+    order_faces(soup, &same);
+}
+
 /// Sorts the places and leaves each once; returns the new id of each old vertex.
 fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
     // A power of two, so that the cells of a larger model are made of those of a smaller one.

@@ -9,6 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::carriers::{Faces, take_over};
 use super::face_normals::face_normals;
 use super::{Extents, Mesh, Soup};
 
@@ -71,9 +72,11 @@ impl Mesh {
             triangle_part: self.face_part.clone(),
             wires: self.wires.clone(),
             single_precision: soup.single_precision,
+            steps: soup.steps.clone(),
             ..Soup::default()
         };
         let extents = Extents::new(&moved, self.origin);
+        let extents = extents.united(&self.bodies, self.origin, moved.single_precision);
         let together = TOGETHER * extents.diagonal;
         let parted = |(vertex, p): (&u32, &DVec3)| {
             let joined = moved.positions.get(*vertex as usize).copied().unwrap_or(DVec3::NAN);
@@ -83,9 +86,14 @@ impl Mesh {
             return None;
         }
         let scale = |face: usize| extents.of(moved.triangle_part[face]).scale;
-        let face_normals = face_normals(&moved.positions, &moved.triangles, scale);
+        let mut face_normals = face_normals(&moved.positions, &moved.triangles, scale);
+        let Soup { positions, triangles, triangle_part: parts, .. } = &moved;
+        let carriers =
+            Faces { positions, triangles, parts, edges: &self.edges, extents: &extents }.carriers();
+        take_over(&carriers, &mut face_normals);
         Some(Self {
             face_normals,
+            carriers,
             normals: soup.normals.clone(),
             positions: moved.positions,
             extents,

@@ -20,8 +20,12 @@ use crate::math::tolerance;
 /// turns by more at a corner has a corner there.
 const ALONG: f64 = 0.7;
 
-/// Faces on both sides of a seam turn by less than the angle of this cosine (120 degrees).
+/// Faces on both sides of a gap turn by less than the angle of this cosine (120 degrees), unless their borders part at a common
+/// corner and meet again at another: then there is no gap, but an edge with a corner in it.
 const FOLDED: f64 = -0.5;
+
+/// Most corners that a border has between two corners that it shares with the border on the other side.
+const MAX_CORNERS_BETWEEN: usize = 64;
 
 /// A corner stays this many times nearer to the side that it cuts than the face is high, and than to the ends of the side.
 const NEARER: f64 = 2.0;
@@ -99,13 +103,20 @@ fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
 }
 
 impl Open {
+    /// Whether another open edge of the part runs against this one.
+    fn runs_against(&self, other: &Self) -> bool {
+        other.face != self.face && other.part == self.part && other.along.dot(self.along) < -ALONG
+    }
+
+    /// Whether the surface would fold back if another open edge were the other side of a seam.
+    fn folds(&self, other: &Self) -> bool {
+        other.normal.dot(self.normal) <= FOLDED
+    }
+
     /// Whether another open edge may be the other side of a seam: it runs against this one, and the surface does not
     /// fold back there.
     fn faces_across(&self, other: &Self) -> bool {
-        other.face != self.face
-            && other.part == self.part
-            && other.along.dot(self.along) < -ALONG
-            && other.normal.dot(self.normal) > FOLDED
+        self.runs_against(other) && !self.folds(other)
     }
 
     /// Whether both ends and a corner of another face on the way between them are painted as one surface is.
@@ -276,8 +287,41 @@ impl<'a> Seams<'a> {
     fn is_of_seam(&self, own: &Open, t: f64, corner: u32) -> bool {
         let vertex = self.corners[corner as usize];
         self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
-            own.faces_across(other) && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
+            own.runs_against(other)
+                && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
+                && (!own.folds(other) || self.meets_on_both_sides(own, vertex))
         })
+    }
+
+    /// Whether the border of an open edge and that of a vertex beside it part at a common corner before them and meet at
+    /// another one behind them.
+    fn meets_on_both_sides(&self, own: &Open, vertex: u32) -> bool {
+        [0, 1].into_iter().all(|end| {
+            let way = if end == 0 { -own.along } else { own.along };
+            let own_corners = self.corners_from(own.ends[end], end, way, own.part);
+            // The border on the other side runs the other way.
+            let others = self.corners_from(vertex, 1 - end, way, own.part);
+            own_corners.iter().any(|corner| others.contains(corner))
+        })
+    }
+
+    /// The corners of a border from a vertex on in one direction, itself first: those that its open edges begin at
+    /// (`end` is 0) or end at (1).
+    fn corners_from(&self, vertex: u32, end: usize, way: DVec3, part: PartId) -> Vec<u32> {
+        let mut found = vec![vertex];
+        while let Some(last) = found.last().copied().filter(|_| found.len() < MAX_CORNERS_BETWEEN) {
+            let corner = self.numbers[last as usize] as usize;
+            let edges = self.at.of(corner).iter().map(|k| &self.open[*k as usize]);
+            let own = edges.filter(|edge| edge.ends[1 - end] == last && edge.part == part);
+            let cosine = |edge: &Open| edge.along.dot(if end == 0 { -way } else { way });
+            let next = own.max_by(|a, b| cosine(a).total_cmp(&cosine(b)));
+            let Some(next) = next.filter(|next| cosine(next) > ALONG && !found.contains(&next.ends[end]))
+            else {
+                break;
+            };
+            found.push(next.ends[end]);
+        }
+        found
     }
 
     /// How far the curve, of which an open edge is a chord, may stand off, and which way: told by how it turns at

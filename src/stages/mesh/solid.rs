@@ -1,9 +1,10 @@
-//! Which parts are closed surfaces that are wound outward, so that nobody sees their inside.
+//! Which parts belong to closed surfaces that are wound outward, so that nobody sees their inside.
 
-use super::{EdgeFaces, FaceId, Mesh};
+use super::bodies::body_of;
+use super::{EdgeFaces, FaceId, Mesh, PartId};
 
-/// For each part, whether all its edges have two faces that run against each other and its volume is
-/// positive. A part with a hole, however small, is not closed.
+/// For each part, whether all edges of its body have two faces that run against each other and the volume of the body is
+/// positive. A body with a hole, however small, is not closed.
 #[must_use]
 pub fn solid_parts(mesh: &Mesh) -> Vec<bool> {
     let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
@@ -15,15 +16,16 @@ pub fn solid_parts(mesh: &Mesh) -> Vec<bool> {
             EdgeFaces::Many(_) => None,
         };
         if let Some(face) = open {
-            closed[mesh.face_part[face as usize].index()] = false;
+            closed[mesh.body(face).index()] = false;
         }
     }
     let mut volume = vec![0.0; parts];
-    for (face, part) in mesh.face_part.iter().enumerate() {
-        let [a, b, c] = mesh.corners(FaceId(face as u32));
-        volume[part.index()] += a.dot(b.cross(c));
+    for face in 0..mesh.triangles.len() as u32 {
+        let [a, b, c] = mesh.corners(FaceId(face));
+        volume[mesh.body(face).index()] += a.dot(b.cross(c));
     }
-    closed.iter().zip(volume).map(|(closed, volume)| *closed && volume > 0.0).collect()
+    let is_solid = |body: PartId| closed[body.index()] && volume[body.index()] > 0.0;
+    (0..parts as u32).map(|part| is_solid(body_of(&mesh.bodies, PartId(part)))).collect()
 }
 
 #[cfg(test)]
@@ -31,7 +33,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::mesh::{PartId, Soup};
+    use crate::mesh::Soup;
 
     #[test]
     fn a_box_is_solid_an_open_one_and_one_inside_out_are_not() {

@@ -66,4 +66,6 @@ pub struct Soup {
     /// Whether the file stored single-precision positions, so that corners that belong together
     /// may differ in the last bits of an `f32`.
     pub single_precision: bool,
+    /// The step of the coordinates of each part as the file wrote them, world units; parts beyond the list are exact.
+    pub steps: Vec<f64>,
 }

@@ -118,7 +118,7 @@ pub fn decals(
     let laid: Vec<Laid> = anchors
         .par_iter()
         .with_min_len(64)
-        .filter(|anchor| lit.shows(anchor.face as usize))
+        .filter(|anchor| lit.may_be_seen(anchor.face as usize))
         .filter_map(|anchor| {
             let figure = &figures[anchor.figure as usize];
             let [i, j] = anchor.place.map(|k| k as f64);
@@ -304,7 +304,7 @@ impl Walker<'_> {
             let every = line.len().div_ceil(ASKED);
             for (k, p) in line.iter().enumerate() {
                 // Neighbours are on the same face, mostly.
-                let shows = |face: u32| self.lit.shows(face as usize);
+                let shows = |face: u32| self.lit.may_be_seen(face as usize);
                 let (at, there, is_on) = match self.find(face, *p + shift) {
                     Some(at) => (at, face, true),
                     None => self.walk(anchor.face, *p + shift, shows)?,

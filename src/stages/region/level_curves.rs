@@ -55,7 +55,7 @@ pub fn level_curves(
         .map(|chunk| {
             let mut pieces = Vec::new();
             for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
-                if lit.shows(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
+                if lit.may_be_seen(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
                     trace(lit, face as u32, &value, &is_wanted, &mut pieces);
                 }
             }
@@ -200,10 +200,3 @@ pub fn are_seen(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
 
 /// Depths that differ by no more than this (px) are the same surface.
 const SAME_DEPTH_PX: f64 = 0.1;
-
-impl Lit<'_> {
-    /// Whether the eye may see a face.
-    pub(super) fn shows(&self, face: usize) -> bool {
-        self.view.facing[face] || self.solid.is_empty()
-    }
-}

@@ -65,7 +65,8 @@ pub(super) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
         if cosine.is_nan() || cosine >= low_cosine {
             return None;
         }
-        let turn = turn_of(cosine);
+        let dihedral = turns.dihedral(mesh, edge);
+        let turn = dihedral.map_or_else(|| turn_of(cosine), |dihedral| dihedral.sure_turn(mesh));
         (turn > low_deg as f32).then_some(Fold { edge: edge as u32, turn })
     };
     let chunks = mesh.edges.len().div_ceil(CHUNK);

@@ -28,7 +28,7 @@ pub struct Curvature {
     pub derivative: Vec<[f64; 4]>,
     /// Size of the features of each part, world units; see `feature_size::feature_sizes`.
     pub feature_sizes: Vec<f64>,
-    /// The part of each smooth vertex.
+    /// The body of each smooth vertex, by its first part.
     part_of: Vec<PartId>,
 }
 
@@ -37,7 +37,7 @@ impl Curvature {
     #[must_use]
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
         let fans = Fans::new(mesh, smooth);
-        let part_of = fans.parts(mesh, smooth.vertices.len());
+        let part_of = fans.bodies(mesh, smooth.vertices.len());
         let length = |part: PartId| smoothing * mesh.extents.of(part).scale;
         let normals = diffuse(smooth, &fans, &part_of, length);
         let principal = principal(mesh, smooth, &fans, &normals);

@@ -12,6 +12,7 @@ use rustc_hash::FxHashMap;
 pub use super::cylinder::Cylinder;
 use super::rims::rims;
 use crate::math::function::atan2;
+use crate::mesh::bodies::body_of;
 use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh, PartId};
 
 /// Faces that turn less than this lie in one strip; strips that turn more than the second are not of one cylinder (cosines of 0.06 and
@@ -58,11 +59,7 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
         })
         .collect();
     let two = |edge: usize| match mesh.edges.faces(edge) {
-        EdgeFaces::Two { faces: [a, b], same_way: false }
-            if mesh.face_part[a as usize] == mesh.face_part[b as usize] =>
-        {
-            Some([a, b])
-        }
+        EdgeFaces::Two { faces: [a, b], same_way: false } if mesh.body(a) == mesh.body(b) => Some([a, b]),
         _ => None,
     };
     let turn = |[a, b]: [u32; 2]| normals[a as usize].dot(normals[b as usize]);
@@ -254,17 +251,18 @@ fn grouped(mesh: &Mesh, pairs: &[Pair], strips: &[Strip], part_of: &[PartId]) ->
         let ends = ends.map(|end| end - centre.dot(axis));
         let (part, point) = (part_of[of[0]], centre + mesh.origin);
         let hollow = pairs[own[0]].hollow;
-        merge(&mut found, Cylinder { part, point, axis, radius, ends, arc: arc.min(TAU), hollow });
+        merge(mesh, &mut found, Cylinder { part, point, axis, radius, ends, arc: arc.min(TAU), hollow });
     }
     found
 }
 
 /// Adds a cylinder to the one that it is another piece of, if there is such a one.
-fn merge(found: &mut Vec<Cylinder>, new: Cylinder) {
+fn merge(mesh: &Mesh, found: &mut Vec<Cylinder>, new: Cylinder) {
+    let body = |part: PartId| body_of(&mesh.bodies, part);
     let is_same = |known: &&mut Cylinder| {
         let apart = known.point - new.point;
         let reach = SAME * new.radius;
-        known.part == new.part
+        body(known.part) == body(new.part)
             && known.hollow == new.hollow
             && known.axis.cross(new.axis).length() < PARALLEL
             && (known.radius - new.radius).abs() < reach

@@ -56,13 +56,13 @@ impl Fans {
         self.corners.of(vertex).iter().map(|corner| ((corner >> 2) as usize, (corner & 3) as usize))
     }
 
-    /// The part of each of so many smooth vertices: that of the first face around it.
+    /// The body of each of so many smooth vertices, by its first part: that of the first face around it.
     #[must_use]
-    pub fn parts(&self, mesh: &Mesh, vertices: usize) -> Vec<PartId> {
-        let part = |vertex| {
-            self.around(vertex).next().map_or_else(PartId::default, |(face, _)| mesh.face_part[face])
+    pub fn bodies(&self, mesh: &Mesh, vertices: usize) -> Vec<PartId> {
+        let body = |vertex| {
+            self.around(vertex).next().map_or_else(PartId::default, |(face, _)| mesh.body(face as u32))
         };
-        (0..vertices).map(part).collect()
+        (0..vertices).map(body).collect()
     }
 
     /// Whether a face is in the fans of its corners.

@@ -95,7 +95,7 @@ fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Mark
     if marked.is_empty() || mesh.triangles.len() <= SMALL {
         return marked;
     }
-    let part_of = |edge: usize| mesh.face_part[mesh.edges.faces(edge).list()[0] as usize].index();
+    let part_of = |edge: usize| mesh.body(mesh.edges.faces(edge).list()[0]).index();
     let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
     let (mut faces, mut wanted) = (vec![0usize; parts], vec![0usize; parts]);
     marked.iter().for_each(|marked| wanted[part_of(marked.edge)] += 1);
@@ -103,8 +103,8 @@ fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Mark
     if !wanted.iter().any(|wanted| *wanted > 0 && is_few(*wanted, mesh.triangles.len())) {
         return marked;
     }
-    for (part, corners) in mesh.face_part.iter().zip(&smooth.corners) {
-        faces[part.index()] += usize::from(corners[0] != NO_NORMAL);
+    for (face, corners) in (0..).zip(&smooth.corners) {
+        faces[mesh.body(face).index()] += usize::from(corners[0] != NO_NORMAL);
     }
     let is_dense = |part: usize| faces[part] > SMALL && is_few(wanted[part], faces[part]);
     marked.retain(|marked| !is_dense(part_of(marked.edge)));

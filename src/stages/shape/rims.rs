@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::cylinder::Cylinder;
 use crate::math::function::atan2;
+use crate::mesh::bodies::body_of;
 use crate::mesh::{Groups, Mesh, PartId};
 
 /// So much of a turn makes an axis known, radians.
@@ -32,11 +33,12 @@ struct Chord {
     ends: [f64; 2],
 }
 
-/// The rims about the axes of whole cylinders of the same part, where none of their radius is known.
+/// The rims about the axes of whole cylinders of the same body, where none of their radius is known.
 pub(super) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cylinder]) -> Vec<Cylinder> {
+    let body = |part: PartId| body_of(&mesh.bodies, part);
     let mut axes: Vec<&Cylinder> = Vec::new();
     for cylinder in known.iter().filter(|cylinder| cylinder.arc > WHOLE) {
-        if !axes.iter().any(|other| other.part == cylinder.part && is_coaxial(other, cylinder)) {
+        if !axes.iter().any(|other| body(other.part) == body(cylinder.part) && is_coaxial(other, cylinder)) {
             axes.push(cylinder);
         }
     }
@@ -48,13 +50,13 @@ pub(super) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cyl
         faces_of[facets.of(face) as usize].push(face);
     }
     let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or_default();
-    let mut of_part: Vec<Vec<&[u32]>> = vec![Vec::new(); parts];
+    let mut of_body: Vec<Vec<&[u32]>> = vec![Vec::new(); parts];
     for own in faces_of.iter().filter(|own| (1..=MOST_TRIANGLES).contains(&own.len())) {
-        of_part[mesh.face_part[own[0] as usize].index()].push(own);
+        of_body[mesh.body(own[0]).index()].push(own);
     }
     let mut found = Vec::new();
     for axis in axes {
-        let facets = of_part[axis.part.index()].iter();
+        let facets = of_body[body(axis.part).index()].iter();
         let mut chords: Vec<Chord> =
             facets.filter_map(|own| chord(mesh, own, normals[own[0] as usize], axis)).collect();
         chords.sort_by(|a, b| a.hollow.cmp(&b.hollow).then(a.radius.total_cmp(&b.radius)));
@@ -62,7 +64,7 @@ pub(super) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cyl
         for own in chords.chunk_by(alike).filter(|own| own.len() >= FEWEST) {
             let rim = whole(own, axis.part, axis);
             let is_known = |other: &Cylinder| {
-                other.part == rim.part
+                body(other.part) == body(rim.part)
                     && is_coaxial(other, &rim)
                     && other.hollow == rim.hollow
                     && (other.radius - rim.radius).abs() < 5.0 * ALIKE * rim.radius

@@ -235,7 +235,7 @@ pub(super) fn pieces(mesh: &Mesh) -> Numbered {
 }
 
 /// What each face belongs to, with `all` as if all of it were meant to be round. Pieces too small for
-/// statistics are judged together with those of their part and material; what goes for a scan may follow the largest of these.
+/// statistics are judged together with those of their body and material; what goes for a scan may follow the largest of these.
 pub(super) fn verdicts(
     mesh: &Mesh,
     turns: &Turns,
@@ -256,7 +256,7 @@ pub(super) fn verdicts(
     let both = |(faces, edges)| Count { faces, edges, ..Count::default() };
     let mut counts: Vec<Count> = of_faces.into_iter().zip(of_edges).map(both).collect();
     count_leaning(mesh, turns, number, &mut counts);
-    let key = |face: u32| (mesh.face_part[face as usize], mesh.face_material[face as usize]);
+    let key = |face: u32| (mesh.body(face), mesh.face_material[face as usize]);
     let mut together: BTreeMap<_, Count> = BTreeMap::new();
     for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges.all < LEAST_EDGES) {
         *together.entry(key(*face)).or_default() += count;

@@ -117,6 +117,16 @@ impl Kept {
         hosts
     }
 
+    /// The kept faces among some with their carriers, ascending, as far as these are kept as well.
+    fn carriers(&self, carriers: &[[u32; 2]]) -> Vec<[u32; 2]> {
+        if carriers.is_empty() {
+            return Vec::new();
+        }
+        let renamed = self.renamed();
+        let pairs = carriers.iter().map(|pair| pair.map(|face| renamed[face as usize]));
+        pairs.filter(|[face, carrier]| *face != u32::MAX && *carrier != u32::MAX).collect()
+    }
+
     /// The number that each face has among those that are kept, `u32::MAX` for the others.
     fn renamed(&self) -> Vec<u32> {
         let mut renamed = Vec::with_capacity(self.of);
@@ -229,7 +239,9 @@ fn of_faces(
         corner_normals: kept.carry(part!(mesh, corner_normals), pieces.iter().map(|_| [u32::MAX; 3])),
         origin: mesh.origin,
         extents: mesh.extents.clone(),
+        bodies: mesh.bodies.clone(),
         face_normals: kept.carry(part!(mesh, face_normals), normals.into_iter()),
+        carriers: kept.carriers(&mesh.carriers),
         face_part: kept.carry(part!(mesh, face_part), own_parts.into_iter()),
         face_material: kept.carry(part!(mesh, face_material), own_materials.into_iter()),
         face_paint: kept.carry(part!(mesh, face_paint), own_paints.into_iter()),
@@ -239,6 +251,7 @@ fn of_faces(
         positions,
         wires: part!(mesh, wires).into_owned(),
         cleaning: mesh.cleaning,
+        turned: mesh.turned.clone(),
     };
     let added = old as u32..finer.positions.len() as u32;
     let smooth = SmoothNormals {

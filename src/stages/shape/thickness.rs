@@ -50,13 +50,13 @@ pub(super) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
     let near = near_faces(mesh, &rays);
     let tree = RayTree::new(&only(mesh, &near));
     let is_thin = |q: &Question| {
-        let own = mesh.face_part[mesh.edges.faces(q.edge).list()[0] as usize];
+        let own = mesh.body(mesh.edges.faces(q.edge).list()[0]);
         // The ray leaves the part where it meets the wall behind, which does not begin at the edge.
         let is_wall = |face: u32| {
             let face = near[face as usize];
             let outward = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
             let corners = mesh.triangles[face as usize];
-            mesh.face_part[face as usize] == own
+            mesh.body(face) == own
                 && outward.dot(q.normal) < 0.0
                 && !mesh.edges.vertices[q.edge].iter().any(|v| corners.contains(v))
         };

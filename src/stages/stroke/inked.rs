@@ -12,6 +12,7 @@ use super::breaks::Breaks;
 use super::brush;
 use super::brush_strip::Strip;
 use super::context::InkContext;
+use super::frame;
 use super::inks::{Stretch, Tint};
 use super::mooring;
 use super::outline::{Nib, outline};
@@ -88,9 +89,13 @@ impl Inked<'_> {
         let seed = hash(context.seed, &[identity(self.chain, self.identities, context)]);
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
         let lifts = hand.overshoot.value > 0.0;
+        let leaving = frame::leaving(self.chain, self.axis, context.frame, px);
+        let leaving = [0, 1].map(|side| leaving[side].filter(|_| self.joined[side].is_none()));
+        let past = frame::past(leaving, self.axis.length(), self.pen, context.unit);
         let ends = [0, 1].map(|side| End {
             tapers: self.joined[side].is_none(),
             runs_on: self.joined[side].is_none() && !self.chain.covered[side],
+            past: past[side],
         });
         let setting = setting(self.chain, self.pen, self.depths, self.identities, context);
         let mut axis = self.axis.clone();
@@ -127,7 +132,9 @@ impl Inked<'_> {
                 let mut piece = piece.clone();
                 let long = piece.axis.length();
                 for side in 0..2 {
-                    if piece.ends[side].runs_on && !piece.axis.closed {
+                    if piece.ends[side].past > 0.0 {
+                        piece.axis.extend(side, piece.ends[side].past, px);
+                    } else if piece.ends[side].runs_on && !piece.axis.closed {
                         let chance = unit(hash(pass_seed, &[2, k as u64, side as u64]));
                         let part = LEAST_OVERSHOOT + (1.0 - LEAST_OVERSHOOT) * chance;
                         let most = in_unit(hand.overshoot).min(MOST_OVERSHOOT * long);
@@ -175,14 +182,19 @@ impl Inked<'_> {
         let moved = before.iter().zip(&axis.points).map(|(from, to)| length(*to - *from));
         let reach: Vec<f64> = moved.map(|way| covers.map_or(0.0, |to_side| to_side + way)).collect();
         let drawn = Drawn { axis, thick, reach, caps: [self.pen.cap; 2] };
+        let frame = context.frame.filter(|_| ends.iter().any(|end| end.past > 0.0));
+        let cut = |shape: Shape| match frame {
+            Some(frame) => frame::cut(shape, frame, context.px()),
+            None => Some(shape),
+        };
         if let [Stretch { tint, .. }] = self.inks {
-            let shape = self.shape(&drawn.times(tint.width), tint.colour, setting, context);
+            let shape = self.shape(&drawn.times(tint.width), tint.colour, setting, context).and_then(cut);
             return shape.map(|shape| (shape, tint.colour)).into_iter().collect();
         }
         let round = self.chain.closed.then(|| self.axis.length());
         let parts = parts(&drawn, self.inks, round);
         let shape = |(part, tint): &(Drawn, Tint)| {
-            Some((self.shape(part, tint.colour, setting, context)?, tint.colour))
+            Some((self.shape(part, tint.colour, setting, context).and_then(cut)?, tint.colour))
         };
         parts.iter().filter_map(shape).collect()
     }

@@ -39,7 +39,7 @@ pub struct Condition {
     pub kinds: Vec<LineKind>,
     /// Behind surfaces, or visible.
     pub hidden: Option<bool>,
-    /// A contour with background behind it, or not.
+    /// Whether there is background on one side of the line.
     pub silhouette: Option<bool>,
     /// Whether both surfaces that meet in the line face the eye.
     pub both_seen: Option<bool>,

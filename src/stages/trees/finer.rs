@@ -10,6 +10,7 @@ use super::fine_box::FineBox;
 use super::intersect::{
     IntersectionCurves, IntersectionInput, Pair, bounds, intersections_of_parts, join, pairs_in, pairs_of,
 };
+use super::triangle_pair::PairTolerance;
 use crate::math::grouped::{Grouped, grouped_pairs};
 
 /// Faces that were cut, handled by one task.
@@ -35,14 +36,14 @@ pub struct Hosts<'a> {
 }
 
 impl PairSearch {
-    /// Searches a mesh of several parts, each part as large as `scale` says of each face.
+    /// Searches a mesh of several parts; `tolerance` is that of the part of each face.
     #[must_use]
-    pub fn new(input: &IntersectionInput, scale: impl Fn(u32) -> f64 + Sync) -> Self {
+    pub fn new(input: &IntersectionInput, tolerance: impl Fn(u32) -> PairTolerance + Sync) -> Self {
         let Some((low, high)) = bounds(input.positions, input.triangles) else {
             return Self { tree: None, ranks: Vec::new(), pairs: Vec::new() };
         };
         let tree = BoxTree::new(input.positions, input.triangles, input.active, low, high);
-        let (pairs, ranks) = (pairs_in(&tree, input, scale), tree.ranks(input.triangles.len()));
+        let (pairs, ranks) = (pairs_in(&tree, input, tolerance), tree.ranks(input.triangles.len()));
         Self { tree: Some(tree), ranks, pairs }
     }
 
@@ -52,14 +53,14 @@ impl PairSearch {
         join(&self.pairs)
     }
 
-    /// The curves of a mesh that was made of this one by cutting faces, as a search of it in full would find them. `scale` is of its
-    /// faces.
+    /// The curves of a mesh that was made of this one by cutting faces, as a search of it in full would find them. `tolerance` is of
+    /// its faces.
     #[must_use]
     pub fn curves_of_finer(
         &self,
         finer: &IntersectionInput,
         hosts: Hosts,
-        scale: impl Fn(u32) -> f64 + Sync,
+        tolerance: impl Fn(u32) -> PairTolerance + Sync,
     ) -> IntersectionCurves {
         let Some(tree) = &self.tree else { return IntersectionCurves::default() };
         let mut places = vec![u32::MAX; self.ranks.len()];
@@ -76,7 +77,7 @@ impl PairSearch {
         let is_known =
             |face: usize| self.ranks.get(hosts.faces[face] as usize).is_some_and(|r| *r != u32::MAX);
         if (hosts.kept..finer.triangles.len()).any(|piece| is_active(piece) && !is_known(piece)) {
-            return intersections_of_parts(finer, scale);
+            return intersections_of_parts(finer, tolerance);
         }
 
         let cut = Cut::new(tree, &self.ranks, finer, hosts);
@@ -84,7 +85,7 @@ impl PairSearch {
             let (mut found, mut search) = (Vec::new(), Search::default());
             for (rank, face) in faces {
                 cut.search_face(*rank, *face, whole, &mut search, |piece, others| {
-                    pairs_of(finer, piece, others, &scale, &mut found);
+                    pairs_of(finer, piece, others, &tolerance, &mut found);
                 });
             }
             found
@@ -230,7 +231,7 @@ mod tests {
             let (positions, triangles_before) = triangles(seed, &middles);
             let before =
                 IntersectionInput { positions: &positions, triangles: &triangles_before, active: &[] };
-            let search = PairSearch::new(&before, |_| 1.0);
+            let search = PairSearch::new(&before, |_| PairTolerance::of_exact(1.0));
 
             let is_whole = |face: &u32| (*face as u64 + seed).is_multiple_of(3);
             let mut hosts: Vec<u32> = (0..40).filter(is_whole).collect();
@@ -245,8 +246,9 @@ mod tests {
             let after: Vec<[u32; 3]> = whole.chain(of_pieces.iter().map(|t| t.map(|v| v + first))).collect();
             let finer = IntersectionInput { positions: &positions, triangles: &after, active: &[] };
 
-            let curves = search.curves_of_finer(&finer, Hosts { faces: &hosts, kept }, |_| 1.0);
-            assert_eq!(curves, intersections_of_parts(&finer, |_| 1.0), "{seed}");
+            let curves = search
+                .curves_of_finer(&finer, Hosts { faces: &hosts, kept }, |_| PairTolerance::of_exact(1.0));
+            assert_eq!(curves, intersections_of_parts(&finer, |_| PairTolerance::of_exact(1.0)), "{seed}");
             for segment in &curves.segments {
                 let [a, b] = segment.faces.map(|face| face as usize);
                 if a >= kept {

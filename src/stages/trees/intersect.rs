@@ -57,19 +57,19 @@ pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
         return IntersectionCurves::default();
     };
     let scale = (high - low).length();
-    join(&find_pairs(input, low, high, |_| scale))
+    join(&find_pairs(input, low, high, |_| PairTolerance::of_exact(scale)))
 }
 
-/// Intersections of triangles of several parts, each part as large as `scale` says: the larger one counts.
+/// Intersections of triangles of several parts; `tolerance` is that of the part of a face, and the larger of two counts.
 #[must_use]
 pub fn intersections_of_parts(
     input: &IntersectionInput,
-    scale: impl Fn(u32) -> f64 + Sync,
+    tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> IntersectionCurves {
     let Some((low, high)) = bounds(input.positions, input.triangles) else {
         return IntersectionCurves::default();
     };
-    join(&find_pairs(input, low, high, scale))
+    join(&find_pairs(input, low, high, tolerance))
 }
 
 /// All pairs of triangles without common vertices that have something in common, sorted; `low`
@@ -78,20 +78,20 @@ pub(super) fn find_pairs(
     input: &IntersectionInput,
     low: DVec3,
     high: DVec3,
-    scale: impl Fn(u32) -> f64 + Sync,
+    tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> Vec<Pair> {
     let IntersectionInput { positions, triangles, active } = *input;
-    pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, scale)
+    pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, tolerance)
 }
 
 /// The pairs among the triangles that a tree was made of, sorted.
 pub(super) fn pairs_in(
     tree: &BoxTree,
     input: &IntersectionInput,
-    scale: impl Fn(u32) -> f64 + Sync,
+    tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> Vec<Pair> {
-    let mut pairs =
-        tree.overlaps(input.triangles, |face, others, found| pairs_of(input, face, others, &scale, found));
+    let mut pairs = tree
+        .overlaps(input.triangles, |face, others, found| pairs_of(input, face, others, &tolerance, found));
     pairs.par_sort_unstable_by_key(|pair| pair.faces);
     pairs
 }
@@ -101,12 +101,12 @@ pub(super) fn pairs_of(
     input: &IntersectionInput,
     face: u32,
     others: &[u32],
-    scale: impl Fn(u32) -> f64,
+    tolerance: impl Fn(u32) -> PairTolerance,
     found: &mut Vec<Pair>,
 ) {
     let IntersectionInput { positions, triangles, .. } = *input;
     let own = &Triangle::new(positions, triangles[face as usize]);
-    let own_scale = scale(face);
+    let own_tolerance = tolerance(face);
     for &other in others {
         let other_vertices = triangles[other as usize];
         if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
@@ -116,7 +116,7 @@ pub(super) fn pairs_of(
         if other_triangle.has_on_one_side(&own.corners) {
             continue;
         }
-        let tolerance = PairTolerance::of_parts(own_scale.max(scale(other)));
+        let tolerance = own_tolerance.and(tolerance(other));
         let common = if face < other {
             cross_beyond(own, &other_triangle, tolerance)
         } else {

@@ -29,8 +29,8 @@ impl<'a> Tracer<'a> {
         let Mesh { positions, triangles, .. } = self.mesh;
         let (middle, radius) = self.mesh.extents.ball();
         let input = IntersectionInput { positions, triangles, active };
-        let scale = |face: u32| self.mesh.extent(FaceId(face)).scale;
-        let pairs = find_pairs(&input, middle - radius, middle + radius, scale);
+        let tolerance = |face: u32| PairTolerance::of_part(self.mesh.extent(FaceId(face)));
+        let pairs = find_pairs(&input, middle - radius, middle + radius, tolerance);
         pairs.iter().map(|pair| pair.faces).collect()
     }
 
@@ -65,8 +65,8 @@ impl<'a> Tracer<'a> {
 
     fn common(&self, [a, b]: [u32; 2]) -> Option<Common> {
         let triangle = |face: u32| Triangle::new(&self.mesh.positions, self.mesh.triangles[face as usize]);
-        let scale = [a, b].map(|face| self.mesh.extent(FaceId(face)).scale);
-        cross(&triangle(a), &triangle(b), PairTolerance::of_parts(scale[0].max(scale[1])))
+        let [own, other] = [a, b].map(|face| PairTolerance::of_part(self.mesh.extent(FaceId(face))));
+        cross(&triangle(a), &triangle(b), own.and(other))
     }
 
     fn are_neighbours(&self, a: u32, b: u32) -> bool {

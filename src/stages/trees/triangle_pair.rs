@@ -8,7 +8,8 @@
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-use crate::math::tolerance::{OVERLAP_OF_PART, PARALLEL_SINE, PLANE_OF_PART};
+use crate::math::tolerance::{OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART};
+use crate::mesh::Extent;
 
 /// Lengths below which a pair of triangles merely touches, in world units.
 #[derive(Debug, Clone, Copy)]
@@ -17,14 +18,36 @@ pub struct PairTolerance {
     pub plane: f64,
     /// An overlap up to this long is a point.
     pub overlap: f64,
+    /// How far rounding may have moved each vertex.
+    pub rounding: f64,
 }
 
 impl PairTolerance {
-    /// The tolerance for triangles of parts that are this large.
+    /// The tolerance for triangles of a part that is this large and whose coordinates are exact.
     #[inline]
     #[must_use]
-    pub fn of_parts(scale: f64) -> Self {
-        Self { plane: PLANE_OF_PART * scale, overlap: OVERLAP_OF_PART * scale }
+    pub fn of_exact(scale: f64) -> Self {
+        Self { plane: PLANE_OF_PART * scale, overlap: OVERLAP_OF_PART * scale, rounding: 0.0 }
+    }
+
+    /// The tolerance for triangles of a part.
+    #[inline]
+    #[must_use]
+    pub fn of_part(part: &Extent) -> Self {
+        let exact = Self::of_exact(part.scale);
+        let overlap = exact.overlap.max(OVERLAP_OF_ROUNDING * part.rounding);
+        Self { overlap, rounding: part.rounding, ..exact }
+    }
+
+    /// The tolerance for triangles of two parts.
+    #[inline]
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            plane: self.plane.max(other.plane),
+            overlap: self.overlap.max(other.overlap),
+            rounding: self.rounding.max(other.rounding),
+        }
     }
 }
 
@@ -75,7 +98,6 @@ impl Triangle {
         let [a, b, c] = self.corners;
         let reach = |way: DVec3| way.x.abs() + way.y.abs() + way.z.abs();
         let size = reach(b - a) + reach(c - a);
-        let least = (1.0 - 1e-6) * tolerance.plane * normal_length;
         let (mut is_zero, mut below, mut above) = ([false; 3], false, false);
         for (is_zero, point) in is_zero.iter_mut().zip(points) {
             let way = *point - a;
@@ -85,7 +107,8 @@ impl Triangle {
             let error = 48.0 * f64::EPSILON * (far * far * far);
             // Where surfaces lie on each other most corners are in the other plane, and exact signs take long to
             // say so; most others are all on one side of it.
-            *is_zero = about.abs() + error < least;
+            let least = self.plane_tolerance(*point, normal_length, tolerance) * normal_length;
+            *is_zero = about.abs() + error < (1.0 - 1e-6) * least;
             below |= !*is_zero && about <= error;
             above |= !*is_zero && about >= -error;
         }
@@ -105,7 +128,23 @@ impl Triangle {
         let [a, b, c] = self.corners;
         let (a, b, c) = (coordinates(a), coordinates(b), coordinates(c));
         let distance = -orient3d(a, b, c, coordinates(point)) / normal_length;
-        if distance.abs() < tolerance.plane { 0.0 } else { distance }
+        let within = self.plane_tolerance(point, normal_length, tolerance);
+        if distance.abs() < within { 0.0 } else { distance }
+    }
+
+    /// How near to the plane of the triangle a point must lie to count as lying in it.
+    ///
+    /// Rounding moves the point by as much as each corner. Where it moves the plane is the sum of what it moves the corners by, each
+    /// times the barycentric weight of the point: far from a narrow triangle the plane is unknown.
+    #[inline]
+    fn plane_tolerance(&self, point: DVec3, normal_length: f64, tolerance: PairTolerance) -> f64 {
+        if tolerance.rounding == 0.0 {
+            return tolerance.plane;
+        }
+        let [a, b, c] = self.corners;
+        let weight = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(self.normal).abs();
+        let weights = (weight(a, b) + weight(b, c) + weight(c, a)) / (normal_length * normal_length);
+        tolerance.plane.max(tolerance.rounding * (1.0 + weights))
     }
 }
 
@@ -233,7 +272,7 @@ mod tests {
     #[test]
     fn what_is_told_before_exact_signs_is_what_they_say() {
         let mut dice = Dice::new(1);
-        let tolerance = PairTolerance::of_parts(1.0);
+        let tolerance = PairTolerance::of_exact(1.0);
         let (mut early, mut exact) = (0, 0);
         for k in 0..20_000 {
             // From whole triangles to slivers, whose planes no rounded product tells, and points so near to them.

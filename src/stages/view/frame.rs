@@ -1,6 +1,6 @@
 //! [`Frame`]: the camera's axes and the map from local space to the image.
 
-use glam::{DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4};
 
 use crate::math::function::tan;
 use crate::math::tolerance;
@@ -164,6 +164,19 @@ impl Frame {
         if self.perspective { length / self.scale * q } else { length / self.scale }
     }
 
+    /// How many times as long as the distance of a point from a plane the way to it along the optical axis is. The plane is given by the
+    /// image-space point at which it is met, and by how its nearness grows with x and y there.
+    #[inline]
+    #[must_use]
+    pub fn steepness(&self, p: DVec3, slope: DVec2) -> f64 {
+        let across = slope.length_squared() * self.scale * self.scale;
+        if !self.perspective {
+            return (1.0 + across).sqrt();
+        }
+        let centre = p.z - slope.dot(p.truncate() - DVec2::new(self.width, self.height) / 2.0);
+        (across + centre * centre).sqrt() / p.z
+    }
+
     /// The length in the world of the longer side of the frame, at some depth.
     #[inline]
     #[must_use]
@@ -187,14 +200,14 @@ impl Frame {
 
     /// Whether the triangle a, b, c turns its outside (counter-clockwise) to the eye.
     ///
-    /// Edge-on faces, within [`tolerance::EDGE_ON_COSINE`], count as averted.
+    /// Edge-on faces, within [`tolerance::EDGE_ON_SINE`], count as averted.
     #[inline]
     #[must_use]
     pub fn faces_eye(&self, a: DVec3, b: DVec3, c: DVec3) -> bool {
         let normal = (b - a).cross(c - a);
         let to_eye = if self.perspective { self.eye - a } else { -self.forward };
         let d = normal.dot(to_eye);
-        let limit = tolerance::EDGE_ON_COSINE * tolerance::EDGE_ON_COSINE;
+        let limit = tolerance::EDGE_ON_SINE * tolerance::EDGE_ON_SINE;
         d > 0.0 && d * d > limit * normal.length_squared() * to_eye.length_squared()
     }
 }

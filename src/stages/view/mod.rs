@@ -6,6 +6,7 @@
 //! interpolation is linear.
 
 pub mod clip;
+mod edge_on;
 pub mod frame;
 
 use glam::DVec3;
@@ -29,6 +30,8 @@ pub struct View {
     pub points: Vec<DVec3>,
     /// Whether each face turns its outside to the eye; faces seen edge-on do not.
     pub facing: Vec<bool>,
+    /// Faces, ascending, that turn to the eye as other faces of their plane do: their own angle to the line of sight is unknown.
+    pub unsure: Vec<u32>,
     /// What is left of faces that the near plane cuts.
     pub clipped: Vec<ClippedFace>,
 }
@@ -43,13 +46,9 @@ impl View {
         }
         let points =
             || mesh.positions.par_iter().with_min_len(GRAIN).map(|p| frame.image_from_local(*p)).collect();
-        let faces_eye = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
-            frame.faces_eye(a, b, c)
-        };
-        let facing = || mesh.triangles.par_iter().with_min_len(GRAIN).map(faces_eye).collect();
-        let (points, facing): (Vec<DVec3>, Vec<bool>) = rayon::join(points, facing);
+        let (points, (facing, unsure)): (Vec<DVec3>, _) =
+            rayon::join(points, || edge_on::facing(mesh, &frame));
         let clipped = clip::clip_faces(mesh, &frame, &points);
-        Self { frame, points, facing, clipped }
+        Self { frame, points, facing, unsure, clipped }
     }
 }

@@ -79,8 +79,7 @@ pub(super) fn of_hidden(
     let limits = Limits::new(&view.frame);
     let mut cuts = Cuts::default();
     for (id, (segment, hidden)) in segments.iter().zip(hidden).enumerate() {
-        let kind = lines.segments[segment.source as usize].kind;
-        cuts.add(id, segment, kind, Seen { hidden, backed: &[] }, limits.piece, false);
+        cuts.add(id, segment, Seen { hidden, backed: &[] }, limits.piece, false);
     }
     let mut builder = Builder::new(mesh, view, lines);
     builder.add_all(segments, &cuts);
@@ -176,7 +175,7 @@ impl<'a> Asked<'a> {
             if drawn {
                 let source = &self.lines.segments[segment.source as usize];
                 let keeps_hidden = but.is_none() && keeps_hidden(self.hidden, segment, source.kind);
-                cuts.add(i, segment, source.kind, seen, self.limits.piece, keeps_hidden);
+                cuts.add(i, segment, seen, self.limits.piece, keeps_hidden);
             }
         }
         cuts
@@ -215,7 +214,8 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines) -> Self {
         let vertex_of_end = vec![UNSET; mesh.positions.len() + lines.points.len()];
-        Self { mesh, view, lines, map: ViewMap::default(), vertex_of_end }
+        let map = ViewMap { bodies: mesh.bodies.clone(), ..ViewMap::default() };
+        Self { mesh, view, lines, map, vertex_of_end }
     }
 
     /// Adds the pieces of segments, of which these are all.
@@ -295,7 +295,8 @@ fn view_edge(
         kind: source.kind,
         invisibility: piece.invisibility,
         silhouette: piece.silhouette,
-        both_seen: source.both_seen,
+        // Where there is background on one side, only one of the two surfaces is seen.
+        both_seen: source.both_seen && !piece.silhouette,
         smooth: source.smooth,
         origin: source.origin,
         strength: source.strength,

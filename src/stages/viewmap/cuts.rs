@@ -5,7 +5,7 @@ use super::layers::Layer;
 use super::occlude::Interval;
 use super::project::ImageSegment;
 use super::visibility;
-use crate::lines::LineKind;
+use crate::lines::Role;
 
 /// What visibility says of one segment.
 #[derive(Clone, Copy)]
@@ -39,21 +39,15 @@ pub(super) struct Cut {
 
 impl Cuts {
     /// Cuts a segment and keeps it, unless nothing of it is seen and what is hidden is not kept.
-    pub fn add(
-        &mut self,
-        id: usize,
-        segment: &ImageSegment,
-        kind: LineKind,
-        seen: Seen,
-        shortest: f64,
-        keeps_hidden: bool,
-    ) {
+    pub fn add(&mut self, id: usize, segment: &ImageSegment, seen: Seen, shortest: f64, keeps_hidden: bool) {
         // Of most lines behind walls nothing is left.
         if !keeps_hidden && seen.hidden == visibility::BURIED {
             return;
         }
         let first = self.pieces.len();
-        cut_segment(segment, seen, kind == LineKind::Contour, shortest, &mut self.pieces);
+        // The witnesses of a smooth contour say what lies beside it.
+        let bounds = segment.bounds || segment.role == Role::Curve;
+        cut_segment(segment, seen, bounds, shortest, &mut self.pieces);
         if keeps_hidden || self.pieces[first..].iter().any(|p| p.invisibility == 0) {
             self.segments.push(Cut { segment: id, count: self.pieces.len() - first, keeps_hidden });
         } else {
@@ -62,16 +56,16 @@ impl Cuts {
     }
 }
 
-/// Cuts a segment where its invisibility changes, and visible contours also where background
-/// begins or ends behind them.
-fn cut_segment(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
+/// Cuts a segment where its invisibility changes, and the visible parts of one that `bounds` a surface also where background
+/// begins or ends beside them.
+fn cut_segment(segment: &ImageSegment, seen: Seen, bounds: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
     let shortest = shortest / segment.length().max(shortest);
     let mut at = 0.0;
     for layer in seen.hidden {
         let interval = &layer.interval;
         let start = if interval.start - at <= shortest { at } else { interval.start };
         if start > at {
-            visible(out, seen, contour, at, start, interval.start_kind, shortest);
+            visible(out, seen, bounds, at, start, interval.start_kind, shortest);
         }
         let end = if 1.0 - interval.end <= shortest { 1.0 } else { interval.end };
         out.push(SegmentPart {
@@ -84,14 +78,14 @@ fn cut_segment(segment: &ImageSegment, seen: Seen, contour: bool, shortest: f64,
         at = end;
     }
     if at < 1.0 {
-        visible(out, seen, contour, at, 1.0, ViewVertexKind::Vertex, shortest);
+        visible(out, seen, bounds, at, 1.0, ViewVertexKind::Vertex, shortest);
     }
 }
 
 fn visible(
     out: &mut Vec<SegmentPart>,
     seen: Seen,
-    contour: bool,
+    bounds: bool,
     start: f64,
     end: f64,
     end_kind: ViewVertexKind,
@@ -101,7 +95,7 @@ fn visible(
         out.push(SegmentPart { start, end, end_kind, invisibility: 0, silhouette });
     };
     let mut at = start;
-    if contour {
+    if bounds {
         // A line that many thin things cross has many stretches, and as many others beside it.
         let first = seen.backed.partition_point(|backed| backed.end <= start);
         for backed in seen.backed[first..].iter().take_while(|backed| backed.start < end) {
@@ -120,7 +114,7 @@ fn visible(
         }
     }
     if at < end {
-        push(at, end, end_kind, contour);
+        push(at, end, end_kind, bounds);
     }
 }
 
@@ -129,7 +123,6 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::lines::Role;
 
     const KIND: ViewVertexKind = ViewVertexKind::TJunction;
 
@@ -142,7 +135,7 @@ mod tests {
     }
 
     /// Start, end, surfaces in front, and whether it is silhouette, of each piece of each segment that is kept.
-    fn kept(kind: LineKind, keeps_hidden: bool, hidden: &[&[Layer]]) -> Vec<Vec<(f64, f64, u16, bool)>> {
+    fn kept(bounds: bool, keeps_hidden: bool, hidden: &[&[Layer]]) -> Vec<Vec<(f64, f64, u16, bool)>> {
         let segment = ImageSegment {
             a: DVec3::ZERO,
             b: DVec3::new(100.0, 0.0, 0.0),
@@ -150,12 +143,12 @@ mod tests {
             cut: [false; 2],
             hosts: [0, 1],
             source: 0,
-            bounds: false,
+            bounds,
             role: Role::Line,
         };
         let mut cuts = Cuts::default();
         for (id, hidden) in hidden.iter().enumerate() {
-            cuts.add(id, &segment, kind, Seen { hidden, backed: &[interval(0.7, 0.8)] }, 0.1, keeps_hidden);
+            cuts.add(id, &segment, Seen { hidden, backed: &[interval(0.7, 0.8)] }, 0.1, keeps_hidden);
         }
         let mut rest = cuts.pieces.as_slice();
         let pieces = |cut: &Cut| {
@@ -170,18 +163,18 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_cut_where_something_hides_them_and_contours_where_background_ends() {
+    fn lines_are_cut_where_something_hides_them_and_those_of_an_outline_where_background_ends() {
         let hidden: [&[Layer]; 1] = [&[layer(0.2, 0.6, 2)]];
-        let creases = [(0.0, 0.2, 0, false), (0.2, 0.6, 2, false), (0.6, 1.0, 0, false)];
-        assert_eq!(kept(LineKind::Crease, false, &hidden), [creases]);
-        let contours = [
+        let inner = [(0.0, 0.2, 0, false), (0.2, 0.6, 2, false), (0.6, 1.0, 0, false)];
+        assert_eq!(kept(false, false, &hidden), [inner]);
+        let outline = [
             (0.0, 0.2, 0, true),
             (0.2, 0.6, 2, false),
             (0.6, 0.7, 0, true),
             (0.7, 0.8, 0, false),
             (0.8, 1.0, 0, true),
         ];
-        assert_eq!(kept(LineKind::Contour, true, &hidden), [contours]);
+        assert_eq!(kept(true, true, &hidden), [outline]);
     }
 
     #[test]
@@ -189,8 +182,8 @@ mod tests {
         let hidden: [&[Layer]; 4] =
             [&visibility::BURIED, &[], &[layer(0.0, 0.5, 1), layer(0.5, 1.0, 2)], &[layer(0.0, 0.9995, 3)]];
         let whole = (0.0, 1.0, 0, false);
-        assert_eq!(kept(LineKind::Crease, false, &hidden), [[whole]]);
-        let found = kept(LineKind::Crease, true, &hidden);
+        assert_eq!(kept(false, false, &hidden), [[whole]]);
+        let found = kept(false, true, &hidden);
         assert_eq!(found[0], [(0.0, 1.0, 1, false)]);
         assert_eq!(found[1], [whole]);
         assert_eq!(found[2], [(0.0, 0.5, 1, false), (0.5, 1.0, 2, false)]);

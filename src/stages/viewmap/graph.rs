@@ -60,7 +60,7 @@ pub struct ViewEdge {
     pub kind: LineKind,
     /// Number of surface layers between it and the eye; 0 = visible.
     pub invisibility: u16,
-    /// A contour with nothing but background behind it.
+    /// Visible, with background on one side.
     pub silhouette: bool,
     /// Whether both surfaces that meet in the line face the eye (thin by the thick-and-thin rule).
     pub both_seen: bool,
@@ -97,6 +97,8 @@ pub struct ViewMap {
     pub seen_contours: Vec<SeenContour>,
     /// The feature segments that are sides of folds thinner than a pen, ascending: lines that tell nothing.
     pub needles: Vec<u32>,
+    /// For each part the first part of its body, as in [`Mesh::bodies`](crate::mesh::Mesh::bodies).
+    pub bodies: Vec<PartId>,
 }
 
 /// A piece of a contour of the polyhedron that nothing hides.

@@ -60,6 +60,8 @@ pub struct Slack {
     pub contact: f64,
     /// What counts as touching for lines that share a vertex with the triangle.
     pub neighbour: f64,
+    /// Distance within which a line lies in the plane of the triangle, as far as the rounding of both can tell.
+    pub in_plane: f64,
 }
 
 impl Slack {
@@ -67,6 +69,10 @@ impl Slack {
     #[inline]
     #[must_use]
     pub fn of(extent: &Extent) -> Self {
-        Self { contact: extent.contact, neighbour: tolerance::NEIGHBOUR_OF_PART * extent.scale }
+        Self {
+            contact: extent.contact,
+            neighbour: tolerance::NEIGHBOUR_OF_PART * extent.scale,
+            in_plane: 2.0 * extent.rounding,
+        }
     }
 }

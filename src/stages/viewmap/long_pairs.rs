@@ -12,7 +12,7 @@ use super::layers::{Layer, sweep};
 use super::longest_run::{NO_RUN, longer};
 use super::occlude::{Interval, hidden_interval};
 use super::occluders::{Occluder, Reach};
-use super::outer_side::OuterSide;
+use super::outer_side::{OuterSide, OuterSides, backdrop};
 use super::project::ImageSegment;
 use crate::math::grouped::{Grouped, grouped};
 
@@ -38,8 +38,8 @@ pub(super) struct LongPairs {
 #[derive(Debug, Default)]
 struct Known {
     hidden: Vec<Layer>,
-    /// Where one of them lies beside it, on its outer side.
-    backed: Vec<Layer>,
+    /// Where one of them lies beside it, on either of its [`OuterSides`].
+    backed: [Vec<Layer>; 2],
     tests: u64,
 }
 
@@ -101,10 +101,10 @@ impl LongPairs {
         self.known(item.segment).into_iter().flat_map(|known| within(&known.hidden, *item))
     }
 
-    /// Beside what of an item one of them lies.
-    pub fn backed(&self, item: &Item) -> impl Iterator<Item = Interval> {
+    /// Beside what of an item one of them lies, on one of its outer sides.
+    pub fn backed(&self, item: &Item, side: usize) -> impl Iterator<Item = Interval> {
         let known = self.known(item.segment).into_iter();
-        known.flat_map(|known| within(&known.backed, *item)).map(|layer| layer.interval)
+        known.flat_map(move |known| within(&known.backed[side], *item)).map(|layer| layer.interval)
     }
 
     fn known(&self, segment: u32) -> Option<&Known> {
@@ -211,8 +211,10 @@ impl<'a> Long<'a> {
         let is_buried =
             |known: &Known| known.hidden.iter().any(|l| l.interval.start <= 0.0 && l.interval.end >= 1.0);
         if segment.bounds && !is_buried(&known) {
-            let mut found = self.backed(segment, stays, &known.hidden, seen);
-            sweep(&mut found, &[], 0.0, false, &mut known.backed);
+            for (number, side) in OuterSides::of(segment, self.compared.triangles).open() {
+                let mut found = self.backed(side, stays, &known.hidden, seen);
+                sweep(&mut found, &[], 0.0, false, &mut known.backed[number]);
+            }
         }
         known
     }
@@ -253,17 +255,10 @@ impl<'a> Long<'a> {
         hidden
     }
 
-    /// Where triangles lie beside a segment.
-    fn backed(
-        &self,
-        segment: &ImageSegment,
-        stays: &[Stay],
-        hidden: &[Layer],
-        seen: &mut Seen,
-    ) -> Vec<Interval> {
-        let Compared { triangles, limits, .. } = *self.compared;
+    /// Where triangles lie on one side of a segment.
+    fn backed(&self, side: &OuterSide, stays: &[Stay], hidden: &[Layer], seen: &mut Seen) -> Vec<Interval> {
+        let limits = self.compared.limits;
         let mut backed = Vec::new();
-        let Some(side) = OuterSide::new(segment, triangles) else { return backed };
         let mut run = NO_RUN;
         seen.last += 1;
         for stay in stays {
@@ -280,8 +275,7 @@ impl<'a> Long<'a> {
                     continue;
                 }
                 if let Some((start, end)) = side.range(&self.triangles[*number as usize].1, limits) {
-                    let kind = ViewVertexKind::Backdrop;
-                    backed.push(Interval { start, end, start_kind: kind, end_kind: kind });
+                    backed.push(backdrop(start, end));
                     run = longer(run, (start, end));
                 }
             }

@@ -10,6 +10,8 @@
 //! - A surface that touches the line (within a tolerance of depth) does not hide it: lines on
 //!   coplanar and touching faces are seen.
 //! - A triangle that shares one end of the segment may come as near as rounding allows.
+//! - A line that lies in the plane of a triangle, as far as the rounding of the file can tell, is not hidden by it. Distances from the
+//!   plane count, which are much shorter than differences of depth where the triangle is seen at a grazing angle.
 //! - A triangle seen edge-on covers nothing.
 
 use glam::{DVec2, DVec3};
@@ -109,14 +111,28 @@ pub fn hidden_interval(
     let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
     let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
     let farthest = corners[0].z.min(corners[1].z).min(corners[2].z);
+    // A point that counts as covered may lie a little outside of the triangle, and then beyond its depths.
+    let beyond = (limits.cover * slope.length()).min(nearest - farthest);
     let at_corner = |end: usize| shared[end].is_some() && !segment.cut[end];
     let is_neighbour = shared[0].is_some() || shared[1].is_some();
     let lead = |t: f64| {
         let p = segment.at(t);
         // Steep triangles extrapolate badly: their plane counts only within their own depths.
-        let plane = (base.z + slope.dot(p.truncate() - base.truncate())).clamp(farthest, nearest);
+        let plane =
+            (base.z + slope.dot(p.truncate() - base.truncate())).clamp(farthest - beyond, nearest + beyond);
         plane - p.z - limits.step(p.z, &triangle.slack, is_neighbour, frame)
     };
+    if triangle.slack.in_plane > 0.0 {
+        let is_in_plane = |t: f64| {
+            let p = segment.at(t);
+            let plane = base.z + slope.dot(p.truncate() - base.truncate());
+            let depth = triangle.slack.in_plane * frame.steepness(DVec3::new(p.x, p.y, plane), slope);
+            (plane - p.z).abs() <= frame.nearness_step(p.z, depth)
+        };
+        if is_in_plane(start) && is_in_plane(end) {
+            return None;
+        }
+    }
     let (at_start, at_end) = (lead(start), lead(end));
     let mut hidden =
         Interval { start, end, start_kind: ViewVertexKind::TJunction, end_kind: ViewVertexKind::TJunction };

@@ -3,7 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::outer_side::may_bound;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, Role};
+use crate::math::tolerance;
 use crate::mesh::Mesh;
 use crate::view::View;
 
@@ -22,7 +24,7 @@ pub struct ImageSegment {
     pub hosts: [u32; 2],
     /// Index of the feature segment.
     pub source: u32,
-    /// Whether it bounds a surface in the image, so that there may be background beside it.
+    /// Whether its own faces leave a side of it open in the image, so that there may be background beside it.
     pub bounds: bool,
     /// What it does in the drawing.
     pub role: Role,
@@ -112,16 +114,24 @@ fn project_one(
         a += d * start;
         cut[0] = true;
     }
-    // Whether there is background beside a smooth contour its witnesses say.
-    let bounds = segment.role != Role::Curve && matches!(segment.kind, LineKind::Contour | LineKind::Border);
-    Some(ImageSegment {
+    let mut projected = ImageSegment {
         a,
         b,
         ends: segment.ends,
         cut,
         hosts: segment.hosts,
         source,
-        bounds,
+        bounds: false,
         role: segment.role,
-    })
+    };
+    projected.bounds = match segment.kind {
+        // The witnesses of a smooth contour say whether there is background beside it.
+        _ if segment.role == Role::Curve => false,
+        LineKind::Contour | LineKind::Border => true,
+        LineKind::Crease | LineKind::Material | LineKind::Intersection => {
+            may_bound(&projected, mesh, view, tolerance::BESIDE_PX * view.frame.px())
+        }
+        _ => false,
+    };
+    Some(projected)
 }

@@ -4,14 +4,13 @@ use glam::DVec3;
 
 use super::compared::{Compared, Item};
 use super::cover;
-use super::graph::ViewVertexKind;
 use super::grid::Grid;
 use super::layers::{Layer, sweep};
 use super::long_pairs::LongPairs;
 use super::longest_run::{NO_RUN, longer};
 use super::occlude::{Interval, hidden_interval};
 use super::occluders::Reach;
-use super::outer_side::OuterSide;
+use super::outer_side::{OuterSide, OuterSides, backdrop, common};
 use super::project::ImageSegment;
 use super::sides::Sides;
 use super::slope::{OPEN, step};
@@ -34,7 +33,7 @@ pub(super) struct TileResult {
     pub(super) whole: Vec<Item>,
     /// Hidden pieces of others.
     pub(super) hidden: Vec<(u32, Layer)>,
-    /// Where a surface lies beside a bounding segment.
+    /// Where a segment that may bound a surface has no background beside it.
     pub(super) backed: Vec<(u32, Interval)>,
     /// How many times a segment was compared with a triangle.
     pub(super) tests: u64,
@@ -319,7 +318,7 @@ impl Context<'_> {
         false
     }
 
-    /// Collects where a surface lies just beside a bounding segment, on its outer side.
+    /// Collects where a segment has no background beside it: where surfaces lie beside all sides that its own faces leave open.
     #[inline(never)]
     fn gather_backed(
         &self,
@@ -329,14 +328,41 @@ impl Context<'_> {
         entries: Entries,
         result: &mut TileResult,
     ) {
-        let Compared { triangles, limits, .. } = self.compared;
-        let Some(side) = OuterSide::new(segment, triangles) else { return };
+        let sides = OuterSides::of(segment, self.compared.triangles);
+        let mut open = sides.open();
+        match (open.next(), open.next()) {
+            (None, _) => result.backed.push((item.segment, backdrop(item.start, item.end))),
+            (Some(side), None) => self.gather_beside(side, item, all, entries, &mut result.backed),
+            (Some(first), Some(second)) => {
+                let [first, second] = [first, second].map(|side| {
+                    let mut found = Vec::new();
+                    self.gather_beside(side, item, all, entries, &mut found);
+                    found.into_iter().map(|(_, interval)| interval).collect()
+                });
+                result
+                    .backed
+                    .extend(common(first, second).map(|(start, end)| (item.segment, backdrop(start, end))));
+            }
+        }
+    }
+
+    /// Collects where a surface lies on one side of a segment.
+    fn gather_beside(
+        &self,
+        (number, side): (usize, &OuterSide),
+        item: &Item,
+        all: &mut TileTriangles,
+        entries: Entries,
+        backed: &mut Vec<(u32, Interval)>,
+    ) {
+        let Compared { triangles, segments, limits, .. } = self.compared;
+        let segment = &segments[item.segment as usize];
         let beside = side.beside(segment.at(item.start), segment.at(item.end));
         let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
         let ends = all.window.both(beside);
         let mut run = NO_RUN;
-        for interval in self.long.iter().flat_map(|long| long.backed(item)) {
-            result.backed.push((item.segment, interval));
+        for interval in self.long.iter().flat_map(|long| long.backed(item, number)) {
+            backed.push((item.segment, interval));
             run = longer(run, (interval.start, interval.end));
         }
         for entry in entries.chosen {
@@ -355,9 +381,7 @@ impl Context<'_> {
             let Some((start, end)) = side.range(whole, limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
-                let kind = ViewVertexKind::Backdrop;
-                let interval = Interval { start, end, start_kind: kind, end_kind: kind };
-                result.backed.push((item.segment, interval));
+                backed.push((item.segment, backdrop(start, end)));
                 run = longer(run, (start, end));
             }
         }

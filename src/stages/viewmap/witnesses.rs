@@ -2,7 +2,7 @@
 //!
 //! What is seen of an edge of the polyhedron's contour is known exactly. The smooth contour runs near
 //! it, so each seen place of the edge is taken to the nearest place of a curve that may stand for it:
-//! of the same part, no farther than what the faces here leave open, turning the same way, and
+//! of the same body, no farther than what the faces here leave open, turning the same way, and
 //! running forward where the edge is convex and backward where it is hollow. It is the edge that goes
 //! to the curve and not the other way round, so that ink can stand nowhere but beside what is seen.
 
@@ -253,8 +253,8 @@ impl Court<'_> {
     fn nearest(&self, witness: &ImageSegment, convex: bool, p: DVec3) -> Option<Place> {
         let normal = |face: u32| Vec3::from_array(self.mesh.face_normals[face as usize]);
         let outward = (normal(witness.hosts[0]) + normal(witness.hosts[1])).normalize_or_zero();
-        let part = |face: u32| self.mesh.face_part[face as usize];
-        let (depth, own_part) = (self.view.frame.depth_of(p.z), part(witness.hosts[0]));
+        let body = |face: u32| self.mesh.body(face);
+        let (depth, own_body) = (self.view.frame.depth_of(p.z), body(witness.hosts[0]));
         let reach_own = self.reach(witness.hosts[0]).max(self.reach(witness.hosts[1]));
         let per_px =
             if self.view.frame.perspective { depth.abs() } else { 1.0 } / self.view.frame.scale * self.px;
@@ -269,7 +269,7 @@ impl Court<'_> {
             let curve = &self.segments[run.segments[k] as usize];
             let host = curve.hosts[0];
             if run.backward[k] == convex
-                || part(host) != own_part
+                || body(host) != own_body
                 || outward.dot(normal(host)) < SAME_SIDE_COSINE
             {
                 return;

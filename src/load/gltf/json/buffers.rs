@@ -2,9 +2,12 @@
 
 use serde::Deserialize;
 
+use super::index;
+
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Accessor {
+    #[serde(default, deserialize_with = "index::optional")]
     pub buffer_view: Option<usize>,
     #[serde(default)]
     pub byte_offset: usize,
@@ -44,6 +47,7 @@ pub struct SparseValues {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct BufferView {
+    #[serde(deserialize_with = "index::one")]
     pub buffer: usize,
     #[serde(default)]
     pub byte_offset: usize,

@@ -3,6 +3,8 @@
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
+use super::index;
+
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub struct Material {
@@ -49,6 +51,7 @@ pub struct SpecularGlossiness {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct TextureUse {
+    #[serde(deserialize_with = "index::one")]
     pub index: usize,
     #[serde(default)]
     pub tex_coord: usize,
@@ -75,7 +78,9 @@ pub struct TextureTransform {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Texture {
+    #[serde(deserialize_with = "index::optional")]
     pub source: Option<usize>,
+    #[serde(deserialize_with = "index::optional")]
     pub sampler: Option<usize>,
     pub extensions: TextureExtensions,
 }
@@ -102,6 +107,7 @@ pub struct TextureExtensions {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct TextureSource {
+    #[serde(deserialize_with = "index::optional")]
     pub source: Option<usize>,
 }
 
@@ -109,5 +115,6 @@ pub struct TextureSource {
 #[serde(rename_all = "camelCase", default)]
 pub struct Image {
     pub uri: Option<String>,
+    #[serde(deserialize_with = "index::optional")]
     pub buffer_view: Option<usize>,
 }

@@ -54,7 +54,7 @@ fn bend(seen: &Seen, vertex: usize) -> Apparent {
         (0.0, 0.0, 0.0)
     };
     // Q = S + (sec θ − 1) S w wᵀ, in the principal directions.
-    let stretch = 1.0 / eye.z.abs().max(tolerance::EDGE_ON_COSINE) - 1.0;
+    let stretch = 1.0 / eye.z.abs().max(tolerance::LEAST_FACING) - 1.0;
     let q = [
         DVec2::new(p.k1 * (1.0 + stretch * uu), p.k2 * stretch * uv),
         DVec2::new(p.k1 * stretch * uv, p.k2 * (1.0 + stretch * vv)),

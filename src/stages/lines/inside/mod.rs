@@ -92,7 +92,9 @@ impl<'a> Seen<'a> {
                 DVec3::new(to_eye.dot(p.dir1), to_eye.dot(p.dir2), to_eye.dot(curvature.normals[v]))
             })
             .collect();
-        Self { mesh, view, smooth, curvature, open: mesh.cleaning.borders > 0, eye }
+        // Where the near plane cuts a surface open, its inside is seen.
+        let is_cut = !view.clipped.is_empty() || view.points.iter().any(|p| p.z.is_nan());
+        Self { mesh, view, smooth, curvature, open: mesh.cleaning.borders > 0 || is_cut, eye }
     }
 
     /// The size of the features around a point, world units.

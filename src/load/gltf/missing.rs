@@ -1,0 +1,26 @@
+//! [`Missing`]: what the file points to and does not have, where the rest can be drawn without it.
+
+use crate::scene::Warnings;
+use crate::scene::warnings::Spots;
+
+/// The first place of each kind, and how many others there are.
+#[derive(Debug, Clone, Default)]
+pub struct Missing {
+    /// Meshes of nodes, whose parts are left out.
+    pub meshes: Spots,
+    /// Skins of nodes, whose meshes stay as they are stored.
+    pub skins: Spots,
+    /// Materials of primitives.
+    pub materials: Spots,
+    /// Texture coordinates that the texture of a primitive's material wants.
+    pub uvs: Spots,
+}
+
+impl Missing {
+    /// One warning for each kind.
+    pub fn warn(self, warnings: &mut Warnings) {
+        for spots in [self.meshes, self.skins, self.materials, self.uvs] {
+            spots.warn(warnings);
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Narrow faces that lie in the plane of a wider neighbour, as far as the rounding of the file can tell.
+//!
+//! Programs cut flat polygons into triangles, and some of these are narrow. Once the coordinates are rounded, a narrow triangle leans
+//! by any angle: its normal is as uncertain as the rounding divided by its height. Its wider neighbour in the same plane knows the
+//! normal better. So each narrow face gets a *carrier*:
+//!
+//! 1. A face is unsure if rounding may turn its normal by more than [`UNSURE_SINE`](tolerance::UNSURE_SINE).
+//! 2. The search goes on beyond its longest edge, to a neighbour of the same part whose plane holds all its corners, within the rounding.
+//!    A face that is little more than a line lies in the planes on both sides of it: at its short edges, which part of it each of the
+//!    faces there meets is known, so that the long edge is the one that vanishes.
+//! 3. From a neighbour that is unsure itself, the search goes on in the same way.
+//!
+//! The face takes over the normal of its carrier, and turns to the eye when its carrier does.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{EdgeFaces, Edges, Extents, Mesh, PartId};
+use crate::math::grain::GRAIN;
+use crate::math::tolerance;
+
+/// The search for a carrier ends after this many faces.
+const MAX_STEPS: usize = 16;
+
+/// What is needed to find carriers.
+pub(crate) struct Faces<'a> {
+    pub(super) positions: &'a [DVec3],
+    pub(super) triangles: &'a [[u32; 3]],
+    pub(super) parts: &'a [PartId],
+    pub(super) edges: &'a Edges,
+    pub(super) extents: &'a Extents,
+}
+
+impl<'a> Faces<'a> {
+    /// The faces of a mesh.
+    pub(crate) fn of(mesh: &'a Mesh) -> Self {
+        let Mesh { positions, triangles, face_part: parts, edges, extents, .. } = mesh;
+        Self { positions, triangles, parts, edges, extents }
+    }
+
+    /// The widest face of the plane of a face that is reached over ever wider neighbours.
+    pub(crate) fn widest(&self, face: u32) -> Option<u32> {
+        let corners = self.corners(face);
+        let (mut own, mut found) = (height(&corners), None);
+        let mut at = face;
+        loop {
+            let near = self.neighbours(at).filter(|other| self.holds(*other, &corners));
+            let near = near.map(|other| (height(&self.corners(other)), other));
+            let wider = near.filter(|(height, _)| *height > own);
+            let Some(next) = wider.max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1))) else {
+                return found;
+            };
+            (own, at) = next;
+            found = Some(at);
+        }
+    }
+
+    /// Each unsure face with its carrier, ascending.
+    pub(super) fn carriers(&self) -> Vec<[u32; 2]> {
+        let faces = (0..self.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let carrier = |face: u32| Some([face, self.is_unsure(face).then(|| self.carrier(face))??]);
+        faces.filter_map(carrier).collect()
+    }
+
+    fn corners(&self, face: u32) -> [DVec3; 3] {
+        self.triangles[face as usize].map(|v| self.positions[v as usize])
+    }
+
+    fn rounding(&self, face: u32) -> f64 {
+        self.extents.of(self.parts[face as usize]).rounding
+    }
+
+    fn is_unsure(&self, face: u32) -> bool {
+        let rounding = self.rounding(face);
+        let height = height(&self.corners(face));
+        // Faces without area are looked through.
+        let has_area =
+            height > tolerance::DEGENERATE_HEIGHT_OF_PART * self.extents.of(self.parts[face as usize]).scale;
+        rounding > 0.0 && has_area && height * tolerance::UNSURE_SINE < 2.0 * rounding
+    }
+
+    /// The first face that is sure on the way over longest edges, through planes that hold the face.
+    fn carrier(&self, face: u32) -> Option<u32> {
+        let corners = self.corners(face);
+        let mut way = vec![face];
+        while let Some(at) = way.last().copied().filter(|_| way.len() < MAX_STEPS) {
+            let next =
+                self.neighbours(at).find(|other| !way.contains(other) && self.holds(*other, &corners))?;
+            if !self.is_unsure(next) {
+                return Some(next);
+            }
+            way.push(next);
+        }
+        None
+    }
+
+    /// The faces of the same part beyond the edges of a face, that beyond the longest edge first.
+    fn neighbours(&self, face: u32) -> impl Iterator<Item = u32> {
+        let [a, b, c] = self.triangles[face as usize];
+        let length =
+            |[v, w]: [u32; 2]| self.positions[v as usize].distance_squared(self.positions[w as usize]);
+        let mut sides = [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)]);
+        sides.sort_unstable_by(|p, q| length(*q).total_cmp(&length(*p)).then(p.cmp(q)));
+        let part = self.parts[face as usize];
+        let beyond = move |side: [u32; 2]| {
+            let edge = self.edges.vertices.binary_search(&side).ok()?;
+            match self.edges.faces(edge) {
+                EdgeFaces::Two { faces: [p, q], same_way: false } => Some(if p == face { q } else { p }),
+                _ => None,
+            }
+        };
+        sides.into_iter().filter_map(beyond).filter(move |other| self.parts[*other as usize] == part)
+    }
+
+    /// Whether points lie in the plane of a face, as far as the rounding can tell.
+    fn holds(&self, face: u32, points: &[DVec3; 3]) -> bool {
+        let corners = self.corners(face);
+        points.iter().all(|point| is_in_plane(&corners, *point, self.rounding(face)))
+    }
+}
+
+/// Whether a point may lie in the plane of a triangle, if rounding has moved it and each corner by up to `rounding`.
+///
+/// The plane moves by the sum of what its corners move by, each times the barycentric weight of the point.
+#[must_use]
+pub fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool {
+    let normal = (*b - *a).cross(*c - *a);
+    let area = normal.length_squared();
+    let weight = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(normal).abs();
+    let weights = weight(*a, *b) + weight(*b, *c) + weight(*c, *a);
+    let distance = normal.dot(point - *a).abs();
+    distance * area <= rounding * (area + weights) * area.sqrt()
+}
+
+/// The least height of a triangle: its distance to being a line.
+#[must_use]
+pub fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
+    let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
+    if longest > 0.0 { (b - a).cross(c - a).length() / longest.sqrt() } else { 0.0 }
+}
+
+/// Gives each face the normal of its carrier.
+pub(super) fn take_over(carriers: &[[u32; 2]], normals: &mut [[f32; 3]]) {
+    for [face, carrier] in carriers {
+        normals[*face as usize] = normals[*carrier as usize];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{FaceId, Mesh, Soup};
+
+    /// Two wide triangles and a narrow one between them, whose middle corner is off by `up` and `aside`.
+    fn mesh(up: f64, aside: f64) -> Mesh {
+        let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, aside, up], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0]];
+        Mesh::build(Soup {
+            positions: points.map(DVec3::from_array).to_vec(),
+            triangles: vec![[0, 3, 1], [0, 1, 2], [0, 2, 4], [2, 1, 4]],
+            steps: vec![1e-6],
+            ..Soup::default()
+        })
+    }
+
+    #[test]
+    fn a_narrow_face_takes_over_the_normal_of_its_plane() {
+        // Within the rounding the narrow face may lean by any angle.
+        let leaning = mesh(1e-6, 1e-6);
+        let across = (0..4).map(FaceId).filter(|f| !leaning.is_degenerate(*f));
+        assert_eq!(across.clone().count(), 4);
+        assert!(across.into_iter().all(|f| leaning.face_normals[f.index()][2] > 0.999_99));
+        assert_eq!(leaning.carriers.len(), 1);
+        // A real fold stays one.
+        let folded = mesh(0.1, 0.1);
+        assert!(folded.carriers.is_empty());
+        assert!(folded.face_normals.iter().any(|n| n[2] < 0.9));
+    }
+}
