@@ -70,6 +70,7 @@ mod properties;
 mod random_widths;
 mod regions;
 mod seams;
+mod rewriting;
 mod section_areas;
 mod section_shells;
 mod sections;

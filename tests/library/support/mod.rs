@@ -26,6 +26,7 @@ pub mod polygon_truth;
 pub mod polygons;
 pub mod properties;
 pub mod rays;
+pub mod rewriting;
 pub mod round_solids;
 pub mod scenes;
 pub mod seen;

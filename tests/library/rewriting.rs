@@ -1,0 +1,71 @@
+//! The same model, however it is written, gives the same drawing: random scenes in other formats, precisions, places, orders and
+//! cuts.
+//!
+//! A failure names the scene by its seed. `LIGNE_SCENE=SEED` runs all relations on that scene alone; with
+//! `LIGNE_CASES=FOLDER`, failing scenes are reduced to as few bodies as possible and written there, both files with their cameras:
+//!
+//! ```text
+//! LIGNE_SCENE=17 LIGNE_CASES=cases cargo test --test library rewriting::a_hundred_scenes -- --nocapture
+//! ```
+
+use std::ops::Range;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::support::rewriting::known::limit;
+use crate::support::rewriting::model::Model;
+use crate::support::rewriting::relations::Relation;
+use crate::support::rewriting::table::Table;
+use crate::support::rewriting::trial::Trial;
+
+/// Relations of a scene in the short run: every fifth or so, so that each relation meets all shapes and contacts.
+fn a_few(seed: u64) -> Vec<Relation> {
+    let count = Relation::ALL.len();
+    (0..6).map(|k| Relation::ALL[(seed as usize * 6 + k * 5) % count]).collect()
+}
+
+fn all(_: u64) -> Vec<Relation> {
+    Relation::ALL.to_vec()
+}
+
+/// Draws scenes and their rewritten files, prints the table, and fails where more differ than is known.
+fn holds(seeds: Range<u64>, relations: fn(u64) -> Vec<Relation>, share: fn(Relation) -> f64) {
+    let one =
+        std::env::var("LIGNE_SCENE").ok().map(|seed| seed.parse::<u64>().expect("LIGNE_SCENE is a seed"));
+    let run = |seed: u64| {
+        let relations = if one.is_some() { all(seed) } else { relations(seed) };
+        Trial::run_all(&Model::random(seed), &relations)
+    };
+    let seeds: Vec<u64> = one.map_or_else(|| seeds.collect(), |seed| vec![seed]);
+    let trials: Vec<Trial> = seeds.into_par_iter().flat_map_iter(run).collect();
+    let faults: Vec<&Trial> = trials.iter().filter(|trial| trial.outcome.is_fault()).collect();
+    if let Some(folder) = std::env::var_os("LIGNE_CASES") {
+        faults.par_iter().for_each(|fault| fault.reduced().keep_in(Path::new(&folder)));
+    }
+    let table = Table::of(&trials);
+    println!("{table}");
+    let words =
+        |of: Relation| faults.iter().filter(move |fault| fault.relation == of).map(|fault| fault.words());
+    let mut beyond = Vec::new();
+    for (relation, row) in &table.0 {
+        let limit = if one.is_some() { 0 } else { (share(*relation) * row.made as f64).ceil() as usize };
+        if row.different() > limit {
+            let (name, different, made) = (relation.name(), row.different(), row.made);
+            beyond.push(format!("{name}: {different} of {made} differ, no more than {limit} are known"));
+            beyond.extend(words(*relation));
+        }
+    }
+    assert!(beyond.is_empty(), "{table}\n{}", beyond.join("\n"));
+}
+
+#[test]
+fn a_hundred_scenes_are_drawn_alike_however_they_are_written() {
+    holds(0..100, a_few, limit);
+}
+
+#[test]
+#[ignore = "long: .ci/nightly"]
+fn five_thousand_scenes_are_drawn_alike_however_they_are_written() {
+    holds(1000..6000, all, limit);
+}

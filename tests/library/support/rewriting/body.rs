@@ -1,0 +1,105 @@
+//! [`Body`]: exact points and flat polygons between them, and how polygons are cut into triangles.
+
+use glam::{DVec2, DVec3};
+
+/// A flat polygon, counter-clockwise seen from outside; it may be concave, and corners may lie on straight edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Face {
+    pub corners: Vec<u32>,
+    pub colour: u8,
+}
+
+/// A connected surface.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Body {
+    /// Name of its part. Neighbours in a model with the same name are one part.
+    pub part: String,
+    pub points: Vec<DVec3>,
+    pub faces: Vec<Face>,
+    /// Whether it encloses a volume.
+    pub is_closed: bool,
+    /// Whether it stands for a rounded surface.
+    pub is_round: bool,
+    /// Opposite corners of an upright box strictly inside.
+    pub core: Option<[DVec3; 2]>,
+}
+
+impl Body {
+    /// Lowest and highest coordinates.
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let points = || self.points.iter().copied();
+        [points().reduce(DVec3::min).unwrap(), points().reduce(DVec3::max).unwrap()]
+    }
+
+    /// The body with every point moved by an orientation-preserving map that keeps boxes upright.
+    pub fn moved(mut self, place: impl Fn(DVec3) -> DVec3) -> Self {
+        self.points.iter_mut().for_each(|point| *point = place(*point));
+        self.core = self.core.map(|core| {
+            let [a, b] = core.map(&place);
+            [a.min(b), a.max(b)]
+        });
+        self
+    }
+
+    pub fn coloured(mut self, colour: u8) -> Self {
+        self.faces.iter_mut().for_each(|face| face.colour = colour);
+        self
+    }
+
+    pub fn reverse(&mut self) {
+        self.faces.iter_mut().for_each(|face| face.corners.reverse());
+    }
+
+    /// The triangles of a face. Another `start` gives other diagonals where the polygon has a choice.
+    pub fn triangles(&self, face: &Face, start: usize) -> Vec<[u32; 3]> {
+        let points: Vec<DVec3> = face.corners.iter().map(|&corner| self.points[corner as usize]).collect();
+        let flat = flattened(&points);
+        let mut ring: Vec<usize> = (0..flat.len()).collect();
+        ring.rotate_left(start % flat.len());
+        ears(&flat, ring).into_iter().map(|ear| ear.map(|k| face.corners[k])).collect()
+    }
+}
+
+/// The polygon in its plane, counter-clockwise; one coordinate is left out, so nothing is rounded.
+fn flattened(points: &[DVec3]) -> Vec<DVec2> {
+    let mut normal = DVec3::ZERO;
+    for (k, a) in points.iter().enumerate() {
+        normal += (a - points[0]).cross(points[(k + 1) % points.len()] - points[0]);
+    }
+    let size = normal.abs();
+    let flat = |p: &DVec3| match size.max_element() {
+        largest if largest == size.x => DVec2::new(p.y, p.z) * DVec2::new(normal.x.signum(), 1.0),
+        largest if largest == size.y => DVec2::new(p.z, p.x) * DVec2::new(normal.y.signum(), 1.0),
+        _ => DVec2::new(p.x, p.y) * DVec2::new(normal.z.signum(), 1.0),
+    };
+    points.iter().map(flat).collect()
+}
+
+/// Cuts off ears, the first possible one each time, none of them without area.
+fn ears(points: &[DVec2], mut ring: Vec<usize>) -> Vec<[usize; 3]> {
+    let mut found = Vec::new();
+    let turn = |a: usize, b: usize, c: usize| (points[b] - points[a]).perp_dot(points[c] - points[a]);
+    let scale = points.iter().map(|p| (*p - points[0]).length_squared()).fold(0.0, f64::max);
+    let least = 1e-12 * scale;
+    while ring.len() > 3 {
+        let count = ring.len();
+        let corners = |k: usize| [ring[(k + count - 1) % count], ring[k], ring[(k + 1) % count]];
+        let is_ear = |k: &usize| {
+            let [a, b, c] = corners(*k);
+            let is_outside =
+                |p: usize| turn(a, b, p) < -least || turn(b, c, p) < -least || turn(c, a, p) < -least;
+            turn(a, b, c) > least && ring.iter().all(|&p| [a, b, c].contains(&p) || is_outside(p))
+        };
+        let Some(ear) = (0..count).find(is_ear) else { break };
+        found.push(corners(ear));
+        ring.remove(ear);
+        // Go on at the far end, so that fans are rare.
+        ring.rotate_left(1);
+    }
+    if let [a, b, c] = ring[..] {
+        if turn(a, b, c) > least {
+            found.push([a, b, c]);
+        }
+    }
+    found
+}

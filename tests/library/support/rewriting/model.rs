@@ -1,0 +1,235 @@
+//! [`Model`]: a random scene of bodies whose exact form is known, its place in the world, and the camera.
+
+use glam::{DAffine3, DVec3};
+use ligne::load::ModelFormat;
+use ligne::scene::{Camera, NamedView, Projection, Scene, UpAxis};
+
+use super::body::Body;
+use super::shapes::{
+    any_cuboid, any_house, any_plate, any_prism, any_round, any_sheet, any_stairs, cuboid, right_turn,
+};
+use super::text_files::{Digits, obj};
+use crate::support::dice::Dice;
+
+/// What a scene is made of.
+pub const SHAPES: [&str; 9] =
+    ["boxes", "prisms", "plates", "stairs", "houses", "sheets", "decals", "round bodies", "mixed bodies"];
+
+/// How its bodies lie to each other.
+pub const CONTACTS: [&str; 4] = ["free", "touching", "flush", "overlapping"];
+
+/// From where a scene is seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sight {
+    Named(NamedView),
+    /// Azimuth and elevation, whole degrees.
+    Angles(f64, f64),
+    /// A parallel view along an axis of the bodies.
+    AlongAxis(DVec3),
+    Direction {
+        to_eye: DVec3,
+        is_parallel: bool,
+    },
+}
+
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Shapes and contact.
+    pub kind: String,
+    pub seed: u64,
+    pub bodies: Vec<Body>,
+    pub world_from_model: DAffine3,
+    pub sight: Sight,
+    pub camera: Camera,
+}
+
+impl Model {
+    pub fn random(seed: u64) -> Self {
+        let mut dice = Dice::new(seed);
+        // Every shape with every contact, in turn.
+        let shapes = SHAPES[seed as usize % SHAPES.len()];
+        let contact = CONTACTS[seed as usize / SHAPES.len() % CONTACTS.len()];
+        let count = [1, 2, 2, 3, 3, 4, 5, 6, 8, 11, 14][dice.below(11)];
+        let mut bodies =
+            if shapes == "decals" { decals(&mut dice) } else { arranged(shapes, contact, count, &mut dice) };
+        let turn = right_turn(&mut dice);
+        for (k, body) in bodies.iter_mut().enumerate() {
+            *body = std::mem::take(body).moved(|p| turn * p);
+            if body.part.is_empty() {
+                body.part = format!("part{k}");
+            }
+        }
+        let is_upright = dice.below(5) < 2;
+        let world_from_model = if is_upright {
+            DAffine3::IDENTITY
+        } else {
+            let shift = DVec3::new(3.0, -2.0, 5.0) * dice.below(3) as f64;
+            DAffine3::from_mat3_translation(dice.turn(), shift)
+        };
+        let sight = any_sight(is_upright, &mut dice);
+        let kind = if shapes == "decals" { shapes.to_owned() } else { format!("{shapes}, {contact}") };
+        let camera = Camera::three_quarter();
+        let mut model = Self { kind, seed, bodies, world_from_model, sight, camera };
+        model.frame();
+        model
+    }
+
+    /// Points the camera at all there is.
+    pub fn frame(&mut self) {
+        let along = |to_eye: DVec3, is_parallel: bool| {
+            let to_eye = to_eye.normalize();
+            let up = if to_eye.cross(DVec3::Y).length() < 0.1 { DVec3::X } else { DVec3::Y };
+            let projection = if is_parallel {
+                Projection::Orthographic { height: 1.0 }
+            } else {
+                Projection::Perspective { fov_y_deg: 35.0 }
+            };
+            Camera { eye: to_eye, target: DVec3::ZERO, up, projection, ..Camera::three_quarter() }
+        };
+        let camera = match self.sight {
+            Sight::Named(view) => Camera::named(view, UpAxis::Y),
+            Sight::Angles(azimuth, elevation) => Camera::azimuth_elevation(azimuth, elevation, UpAxis::Y),
+            Sight::AlongAxis(axis) => along(self.world_from_model.matrix3 * axis, true),
+            Sight::Direction { to_eye, is_parallel } => along(to_eye, is_parallel),
+        };
+        self.camera = camera.fit(&self.scene());
+    }
+
+    /// The scene read from the exact file.
+    pub fn scene(&self) -> Scene {
+        Scene::from_bytes(&obj(self, Digits::All), ModelFormat::Obj).unwrap()
+    }
+
+    /// Whether a surface stands for a rounded one.
+    pub fn is_round(&self) -> bool {
+        self.bodies.iter().any(|body| body.is_round)
+    }
+
+    /// The points of a body in the world.
+    pub fn world_points(&self, body: &Body) -> Vec<DVec3> {
+        body.points.iter().map(|point| self.world_from_model.transform_point3(*point)).collect()
+    }
+
+    /// The bodies of each part.
+    pub fn parts(&self) -> impl Iterator<Item = &[Body]> {
+        self.bodies.chunk_by(|one, next| one.part == next.part)
+    }
+
+    pub fn has_colours(&self) -> bool {
+        self.bodies.iter().flat_map(|body| &body.faces).any(|face| face.colour > 0)
+    }
+
+    /// All bodies in one part, of one colour, as STL and PLY have them.
+    pub fn in_one_part(mut self) -> Self {
+        for body in &mut self.bodies {
+            body.part = "all".into();
+            body.faces.iter_mut().for_each(|face| face.colour = 0);
+        }
+        self
+    }
+}
+
+fn any_sight(is_upright: bool, dice: &mut Dice) -> Sight {
+    let whole = |dice: &mut Dice| Sight::Angles(5.0 * dice.below(72) as f64, 5.0 * dice.below(17) as f64);
+    match dice.below(6) {
+        0 | 1 if is_upright => Sight::Named(NamedView::ALL[dice.below(NamedView::ALL.len())]),
+        2 | 3 if is_upright => whole(dice),
+        0 => Sight::AlongAxis(right_turn(dice) * DVec3::X),
+        1 => whole(dice),
+        k => Sight::Direction { to_eye: dice.direction(), is_parallel: k % 2 == 0 },
+    }
+}
+
+fn any_body(shapes: &str, dice: &mut Dice) -> Body {
+    match shapes {
+        "boxes" => any_cuboid(dice),
+        "prisms" => any_prism(dice),
+        "plates" => any_plate(dice),
+        "stairs" => any_stairs(dice),
+        "houses" => any_house(dice),
+        // Sheets need something to lie on.
+        "sheets" if dice.below(3) == 0 => any_cuboid(dice),
+        "sheets" => any_sheet(dice),
+        "round bodies" => any_round(dice),
+        _ => any_body(SHAPES[dice.below(8)], dice),
+    }
+}
+
+/// Bodies placed one after another: apart, or each against one that is there.
+fn arranged(shapes: &str, contact: &str, count: usize, dice: &mut Dice) -> Vec<Body> {
+    let mut bodies: Vec<Body> = Vec::new();
+    for k in 0..count {
+        let turn = right_turn(dice);
+        let body = any_body(shapes, dice).moved(|p| turn * p);
+        let colour = if dice.below(3) == 0 { 1 + dice.below(2) as u8 } else { 0 };
+        let [low, high] = body.bounds();
+        let place = match bodies.last() {
+            None => -low,
+            Some(_) if contact == "free" => {
+                let cell = DVec3::new((k % 3) as f64, (k / 3 % 3) as f64, (k / 9) as f64);
+                cell * 7.0 - low + DVec3::splat(0.5) * dice.below(3) as f64
+            }
+            Some(_) => {
+                let neighbour = bodies[dice.below(bodies.len())].bounds();
+                against(neighbour, [low, high], contact, dice)
+            }
+        };
+        bodies.push(body.moved(|p| p + place).coloured(colour));
+    }
+    bodies
+}
+
+/// Where a box goes to lie against another one.
+fn against(there: [DVec3; 2], [low, high]: [DVec3; 2], contact: &str, dice: &mut Dice) -> DVec3 {
+    let size = high - low;
+    let room = there[1] - there[0];
+    let normal = dice.below(3);
+    let mut corner = DVec3::ZERO;
+    for axis in 0..3 {
+        let half_units = |length: f64| (2.0 * length).round().max(1.0) as usize;
+        corner[axis] = if axis == normal {
+            let depth = match contact {
+                "overlapping" => 0.5 * (1 + dice.below(half_units(size[axis].min(room[axis])))) as f64,
+                _ => 0.0,
+            };
+            if dice.below(2) == 0 { there[1][axis] - depth } else { there[0][axis] - size[axis] + depth }
+        } else if contact == "flush" || contact == "overlapping" && dice.below(3) == 0 {
+            if dice.below(2) == 0 { there[0][axis] } else { there[1][axis] - size[axis] }
+        } else {
+            // Anywhere along the side, in steps of half a unit.
+            let way = half_units(room[axis] + size[axis]).max(3) - 1;
+            there[0][axis] - size[axis] + 0.5 * (1 + dice.below(way)) as f64
+        };
+    }
+    corner - low
+}
+
+/// Boxes with sheets of another colour in the planes of their sides, in a part of their own or in that of the box.
+fn decals(dice: &mut Dice) -> Vec<Body> {
+    let mut bodies = Vec::new();
+    for k in 0..1 + dice.below(3) {
+        let size = DVec3::new(4.0, 3.0 + dice.below(3) as f64, 5.0);
+        let wall = cuboid(size);
+        let place = DVec3::X * 6.0 * k as f64;
+        let part = format!("wall{k}");
+        let mut group = vec![Body { part: part.clone(), ..wall }];
+        for decal in 0..1 + dice.below(2) {
+            // In its half of the side, so that two do not overlap.
+            let (low, high) = ([0.5, 2.0][decal], [1.5, 3.5][decal]);
+            let (from, to) = (0.5 + 0.5 * dice.below(3) as f64, 2.5);
+            let z = if dice.below(2) == 0 { size.z } else { 0.0 };
+            let mut sheet = any_sheet(dice);
+            sheet.faces.truncate(1);
+            sheet.points =
+                [(low, from), (high, from), (high, to), (low, to)].map(|(x, y)| DVec3::new(x, y, z)).to_vec();
+            if z == 0.0 {
+                sheet.reverse();
+            }
+            let own = if dice.below(2) == 0 { part.clone() } else { format!("decal{k}-{decal}") };
+            group.push(Body { part: own, ..sheet.coloured(1 + decal as u8) });
+        }
+        group.sort_by_key(|body| body.part != part);
+        bodies.extend(group.into_iter().map(|body| body.moved(|p| p + place)));
+    }
+    bodies
+}

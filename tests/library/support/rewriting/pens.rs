@@ -1,0 +1,92 @@
+//! [`Pens`]: the visible lines of a drawing by pen, and how two drawings differ.
+
+use std::collections::BTreeMap;
+
+use kurbo::Point;
+use ligne::drawing::{Drawing, Mark, Paint};
+
+use crate::support::ink::{Ink, samples};
+use crate::support::judge::{axis, ink_marks};
+
+/// Places along lines are compared this far apart, px.
+const STEP_PX: f64 = 0.25;
+
+/// Visible lines by kind, whether they are silhouettes, and width.
+#[derive(Debug, Clone)]
+pub struct Pens(BTreeMap<String, Vec<[Point; 2]>>);
+
+/// The lines of one drawing that are farther than the tolerance from the same pen of the other.
+#[derive(Debug, Clone)]
+pub struct Difference {
+    /// Length by pen: of lines only the reference has, and of lines only the other drawing has; px of the reference.
+    pub gone: BTreeMap<String, f64>,
+    pub new: BTreeMap<String, f64>,
+    /// A place in the reference where they differ.
+    pub at: Point,
+}
+
+impl Difference {
+    pub fn length(&self) -> f64 {
+        self.gone.values().chain(self.new.values()).sum()
+    }
+}
+
+impl std::fmt::Display for Difference {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:.1} px differ, at ({:.1}, {:.1})", self.length(), self.at.x, self.at.y)?;
+        for (what, pens) in [("gone", &self.gone), ("new", &self.new)] {
+            for (pen, length) in pens {
+                write!(f, "; {what}: {length:.1} px of {pen}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn pen(mark: &Mark) -> String {
+    let width = match &mark.paint {
+        Paint::Stroke(stroke) => stroke.width,
+        Paint::Outline(outline) => outline.pen_width,
+        _ => 0.0,
+    };
+    format!("{} {width}", mark.provenance.classes.join(" "))
+}
+
+impl Pens {
+    pub fn of(drawing: &Drawing) -> Self {
+        let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
+        for mark in ink_marks(drawing) {
+            pens.entry(pen(mark)).or_default().extend(axis(mark));
+        }
+        Self(pens)
+    }
+
+    /// The lines with each point moved.
+    pub fn moved(mut self, place: impl Fn(Point) -> Point) -> Self {
+        self.0.values_mut().flatten().flatten().for_each(|point| *point = place(*point));
+        self
+    }
+
+    /// What differs by more than `tolerance` px.
+    pub fn difference(&self, other: &Self, tolerance: f64) -> Difference {
+        let mut at = None;
+        let mut lost = |of: &Self, by: &Self| {
+            let mut lost = BTreeMap::new();
+            for (pen, lines) in &of.0 {
+                let ink = Ink::new(by.0.get(pen).cloned().unwrap_or_default(), 4.0);
+                let far = samples(lines, STEP_PX).into_iter().filter(|(p, _)| ink.distance(*p) > tolerance);
+                let mut length = 0.0;
+                for (place, share) in far {
+                    at = at.or(Some(place));
+                    length += share;
+                }
+                if length > 0.0 {
+                    lost.insert(pen.clone(), length);
+                }
+            }
+            lost
+        };
+        let (gone, new) = (lost(self, other), lost(other, self));
+        Difference { gone, new, at: at.unwrap_or_default() }
+    }
+}

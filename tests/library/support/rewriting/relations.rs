@@ -1,0 +1,260 @@
+//! [`Relation`]: the ways to write a model that must not change its drawing.
+
+use glam::{DAffine3, DMat3, DVec3};
+use ligne::load::ModelFormat;
+use ligne::scene::{Camera, NamedView, Projection, UpAxis};
+
+use super::binary_files::{glb_baked, glb_nested, ply_single, stl};
+use super::changes;
+use super::model::{Model, Sight};
+use super::text_files::{Digits, obj, obj_in_groups, ply};
+use crate::support::dice::Dice;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Relation {
+    AllReversed,
+    SomeReversed,
+    ObjSixDecimals,
+    ObjSinglePrecision,
+    Stl,
+    Ply,
+    PlySinglePrecision,
+    GlbNested,
+    GlbSinglePrecision,
+    Turned,
+    Scaled,
+    MovedFar,
+    Mirrored,
+    CameraRecord,
+    CameraRecordRounded,
+    CameraByAngles,
+    CameraByName,
+    FacesSplit,
+    VertexInEdge,
+    VertexInEdgeOneSided,
+    OtherDiagonals,
+    FacesDoubled,
+    FacesWithoutArea,
+    GroupPerFace,
+    OtherOrder,
+    HiddenPart,
+    PictureSize,
+}
+
+/// A model file, the camera, and how its drawing lies to that of the exact file.
+pub struct Rewritten {
+    pub bytes: Vec<u8>,
+    pub format: ModelFormat,
+    pub camera: Camera,
+    /// Whether the picture is mirrored left to right.
+    pub is_mirrored: bool,
+    /// How much larger the picture is.
+    pub scale: f64,
+}
+
+impl Rewritten {
+    /// The ending of the model's file.
+    pub fn ending(&self) -> &'static str {
+        match self.format {
+            ModelFormat::Obj => "obj",
+            ModelFormat::Stl => "stl",
+            ModelFormat::Ply => "ply",
+            _ => "glb",
+        }
+    }
+}
+
+impl Relation {
+    pub const ALL: [Self; 27] = [
+        Self::AllReversed,
+        Self::SomeReversed,
+        Self::ObjSixDecimals,
+        Self::ObjSinglePrecision,
+        Self::Stl,
+        Self::Ply,
+        Self::PlySinglePrecision,
+        Self::GlbNested,
+        Self::GlbSinglePrecision,
+        Self::Turned,
+        Self::Scaled,
+        Self::MovedFar,
+        Self::Mirrored,
+        Self::CameraRecord,
+        Self::CameraRecordRounded,
+        Self::CameraByAngles,
+        Self::CameraByName,
+        Self::FacesSplit,
+        Self::VertexInEdge,
+        Self::VertexInEdgeOneSided,
+        Self::OtherDiagonals,
+        Self::FacesDoubled,
+        Self::FacesWithoutArea,
+        Self::GroupPerFace,
+        Self::OtherOrder,
+        Self::HiddenPart,
+        Self::PictureSize,
+    ];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::AllReversed => "all faces reversed",
+            Self::SomeReversed => "faces of some bodies reversed",
+            Self::ObjSixDecimals => "OBJ, six decimals",
+            Self::ObjSinglePrecision => "OBJ, single precision",
+            Self::Stl => "STL",
+            Self::Ply => "PLY, double precision",
+            Self::PlySinglePrecision => "PLY, single precision",
+            Self::GlbNested => "GLB, nested transforms",
+            Self::GlbSinglePrecision => "GLB, world coordinates",
+            Self::Turned => "turned with the camera",
+            Self::Scaled => "scaled with the camera",
+            Self::MovedFar => "moved far with the camera",
+            Self::Mirrored => "mirrored with the camera",
+            Self::CameraRecord => "camera as record",
+            Self::CameraRecordRounded => "camera as record, nine decimals",
+            Self::CameraByAngles => "camera by angles",
+            Self::CameraByName => "camera by name",
+            Self::FacesSplit => "faces split",
+            Self::VertexInEdge => "vertices in edges, both sides",
+            Self::VertexInEdgeOneSided => "vertices in edges, one side",
+            Self::OtherDiagonals => "other diagonals",
+            Self::FacesDoubled => "faces doubled",
+            Self::FacesWithoutArea => "faces without area",
+            Self::GroupPerFace => "a group for each face",
+            Self::OtherOrder => "parts and faces in another order",
+            Self::HiddenPart => "a hidden part added",
+            Self::PictureSize => "another picture size",
+        }
+    }
+
+    /// The model with which the rewritten one is compared. Formats without parts and colours are compared with one part.
+    pub fn reference(self, model: &Model) -> Model {
+        if self.is_in_one_part() { model.clone().in_one_part() } else { model.clone() }
+    }
+
+    /// Whether the format has neither parts nor colours.
+    pub fn is_in_one_part(self) -> bool {
+        matches!(self, Self::Stl | Self::Ply | Self::PlySinglePrecision)
+    }
+
+    /// Writes the reference in another way; `None` where the relation does not apply.
+    pub fn rewrite(self, model: &Model, dice: &mut Dice) -> Option<Rewritten> {
+        let mut other = model.clone();
+        match self {
+            Self::AllReversed => changes::all_reversed(&mut other),
+            Self::SomeReversed => changes::some_reversed(&mut other, dice)?,
+            Self::ObjSixDecimals => return Some(written(model, obj(model, Digits::Six), ModelFormat::Obj)),
+            Self::ObjSinglePrecision => {
+                return Some(written(model, obj(model, Digits::Single), ModelFormat::Obj));
+            }
+            Self::Stl => return Some(written(model, stl(model), ModelFormat::Stl)),
+            Self::Ply => return Some(written(model, ply(model), ModelFormat::Ply)),
+            Self::PlySinglePrecision => return Some(written(model, ply_single(model), ModelFormat::Ply)),
+            Self::GlbNested => return Some(written(model, glb_nested(model, dice), ModelFormat::Gltf)),
+            Self::GlbSinglePrecision => return Some(written(model, glb_baked(model), ModelFormat::Gltf)),
+            Self::Turned => place(&mut other, DAffine3::from_mat3(dice.turn())),
+            Self::Scaled => {
+                let scale = [1000.0, 0.001, 25.4, 1.0 / 3.0][dice.below(4)];
+                place(&mut other, DAffine3::from_scale(DVec3::splat(scale)));
+            }
+            Self::MovedFar => {
+                let shift = dice.direction() * [100.0, 1e4, 1e6][dice.below(3)];
+                place(&mut other, DAffine3::from_translation(shift.round()));
+            }
+            Self::Mirrored => {
+                place(&mut other, DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0))));
+                changes::all_reversed(&mut other);
+            }
+            Self::CameraRecord => other.camera = Camera::from_json(&model.camera.to_json()).unwrap(),
+            Self::CameraRecordRounded => other.camera = rounded(&model.camera),
+            Self::CameraByAngles => other.camera = by_angles(model)?,
+            Self::CameraByName => by_name(&mut other)?,
+            Self::FacesSplit => changes::faces_split(&mut other, dice)?,
+            Self::VertexInEdge => changes::vertices_in_edges(&mut other, true, dice)?,
+            Self::VertexInEdgeOneSided => changes::vertices_in_edges(&mut other, false, dice)?,
+            Self::OtherDiagonals => changes::triangulated(&mut other, 1),
+            Self::FacesDoubled => changes::faces_doubled(&mut other, dice),
+            Self::FacesWithoutArea => changes::faces_without_area(&mut other, dice),
+            Self::GroupPerFace => return Some(written(model, obj_in_groups(model), ModelFormat::Obj)),
+            Self::OtherOrder => changes::reordered(&mut other, dice),
+            Self::HiddenPart => changes::hidden_body_added(&mut other, dice)?,
+            Self::PictureSize => {
+                let scale = [0.6, 1.5, 2.3][dice.below(3)];
+                let size = other.camera.width * scale;
+                other.camera = other.camera.with_frame(size, size);
+                return Some(Rewritten { scale, ..exact(&other) });
+            }
+        }
+        Some(Rewritten { is_mirrored: self == Self::Mirrored, ..exact(&other) })
+    }
+}
+
+/// The exact file of a model.
+pub fn exact(model: &Model) -> Rewritten {
+    written(model, obj(model, Digits::All), ModelFormat::Obj)
+}
+
+fn written(model: &Model, bytes: Vec<u8>, format: ModelFormat) -> Rewritten {
+    Rewritten { bytes, format, camera: model.camera, is_mirrored: false, scale: 1.0 }
+}
+
+/// Moves model and camera.
+fn place(model: &mut Model, by: DAffine3) {
+    model.world_from_model = by * model.world_from_model;
+    let camera = &mut model.camera;
+    camera.eye = by.transform_point3(camera.eye);
+    camera.target = by.transform_point3(camera.target);
+    camera.up = by.transform_vector3(camera.up).normalize();
+    if let Projection::Orthographic { height } = &mut camera.projection {
+        *height *= by.transform_vector3(DVec3::X).length();
+    }
+}
+
+/// A camera with the decimals that people copy.
+fn rounded(camera: &Camera) -> Camera {
+    let short = |number: f64| (number * 1e9).round() / 1e9;
+    let point = |p: DVec3| DVec3::new(short(p.x), short(p.y), short(p.z));
+    let projection = match camera.projection {
+        Projection::Orthographic { height } => Projection::Orthographic { height: short(height) },
+        same @ Projection::Perspective { .. } => same,
+    };
+    let (eye, target, up) = (point(camera.eye), point(camera.target), point(camera.up));
+    Camera { eye, target, up, projection, ..*camera }
+}
+
+/// The azimuth and elevation of views that have whole ones, or nearly.
+fn angles(view: NamedView) -> Option<(f64, f64)> {
+    Some(match view {
+        NamedView::Front => (0.0, 0.0),
+        NamedView::Right => (90.0, 0.0),
+        NamedView::Back => (180.0, 0.0),
+        NamedView::Left => (-90.0, 0.0),
+        NamedView::Top => (0.0, 90.0),
+        NamedView::Bottom => (0.0, -90.0),
+        NamedView::Iso => (45.0, 35.264_389_682_754_654),
+        _ => return None,
+    })
+}
+
+/// A named view by its angles.
+fn by_angles(model: &Model) -> Option<Camera> {
+    let Sight::Named(view) = model.sight else { return None };
+    let (azimuth, elevation) = angles(view)?;
+    let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Y);
+    Some(camera.with_projection(Projection::Orthographic { height: 1.0 }).fit(&model.scene()))
+}
+
+/// The model turned by a right angle about the vertical, so that another named view shows the same.
+fn by_name(model: &mut Model) -> Option<()> {
+    let Sight::Named(view) = model.sight else { return None };
+    let next = match view {
+        NamedView::Front => NamedView::Right,
+        NamedView::Right => NamedView::Back,
+        NamedView::Back => NamedView::Left,
+        NamedView::Left => NamedView::Front,
+        _ => return None,
+    };
+    model.world_from_model = DAffine3::from_mat3(DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X));
+    model.camera = Camera::named(next, UpAxis::Y).fit(&model.scene());
+    Some(())
+}

@@ -1,0 +1,80 @@
+//! [`Table`]: for each relation, how many drawings were compared, how many differ, and by how much.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::relations::Relation;
+use super::trial::{Outcome, Trial};
+
+#[derive(Debug, Clone, Default)]
+pub struct Row {
+    pub made: usize,
+    /// Of scenes of flat bodies alone.
+    pub flat_different: usize,
+    /// Of scenes with rounded bodies.
+    pub round_different: usize,
+    /// The most that differs in one drawing, px of length.
+    pub longest: f64,
+}
+
+impl Row {
+    pub fn different(&self) -> usize {
+        self.flat_different + self.round_different
+    }
+}
+
+#[derive(Debug, Clone, Default)]
+pub struct Table(pub BTreeMap<Relation, Row>);
+
+impl Table {
+    pub fn of(trials: &[Trial]) -> Self {
+        let mut rows: BTreeMap<Relation, Row> = BTreeMap::new();
+        for trial in trials.iter().filter(|trial| !matches!(trial.outcome, Outcome::NotMade)) {
+            let row = rows.entry(trial.relation).or_default();
+            row.made += 1;
+            row.longest = row.longest.max(trial.outcome.length());
+            let is_fault = usize::from(trial.outcome.is_fault());
+            if trial.model.is_round() {
+                row.round_different += is_fault;
+            } else {
+                row.flat_different += is_fault;
+            }
+        }
+        Self(rows)
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{:34} {:>6} {:>10} {:>6} {:>6} {:>11}",
+            "relation", "made", "different", "flat", "round", "longest px"
+        )?;
+        let mut sum = Row::default();
+        for (relation, row) in &self.0 {
+            writeln!(
+                f,
+                "{:34} {:>6} {:>10} {:>6} {:>6} {:>11.1}",
+                relation.name(),
+                row.made,
+                row.different(),
+                row.flat_different,
+                row.round_different,
+                row.longest
+            )?;
+            sum.made += row.made;
+            sum.flat_different += row.flat_different;
+            sum.round_different += row.round_different;
+        }
+        writeln!(
+            f,
+            "{:34} {:>6} {:>10} {:>6} {:>6}",
+            "all",
+            sum.made,
+            sum.different(),
+            sum.flat_different,
+            sum.round_different
+        )
+    }
+}

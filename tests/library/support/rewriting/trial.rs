@@ -1,0 +1,170 @@
+//! [`Trial`]: a model compared with one way to write it, reduced to fewer bodies where the drawings differ, and kept as files.
+
+use std::cell::OnceCell;
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use kurbo::Point;
+use ligne::render::render;
+use ligne::scene::Scene;
+use ligne::style::Style;
+
+use super::model::Model;
+use super::pens::{Difference, Pens};
+use super::relations::{Relation, Rewritten, exact};
+use crate::support::dice::Dice;
+
+/// Lines of flat bodies may lie this far apart, px.
+const FLAT_PX: f64 = 0.06;
+/// Lines of rounded bodies may lie this far apart, px.
+const ROUND_PX: f64 = 0.5;
+/// Drawings are the same if no more than this differs, px of length: the round ends of a line.
+const SLACK_PX: f64 = 1.0;
+
+/// What came of a comparison.
+#[derive(Debug, Clone)]
+pub enum Outcome {
+    /// The relation says nothing of this model.
+    NotMade,
+    Same,
+    Different(Difference),
+    /// A file was refused, or drawing it failed.
+    Failed(String),
+}
+
+impl Outcome {
+    pub fn is_fault(&self) -> bool {
+        matches!(self, Self::Different(_) | Self::Failed(_))
+    }
+
+    /// The length that differs, px; infinite where nothing was drawn.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Different(difference) => difference.length(),
+            Self::Failed(_) => f64::INFINITY,
+            _ => 0.0,
+        }
+    }
+
+    fn words(&self) -> String {
+        match self {
+            Self::Different(difference) => difference.to_string(),
+            Self::Failed(words) => words.clone(),
+            Self::NotMade => "does not apply".into(),
+            Self::Same => "the same".into(),
+        }
+    }
+}
+
+#[derive(Debug, Clone)]
+pub struct Trial {
+    pub model: Model,
+    pub relation: Relation,
+    pub outcome: Outcome,
+}
+
+/// Reads a file and draws it.
+fn draw(file: &Rewritten) -> Result<Pens, String> {
+    let draw = || {
+        let scene = Scene::from_bytes(&file.bytes, file.format).map_err(|error| error.to_string())?;
+        let drawing = render(&scene, &file.camera, &Style::load("ink", &[]).unwrap());
+        Ok(Pens::of(&drawing.map_err(|error| error.to_string())?))
+    };
+    catch_unwind(AssertUnwindSafe(draw)).unwrap_or_else(|_| Err("drawing panics".into()))
+}
+
+/// The exact file, and the same model written otherwise.
+fn files(model: &Model, relation: Relation) -> Option<[Rewritten; 2]> {
+    let reference = relation.reference(model);
+    let other = relation.rewrite(&reference, &mut Dice::new(model.seed))?;
+    Some([exact(&reference), other])
+}
+
+/// Drawings of the exact file, with parts and in one part, each made when it is first needed.
+#[derive(Default)]
+struct References([OnceCell<Result<Pens, String>>; 2]);
+
+impl References {
+    fn get(&self, relation: Relation, file: &Rewritten) -> Result<&Pens, String> {
+        let drawn = self.0[usize::from(relation.is_in_one_part())].get_or_init(|| draw(file));
+        drawn.as_ref().map_err(Clone::clone)
+    }
+}
+
+fn outcome(model: &Model, relation: Relation, references: &References) -> Outcome {
+    let Some([reference, other]) = files(model, relation) else { return Outcome::NotMade };
+    let drawn = references.get(relation, &reference).and_then(|one| Ok((one, draw(&other)?)));
+    let (one, two) = match drawn {
+        Ok(pens) => pens,
+        Err(words) => return Outcome::Failed(words),
+    };
+    let place = |p: Point| {
+        let p = Point::new(p.x / other.scale, p.y / other.scale);
+        if other.is_mirrored { Point::new(reference.camera.width - p.x, p.y) } else { p }
+    };
+    let tolerance = if model.is_round() { ROUND_PX } else { FLAT_PX };
+    let difference = one.difference(&two.moved(place), tolerance / other.scale.min(1.0));
+    if difference.length() > SLACK_PX { Outcome::Different(difference) } else { Outcome::Same }
+}
+
+impl Trial {
+    pub fn run(model: &Model, relation: Relation) -> Self {
+        let outcome = outcome(model, relation, &References::default());
+        Self { model: model.clone(), relation, outcome }
+    }
+
+    /// A trial of each relation; the exact file is drawn once for all of them.
+    pub fn run_all(model: &Model, relations: &[Relation]) -> Vec<Self> {
+        let references = References::default();
+        let run = |relation: &Relation| {
+            let outcome = outcome(model, *relation, &references);
+            Self { model: model.clone(), relation: *relation, outcome }
+        };
+        relations.iter().map(run).collect()
+    }
+
+    /// The name of the scene, its seed, the relation, and what differs.
+    pub fn words(&self) -> String {
+        let (kind, seed) = (&self.model.kind, self.model.seed);
+        let (relation, words) = (self.relation.name(), self.outcome.words());
+        format!("{kind}, seed {seed}, {relation}: {words}")
+    }
+
+    /// The same fault with as few bodies as it takes.
+    pub fn reduced(&self) -> Self {
+        let mut least = self.clone();
+        let mut k = 0;
+        while k < least.model.bodies.len() && least.model.bodies.len() > 1 {
+            let mut model = least.model.clone();
+            model.bodies.remove(k);
+            let kept = Self::run(&model, self.relation);
+            model.frame();
+            let framed = Self::run(&model, self.relation);
+            // A closer picture if the fault is in it.
+            match [framed, kept].into_iter().find(|trial| trial.outcome.is_fault()) {
+                Some(fewer) => least = fewer,
+                None => k += 1,
+            }
+        }
+        least
+    }
+
+    /// Writes both files, both cameras and what differs into a folder of their own.
+    pub fn keep_in(&self, folder: &Path) {
+        let Some(files) = files(&self.model, self.relation) else { return };
+        let word = |text: &str| text.replace(", ", "-").replace(' ', "-");
+        let name = format!("{}-{}", word(&self.model.kind), self.model.seed);
+        let folder = folder.join(word(self.relation.name())).join(name);
+        fs::create_dir_all(&folder).unwrap();
+        let mut note =
+            format!("{}\n{:?}, {} bodies\n", self.words(), self.model.sight, self.model.bodies.len());
+        for (name, file) in ["a", "b"].into_iter().zip(&files) {
+            let ending = file.ending();
+            fs::write(folder.join(format!("{name}.{ending}")), &file.bytes).unwrap();
+            fs::write(folder.join(format!("{name}.json")), file.camera.to_json()).unwrap();
+            note += &format!("ligne draw {name}.{ending} {name}.svg --camera {name}.json\n");
+        }
+        fs::write(folder.join("note.txt"), note).unwrap();
+    }
+}
