@@ -41,6 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         depths: [0.0, 1.0],
         names: &[],
         parting: None,
+        frame: None,
     };
     let page = Page { width: 600.0, height: 600.0, unit: Unit::Px, background: style.background };
 

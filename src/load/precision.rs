@@ -74,11 +74,11 @@ impl Precision {
             }
         }
         let is_single = |x: f64| (x - f64::from(x as f32)).abs() <= SINGLE_ERROR * x.abs();
-        if most_digits >= DOUBLE_DIGITS {
-            return Self::Exact;
-        }
         if most_digits >= SINGLE_DIGITS && all().all(is_single) {
             return Self::Single;
+        }
+        if most_digits >= DOUBLE_DIGITS {
+            return Self::Exact;
         }
         let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
         let high = positions.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));

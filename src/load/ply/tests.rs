@@ -269,7 +269,7 @@ fn elements_come_in_any_order() {
             ("face", &["list uchar int vertex_indices"], &[&[3.0, 0.0, 1.0, 4.0]]);
         let text = error(encoded(format, &[bad, vertices]));
         assert!(text.contains("vertex 4 does not exist"), "{text}");
-        assert!(text.contains(if format == "ascii" { "line 9" } else { "face 0" }), "{text}");
+        assert!(text.contains(if format == "ascii" { "line 10" } else { "face 0" }), "{text}");
         let whole = encoded(format, &[faces, vertices]);
         assert!(read_bytes(&whole[..whole.len() - 4], "").is_err());
     }
@@ -335,7 +335,7 @@ fn edges_are_wires() {
     }
     let ends: &[&str] = &["int vertex1", "int vertex2"];
     let text = error(encoded("ascii", &[("vertex", XYZ, SQUARE), ("edge", ends, &[&[0.0, 4.0]])]));
-    assert!(text.contains("line 14: vertex 4 does not exist"), "{text}");
+    assert!(text.contains("line 15: vertex 4 does not exist"), "{text}");
     let text =
         error(encoded("binary_big_endian", &[("edge", ends, &[&[-1.0, 0.0]]), ("vertex", XYZ, SQUARE)]));
     assert!(text.contains("edge 0: vertex -1 does not exist"), "{text}");

@@ -188,17 +188,30 @@ mod tests {
     }
 
     #[test]
-    fn a_room_sees_no_sky_and_a_box_all_of_it() {
+    fn a_box_sees_all_of_the_sky_however_it_is_wound_and_none_inside_a_room() {
         let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
         let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let build = |inside: bool| {
+        let add = |soup: &mut Soup, low: DVec3, size: f64, inward: bool| {
+            let first = soup.positions.len() as u32;
+            soup.positions.extend((0..8).map(|i| low + size * corner(i)));
             let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
-            let turned = triangles.map(|[a, b, c]: [u32; 3]| if inside { [a, c, b] } else { [a, b, c] });
-            let positions = (0..8).map(corner).collect();
-            Mesh::build(Soup { positions, triangles: turned.collect(), ..Soup::default() })
+            let wound = triangles.map(|[a, b, c]: [u32; 3]| if inward { [a, c, b] } else { [a, b, c] });
+            soup.triangles.extend(wound.map(|t| t.map(|v| first + v)));
         };
-        assert!(openness(&build(false), &[], everywhere).iter().all(|o| *o == 1.0));
-        assert!(openness(&build(true), &[], everywhere).iter().all(|o| *o == 0.0));
+        for inward in [false, true] {
+            let mut alone = Soup::default();
+            add(&mut alone, DVec3::ZERO, 1.0, inward);
+            assert!(openness(&Mesh::build(alone), &[], everywhere).iter().all(|o| *o == 1.0));
+        }
+        let mut room = Soup::default();
+        add(&mut room, DVec3::ZERO, 1.0, false);
+        add(&mut room, DVec3::splat(-2.0), 5.0, false);
+        let mesh = Mesh::build(room);
+        let found = openness(&mesh, &[], everywhere);
+        for (position, open) in mesh.positions.iter().zip(found) {
+            let is_outside = (*position - DVec3::splat(0.5)).abs().max_element() > 1.0;
+            assert_eq!(open, if is_outside { 1.0 } else { 0.0 }, "{position}");
+        }
         assert!(openness(&Mesh::default(), &[], everywhere).is_empty());
     }
 

@@ -130,3 +130,62 @@ fn renumbered(points: &[glam::DVec3], mut segments: Vec<IntersectionSegment>) ->
     }
     IntersectionCurves { points: used, segments }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::lines::intersections::all_curves;
+    use crate::mesh::Soup;
+
+    /// Adds the side of a cylinder about z, of so many flat strips, turned by a part of one.
+    fn add_tube(soup: &mut Soup, strips: u32, radius: f64, [low, high]: [f64; 2], turned: f64) {
+        let first = soup.positions.len() as u32;
+        let at = |k: u32, z: f64| {
+            let angle = std::f64::consts::TAU * (f64::from(k) + turned) / f64::from(strips);
+            let (sin, cos) = (crate::math::function::sin(angle), crate::math::function::cos(angle));
+            DVec3::new(radius * cos, radius * sin, z)
+        };
+        soup.positions.extend((0..strips).flat_map(|k| [at(k, low), at(k, high)]));
+        for k in 0..strips {
+            let [a, b] = [first + 2 * k, first + 2 * ((k + 1) % strips)];
+            soup.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+        }
+    }
+
+    fn length(curves: &IntersectionCurves) -> f64 {
+        let of = |s: &IntersectionSegment| {
+            curves.points[s.ends[0] as usize].distance(curves.points[s.ends[1] as usize])
+        };
+        curves.segments.iter().map(of).sum()
+    }
+
+    #[test]
+    fn a_shaft_in_its_bore_has_no_band_of_lines() {
+        let mut soup = Soup::default();
+        add_tube(&mut soup, 24, 1.0, [0.0, 2.0], 0.0);
+        add_tube(&mut soup, 30, 1.0, [-1.0, 3.0], 0.37);
+        let mesh = Mesh::build(soup);
+        assert!(all_curves(&mesh).segments.is_empty());
+    }
+
+    #[test]
+    fn tubes_that_cross_keep_their_whole_curves() {
+        for (strips, aside) in [(8, 0.9), (12, 0.5), (24, 0.3)] {
+            let mut soup = Soup::default();
+            add_tube(&mut soup, strips, 1.0, [-1.0, 1.0], 0.1);
+            let across = soup.positions.len();
+            add_tube(&mut soup, strips, 0.4, [-3.0, 3.0], 0.4);
+            for p in &mut soup.positions[across..] {
+                *p = DVec3::new(p.z, p.x + aside, p.y);
+            }
+            let mesh = Mesh::build(soup);
+            let curves = all_curves(&mesh);
+            // Two closed curves, each at least as long as the thin tube goes round, or one where it is cut open.
+            assert!(length(&curves) > 2.0, "{strips}: {}", length(&curves));
+            let ends = |point: u32| curves.segments.iter().filter(|s| s.ends.contains(&point)).count();
+            assert!((0..curves.points.len() as u32).all(|point| ends(point) == 2), "{strips}");
+        }
+    }
+}

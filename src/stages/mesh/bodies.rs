@@ -73,7 +73,8 @@ mod tests {
     fn sides_of_one_box_are_one_body_and_boxes_that_touch_are_two() {
         let mut soup = Soup::default();
         add_box(&mut soup, DVec3::ZERO, |side| side);
-        add_box(&mut soup, DVec3::X, |side| 6 + side);
+        // It lies on the first one, and shares no edge with it.
+        add_box(&mut soup, DVec3::new(1.0, 0.25, 0.0), |side| 6 + side);
         // These two share nothing but an edge.
         add_box(&mut soup, DVec3::new(5.0, 0.0, 0.0), |_| 12);
         add_box(&mut soup, DVec3::new(6.0, 1.0, 0.0), |_| 13);

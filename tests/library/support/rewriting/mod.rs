@@ -11,7 +11,7 @@ pub mod body;
 mod changes;
 pub mod known;
 pub mod model;
-mod pens;
+pub mod pens;
 pub mod relations;
 mod shapes;
 pub mod table;
