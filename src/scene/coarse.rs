@@ -1,8 +1,8 @@
 //! Warns of coordinates whose steps are too coarse for the size of the model, as where a house stands at its place on the map
 //! and its file holds single precision.
 //!
-//! The step of a part is that of single precision at its largest coordinates, or in text the largest fraction, decimal or binary, of
-//! which all coordinates are multiples. Whole numbers in text are taken to be exact.
+//! The step of a part is that of single precision at its largest coordinates. In text the numbers show it: either all of them are in
+//! single precision, or they have few decimals. Whole numbers in text are taken to be exact.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -75,23 +75,32 @@ fn is_far(geometry: &Geometry) -> bool {
 
 /// The steps of the coordinates along each axis; 0 where they are all alike.
 fn steps(geometry: &Geometry) -> DVec3 {
+    let all =
+        |holds: &dyn Fn(f64) -> bool| geometry.positions.iter().all(|p| p.to_array().into_iter().all(holds));
+    let is_single = geometry.single_precision
+        || (all(&|value| f64::from(value as f32) == value) && !all(&|value| value.fract() == 0.0));
     let along = |axis: usize| {
-        let values: Vec<f64> = geometry.positions.iter().map(|p| p.to_array()[axis]).collect();
-        let first = values.first().copied().unwrap_or_default();
-        if values.iter().all(|value| *value == first) {
+        let values = geometry.positions.iter().map(|p| p.to_array()[axis]);
+        let (low, high) = values
+            .clone()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        if low >= high {
             return 0.0;
         }
-        if geometry.single_precision {
-            return single_step(values.iter().fold(0.0, |most: f64, value| most.max(value.abs())));
+        let is_text = !geometry.single_precision;
+        // Two places of a box may have few digits because they need no more.
+        if is_text && values.clone().all(|value| value == low || value == high) {
+            return 0.0;
         }
-        let divides = |step: f64| values.iter().all(|value| is_multiple(*value, step));
+        if is_single {
+            return single_step(low.abs().max(high.abs()));
+        }
+        let divides = |step: f64| values.clone().all(|value| is_multiple(value, step));
         if divides(1.0) {
             return 0.0;
         }
-        // Double precision holds no more digits than these of what is far from the origin.
-        let decimal = (1..=6).map(|digits| 0.1_f64.powi(digits)).find(|step| divides(*step));
-        let binary = (1..=20).map(|digits| 0.5_f64.powi(digits)).find(|step| divides(*step));
-        decimal.unwrap_or(0.0).max(binary.unwrap_or(0.0))
+        // Double precision holds no more decimals of what is far from the origin.
+        (1..=6).map(|digits| 0.1_f64.powi(digits)).find(|step| divides(*step)).unwrap_or(0.0)
     };
     DVec3::new(along(0), along(1), along(2))
 }
@@ -165,6 +174,14 @@ mod tests {
             assert!(house(MAP, false, fine).warnings.is_empty(), "{:?}", house(MAP, false, fine).warnings);
         }
         assert!(house(DVec3::ZERO, false, tenths).warnings.is_empty());
+        // A box along the axes has places with few decimals, and is exact.
+        let mut scene = house(DVec3::ZERO, false, |value| value);
+        for (k, position) in scene.geometries[0].positions.iter_mut().enumerate() {
+            let side = |bit: usize| if k >> bit & 1 == 0 { 0.5 } else { 10.5 };
+            *position = MAP + DVec3::new(side(0), side(1), side(2));
+        }
+        warn(&mut scene);
+        assert!(scene.warnings.is_empty(), "{}", scene.warnings);
     }
 
     #[test]
