@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::picture::Picture;
 use super::styled;
+use crate::export::png_tree;
 
 /// Channels of a pixel that differ by more than this differ to the eye; borders are blended a little differently.
 const VISIBLE: u8 = 24;
@@ -80,6 +81,6 @@ fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<P
     let mut pixmap = Pixmap::new(columns, rows)?;
     pixmap.fill(resvg::tiny_skia::Color::WHITE);
     let scale = scale as f32;
-    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    png_tree::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     Some(pixmap)
 }

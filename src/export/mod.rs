@@ -59,7 +59,11 @@ pub mod png;
 #[cfg(feature = "png")]
 mod png_composition;
 #[cfg(feature = "png")]
+mod png_coverage;
+#[cfg(feature = "png")]
 mod png_image;
+#[cfg(feature = "png")]
+pub(crate) mod png_tree;
 pub mod svg;
 mod svg_composition;
 mod svg_image;

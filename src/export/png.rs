@@ -5,6 +5,7 @@ use tiny_skia::{Pixmap, Transform};
 
 use super::SvgOptions;
 use super::png_image;
+use super::png_tree;
 use crate::drawing::{Drawing, Layer, Mark, Page, Paint, Unit};
 use crate::error::Error;
 
@@ -147,7 +148,7 @@ pub(super) fn rasterise(svg: String, page: &Page, pixmap: &mut Pixmap, to: Affin
     let size = [tree.size().width(), tree.size().height()].map(f64::from);
     let [across, down] = [page.width / size[0], page.height / size[1]];
     let to = to * Affine::scale_non_uniform(across, down);
-    resvg::render(&tree, transform(to), &mut pixmap.as_mut());
+    png_tree::render(&tree, transform(to), &mut pixmap.as_mut());
     Ok(())
 }
 

@@ -53,6 +53,7 @@ mod paper;
 mod part_groups;
 mod patterns;
 mod picture_fills;
+mod png_ink;
 mod pointers;
 mod poses;
 mod precedence;

@@ -1,0 +1,229 @@
+//! Ink of lines and pictures in PNG: as much as their width and length, at all slants, widths and places.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use kurbo::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2};
+use ligne::drawing::{
+    Cap, Drawing, ImagePaint, ImagePiece, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, Shows,
+    StrokePaint, Unit,
+};
+use ligne::export::Resolution;
+use ligne::math::colour::Colour;
+use ligne::math::function::{cos, sin};
+use ligne::math::picture::Picture;
+use ligne::{PngOptions, SvgOptions};
+
+const SIZE: f64 = 120.0;
+
+/// A white page with marks.
+fn drawing(marks: Vec<Mark>) -> Drawing {
+    let page = Page { width: SIZE, height: SIZE, unit: Unit::Px, background: Some(Colour::WHITE) };
+    Drawing::new("ink", page, vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }])
+}
+
+fn mark(path: BezPath, paint: Paint) -> Mark {
+    Mark { path, paint, provenance: Provenance::default() }
+}
+
+/// A black line of a width; `dash` as in SVG.
+fn stroke(path: BezPath, width: f64, dash: &[f64]) -> Mark {
+    let paint = StrokePaint {
+        width,
+        colour: Colour::BLACK,
+        cap: Cap::Butt,
+        join: Join::Round,
+        dash: dash.to_vec(),
+        dash_offset: 0.0,
+    };
+    mark(path, Paint::Stroke(paint))
+}
+
+/// How dark each pixel is, 0 to 1, row by row, at so many pixels a px.
+fn darkness(marks: Vec<Mark>, scale: f64) -> Vec<f64> {
+    let options = PngOptions::of_resolution(Resolution::Dpi(96.0 * scale));
+    let pixels = drawing(marks).to_pixels(&options).unwrap();
+    pixels.rgba.chunks_exact(4).map(|pixel| 1.0 - f64::from(pixel[0]) / 255.0).collect()
+}
+
+/// The ink of marks, px².
+fn ink(marks: Vec<Mark>) -> f64 {
+    darkness(marks, 1.0).iter().sum()
+}
+
+fn at(angle: f64) -> Vec2 {
+    Vec2::new(cos(angle), sin(angle))
+}
+
+/// A line of 90 px through about the middle.
+fn line(degrees: f64, shift: f64) -> BezPath {
+    let way = at(degrees.to_radians());
+    let middle = Point::new(60.0, 60.0) + Vec2::new(-way.y, way.x) * shift;
+    let mut path = BezPath::new();
+    path.move_to(middle - way * 45.0);
+    path.line_to(middle + way * 45.0);
+    path
+}
+
+const WIDTHS: [f64; 14] = [0.2, 0.3, 0.45, 0.6, 0.8, 0.95, 1.0, 1.01, 1.1, 1.2, 1.5, 2.0, 2.7, 4.3];
+
+#[test]
+fn lines_have_the_ink_of_their_width_at_all_slants() {
+    for width in WIDTHS {
+        for step in 0..=24 {
+            for shift in [0.0, 0.13, 0.37, 0.5] {
+                let degrees = 7.5 * f64::from(step);
+                let ink = ink(vec![stroke(line(degrees, shift), width, &[])]);
+                let share = ink / (width * 90.0);
+                assert!((share - 1.0).abs() < 0.03, "{width} px at {degrees} degrees, {shift}: {share}");
+            }
+        }
+    }
+}
+
+#[test]
+fn ink_grows_evenly_with_the_width() {
+    for degrees in [0.0, 17.0, 45.0, 90.0] {
+        let inks: Vec<f64> =
+            (4..60).map(|k| ink(vec![stroke(line(degrees, 0.2), f64::from(k) * 0.05, &[])])).collect();
+        for pair in inks.windows(2) {
+            let more = (pair[1] - pair[0]) / (90.0 * 0.05);
+            assert!((0.7..1.3).contains(&more), "{degrees}: {more}");
+        }
+    }
+}
+
+#[test]
+fn a_circle_is_even_all_round() {
+    for width in [0.3, 0.7, 1.0, 1.1, 1.6] {
+        let circle = Circle::new((60.0, 60.0), 40.3).to_path(1e-3);
+        let dark = darkness(vec![stroke(circle, width, &[])], 1.0);
+        let mut sectors = [0.0; 16];
+        for (k, dark) in dark.iter().enumerate() {
+            // Each pixel as several, so that sectors share those that they cut.
+            for part in 0..64 {
+                let [x, y] = [k % 120, k / 120].map(|place| place as f64);
+                let point =
+                    Point::new(x + (f64::from(part % 8) + 0.5) / 8.0, y + (f64::from(part / 8) + 0.5) / 8.0);
+                let way = point - Point::new(60.0, 60.0);
+                let sector = (way.atan2() + PI) / TAU * 16.0;
+                sectors[(sector as usize).min(15)] += dark / 64.0;
+            }
+        }
+        let each = width * TAU * 40.3 / 16.0;
+        for ink in sectors {
+            assert!((ink / each - 1.0).abs() < 0.03, "{width}: {}", ink / each);
+        }
+    }
+}
+
+#[test]
+fn dashes_have_the_ink_of_their_lengths() {
+    for degrees in [0.0, 30.0, 45.0] {
+        let ink = ink(vec![stroke(line(degrees, 0.0), 0.8, &[5.0, 4.0])]);
+        assert!((ink / (0.8 * 50.0) - 1.0).abs() < 0.03, "{degrees}: {ink}");
+    }
+}
+
+#[test]
+fn fills_have_their_area_where_the_page_cuts_them() {
+    let black = |path: BezPath| mark(path, Paint::Fill(Colour::BLACK));
+    let half = Circle::new((0.0, 60.0), 30.0).to_path(1e-3);
+    assert!((ink(vec![black(half)]) - PI * 450.0).abs() < 1.5);
+    let corner = Rect::new(100.25, -50.0, 900.0, 10.6).to_path(1e-3);
+    assert!((ink(vec![black(corner)]) - 19.75 * 10.6).abs() < 0.2);
+    // Its bounds hold the page, and it does not.
+    let around = BezPath::from_svg("M-900 -900H900V-1H-1V900H-900Z").unwrap();
+    assert!(ink(vec![black(around)]) < 1e-9);
+    // A hole, and one contour over another.
+    let ring = BezPath::from_svg("M10 10H50V50H10ZM20 20V40H40V20Z").unwrap();
+    assert!((ink(vec![black(ring)]) - 1200.0).abs() < 0.2);
+    let twice = BezPath::from_svg("M10 10H50V50H10ZM20 20H40V40H20Z").unwrap();
+    assert!((ink(vec![black(twice)]) - 1600.0).abs() < 0.2);
+}
+
+/// A grey picture of a stroke: as dark as `dark` says of a row.
+fn picture(dark: impl Fn(usize) -> u8) -> Arc<Picture> {
+    let pixel = |k: usize| Colour { r: 0, g: 0, b: 0, a: dark(k / 320) };
+    Arc::new(Picture { width: 320, height: 32, pixels: (0..320 * 32).map(pixel).collect() })
+}
+
+/// A stroke of a picture, 8 px wide and 80 long at a slant, in pieces that are half a px wider and overlap by a px.
+fn brushed(picture: &Arc<Picture>, degrees: f64, pieces: usize) -> Mark {
+    let way = at(degrees.to_radians());
+    let across = Vec2::new(-way.y, way.x);
+    let start = Point::new(60.0, 60.0) - way * 40.0 - across * 4.0;
+    let to_page = Affine::new([way.x, way.y, across.x, across.y, start.x, start.y]);
+    let area = |from: f64, to: f64, more: f64| to_page * Rect::new(from, -more, to, 8.0 + more).to_path(1e-3);
+    let long = 80.0 / pieces as f64;
+    let piece = |k: usize| ImagePiece {
+        outline: area(long * k as f64 - 1.0, long * (k + 1) as f64 + 1.0, 0.5),
+        shows: Shows::Pixels(to_page * Affine::scale_non_uniform(80.0 / 320.0, 8.0 / 32.0)),
+    };
+    let image = ImagePaint { picture: Arc::clone(picture), pieces: (0..pieces).map(piece).collect() };
+    mark(area(0.0, 80.0, 0.0), Paint::Image(image))
+}
+
+/// The least and the greatest darkness well within the stroke.
+fn within(mark: Mark, degrees: f64, scale: f64) -> (f64, f64) {
+    let side = (SIZE * scale) as usize;
+    let way = at(degrees.to_radians());
+    let inner = darkness(vec![mark], scale).into_iter().enumerate().filter_map(|(k, dark)| {
+        let [x, y] = [k % side, k / side].map(|place| (place as f64 + 0.5) / scale);
+        let from = Point::new(x, y) - Point::new(60.0, 60.0);
+        let (along, across) = (from.dot(way).abs(), from.cross(way).abs());
+        (along < 37.0 && across < 2.8).then_some(dark)
+    });
+    inner.fold((1.0, 0.0), |(low, high), dark| (f64::min(low, dark), f64::max(high, dark)))
+}
+
+#[test]
+fn pictures_are_averaged_along_the_axis_that_shrinks() {
+    // Streaks of two rows of ink and two of paper: four rows to a px across, four columns to one along.
+    let streaks = picture(|row| if row % 4 < 2 { 255 } else { 0 });
+    for degrees in [0.0, 20.0, 45.0, 77.0, 90.0] {
+        let (low, high) = within(brushed(&streaks, degrees, 1), degrees, 1.0);
+        assert!(low > 0.44 && high < 0.56, "{degrees}: {low} to {high}");
+    }
+    // One px of the page shows a tenth of a column and four rows.
+    let mut long = brushed(&streaks, 45.0, 1);
+    if let Paint::Image(image) = &mut long.paint {
+        let few: Vec<Colour> = image.picture.pixels.chunks(320).flat_map(|row| row[..8].to_vec()).collect();
+        image.picture = Arc::new(Picture { width: 8, height: 32, pixels: few });
+        for piece in &mut image.pieces {
+            if let Shows::Pixels(to_page) = &mut piece.shows {
+                *to_page *= Affine::scale_non_uniform(40.0, 1.0);
+            }
+        }
+    }
+    let (low, high) = within(long, 45.0, 1.0);
+    assert!(low > 0.44 && high < 0.56, "{low} to {high}");
+}
+
+#[test]
+fn pieces_of_a_half_clear_picture_make_one_even_stroke() {
+    let grey = picture(|_| 143);
+    for degrees in [0.0, 33.0, 45.0] {
+        for scale in [1.0, 4.0] {
+            let (low, high) = within(brushed(&grey, degrees, 7), degrees, scale);
+            assert!(high - low < 0.02 && (low - 143.0 / 255.0).abs() < 0.02, "{degrees}: {low} to {high}");
+        }
+    }
+    // SVG and PDF show them through a mask, in which pieces are opaque; the picture is grey.
+    let drawing = drawing(vec![brushed(&grey, 33.0, 7), brushed(&grey, 45.0, 3)]);
+    let svg = drawing.to_svg(&SvgOptions::default());
+    assert_eq!(svg.matches("<mask ").count(), 2, "{svg}");
+    assert_eq!(svg.matches("mask=\"url(#").count(), 2);
+    assert!(svg.contains("fill=\"#000\" mask="), "{svg}");
+    #[cfg(feature = "pdf")]
+    {
+        let pdf = drawing.to_pdf();
+        let text = String::from_utf8_lossy(&pdf);
+        assert_eq!(text.matches("/Luminosity").count(), 2);
+    }
+    // Opaque pictures, and those that do not overlap, are clipped as ever.
+    for mark in [brushed(&picture(|_| 255), 33.0, 7), brushed(&grey, 33.0, 1)] {
+        let svg = self::drawing(vec![mark]).to_svg(&SvgOptions::default());
+        assert!(!svg.contains("<mask ") && svg.contains("clip-path="), "{svg}");
+    }
+}
