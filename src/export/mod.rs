@@ -37,6 +37,8 @@ mod pdf_fonts;
 #[cfg(feature = "pdf")]
 mod pdf_inks;
 #[cfg(feature = "pdf")]
+mod pdf_masks;
+#[cfg(feature = "pdf")]
 pub mod pdf_options;
 #[cfg(feature = "pdf")]
 pub mod pdf_pages;

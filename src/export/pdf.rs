@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::SvgOptions;
 use super::number::Decimals;
 use super::pdf_content::{Writer, pattern_name, picture_name, state_name};
+use super::pdf_masks::Mask;
 use super::pdf_paints::{write_gradient, write_picture};
 use super::pdf_pictures::Crops;
 use crate::drawing::{Drawing, Gradient, LayerKind, Mark, OutlinePaint, Paint, Unit};
@@ -71,6 +72,8 @@ impl Drawing {
         let (picture_ids, mask_ids) = (take(pictures.list.len()), take(pictures.list.len()));
         let gradients = self.gradients();
         let (pattern_ids, function_ids) = (take(gradients.len()), take(gradients.len()));
+        let masks = Mask::all(self, &pictures, 0);
+        let (mask_state_ids, form_ids) = (take(masks.len()), take(masks.len()));
 
         let mut pdf = Pdf::new();
         write_catalog(&mut pdf, &group_ids);
@@ -91,6 +94,9 @@ impl Drawing {
         let mut states = resources.ext_g_states();
         for (opacity, id) in opacities.iter().zip(&state_ids) {
             states.pair(Name(state_name((*opacity, false)).as_bytes()), *id);
+        }
+        for (mask, id) in masks.iter().zip(&mask_state_ids) {
+            states.pair(Name(mask.name.as_bytes()), *id);
         }
         states.finish();
         if !gradients.is_empty() {
@@ -133,6 +139,9 @@ impl Drawing {
         }
         for (picture, (id, mask)) in pictures.list.iter().zip(picture_ids.iter().zip(&mask_ids)) {
             write_picture(&mut pdf, picture, [*id, *mask], None);
+        }
+        for (mask, (state, form)) in masks.iter().zip(mask_state_ids.iter().zip(&form_ids)) {
+            mask.write(&mut pdf, [*state, *form], &picture_ids);
         }
         let mut info = pdf.document_info(INFO);
         if !self.title.is_empty() {

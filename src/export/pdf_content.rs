@@ -10,7 +10,7 @@ use super::pdf_inks::{Ink, Plates};
 use super::pdf_pictures::Crops;
 use super::pdf_screen::Screen;
 use super::pictures::matrix;
-use crate::drawing::{Cap, ImagePaint, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
+use crate::drawing::{Cap, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
 use crate::math::colour::Colour;
 
 /// Decimals of widths and dashes, as in SVG, and of the channels of colours.
@@ -104,6 +104,17 @@ impl<'a> Writer<'a> {
                 self.path(mark.path.elements());
                 self.out.extend_from_slice(b"f\n");
             }
+            Paint::Image(image) if pictures.mask(image).is_some() => {
+                let Some((number, ink)) = pictures.mask(image) else { return };
+                let first = self.press.map_or(0, |press| press.first_picture);
+                self.set_opacity(255);
+                let before = (self.stroke.clone(), self.fill, self.state);
+                self.out.extend_from_slice(format!("q\n/{} gs\n", mask_name(first, number)).as_bytes());
+                self.set_fill(ink);
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"f\nQ\n");
+                (self.stroke, self.fill, self.state) = before;
+            }
             Paint::Image(image) => {
                 self.set_opacity(255);
                 self.clipped(mark.path.elements(), |writer| writer.pieces(image, pictures));
@@ -116,14 +127,7 @@ impl<'a> Writer<'a> {
         let first = self.press.map_or(0, |press| press.first_picture);
         for piece in &image.pieces {
             match piece.shows {
-                Shows::Pixels(transform) => {
-                    let Some((number, crop)) = pictures.shown(piece) else { continue };
-                    let place = matrix(transform * crop.pixels_from_object(), " ");
-                    let shown = format!("{place} cm\n/{} Do\n", picture_name(first + number));
-                    self.clipped(piece.outline.elements(), |writer| {
-                        writer.out.extend_from_slice(shown.as_bytes());
-                    });
-                }
+                Shows::Pixels(_) => self.pixels(piece, pictures, first),
                 Shows::Colour(colour) => {
                     self.set_fill(colour);
                     self.path(piece.outline.elements());
@@ -131,6 +135,32 @@ impl<'a> Writer<'a> {
                 }
             }
         }
+    }
+
+    /// Paints how opaque the pieces of a picture are: black where they are clear, white where they hide all.
+    pub(super) fn opacities(&mut self, image: &ImagePaint, pictures: &Crops, first: usize) {
+        for piece in &image.pieces {
+            match piece.shows {
+                Shows::Pixels(_) => self.pixels(piece, pictures, first),
+                Shows::Colour(Colour { a, .. }) => {
+                    let light = Decimals::new(CHANNEL_DECIMALS).text(f64::from(a) / 255.0);
+                    self.out.extend_from_slice(format!("{light} g\n").as_bytes());
+                    self.path(piece.outline.elements());
+                    self.out.extend_from_slice(b"f\n");
+                }
+            }
+        }
+    }
+
+    /// Paints a piece that shows pixels.
+    fn pixels(&mut self, piece: &ImagePiece, pictures: &Crops, first: usize) {
+        let Shows::Pixels(transform) = piece.shows else { return };
+        let Some((number, crop)) = pictures.shown(piece) else { return };
+        let place = matrix(transform * crop.pixels_from_object(), " ");
+        let shown = format!("{place} cm\n/{} Do\n", picture_name(first + number));
+        self.clipped(piece.outline.elements(), |writer| {
+            writer.out.extend_from_slice(shown.as_bytes());
+        });
     }
 
     /// Lets that be seen of what is painted which lies inside a path.
@@ -289,6 +319,11 @@ impl<'a> Writer<'a> {
         self.out.extend_from_slice(operator);
         self.out.push(b'\n');
     }
+}
+
+/// Name of the state that sets a mask; `first_picture` is the number of the drawing's first picture in the document.
+pub(super) fn mask_name(first_picture: usize, number: usize) -> String {
+    format!("M{first_picture}x{number}")
 }
 
 /// Name of a picture in the page's resources.

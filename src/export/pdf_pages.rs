@@ -25,6 +25,7 @@ use super::pdf_content::Press;
 use super::pdf_document::Document;
 use super::pdf_fonts::{Fonts, OBJECTS_PER_FONT};
 use super::pdf_inks::{Plates, srgb_profile};
+use super::pdf_masks::Mask;
 use super::pdf_options::{Inks, PdfOptions, Standard};
 use super::pdf_paints::{write_gradient, write_picture};
 use super::pdf_pictures::Crops;
@@ -94,6 +95,14 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
     let (picture_ids, mask_ids) = (take(pictures.len()), take(pictures.len()));
     let (pattern_ids, function_ids) = (take(document.gradients.len()), take(document.gradients.len()));
     let font_ids = take(fonts.list.len() * OBJECTS_PER_FONT);
+    let first_pictures =
+        crops.iter().scan(0, |sum, crops| Some(std::mem::replace(sum, *sum + crops.list.len())));
+    let masks: Vec<Mask> = drawings(pages)
+        .zip(&crops)
+        .zip(first_pictures)
+        .flat_map(|((drawing, crops), first)| Mask::all(drawing, crops, first))
+        .collect();
+    let (mask_state_ids, form_ids) = (take(masks.len()), take(masks.len()));
 
     let mut pdf = Pdf::new();
     if options.standard == Some(Standard::X4) {
@@ -138,7 +147,15 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         page.insert(Name(b"Resources")).primitive(RESOURCES);
     }
 
-    let ids = Ids { groups: &group_ids, patterns: &pattern_ids, pictures: &picture_ids, fonts: &font_ids };
+    let mask_states: Vec<(&str, Ref)> =
+        masks.iter().zip(&mask_state_ids).map(|(mask, id)| (mask.name.as_str(), *id)).collect();
+    let ids = Ids {
+        groups: &group_ids,
+        patterns: &pattern_ids,
+        pictures: &picture_ids,
+        fonts: &font_ids,
+        masks: &mask_states,
+    };
     write_resources(&mut pdf, RESOURCES, (&plates, options.marks), (&states, &state_ids), &ids);
     let colours = Some(&plates);
     for ((place, gradient), ids) in document.gradients.iter().zip(pattern_ids.iter().zip(&function_ids)) {
@@ -153,6 +170,9 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
     }
     for (picture, ids) in pictures.iter().zip(picture_ids.iter().zip(&mask_ids)) {
         write_picture(&mut pdf, picture, [*ids.0, *ids.1], colours);
+    }
+    for (mask, ids) in masks.iter().zip(mask_state_ids.iter().zip(&form_ids)) {
+        mask.write(&mut pdf, [*ids.0, *ids.1], &picture_ids);
     }
     fonts.write(&mut pdf, &font_ids);
     if let (Some(standard), Some((bytes, channels, _))) = (options.standard, &profile) {

@@ -73,6 +73,16 @@ pub(super) fn write_picture(pdf: &mut Pdf, crop: &Crop, [id, mask]: [Ref; 2], pr
     let (width, height) = (crop.width as i32, crop.height as i32);
     let deflated = |samples: Vec<u8>| compress_to_vec_zlib(&samples, PICTURE_DEFLATE_LEVEL);
     let opacities = crop.samples(|pixel| [pixel.a]);
+    let write_opacities = |pdf: &mut Pdf, id: Ref| {
+        let samples = deflated(opacities.clone());
+        let mut object = pdf.image_xobject(id, &samples);
+        object.filter(Filter::FlateDecode);
+        object.width(width).height(height).bits_per_component(8).color_space().device_gray();
+    };
+    if crop.is_mask {
+        write_opacities(pdf, id);
+        return;
+    }
     let opaque = opacities.iter().all(|opacity| *opacity == 255);
     let colours = crop.samples(|pixel| [pixel]);
     let samples = deflated(colours.into_iter().flat_map(|colour| samples(colour, press)).collect());
@@ -89,8 +99,5 @@ pub(super) fn write_picture(pdf: &mut Pdf, crop: &Crop, [id, mask]: [Ref; 2], pr
     }
     object.s_mask(mask);
     object.finish();
-    let samples = deflated(opacities);
-    let mut object = pdf.image_xobject(mask, &samples);
-    object.filter(Filter::FlateDecode);
-    object.width(width).height(height).bits_per_component(8).color_space().device_gray();
+    write_opacities(pdf, mask);
 }

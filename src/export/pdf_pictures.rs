@@ -7,7 +7,8 @@ use kurbo::{Affine, PathEl, Rect};
 use rustc_hash::FxHashMap;
 
 use super::pictures::{Pictures, marks};
-use crate::drawing::{Drawing, ImagePiece, Shows};
+use crate::drawing::{Drawing, ImagePaint, ImagePiece, Shows};
+use crate::math::colour::Colour;
 use crate::math::picture::Picture;
 
 /// Pictures of no more pixels stay whole.
@@ -26,12 +27,18 @@ pub(super) struct Crop<'a> {
     pub top: usize,
     pub width: usize,
     pub height: usize,
+    /// Whether it is part of a mask: of it only the opacity is written.
+    pub is_mask: bool,
 }
 
 /// The parts of the pictures of a drawing.
 #[derive(Default)]
 pub(super) struct Crops<'a> {
     pub list: Vec<Crop<'a>>,
+    /// What marks show through masks, in the order of the marks.
+    pub masked: Vec<&'a ImagePaint>,
+    /// The number and the ink of what is shown through a mask, by where it lies in memory.
+    inks: FxHashMap<usize, (usize, Colour)>,
     /// The number of the part that a piece shows, by where the piece lies in memory.
     of_piece: FxHashMap<usize, usize>,
 }
@@ -48,11 +55,18 @@ impl<'a> Crops<'a> {
                 }
             }
         }
-        let mut crops = Self { list: Vec::new(), of_piece: FxHashMap::default() };
-        for (picture, mut pieces) in pictures.list.iter().copied().zip(shown) {
+        let mut crops = Self::default();
+        for (_, image) in marks(drawing) {
+            if let Some(ink) = pictures.ink(image) {
+                crops.inks.insert(std::ptr::from_ref(image).addr(), (crops.masked.len(), ink));
+                crops.masked.push(image);
+            }
+        }
+        for ((picture, mut pieces), ink) in pictures.list.iter().copied().zip(shown).zip(&pictures.inks) {
+            let is_mask = ink.is_some();
             if picture.width * picture.height <= SMALL {
                 let whole = Rect::new(0.0, 0.0, picture.width as f64, picture.height as f64);
-                crops.add(picture, whole, &pieces);
+                crops.add((picture, is_mask), whole, &pieces);
                 continue;
             }
             // Those that are near each other in the picture follow each other; of equal ones the first stays so.
@@ -70,18 +84,23 @@ impl<'a> Crops<'a> {
                 };
                 let count = 1 + others.iter().take_while(fits).count();
                 let (own, left) = rest.split_at(count);
-                crops.add(picture, part, own);
+                crops.add((picture, is_mask), part, own);
                 rest = left;
             }
         }
         crops
     }
 
-    fn add(&mut self, picture: &'a Picture, part: Rect, pieces: &[(usize, Rect)]) {
+    fn add(&mut self, (picture, is_mask): (&'a Picture, bool), part: Rect, pieces: &[(usize, Rect)]) {
         let [left, top] = [part.x0, part.y0].map(|low| low as usize);
         let (width, height) = ((part.width() as usize).max(1), (part.height() as usize).max(1));
         self.of_piece.extend(pieces.iter().map(|(piece, _)| (*piece, self.list.len())));
-        self.list.push(Crop { picture, left, top, width, height });
+        self.list.push(Crop { picture, left, top, width, height, is_mask });
+    }
+
+    /// The number of the mask through which a picture is shown, and the ink that it lets through; `None` without a mask.
+    pub fn mask(&self, image: &ImagePaint) -> Option<(usize, Colour)> {
+        self.inks.get(&std::ptr::from_ref(image).addr()).copied()
     }
 
     /// The number of the part that a piece shows, and the part.
@@ -143,8 +162,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::drawing::{ImagePaint, Layer, LayerKind, Mark, Page, Paint, Provenance, Unit};
-    use crate::math::colour::Colour;
+    use crate::drawing::{Layer, LayerKind, Mark, Page, Paint, Provenance, Unit};
 
     /// A drawing of a picture of so many pixels a side, in squares of ten px.
     fn drawing(side: usize) -> Drawing {

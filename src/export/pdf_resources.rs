@@ -16,6 +16,8 @@ pub(super) struct Ids<'a> {
     pub patterns: &'a [Ref],
     pub pictures: &'a [Ref],
     pub fonts: &'a [Ref],
+    /// The states that set masks, by their names.
+    pub masks: &'a [(&'a str, Ref)],
 }
 
 /// Writes the names, which all pages share, and the states: opacities with inks below that stay or not.
@@ -33,6 +35,9 @@ pub(super) fn write_resources(
     let mut dict = resources.ext_g_states();
     for (state, id) in states.iter().zip(state_ids) {
         dict.pair(Name(state_name(*state).as_bytes()), *id);
+    }
+    for (name, id) in ids.masks {
+        dict.pair(Name(name.as_bytes()), *id);
     }
     dict.finish();
     write_spaces(&mut resources, plates, marks);

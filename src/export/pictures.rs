@@ -4,14 +4,16 @@ use std::sync::Arc;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use kurbo::Affine;
+use kurbo::{Affine, Rect};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::number::Decimals;
 use super::xml::Ids;
-use crate::drawing::{Drawing, ImagePaint, Mark, Paint};
+use crate::drawing::{Drawing, ImagePaint, ImagePiece, Mark, Paint, Shows};
+use crate::math::colour::Colour;
 use crate::math::picture::Picture;
+use crate::math::tolerance::COVER_PX;
 
 /// Decimals of what a transform turns and stretches by, and of what it moves by.
 const TURN_DECIMALS: u8 = 6;
@@ -22,6 +24,8 @@ pub(super) struct Pictures<'a> {
     pub list: Vec<&'a Picture>,
     /// The number of a picture, by where it lies in memory.
     numbers: FxHashMap<usize, usize>,
+    /// The ink of each picture that is shown through masks, as [`Pictures::ink`].
+    pub inks: Vec<Option<Colour>>,
 }
 
 /// The marks of a drawing that show pictures.
@@ -34,10 +38,10 @@ pub(super) fn marks(drawing: &Drawing) -> impl Iterator<Item = (&Mark, &ImagePai
 
 impl<'a> Pictures<'a> {
     pub fn of(drawing: &'a Drawing) -> Self {
-        let mut pictures = Self { list: Vec::new(), numbers: FxHashMap::default() };
+        let mut pictures = Self { list: Vec::new(), numbers: FxHashMap::default(), inks: Vec::new() };
         for (_, image) in marks(drawing) {
             let picture: &Picture = &image.picture;
-            let Self { list, numbers } = &mut pictures;
+            let Self { list, numbers, .. } = &mut pictures;
             numbers.entry(address(&image.picture)).or_insert_with(|| {
                 list.iter().position(|known| **known == *picture).unwrap_or_else(|| {
                     list.push(picture);
@@ -45,7 +49,29 @@ impl<'a> Pictures<'a> {
                 })
             });
         }
+        pictures.inks = pictures.list.iter().map(|picture| half_clear_ink(picture)).collect();
+        // One mark that cannot be shown through a mask is enough: the document holds a picture once.
+        let mut overlap = vec![false; pictures.list.len()];
+        for (_, image) in marks(drawing) {
+            let number = pictures.number(image);
+            if let (Some(ink), Some(overlap)) = (pictures.inks.get_mut(number), overlap.get_mut(number)) {
+                *ink = ink.filter(|ink| image.pieces.iter().all(|piece| is_of_ink(piece, *ink)));
+                *overlap |= pieces_overlap(&image.pieces);
+            }
+        }
         pictures
+            .inks
+            .iter_mut()
+            .zip(overlap)
+            .filter(|(_, overlap)| !overlap)
+            .for_each(|(ink, _)| *ink = None);
+        pictures
+    }
+
+    /// The opaque ink of a picture whose pieces are shown through masks: of one colour, half-clear, and overlapping. Drawn over each
+    /// other, such pieces would be darker where they overlap.
+    pub fn ink(&self, image: &ImagePaint) -> Option<Colour> {
+        self.inks.get(self.number(image)).copied().flatten()
     }
 
     /// The number of what a mark shows.
@@ -86,6 +112,11 @@ impl<'a> Named<'a> {
         self.ids.get(self.pictures.number(image)).map_or("", String::as_str)
     }
 
+    /// The ink of what a mark shows through a mask.
+    pub fn ink(&self, image: &ImagePaint) -> Option<Colour> {
+        self.pictures.ink(image)
+    }
+
     /// The id of a mark.
     pub fn mark(&self, mark: &Mark) -> &str {
         self.marks.get(&std::ptr::from_ref(mark).addr()).map_or("", String::as_str)
@@ -94,8 +125,11 @@ impl<'a> Named<'a> {
     /// Writes the pictures, none of which is drawn where it stands.
     pub fn write(&self, out: &mut Vec<u8>) {
         out.extend_from_slice(b"<defs>\n");
-        let encoded: Vec<String> =
-            self.pictures.list.par_iter().map(|picture| STANDARD.encode(encode(picture))).collect();
+        let Pictures { list, inks, .. } = &self.pictures;
+        let encode = |(picture, ink): (&&Picture, &Option<Colour>)| {
+            STANDARD.encode(if ink.is_some() { encode_opacity(picture) } else { encode(picture) })
+        };
+        let encoded: Vec<String> = list.par_iter().zip(inks).map(encode).collect();
         for ((id, picture), data) in self.ids.iter().zip(&self.pictures.list).zip(encoded) {
             let Picture { width, height, .. } = picture;
             let tag = format!(
@@ -123,21 +157,55 @@ pub(super) fn matrix(transform: Affine, between: &str) -> String {
     texts.collect::<Vec<_>>().join(between)
 }
 
+/// The opaque colour of a picture that is of one colour, and half-clear somewhere.
+fn half_clear_ink(picture: &Picture) -> Option<Colour> {
+    let first = picture.pixels.first().map(|first| Colour { a: 255, ..*first })?;
+    let is_half_clear = picture.pixels.iter().any(|pixel| !matches!(pixel.a, 0 | 255));
+    let is_one = picture.pixels.iter().all(|pixel| Colour { a: 255, ..*pixel } == first);
+    (is_half_clear && is_one).then_some(first)
+}
+
+/// Whether a piece shows pixels, or a colour that is an ink but for its opacity.
+fn is_of_ink(piece: &ImagePiece, ink: Colour) -> bool {
+    match piece.shows {
+        Shows::Pixels(_) => true,
+        Shows::Colour(colour) => Colour { a: 255, ..colour } == ink,
+    }
+}
+
+/// Whether the bounds of two pieces that follow each other have more in common than an edge.
+fn pieces_overlap(pieces: &[ImagePiece]) -> bool {
+    let bounds: Vec<Rect> = pieces.iter().map(|piece| piece.outline.control_box()).collect();
+    let sides = |common: Rect| common.width().min(common.height());
+    bounds.iter().zip(bounds.iter().skip(1)).any(|(a, b)| sides(a.intersect(*b)) > COVER_PX)
+}
+
 /// A picture as a PNG file; without an alpha channel if every pixel is opaque.
 fn encode(picture: &Picture) -> Vec<u8> {
     let opaque = picture.pixels.iter().all(|pixel| pixel.a == 255);
-    let samples: Vec<u8> = if opaque {
-        picture.pixels.iter().flat_map(|pixel| [pixel.r, pixel.g, pixel.b]).collect()
+    let (samples, colour): (Vec<u8>, _) = if opaque {
+        (picture.pixels.iter().flat_map(|pixel| [pixel.r, pixel.g, pixel.b]).collect(), png::ColorType::Rgb)
     } else {
-        picture.pixels.iter().flat_map(|pixel| [pixel.r, pixel.g, pixel.b, pixel.a]).collect()
+        let samples = picture.pixels.iter().flat_map(|pixel| [pixel.r, pixel.g, pixel.b, pixel.a]);
+        (samples.collect(), png::ColorType::Rgba)
     };
+    encode_samples(picture, &samples, colour)
+}
+
+/// How opaque a picture is, as a grey PNG file.
+fn encode_opacity(picture: &Picture) -> Vec<u8> {
+    let samples: Vec<u8> = picture.pixels.iter().map(|pixel| pixel.a).collect();
+    encode_samples(picture, &samples, png::ColorType::Grayscale)
+}
+
+fn encode_samples(picture: &Picture, samples: &[u8], colour: png::ColorType) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, picture.width as u32, picture.height as u32);
-    encoder.set_color(if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba });
+    encoder.set_color(colour);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Balanced);
     encoder.set_filter(png::Filter::Adaptive);
     // Into memory, where nothing can go wrong but the size, which is that of the pixels.
-    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&samples));
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(samples));
     if written.is_ok() { file } else { Vec::new() }
 }

@@ -1,12 +1,13 @@
 //! Marks that show pictures, painted on pixels: each piece from the picture, or from a smaller copy of it where it shrinks.
 //!
-//! Source: Williams, "Pyramidal parametrics", SIGGRAPH 1983.
+//! Source of the copies that are smaller along one axis only: Larson and Shah, "Texture mapping with ripmaps", 1990; their pixels
+//! are means over areas of the picture.
 
 use kurbo::{Affine, BezPath, PathEl};
 use rustc_hash::FxHashMap;
 use tiny_skia::{
-    FillRule, FilterQuality, Mask, Path, PathBuilder, Pattern, Pixmap, PremultipliedColorU8, SpreadMode,
-    Transform,
+    BlendMode, FillRule, FilterQuality, IntRect, Mask, Path, PathBuilder, Pattern, Pixmap, PixmapPaint,
+    PremultipliedColorU8, SpreadMode, Transform,
 };
 
 use super::pictures::address;
@@ -14,10 +15,18 @@ use crate::drawing::{ImagePaint, Shows};
 use crate::math::colour::Colour;
 use crate::math::picture::Picture;
 
-/// A copy of half the size is taken where this many of its pixels still fall on one of the drawing's.
-const LEAST_PIXELS: f64 = 0.75;
+/// Copies get smaller in steps of this: a pixel of the one that is shown is 0.7 to 1 px of the drawing long.
+const STEP: f64 = std::f64::consts::SQRT_2;
+
+/// Most steps: the square root of two to this power is longer than any picture.
+const MAX_STEPS: u32 = 30;
+
+/// A picture may be shown this much smaller without a smaller copy: the rounding of a scale of one.
+const SCALE_ROUNDING: f64 = 1.0001;
 
 /// Paints the pieces of a picture inside an outline; `scale` leads from user units to pixels.
+///
+/// Where pieces overlap the last one replaces those below it, so that half-clear ones do not add up.
 pub(super) fn paint(
     pixmap: &mut Pixmap,
     outline: &BezPath,
@@ -25,34 +34,62 @@ pub(super) fn paint(
     scale: Transform,
     known: &mut KnownCopies,
 ) {
-    let Some((outline, mut mask)) = path(outline).zip(Mask::new(pixmap.width(), pixmap.height())) else {
+    let Some((path, bounds)) = path(outline).and_then(|path| {
+        let bounds = pixels_of(&path, scale, pixmap)?;
+        Some((path, bounds))
+    }) else {
         return;
     };
-    mask.fill_path(&outline, FillRule::Winding, true, scale);
+    let size = (bounds.width(), bounds.height());
+    let Some((mut layer, mut mask)) = Pixmap::new(size.0, size.1).zip(Mask::new(size.0, size.1)) else {
+        return;
+    };
+    let to_layer = scale.post_translate(-bounds.x() as f32, -bounds.y() as f32);
+    mask.fill_path(&path, FillRule::Winding, true, to_layer);
     let copies = known.entry(address(&image.picture)).or_insert_with(|| Copies::new(&image.picture));
     for piece in &image.pieces {
-        let Some(outline) = path(&piece.outline) else { continue };
-        let mut ink = tiny_skia::Paint::default();
+        let Some(outline) = self::path(&piece.outline) else { continue };
+        let mut ink = tiny_skia::Paint { blend_mode: BlendMode::Source, ..tiny_skia::Paint::default() };
         match piece.shows {
             Shows::Colour(Colour { r, g, b, a }) => ink.set_color_rgba8(r, g, b, a),
             Shows::Pixels(transform) => {
-                let area = transform.determinant().abs() * f64::from(scale.sx * scale.sy);
-                let Some((copy, grown)) = copies.of_area(area) else { continue };
+                let Some((copy, grown)) = copies.for_pixels(page(scale) * transform) else { continue };
                 let [a, b, c, d, e, f] = (transform * grown).as_coeffs().map(|value| value as f32);
                 let to_page = Transform::from_row(a, b, c, d, e, f);
                 let quality = FilterQuality::Bilinear;
                 ink.shader = Pattern::new(copy.as_ref(), SpreadMode::Pad, quality, 1.0, to_page);
             }
         }
-        pixmap.fill_path(&outline, &ink, FillRule::Winding, scale, Some(&mask));
+        layer.fill_path(&outline, &ink, FillRule::Winding, to_layer, None);
     }
+    layer.apply_mask(&mask);
+    let paint = PixmapPaint::default();
+    pixmap.draw_pixmap(bounds.x(), bounds.y(), layer.as_ref(), &paint, Transform::identity(), None);
+}
+
+/// The pixels that a path may cover.
+fn pixels_of(path: &Path, scale: Transform, pixmap: &Pixmap) -> Option<IntRect> {
+    let bounds = path.bounds().transform(scale)?;
+    let whole = IntRect::from_xywh(0, 0, pixmap.width(), pixmap.height())?;
+    let (left, top) = (bounds.left().floor() as i32, bounds.top().floor() as i32);
+    let (right, bottom) = (bounds.right().ceil() as i32, bounds.bottom().ceil() as i32);
+    IntRect::from_ltrb(left, top, right, bottom)?.intersect(&whole)
+}
+
+/// A transform of the rasteriser as an affine map.
+fn page(scale: Transform) -> Affine {
+    Affine::new([scale.sx, scale.ky, scale.kx, scale.sy, scale.tx, scale.ty].map(f64::from))
 }
 
 /// The copies of pictures that were painted before, by where the pictures lie in memory.
 pub(super) type KnownCopies = FxHashMap<usize, Copies>;
 
-/// A picture, and copies of it each half as wide and high as the one before.
-pub(super) struct Copies(Vec<Pixmap>);
+/// A picture, and copies of it that are smaller along one axis or both.
+pub(super) struct Copies {
+    whole: Option<Pixmap>,
+    /// By steps along and across.
+    smaller: FxHashMap<[u32; 2], Pixmap>,
+}
 
 impl Copies {
     fn new(picture: &Picture) -> Self {
@@ -62,55 +99,87 @@ impl Copies {
             }
             pixmap
         });
-        Self(whole.into_iter().collect())
+        Self { whole, smaller: FxHashMap::default() }
     }
 
-    /// The copy for pixels that are so large on the page, and what makes it as large as the whole.
-    fn of_area(&mut self, area: f64) -> Option<(&Pixmap, Affine)> {
-        let mut level = 0;
-        // Each copy has a quarter of the pixels.
-        while area * f64::from(1_u32 << (2 * level)) < LEAST_PIXELS * LEAST_PIXELS / 4.0 && level < 12 {
-            level += 1;
-        }
-        while self.0.len() <= level {
-            let last = self.0.last()?;
-            if last.width() == 1 && last.height() == 1 {
-                break;
+    /// The copy for a picture that `to_pixels` brings to pixels of the drawing, and what makes it as large as the whole.
+    fn for_pixels(&mut self, to_pixels: Affine) -> Option<(&Pixmap, Affine)> {
+        let whole = self.whole.as_ref()?;
+        // How far across the picture one pixel of the drawing reaches, along each axis of the picture.
+        let [a, b, c, d, ..] = to_pixels.inverse().as_coeffs();
+        let reaches = [(a * a + c * c).sqrt(), (b * b + d * d).sqrt()];
+        let sides = [whole.width(), whole.height()];
+        let steps = reaches.map(|mut reach| {
+            let mut steps = 0;
+            while reach > SCALE_ROUNDING && steps < MAX_STEPS {
+                reach /= STEP;
+                steps += 1;
             }
-            let half = halved(last)?;
-            self.0.push(half);
+            steps
+        });
+        if steps == [0, 0] {
+            return Some((whole, Affine::IDENTITY));
         }
-        let (whole, copy) = (self.0.first()?, self.0.get(level).or(self.0.last())?);
+        if !self.smaller.contains_key(&steps) {
+            let size = [0, 1].map(|axis| {
+                let long = (0..steps[axis]).fold(f64::from(sides[axis]), |long, _| long / STEP);
+                (long.round() as u32).clamp(1, sides[axis])
+            });
+            self.smaller.insert(steps, averaged(whole, size)?);
+        }
+        let copy = self.smaller.get(&steps)?;
         let [x, y] = [(whole.width(), copy.width()), (whole.height(), copy.height())]
             .map(|(whole, copy)| f64::from(whole) / f64::from(copy));
         Some((copy, Affine::scale_non_uniform(x, y)))
     }
 }
 
-/// A copy half as wide and high, the mean of four pixels each.
-fn halved(pixmap: &Pixmap) -> Option<Pixmap> {
-    let (width, height) = (pixmap.width(), pixmap.height());
-    let mut half = Pixmap::new(width.div_ceil(2), height.div_ceil(2))?;
-    let columns = half.width();
-    for (k, to) in half.pixels_mut().iter_mut().enumerate() {
-        let (column, row) = (k as u32 % columns * 2, k as u32 / columns * 2);
-        let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
-            .map(|(x, y)| pixmap.pixel((column + x).min(width - 1), (row + y).min(height - 1)));
-        let mean = |channel: fn(PremultipliedColorU8) -> u8| {
-            let sum: u32 = four.iter().flatten().map(|pixel| u32::from(channel(*pixel))).sum();
-            ((sum + 2) / 4) as u8
-        };
-        let (r, g, b, a) = (
-            mean(PremultipliedColorU8::red),
-            mean(PremultipliedColorU8::green),
-            mean(PremultipliedColorU8::blue),
-            mean(PremultipliedColorU8::alpha),
-        );
-        if let Some(pixel) = PremultipliedColorU8::from_rgba(r.min(a), g.min(a), b.min(a), a) {
-            *to = pixel;
+/// A smaller copy, whose pixels are means over areas of the whole: first along rows, then along columns.
+fn averaged(whole: &Pixmap, [width, height]: [u32; 2]) -> Option<Pixmap> {
+    let channels = |pixel: &PremultipliedColorU8| {
+        [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()].map(f32::from)
+    };
+    let columns = shares(whole.width(), width);
+    let rows = shares(whole.height(), height);
+    let long = whole.width() as usize;
+    let mut copy = Pixmap::new(width, height)?;
+    let mut sums = vec![[0.0_f32; 4]; long];
+    for (line, share) in copy.pixels_mut().chunks_exact_mut(width as usize).zip(&rows) {
+        sums.fill([0.0; 4]);
+        for (row, weight) in share {
+            let from = whole.pixels().get(row * long..(row + 1) * long).unwrap_or_default();
+            for (sum, pixel) in sums.iter_mut().zip(from) {
+                sum.iter_mut().zip(channels(pixel)).for_each(|(sum, own)| *sum += own * weight);
+            }
+        }
+        for (to, share) in line.iter_mut().zip(&columns) {
+            let mut mean = [0.0_f32; 4];
+            for (column, weight) in share {
+                let from = sums.get(*column).copied().unwrap_or_default();
+                mean.iter_mut().zip(from).for_each(|(mean, own)| *mean += own * weight);
+            }
+            let [r, g, b, a] = mean.map(|value| value.round() as u8);
+            if let Some(pixel) = PremultipliedColorU8::from_rgba(r.min(a), g.min(a), b.min(a), a) {
+                *to = pixel;
+            }
         }
     }
-    Some(half)
+    Some(copy)
+}
+
+/// Which of `from` equal places lie in each of `to` longer ones, and what share each has.
+fn shares(from: u32, to: u32) -> Vec<Vec<(usize, f32)>> {
+    let long = f64::from(from) / f64::from(to);
+    let of = |k: u32| {
+        let (start, end) = (f64::from(k) * long, f64::from(k + 1) * long);
+        let (first, last) = (start.floor() as u32, (end.ceil() as u32).min(from));
+        let share = |place: u32| {
+            let own = end.min(f64::from(place + 1)) - start.max(f64::from(place));
+            (place as usize, (own.max(0.0) / long) as f32)
+        };
+        (first..last).map(share).collect()
+    };
+    (0..to).map(of).collect()
 }
 
 /// A path as the rasteriser has it; none if there is nothing of it.

@@ -1,7 +1,10 @@
 //! Marks that show pictures, in SVG: a group within the mark's outline, which uses a picture of the document piece by piece.
 //!
-//! Only what every reader of SVG knows is written: clipping by one path, `use`, and a transform. A clip and its content stand
-//! in the units of the page, so that the pieces of one picture meet to the last written decimal.
+//! Only what every reader of SVG knows is written: clipping by one path, masks, `use`, and a transform. A clip and its content
+//! stand in the units of the page, so that the pieces of one picture meet to the last written decimal.
+//!
+//! Pieces overlap a little, so that no gap is seen between them. Half-clear ones would be darker there. They are written into a
+//! mask, opaque and as light as they let ink through, and the mark's outline is filled through it.
 
 use kurbo::BezPath;
 
@@ -25,7 +28,16 @@ pub(super) fn write(
 ) {
     let (id, picture) = (named.mark(mark), named.picture(image));
     let provenance = &mark.provenance;
-    out.extend_from_slice(b"<g class=\"");
+    let ink = named.ink(image);
+    if ink.is_some() {
+        out.extend_from_slice(format!("<mask id=\"{id}\"").as_bytes());
+        attributes.write_over(outer, out, None);
+        out.extend_from_slice(b">\n");
+        pieces(out, image, [id, picture], ink, decimals);
+        out.extend_from_slice(b"</mask>\n");
+    }
+    let tag = if ink.is_some() { "<path class=\"" } else { "<g class=\"" };
+    out.extend_from_slice(tag.as_bytes());
     order::write_classes(out, &provenance.classes, provenance.tone);
     out.push(b'"');
     let names =
@@ -38,8 +50,26 @@ pub(super) fn write(
         }
     }
     attributes.write_over(outer, out, None);
+    if let Some(ink) = ink {
+        out.extend_from_slice(format!(" fill=\"{}\" mask=\"url(#{id})\" d=\"", hex(ink)).as_bytes());
+        out.extend_from_slice(area);
+        out.extend_from_slice(b"\"/>\n");
+        return;
+    }
     out.extend_from_slice(format!(" clip-path=\"url(#{id})\">\n").as_bytes());
     clip(out, id, area);
+    pieces(out, image, [id, picture], None, decimals);
+    out.extend_from_slice(b"</g>\n");
+}
+
+/// Writes the pieces of the picture of an id; for a mask, as light as they let ink through.
+fn pieces(
+    out: &mut Vec<u8>,
+    image: &ImagePaint,
+    [id, picture]: [&str; 2],
+    ink: Option<Colour>,
+    decimals: Decimals,
+) {
     let mut canonical = Canonical::new(decimals);
     let mut data = Vec::new();
     for (number, pieces) in image.pieces.chunk_by(of_one_colour).enumerate() {
@@ -63,13 +93,14 @@ pub(super) fn write(
                 out.extend_from_slice(used.as_bytes());
             }
             Shows::Colour(colour) => {
+                let light = Colour { r: colour.a, g: colour.a, b: colour.a, a: 255 };
+                let colour = if ink.is_some() { light } else { colour };
                 out.extend_from_slice(format!("<path fill=\"{}\" d=\"", hex(colour)).as_bytes());
                 out.extend_from_slice(&data);
                 out.extend_from_slice(b"\"/>\n");
             }
         }
     }
-    out.extend_from_slice(b"</g>\n");
 }
 
 /// Whether two pieces that follow each other are one path.

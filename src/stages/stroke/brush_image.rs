@@ -15,7 +15,7 @@ use crate::math::plane::length;
 const TOLERANCE_PX: f64 = 0.2;
 
 /// How far pieces reach under those after them, px.
-const REACH_PX: f64 = 0.5;
+const REACH_PX: f64 = 1.0;
 
 /// No copy of a picture is halved more often than this.
 const MOST_HALVINGS: u32 = 10;
@@ -55,7 +55,12 @@ impl Copy<'_> {
         }
         let [columns, rows] = self.pixels.map(|count| count as f64);
         let from_pixels = Affine::new([1.0 / columns, 0.0, 0.0, 1.0 / rows, 0.0, -0.5]);
-        let shows = Shows::Pixels(map * from_pixels);
+        // Past its last pixel a picture is clear: in the last piece it is as much longer as the piece is, so that no gap shows where
+        // the next copy begins, or a closed line ends.
+        let long = (1.0 + self.more()[0] - from) / (1.0 - from);
+        let longer = if to < 1.0 { Affine::IDENTITY } else { Affine::scale_non_uniform(long, 1.0) };
+        let longer = Affine::translate((from, 0.0)) * longer * Affine::translate((-from, 0.0));
+        let shows = Shows::Pixels(map * longer * from_pixels);
         if map.determinant().abs() > 0.0 && map.is_finite() {
             pieces.push(ImagePiece { outline: self.outline([from, to]), shows });
         }
@@ -72,9 +77,14 @@ impl Copy<'_> {
         Affine::new([along.x, along.y, across.x, across.y, origin.x, origin.y])
     }
 
+    /// How far pieces reach along and across, in lengths and widths of the copy.
+    fn more(&self) -> [f64; 2] {
+        self.size.map(|size| REACH_PX * self.px / size.max(self.px))
+    }
+
     /// A stretch of the band, a little longer and wider: the outline of the whole line tells where its edges are.
     fn outline(&self, [from, to]: [f64; 2]) -> BezPath {
-        let [more, wider] = self.size.map(|size| REACH_PX * self.px / size.max(self.px));
+        let [more, wider] = self.more();
         let side = 0.5 + wider;
         let mut path = BezPath::new();
         path.move_to(self.at(from, -side));
