@@ -25,6 +25,9 @@ pub(super) fn scene_at(rigged: Rigged, request: &DrawRequest, style: &Style) -> 
     let blend = Blend::new(clips, &request.animation, request.repeat).map_err(in_file)?;
     let playing = blend.playing(time);
     let mut scene = motion::posed(&rigged, &playing, &style.motion, style.seed).map_err(in_file)?;
+    if let Some(reason) = motion::why_none(&rigged, &playing, &style.motion, &scene) {
+        scene.warnings.note(reason);
+    }
     for Clip { name, .. } in playing
         .iter()
         .filter_map(|own| clips.get(own.clip))

@@ -4,7 +4,7 @@ use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Rect, Shape};
 
 /// What is shown of a page: the inside of a path, whose curves are flattened.
 #[derive(Debug, Clone)]
-pub(super) struct Region {
+pub(crate) struct Region {
     path: BezPath,
     sides: Vec<Line>,
     bounds: Rect,

@@ -9,7 +9,7 @@
 //! assert!(sheet.to_svg(&SvgOptions::default()).contains(r#"width="210mm""#));
 //! ```
 
-mod clipped;
+pub(crate) mod clipped;
 pub mod composition;
 mod flattened;
 pub mod hotspot;

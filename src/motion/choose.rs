@@ -21,6 +21,11 @@ pub(super) struct Body {
 }
 
 impl Body {
+    /// Whether it is what a joint of a skin moves.
+    pub fn is_joint(&self) -> bool {
+        self.own.is_some()
+    }
+
     /// Whether a vertex of the part is one of its own.
     pub fn holds(&self, vertex: u32) -> bool {
         self.own.as_ref().is_none_or(|own| own.get(vertex as usize).copied().unwrap_or(false))
@@ -66,7 +71,7 @@ pub(super) struct Choice<'a> {
     /// Whether each node is chosen, or one that it hangs on.
     nodes: Vec<bool>,
     /// The speed above which bodies are chosen, model units a second.
-    speed: Option<f64>,
+    pub speed: Option<f64>,
 }
 
 impl<'a> Choice<'a> {

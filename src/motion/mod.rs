@@ -76,7 +76,8 @@ fn movers(
             let starts = Starts::new(rigged, &body, options, seed);
             let speed = starts.speed(body.part, [&now, &before], step);
             let chosen = choice.takes(&body, speed);
-            (speed > 0.0 && (chosen || choice.asks_page)).then_some((place, body, starts, chosen))
+            let leaves = speed > 0.0 && (chosen || choice.asks_page) && has_extent(scene, place, &body);
+            leaves.then_some((place, body, starts, chosen))
         })
         .collect();
     for (_, body, starts, _) in &found {
@@ -142,10 +143,16 @@ fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Momen
         Path::Vertex => Vec::new(),
         Path::Body => buffer.iter().map(middle).collect(),
     };
+    // A body that was scaled to zero comes out of nothing: its way begins where it has a size.
+    let places = |moment: &Moment| {
+        let places = starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex));
+        places.collect::<Vec<DVec3>>()
+    };
+    let sized = buffer.iter().position(|moment| is_point(places(moment).into_iter())).unwrap_or(buffer.len());
     let lines = starts.lines.iter().filter(|line| line.visible);
     lines
         .map(|line| {
-            let count = line.segments * POINTS_A_SEGMENT + 1;
+            let count = (line.segments * POINTS_A_SEGMENT + 1).min(sized);
             let own = |moment: &Moment| moment.place(part, line.vertex);
             let mut points: Vec<DVec3> = match (options.path, buffer.first().and_then(own), way.first()) {
                 (Path::Body, Some(here), Some(now)) => {
@@ -173,6 +180,72 @@ fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
     if let Some(end) = points.array_windows().position(turns) {
         points.truncate(end + 1);
     }
+}
+
+/// Why no body leaves lines at a moment, in words; `None` if one does.
+#[must_use]
+pub fn why_none(
+    rigged: &Rigged,
+    playing: &[Playing],
+    options: &MotionOptions,
+    scene: &Scene,
+) -> Option<String> {
+    if !scene.movers.as_ref()?.is_empty() {
+        return None;
+    }
+    let (choice, step) = (Choice::new(rigged, options), 1.0 / options.rate);
+    let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, step)));
+    let speed = |body: &Body| Starts::new(rigged, body, options, 0).speed(body.part, [&now, &before], step);
+    let moving = bodies(rigged, |part| now.is_shown(part) && now.differs(&before, part));
+    let fastest = moving.iter().map(|body| (speed(body), body)).filter(|(speed, _)| *speed > 0.0);
+    let Some((speed, body)) = fastest.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+        return Some("no motion lines: nothing moves at this moment; choose another --time".to_owned());
+    };
+    let name = rigged.scene.parts.get(body.part).map_or("", |part| &part.name);
+    let reason = match choice.speed {
+        _ if choice.asks_page || choice.takes(body, speed) => {
+            "what moves has no size at this moment".to_owned()
+        }
+        Some(least) => format!(
+            "the fastest part, '{name}', goes {speed:.3} units a second, not more than {least:.3}; \
+             set motion.speed lower, or name parts with motion.parts"
+        ),
+        None => format!("what moves, such as part '{name}', is not named by motion.parts"),
+    };
+    Some(format!("no motion lines: {reason}"))
+}
+
+/// A triangle whose height is below this part of its longest side has no area: that of a body scaled to nothing is rounding.
+const MIN_HEIGHT_OF_SIDE: f64 = crate::math::tolerance::DEGENERATE_HEIGHT_OF_PART;
+
+/// Whether a body has a size: not after scaling to zero, when all its triangles are without area, or all vertices of a joint lie in
+/// one place. Wires always have one.
+fn has_extent(scene: &Scene, place: usize, body: &Body) -> bool {
+    if body.is_joint() {
+        let part = scene.parts.get(place);
+        let geometry = part.and_then(|part| scene.geometries.get(part.geometry));
+        let positions = geometry.map_or(&[][..], |geometry| &geometry.positions);
+        let own = (0_u32..).zip(positions).filter(|(vertex, _)| body.holds(*vertex)).map(|(_, place)| *place);
+        return !is_point(own);
+    }
+    let faces = triangles(scene, place, body);
+    let has_area = |[a, b, c]: &[DVec3; 3]| {
+        let sides = [*b - *a, *c - *a, *c - *b];
+        let longest = sides.iter().map(|side| side.length_squared()).fold(0.0, f64::max);
+        sides[0].cross(sides[1]).length() > MIN_HEIGHT_OF_SIDE * longest
+    };
+    faces.is_empty() || faces.iter().any(has_area)
+}
+
+/// Whether several places are one, but for rounding.
+fn is_point(mut places: impl Iterator<Item = DVec3>) -> bool {
+    let Some(first) = places.next() else { return false };
+    let mut count = 1;
+    let is_same = places.all(|place| {
+        count += 1;
+        place.distance(first) <= MIN_HEIGHT_OF_SIDE * first.abs().max(place.abs()).max_element()
+    });
+    is_same && count > 1
 }
 
 /// The triangles of a body in the world.

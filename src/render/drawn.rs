@@ -8,7 +8,7 @@ use super::glass::Behind;
 use super::hatching::Hatching;
 use super::maps::MapFiles;
 use super::motion::{self, Trails};
-use super::on_page::{centre_on_page, margin};
+use super::on_page::{centre_on_page, frame_on_page, margin};
 use super::on_threads::on_threads;
 use super::on_view::OnView;
 use super::painted::{Painted, Unpainted};
@@ -154,13 +154,19 @@ impl Prepared<'_> {
                 colour: style.background.unwrap_or(Colour::WHITE),
                 width: style.hatch.parting,
             }),
+            frame: Some(frame_on_page(&view.frame, &page)),
         };
         match stage {
             None => {
                 let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
                 let centre = |map: &mut ViewMap| centre_on_page(map, &view.frame, &page);
                 let trails = Trails::of((clear, view, camera), scene, style, page.unit, centre);
+                let before = layers.len();
                 layers.extend(trails.iter().flat_map(|trails| trails.ink(&context)));
+                let moves = scene.movers.as_ref().is_some_and(|movers| !movers.is_empty());
+                if style.motion.enabled && moves && layers.len() == before {
+                    warnings.push(motion::NONE_SEEN.to_owned());
+                }
                 layers.extend(stroke::ink(&chains, &context, &style.stroke));
                 layers.extend(hatch::tooth(&page, &style.paper, style.seed));
             }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use kurbo::{BezPath, Point, Vec2};
+use kurbo::{BezPath, Point, Rect, Size, Vec2};
 
 use super::fills::Fills;
 use crate::drawing::{Layer, Length, Page, Unit};
@@ -93,6 +93,8 @@ impl Hatching<'_> {
                 fixed(fills, ground, scene, page, offset, layer, hash(style.seed, &[number as u64]))
             })
             .collect();
+        let size = Size::new(self.camera.width, self.camera.height);
+        let frame = Rect::from_origin_size(offset.to_point(), size);
         let context = HatchContext {
             unit: page.unit,
             seed: style.seed,
@@ -104,6 +106,7 @@ impl Hatching<'_> {
             paper: style.background.unwrap_or(Colour::WHITE),
             flows: &flows,
             fixed: &fixed,
+            frame: Some(frame),
         };
         call(&context)
     }

@@ -23,6 +23,10 @@ use crate::viewmap::{self, Beside, ViewMap};
 pub(super) const NO_MOMENT: &str =
     "no motion lines: nothing moves; draw a moment of an animation with --animation and --time";
 
+/// What is said where things move, and no line of them is seen.
+pub(super) const NONE_SEEN: &str =
+    "no motion lines: they are hidden, outside of the frame, or slower than motion.speed";
+
 /// The trails of a view.
 pub(super) struct Trails<'a> {
     chains: Vec<Chain>,

@@ -1,6 +1,6 @@
 //! From the camera's frame to the page: the frame lies in its middle.
 
-use kurbo::Vec2;
+use kurbo::{Rect, Size, Vec2};
 
 use crate::drawing::Page;
 use crate::view::Frame;
@@ -19,4 +19,9 @@ pub(super) fn centre_on_page(map: &mut ViewMap, frame: &Frame, page: &Page) {
 /// From the camera's frame to the page.
 pub(super) fn margin(frame: &Frame, page: &Page) -> Vec2 {
     Vec2::new(page.width - frame.width, page.height - frame.height) / 2.0
+}
+
+/// The camera's frame on the page.
+pub(super) fn frame_on_page(frame: &Frame, page: &Page) -> Rect {
+    Rect::from_origin_size(margin(frame, page).to_point(), Size::new(frame.width, frame.height))
 }

@@ -45,6 +45,7 @@ pub(super) fn marks(
         paper: style.background.unwrap_or(Colour::WHITE),
         flows: &[],
         fixed: &[],
+        frame: None,
     };
     let of = |own: &Pattern| {
         let fixed = match (own.fixed, own.kind) {

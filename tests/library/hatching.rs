@@ -51,6 +51,7 @@ fn context(tones: &[Tone], seed: u64) -> HatchContext<'_> {
         samples: None,
         flows: &[],
         fixed: &[],
+        frame: None,
         paper: Colour::WHITE,
     }
 }

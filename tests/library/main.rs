@@ -23,6 +23,7 @@ mod export;
 mod fmt;
 mod fmt_of_others;
 mod folds;
+mod frames;
 mod glass;
 mod gltf;
 mod golden;

@@ -5,7 +5,7 @@ use kurbo::ParamCurve;
 use ligne::drawing::{Drawing, LayerKind, Paint};
 use ligne::pose::body::Influences;
 use ligne::pose::rig::{Form, Skin};
-use ligne::pose::{Body, Rigged};
+use ligne::pose::{Body, Playing, Property, Rigged};
 use ligne::{Style, SvgOptions, motion, render};
 
 use crate::support::movers::*;
@@ -228,4 +228,49 @@ fn wrong_values_are_refused() {
         assert!(error.contains(&format!("--set {change}")) && error.contains(what), "{change}: {error}");
         assert!(error.contains(remedy), "{change}: {error}");
     }
+}
+
+#[test]
+fn bodies_scaled_to_zero_leave_none() {
+    let moving = going(0, DVec3::X * 2.0);
+    let scales = |values: &[[f64; 3]]| {
+        let times: Vec<f64> = (0..values.len()).map(|k| k as f64 * 0.4).collect();
+        channel(0, Property::Scale, &times, values.as_flattened())
+    };
+    let own = style(&["motion.speed=0.1"]);
+    let whole = [1.0; 3];
+    let model = rigged(vec![unit_box()], vec![moving.clone(), scales(&[whole, whole, whole])]);
+    assert!(!lines(&drawn(&model, 0.8, &before(), &own)).is_empty());
+    for none in [[0.0; 3], [1.0, 0.0, 0.0]] {
+        let model = rigged(vec![unit_box()], vec![moving.clone(), scales(&[whole, none, none])]);
+        let drawing = drawn(&model, 0.8, &before(), &own);
+        assert!(lines(&drawing).is_empty(), "{none:?}");
+    }
+}
+
+#[test]
+fn a_moment_without_lines_is_explained() {
+    let model = rigged(vec![unit_box()], vec![going(0, DVec3::X)]);
+    let why = |time: f64, changes: &[&str]| {
+        let own = style(changes);
+        let playing = [Playing::all(0, time)];
+        let scene = motion::posed(&model, &playing, &own.motion, own.seed).unwrap();
+        motion::why_none(&model, &playing, &own.motion, &scene)
+    };
+    let said = |time: f64, changes: &[&str], words: &str| {
+        let reason = why(time, changes).unwrap_or_default();
+        assert!(reason.starts_with("no motion lines: ") && reason.contains(words), "{changes:?}: {reason}");
+    };
+    said(0.0, &[], "nothing moves at this moment");
+    said(1.0, &["motion.speed=7.5"], "'part 0', goes 1.000 units a second, not more than 7.500");
+    said(1.0, &["motion.parts=door"], "is not named by motion.parts");
+    assert_eq!(why(1.0, &["motion.speed=0.5"]), None);
+    assert_eq!(why(1.0, &["motion.enabled=false"]), None);
+    // Lines that are out of the picture.
+    let own = style(&["motion.speed=0.5"]);
+    let mut aside = before();
+    aside.target.y += 90.0;
+    aside.eye.y += 90.0;
+    let drawing = drawn(&model, 1.0, &aside, &own);
+    assert!(drawing.warnings.iter().any(|warning| warning.contains("outside of the frame")));
 }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use kurbo::Rect;
+
 use super::flow::Flow;
 use super::guide::Guide;
 use super::tone::Tone;
@@ -32,4 +34,6 @@ pub struct HatchContext<'a> {
     pub flows: &'a [Option<Flow<'a>>],
     /// For each layer that is fixed to the model, its guides.
     pub fixed: &'a [Option<Vec<Guide>>],
+    /// The camera's frame on the page: strokes that end at its border go on outside, and do not taper there.
+    pub frame: Option<Rect>,
 }

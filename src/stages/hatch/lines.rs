@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kurbo::{BezPath, Point};
+use kurbo::{BezPath, Point, Rect};
 use rayon::prelude::*;
 
 use super::lay::HatchStroke;
@@ -13,6 +13,7 @@ use super::{HatchContext, Hatched, Tooth, colour, covered_at, provenance, speckl
 use crate::drawing::{Join, Length, Mark, OutlinePaint, Paint, StrokePaint};
 use crate::math::colour::Colour;
 use crate::math::noise::hash;
+use crate::math::tolerance::{REGION_SNAP, REGION_STEPS};
 use crate::region::{Ground, Look};
 
 /// The marks of a layer of lines: one for each facet, degree of pressure and colour.
@@ -52,7 +53,9 @@ pub(super) fn lines(
                 let mut path = BezPath::new();
                 for stroke in strokes {
                     let own = |p: Point| swollen(stroke.cell, p);
-                    mark::add_outline(stroke, &nib, layer.swell.then_some(&own), &mut path);
+                    let ends = [stroke.points.first(), stroke.points.last()];
+                    let tapers = ends.map(|end| !end.is_some_and(|end| is_on_border(*end, context.frame)));
+                    mark::add_outline(stroke, &nib, tapers, layer.swell.then_some(&own), &mut path);
                 }
                 let mean =
                     if layer.swell { pitch / 2.0 } else { nib.width * mark::mean_width(layer, context.unit) };
@@ -75,6 +78,15 @@ pub(super) fn lines(
         })
         .flatten()
         .collect()
+}
+
+/// Whether a point is on the border of the frame, on the grid on which regions are cut.
+fn is_on_border(p: Point, frame: Option<Rect>) -> bool {
+    frame.is_some_and(|frame| {
+        let step = frame.width().max(frame.height()) / REGION_STEPS;
+        let ways = [p.x - frame.x0, p.x - frame.x1, p.y - frame.y0, p.y - frame.y1];
+        ways.iter().any(|way| way.abs() <= REGION_SNAP * step)
+    })
 }
 
 /// What the tooth of the paper leaves white of some strokes.

@@ -78,10 +78,12 @@ fn add_curve(points: &[Point], px: f64, path: &mut BezPath) {
     fit(points, start, end, TOLERANCE_PX * px, path);
 }
 
-/// Adds the outline of a stroke whose width varies: that of its nib, or what `width` gives at its points.
+/// Adds the outline of a stroke whose width varies: that of its nib, or what `width` gives at its points. `tapers` says which
+/// of its ends taper.
 pub fn add_outline(
     stroke: &HatchStroke,
     nib: &Nib,
+    tapers: [bool; 2],
     width: Option<&dyn Fn(Point) -> f64>,
     path: &mut BezPath,
 ) {
@@ -89,10 +91,15 @@ pub fn add_outline(
     let arcs = arcs(&points);
     let n = points.len();
     let total = arcs[n - 1];
-    let taper = (TAPER_WIDTHS * nib.width).min(total / 2.0);
+    let count = tapers.iter().filter(|tapers| **tapers).count();
+    let taper = (TAPER_WIDTHS * nib.width).min(total / count.max(1) as f64);
+    let from_end = |arc: f64| {
+        let ways = [arc, total - arc].into_iter().zip(tapers).filter(|(_, tapers)| *tapers);
+        ways.map(|(way, _)| way).fold(f64::INFINITY, f64::min)
+    };
     let half = |i: usize| {
         let own = width.map_or(nib.width, |width| width(points[i]));
-        let way = if taper > 0.0 { (arcs[i].min(total - arcs[i]) / taper).min(1.0) } else { 1.0 };
+        let way = if taper > 0.0 { (from_end(arcs[i]) / taper).min(1.0) } else { 1.0 };
         let kept = 1.0 - nib.taper * (1.0 - way * (2.0 - way));
         own * kept / 2.0
     };

@@ -75,7 +75,7 @@ impl BrushShape {
     }
 
     /// The shape as a path, for one that is so long and so wide on the page, in px.
-    fn path(&self, size: [f64; 2]) -> Cow<'_, BezPath> {
+    pub(super) fn path(&self, size: [f64; 2]) -> Cow<'_, BezPath> {
         match self {
             Self::Path(path, _) => Cow::Borrowed(path),
             Self::Profile(profile, _) => Cow::Owned(edges(profile)),

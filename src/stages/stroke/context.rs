@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use kurbo::Rect;
+
 use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
 use crate::math::colour::Colour;
@@ -29,6 +31,8 @@ pub struct InkContext<'a> {
     pub names: &'a [u64],
     /// What parts spot blacks, where there are any.
     pub parting: Option<Parting>,
+    /// The camera's frame on the page, which cuts lines that leave it; without it they end there as others do.
+    pub frame: Option<Rect>,
 }
 
 /// The line between two spot blacks, on which ink would not be seen.

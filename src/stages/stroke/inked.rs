@@ -3,25 +3,21 @@
 //! The axis of the chain is cut where nothing is drawn; each piece runs on at its ends, is given its
 //! widths, and is moved a little; what comes out is a path or the outline of a line of varying width.
 
-use std::sync::Arc;
-
-use kurbo::BezPath;
-
 use super::axis::Axis;
 use super::breaks::Breaks;
 use super::brush;
-use super::brush_strip::Strip;
 use super::context::InkContext;
+use super::frame;
 use super::inks::{Stretch, Tint};
 use super::mooring;
 use super::outline::{Nib, outline};
 use super::pen::Pen;
 use super::pieces::{AxisPart, End, parted};
+use super::shape::Shape;
 use super::tinted::{Drawn, parts};
 use super::tremor::Tremor;
 use super::widths::{Setting, mean, meet, taper};
 use crate::chain::Chain;
-use crate::drawing::ImagePiece;
 use crate::lines::LineKind;
 use crate::math::colour::Colour;
 use crate::math::noise::{hash, unit};
@@ -47,18 +43,6 @@ const CELL_PX: f64 = 96.0;
 
 /// Sets the chance of widths apart from all others.
 const WIDTH: u64 = 0x7769_6474;
-
-/// What is painted for a piece of a chain.
-#[derive(Debug, Clone)]
-pub(super) enum Shape {
-    /// A path of the pen's width, and whether it is closed.
-    Path(BezPath, bool),
-    /// The outline of a line, its axis and its mean width.
-    Outline { path: BezPath, axis: BezPath, width: f64 },
-    /// The outline of a line within which the picture of a stroke is seen, that picture, its pixels along and across, and the
-    /// pieces in which it is seen.
-    Image { path: BezPath, strip: Arc<Strip>, pixels: [usize; 2], pieces: Vec<ImagePiece> },
-}
 
 /// A chain and what it is to be drawn with.
 pub(super) struct Inked<'a> {
@@ -88,9 +72,13 @@ impl Inked<'_> {
         let seed = hash(context.seed, &[identity(self.chain, self.identities, context)]);
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
         let lifts = hand.overshoot.value > 0.0;
+        let leaving = frame::leaving(self.chain, self.axis, context.frame, px);
+        let leaving = [0, 1].map(|side| leaving[side].filter(|_| self.joined[side].is_none()));
+        let past = frame::past(leaving, self.axis.length(), self.pen, context.unit);
         let ends = [0, 1].map(|side| End {
             tapers: self.joined[side].is_none(),
             runs_on: self.joined[side].is_none() && !self.chain.covered[side],
+            past: past[side],
         });
         let setting = setting(self.chain, self.pen, self.depths, self.identities, context);
         let mut axis = self.axis.clone();
@@ -127,7 +115,9 @@ impl Inked<'_> {
                 let mut piece = piece.clone();
                 let long = piece.axis.length();
                 for side in 0..2 {
-                    if piece.ends[side].runs_on && !piece.axis.closed {
+                    if piece.ends[side].past > 0.0 {
+                        piece.axis.extend(side, piece.ends[side].past, px);
+                    } else if piece.ends[side].runs_on && !piece.axis.closed {
                         let chance = unit(hash(pass_seed, &[2, k as u64, side as u64]));
                         let part = LEAST_OVERSHOOT + (1.0 - LEAST_OVERSHOOT) * chance;
                         let most = in_unit(hand.overshoot).min(MOST_OVERSHOOT * long);
@@ -175,14 +165,19 @@ impl Inked<'_> {
         let moved = before.iter().zip(&axis.points).map(|(from, to)| length(*to - *from));
         let reach: Vec<f64> = moved.map(|way| covers.map_or(0.0, |to_side| to_side + way)).collect();
         let drawn = Drawn { axis, thick, reach, caps: [self.pen.cap; 2] };
+        let frame = context.frame.filter(|_| ends.iter().any(|end| end.past > 0.0));
+        let cut = |shape: Shape| match frame {
+            Some(frame) => frame::cut(shape, frame, context.px()),
+            None => Some(shape),
+        };
         if let [Stretch { tint, .. }] = self.inks {
-            let shape = self.shape(&drawn.times(tint.width), tint.colour, setting, context);
+            let shape = self.shape(&drawn.times(tint.width), tint.colour, setting, context).and_then(cut);
             return shape.map(|shape| (shape, tint.colour)).into_iter().collect();
         }
         let round = self.chain.closed.then(|| self.axis.length());
         let parts = parts(&drawn, self.inks, round);
         let shape = |(part, tint): &(Drawn, Tint)| {
-            Some((self.shape(part, tint.colour, setting, context)?, tint.colour))
+            Some((self.shape(part, tint.colour, setting, context).and_then(cut)?, tint.colour))
         };
         parts.iter().filter_map(shape).collect()
     }

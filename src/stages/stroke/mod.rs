@@ -12,6 +12,7 @@ pub mod dash;
 mod dense;
 mod ends;
 pub(crate) mod fraction;
+mod frame;
 mod halo;
 pub mod hand;
 mod inked;
@@ -21,6 +22,7 @@ pub mod options;
 mod outline;
 pub mod pen;
 mod pieces;
+mod shape;
 mod sides;
 pub mod swell;
 mod tinted;
@@ -52,9 +54,10 @@ use crate::math::colour::Colour;
 use crate::math::identity::identities;
 use axis::Axis;
 use brush_image::StripPictures;
-use inked::{Inked, Shape};
+use inked::Inked;
 use inks::Tint;
 use outline::Nib;
+use shape::Shape;
 
 /// Turns chains into the layers `hidden-lines` and `lines`, back to front; empty ones are absent.
 ///
@@ -227,14 +230,25 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
     }
     let fades = pen.fade > 0.0 && chain.samples.iter().any(|sample| sample.strength < 1.0);
     if is_solid(chain, context, pen) && fades {
-        let axis = Axis::of(chain, context.px());
+        let px = context.px();
+        let mut axis = Axis::of(chain, px);
+        let leaving = frame::leaving(chain, &axis, context.frame, px);
+        for (side, past) in frame::past(leaving, axis.length(), pen, context.unit).into_iter().enumerate() {
+            axis.extend(side, past, px);
+        }
         let widths = widths::faded(&axis, width, pen.fade);
-        let nib = Nib { caps: [pen.cap; 2], join: pen.join, px: context.px() };
+        let nib = Nib { caps: [pen.cap; 2], join: pen.join, px };
         if let Some(path) = outline::soft_outline(&axis, &widths, &nib) {
             let (colour, mean) = (colour(chain, context, pen), widths::mean(&axis, &widths));
-            let axis = chain.path.clone();
-            let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
-            return Some(Mark { path, paint, provenance: provenance(chain, context) });
+            let whole = if leaving == [None; 2] { chain.path.clone() } else { axis.path(px) };
+            let mut shape = Shape::Outline { path, axis: whole, width: mean };
+            if let Some(frame) = context.frame.filter(|_| leaving != [None; 2]) {
+                shape = frame::cut(shape, frame, px)?;
+            }
+            if let Shape::Outline { path, axis, width: mean } = shape {
+                let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
+                return Some(Mark { path, paint, provenance: provenance(chain, context) });
+            }
         }
     }
     Some(stroked(chain.path.clone(), chain.closed, colour(chain, context, pen), chain, context, pen))

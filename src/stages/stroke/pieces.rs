@@ -13,17 +13,19 @@ pub(super) struct AxisPart {
 }
 
 /// What may happen at an end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct End {
     pub tapers: bool,
     pub runs_on: bool,
+    /// How far the line goes on past the border of the frame, which cuts it; 0 inside the frame.
+    pub past: f64,
 }
 
 impl End {
     /// The end at a gap.
-    const GAP: Self = Self { tapers: true, runs_on: false };
+    const GAP: Self = Self { tapers: true, runs_on: false, past: 0.0 };
     /// The end at a corner at which the pen is lifted.
-    const LIFTED: Self = Self { tapers: true, runs_on: true };
+    const LIFTED: Self = Self { tapers: true, runs_on: true, past: 0.0 };
 }
 
 /// Lines with gaps in them are whole in between at least over this length, px.

@@ -48,6 +48,7 @@ fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
         depths: [1.0, 2.0],
         names: &[],
         parting: None,
+        frame: None,
     };
     ink(chains, &context, &style.stroke)
 }

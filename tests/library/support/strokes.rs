@@ -78,6 +78,7 @@ pub fn context(style: &Style) -> InkContext<'static> {
         depths: [2.0, 4.0],
         names: &[],
         parting: None,
+        frame: None,
     }
 }
 
