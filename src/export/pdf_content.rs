@@ -322,6 +322,11 @@ impl<'a> Writer<'a> {
     }
 }
 
+/// Name of the state that sets a mask; `first_picture` is the number of the drawing's first picture in the document.
+pub(super) fn mask_name(first_picture: usize, number: usize) -> String {
+    format!("M{first_picture}x{number}")
+}
+
 /// Name of a picture in the page's resources.
 pub(super) fn picture_name(number: usize) -> String {
     format!("P{number}")

@@ -8,15 +8,12 @@ use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref};
 
 use super::SvgOptions;
 use super::number::Decimals;
-use super::pdf::DEFLATE_LEVEL;
-use super::pdf_content::{Writer, picture_name};
+use super::pdf_content::{Writer, mask_name, picture_name};
 use super::pdf_pictures::Crops;
 use crate::drawing::{Drawing, ImagePaint};
 
-/// Name of the state that sets a mask; `first_picture` is the number of the drawing's first picture in the document.
-pub(super) fn mask_name(first_picture: usize, number: usize) -> String {
-    format!("M{first_picture}x{number}")
-}
+/// As for the content of pages.
+const DEFLATE_LEVEL: u8 = 4;
 
 /// One mask of a drawing.
 pub(super) struct Mask<'a> {

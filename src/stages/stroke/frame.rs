@@ -7,8 +7,8 @@ use kurbo::{PathEl, Point, Rect, Shape as _, Vec2};
 
 use super::axis::Axis;
 use super::brush::BrushShape;
-use super::inked::Shape;
 use super::pen::Pen;
+use super::shape::Shape;
 use crate::chain::Chain;
 use crate::drawing::clipped::Region;
 use crate::drawing::{Length, Unit};

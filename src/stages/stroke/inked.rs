@@ -3,14 +3,9 @@
 //! The axis of the chain is cut where nothing is drawn; each piece runs on at its ends, is given its
 //! widths, and is moved a little; what comes out is a path or the outline of a line of varying width.
 
-use std::sync::Arc;
-
-use kurbo::BezPath;
-
 use super::axis::Axis;
 use super::breaks::Breaks;
 use super::brush;
-use super::brush_strip::Strip;
 use super::context::InkContext;
 use super::frame;
 use super::inks::{Stretch, Tint};
@@ -18,11 +13,11 @@ use super::mooring;
 use super::outline::{Nib, outline};
 use super::pen::Pen;
 use super::pieces::{AxisPart, End, parted};
+use super::shape::Shape;
 use super::tinted::{Drawn, parts};
 use super::tremor::Tremor;
 use super::widths::{Setting, mean, meet, taper};
 use crate::chain::Chain;
-use crate::drawing::ImagePiece;
 use crate::lines::LineKind;
 use crate::math::colour::Colour;
 use crate::math::noise::{hash, unit};
@@ -48,18 +43,6 @@ const CELL_PX: f64 = 96.0;
 
 /// Sets the chance of widths apart from all others.
 const WIDTH: u64 = 0x7769_6474;
-
-/// What is painted for a piece of a chain.
-#[derive(Debug, Clone)]
-pub(super) enum Shape {
-    /// A path of the pen's width, and whether it is closed.
-    Path(BezPath, bool),
-    /// The outline of a line, its axis and its mean width.
-    Outline { path: BezPath, axis: BezPath, width: f64 },
-    /// The outline of a line within which the picture of a stroke is seen, that picture, its pixels along and across, and the
-    /// pieces in which it is seen.
-    Image { path: BezPath, strip: Arc<Strip>, pixels: [usize; 2], pieces: Vec<ImagePiece> },
-}
 
 /// A chain and what it is to be drawn with.
 pub(super) struct Inked<'a> {

@@ -23,6 +23,7 @@ pub mod options;
 mod outline;
 pub mod pen;
 mod pieces;
+mod shape;
 mod sides;
 pub mod swell;
 mod tinted;
@@ -55,9 +56,10 @@ use crate::math::colour::Colour;
 use crate::math::identity::identities;
 use axis::Axis;
 use brush_image::StripPictures;
-use inked::{Inked, Shape};
+use inked::Inked;
 use inks::Tint;
 use outline::Nib;
+use shape::Shape;
 
 /// Turns chains into the layers `hidden-lines` and `lines`, back to front; empty ones are absent.
 ///
