@@ -76,7 +76,8 @@ pub const IMAGE_HEIGHT_PX: f64 = 1e-8;
 /// Two lines that run within this distance (px) of each other are drawn once.
 pub const DOUBLE_PX: f64 = 5e-3;
 
-/// A hidden line that runs within this distance (px) of a visible one lies in its ink. Curves that only touch would run along each other for long if it were more.
+/// A hidden line that runs within this distance (px) of another one coincides with it, however wide its ink is. Where the
+/// width of the ink is not known, curves that only touch would run along each other for long if it were more.
 pub const BEHIND_INK_PX: f64 = 0.02;
 
 /// Lines that cross at an angle of this sine or more do not run along each other, however near they come.

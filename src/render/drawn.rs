@@ -23,7 +23,7 @@ use crate::hatch::{self, Hatched};
 use crate::math::colour::Colour;
 use crate::region::{Ground, PageBorders};
 use crate::scene::{Camera, Scene};
-use crate::stroke::{self, InkContext, Parting};
+use crate::stroke::{self, InkContext, InkWidths, Parting};
 use crate::view::View;
 use crate::viewmap::{Ahead, ViewMap};
 
@@ -89,6 +89,10 @@ impl Prepared<'_> {
         let lit = fills.filter(|_| fills::is_lit(style));
         let borders = lit.map(|_| PageBorders::of(&map, &view.frame));
         let (whole, margin) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
+        let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
+        let materials: Vec<(Arc<str>, Colour)> =
+            scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
+        let widths = InkWidths::new(&style.stroke, &parts, &materials, page.unit);
         // Both have parts that one thread does alone.
         let paint = || {
             let (fills, borders) = lit.zip(borders.as_ref())?;
@@ -105,7 +109,8 @@ impl Prepared<'_> {
             let joining = watch.lap_ms();
             centre_on_page(&mut map, &view.frame, &page);
             let ahead = Ahead::new(whole, view, &lines, &map.seen_contours, margin);
-            let chains = hidden::chains(&ahead, &map, style, page.unit, view.frame.perspective);
+            let depths = (&surface.mesh.extents, view.frame.perspective);
+            let chains = hidden::chains(&ahead, &map, (style, &widths), page.unit, depths);
             (lines, chains, [joining, watch.lap_ms()])
         };
         let (painted, (lines, mut chains, [joining, linking])) = rayon::join(paint, link);
@@ -137,9 +142,6 @@ impl Prepared<'_> {
             anchors.ask(&mut chains, camera, margin);
         }
         let names = beside::names(lines, surface, &style.stroke);
-        let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
-        let materials: Vec<(Arc<str>, Colour)> =
-            scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
         let context = InkContext {
             unit: page.unit,
             parts: &parts,

@@ -1,18 +1,22 @@
-//! The chains of a view, hidden ones without what lies in the ink of visible ones.
+//! The chains of a view, hidden ones without what lies in the ink of others.
 
 use crate::chain::{self, Chain};
 use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
+use crate::mesh::Extents;
+use crate::stroke::InkWidths;
 use crate::style::Style;
-use crate::viewmap::{Ahead, ViewMap, precedence};
+use crate::viewmap::precedence::{self, Ink};
+use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 
-/// Links the lines of a view; `perspective` tells how depth runs along a line.
+/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts, and `perspective` whether depth
+/// runs along a line as in perspective.
 pub(super) fn chains(
     ahead: &Ahead,
     map: &ViewMap,
-    style: &Style,
+    (style, widths): (&Style, &InkWidths),
     unit: Unit,
-    perspective: bool,
+    (extents, perspective): (&Extents, bool),
 ) -> Vec<Chain> {
     let link = |map| chain::link_behind(ahead, map, &style.chain, unit, style.lines.hidden);
     let mut chains = link(map);
@@ -21,7 +25,9 @@ pub(super) fn chains(
     }
     // Visible lines are drawn on across gaps by what is hidden there: they are linked with all of it.
     let px = Length::px(1.0).in_unit(unit);
-    if let Some(cut) = precedence::apart(map, perspective, px) {
+    let half_width = |edge: &ViewEdge| widths.half(map, edge);
+    let ink = Ink { half_width: &half_width, extents, perspective, px };
+    if let Some(cut) = precedence::apart(map, &ink) {
         chains.retain(|chain| chain.invisibility == 0);
         let stays = |chain: &Chain| chain.invisibility > 0 && length(chain) >= CRUMB_PX * px;
         chains.extend(link(&cut).into_iter().filter(stays));

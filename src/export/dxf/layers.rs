@@ -95,7 +95,7 @@ pub(super) fn pen_of(sheet: &Sheet, mark: &Mark) -> Pen {
     match &mark.paint {
         Paint::Stroke(stroke) => {
             let decimal = |length: f64| (length * 10.0).round() / 10.0 * sheet.scale;
-            let dash = stroke.dash.iter().map(|length| decimal(*length)).collect();
+            let dash = period(&stroke.dash).iter().map(|length| decimal(*length)).collect();
             pen(stroke.colour, weight(stroke.width), dash)
         }
         Paint::Outline(outline) => pen(outline.colour, weight(outline.width), Vec::new()),
@@ -103,6 +103,21 @@ pub(super) fn pen_of(sheet: &Sheet, mark: &Mark) -> Pen {
         Paint::Gradient(gradient) => pen(gradient.middle(), None, Vec::new()),
         Paint::Image(_) => pen(Colour::BLACK, None, Vec::new()),
     }
+}
+
+/// Most lengths of dashes and gaps that a type of line may have (AutoCAD DXF Reference, LTYPE).
+const MAX_LENGTHS: usize = 12;
+
+/// One period of dashes and gaps that are written out one by one because they fit from corner to corner.
+fn period(dash: &[f64]) -> &[f64] {
+    let inner = dash.get(2..).unwrap_or_default();
+    let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * a.abs();
+    let repeats = |length: &usize| {
+        let next = inner.get(*length..2 * length);
+        next.is_some_and(|next| inner.iter().zip(next).all(alike))
+    };
+    let whole = || &dash[..dash.len().min(MAX_LENGTHS)];
+    (2..=MAX_LENGTHS).step_by(2).find(repeats).map_or_else(whole, |length| &inner[..length])
 }
 
 /// The name of a mark's layer: the kind of line, hidden ones apart; what is no line by the layer of the drawing. Letters, digits and hyphens.

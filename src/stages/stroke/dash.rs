@@ -2,17 +2,17 @@
 //! a path lies on a dash, as ISO 128-2 asks of drawings.
 
 use glam::DVec3;
-use kurbo::{BezPath, ParamCurveArclen, Point};
+use kurbo::{BezPath, ParamCurveArclen, PathSeg, Point, Vec2};
 
-use super::is_straight;
 use crate::chain::Anchor;
 
 /// A path shorter than this many periods is drawn solid: one gap would look like a fault.
 const SHORTEST_PERIODS: f64 = 0.6;
-/// A polyline that turns by more than this (cosine of 20 degrees) has a corner.
+/// A path that turns by more than this (cosine of 20 degrees) has a corner.
 const CORNER_COSINE: f64 = 0.939_692_620_785_908_4;
-/// More dashes than this are written as one repeated pattern, whatever the corners.
-const MOST_ENTRIES: usize = 96;
+/// A path with more dashes and gaps than this has one repeated pattern, whatever its corners: bounds the size of files. The
+/// outline of an A0 sheet in the dashes of `technical` has some 2,600.
+const MAX_ENTRIES: usize = 8192;
 /// Accuracy of the length of curves, as a fraction of the period.
 const LENGTH_OF_PERIOD: f64 = 1e-3;
 
@@ -20,8 +20,7 @@ const LENGTH_OF_PERIOD: f64 = 1e-3;
 /// empty if the path is to be solid. All lengths in user units.
 ///
 /// An open path begins and ends with a whole dash; a closed one has a whole number of periods and
-/// the middle of a dash at its start. If all pieces are straight, each corner lies in the middle
-/// of a dash as well, as far as the number of dashes stays small.
+/// the middle of a dash at its start. Each corner lies inside a dash as well: the pattern is stretched from corner to corner.
 #[must_use]
 pub fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
     fit_from(path, closed, lengths, 0.0)
@@ -81,28 +80,22 @@ pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f
     (own, offset)
 }
 
-/// Lengths between the corners of a path; a single one if it has curves.
+/// Lengths between the corners of a path.
 fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
-    let straight = is_straight(path);
     let mut runs: Vec<f64> = Vec::new();
-    let mut last: Option<kurbo::Vec2> = None;
+    let mut last: Option<Vec2> = None;
     for segment in path.segments() {
         let length = segment.arclen(period * LENGTH_OF_PERIOD);
         if length <= 0.0 {
             continue;
         }
-        let (start, end): (Point, Point) = match segment {
-            kurbo::PathSeg::Line(line) => (line.p0, line.p1),
-            kurbo::PathSeg::Quad(quad) => (quad.p0, quad.p2),
-            kurbo::PathSeg::Cubic(cubic) => (cubic.p0, cubic.p3),
-        };
-        let direction = (end - start) / length;
-        let corner = straight && last.is_some_and(|before| before.dot(direction) < CORNER_COSINE);
+        let [from, to] = directions(segment);
+        let turns = |before: Vec2| before.dot(from) < CORNER_COSINE * (before.hypot() * from.hypot());
         match runs.last_mut() {
-            Some(run) if !corner => *run += length,
+            Some(run) if !last.is_some_and(turns) => *run += length,
             _ => runs.push(length),
         }
-        last = Some(direction);
+        last = Some(to);
     }
     // A run that is too short for a gap would be solid; around a circle of many short pieces
     // that would be the whole circle, so such a path counts as a curve.
@@ -110,6 +103,20 @@ fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
         return vec![runs.iter().sum()];
     }
     runs
+}
+
+/// The directions in which a piece of a path begins and ends.
+fn directions(segment: PathSeg) -> [Vec2; 2] {
+    let points: Vec<Point> = match segment {
+        PathSeg::Line(line) => vec![line.p0, line.p1],
+        PathSeg::Quad(quad) => vec![quad.p0, quad.p1, quad.p2],
+        PathSeg::Cubic(cubic) => vec![cubic.p0, cubic.p1, cubic.p2, cubic.p3],
+    };
+    // Control points may lie on the ends.
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let from = points.iter().map(|p| *p - first).find(|way| *way != Vec2::ZERO);
+    let to = points.iter().rev().map(|p| last - *p).find(|way| *way != Vec2::ZERO);
+    [from, to].map(Option::unwrap_or_default)
 }
 
 /// One pattern repeated along the whole path.
@@ -140,7 +147,7 @@ fn across_corners(runs: &[f64], closed: bool, pattern: &[f64], period: f64) -> O
             *dashes.last_mut()? += run;
             continue;
         }
-        if dashes.len() as f64 + periods * pattern.len() as f64 > MOST_ENTRIES as f64 {
+        if dashes.len() as f64 + periods * pattern.len() as f64 > MAX_ENTRIES as f64 {
             return None;
         }
         let stretch = run / (before + after + periods * inner + (periods - 1.0) * first);
@@ -249,6 +256,52 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The lengths from the start of a path to its corners.
+    fn corners_of(sides: &[f64]) -> Vec<f64> {
+        let sums = sides.iter().scan(0.0, |sum, side| {
+            *sum += side;
+            Some(*sum)
+        });
+        sums.collect()
+    }
+
+    #[test]
+    fn corners_of_rectangles_of_any_size_lie_on_dashes() {
+        let mut dice = crate::math::dice::Dice::new(57);
+        for round in 0..200 {
+            let [width, height] = [0; 2].map(|_: i32| dice.between(20.0, 900.0));
+            let text = format!("M0 0H{width}V{height}H0Z");
+            let (dashes, offset) = fit(&path(&text), true, &[11.3, 2.8]);
+            for corner in corners_of(&[width, height, width, height - 1e-6]) {
+                for near in [-3.0, -1.0, 0.0, 1.0, 3.0] {
+                    let at = (corner + near).rem_euclid(2.0 * (width + height));
+                    assert!(inked(&dashes, offset, at), "{round}: {text} at {at}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn corners_between_curves_lie_on_dashes() {
+        // Two half circles and a quarter that meet at corners, and a slot, which has none.
+        let arc = |r: f64| std::f64::consts::PI * r;
+        let text = "M0 0A60 60 0 0 1 120 0A90 90 0 0 1 300 0A45 45 0 0 0 345 45";
+        let (dashes, offset) = fit(&path(text), false, &[12.0, 3.0]);
+        for corner in corners_of(&[arc(60.0), arc(90.0)]) {
+            for near in [-4.0, 0.0, 4.0] {
+                assert!(inked(&dashes, offset, corner + near), "at {}: {dashes:?}", corner + near);
+            }
+        }
+        let slot = path("M0 0H100A40 40 0 0 1 100 80H0A40 40 0 0 1 0 0Z");
+        assert_eq!(fit(&slot, true, &[12.0, 3.0]).0.len(), 2);
+    }
+
+    #[test]
+    fn paths_of_very_many_dashes_have_one_pattern() {
+        let (dashes, _) = fit(&path("M0 0H100000V100000H0Z"), true, &[6.0, 3.0]);
+        assert_eq!(dashes.len(), 2);
     }
 
     #[test]

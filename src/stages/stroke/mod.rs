@@ -14,6 +14,7 @@ mod ends;
 pub(crate) mod fraction;
 mod halo;
 pub mod hand;
+mod ink_widths;
 mod inked;
 mod inks;
 mod mooring;
@@ -39,6 +40,7 @@ pub use brush_source::{BrushChange, BrushSource, Inside, ShapeSource, TurnSource
 pub use brush_strip::Strip;
 pub use context::{InkContext, Parting};
 pub use hand::{Hand, HandChange};
+pub use ink_widths::InkWidths;
 pub use options::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
 pub use pen::{Ink, Pen, PenChange};
 pub use swell::{Swell, SwellChange};
@@ -313,12 +315,6 @@ fn by_pen(kind: LayerKind, marks: Vec<Mark>, unit: Unit) -> Vec<Layer> {
         }
     }
     layers
-}
-
-/// Whether every piece of a path is straight.
-fn is_straight(path: &BezPath) -> bool {
-    use kurbo::PathEl::{CurveTo, QuadTo};
-    !path.elements().iter().any(|element| matches!(element, CurveTo(..) | QuadTo(..)))
 }
 
 #[cfg(test)]

@@ -4,11 +4,15 @@
 
 use serde::Deserialize;
 
+use std::sync::Arc;
+
 use super::context::InkContext;
 use super::pen::{Pen, PenChange};
 use crate::chain::Chain;
 use crate::lines::LineKind;
+use crate::math::colour::Colour;
 use crate::math::glob::Glob;
+use crate::mesh::{MaterialId, PartId};
 
 /// How chains get their ink.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -95,34 +99,64 @@ pub(super) struct Selection<'a> {
 impl StrokeOptions {
     /// Tries the patterns of all rules once, so that a chain costs only lookups.
     pub(super) fn selection<'a>(&'a self, context: &InkContext) -> Selection<'a> {
+        let InkContext { parts, materials, behind_glass, .. } = *context;
+        self.selection_for(parts, materials, behind_glass)
+    }
+
+    /// The same from the names of parts and materials.
+    pub(super) fn selection_for<'a>(
+        &'a self,
+        parts: &[Arc<str>],
+        materials: &[(Arc<str>, Colour)],
+        behind_glass: f64,
+    ) -> Selection<'a> {
         let fits = |glob: &Option<Glob>, name: &str| glob.as_ref().is_none_or(|glob| glob.matches(name));
-        let parts = |rule: &Rule| context.parts.iter().map(|name| fits(&rule.when.part, name)).collect();
+        let parts = |rule: &Rule| parts.iter().map(|name| fits(&rule.when.part, name)).collect();
         let materials =
-            |rule: &Rule| context.materials.iter().map(|(name, _)| fits(&rule.when.material, name)).collect();
+            |rule: &Rule| materials.iter().map(|(name, _)| fits(&rule.when.material, name)).collect();
         Selection {
             options: self,
-            behind_glass: context.behind_glass,
+            behind_glass,
             parts: self.rules.iter().map(parts).collect(),
             materials: self.rules.iter().map(materials).collect(),
         }
     }
 }
 
+/// What rules ask of a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LineTraits {
+    pub kind: LineKind,
+    pub hidden: bool,
+    pub silhouette: bool,
+    pub both_seen: bool,
+    pub veiled: bool,
+    pub part: PartId,
+    pub material: MaterialId,
+}
+
 impl Selection<'_> {
     /// The pen of a chain, from the one that rules start from.
-    pub(super) fn pen(&self, chain: &Chain, mut pen: Pen) -> Pen {
-        let behind = if chain.veiled { self.behind_glass } else { 1.0 };
+    pub(super) fn pen(&self, chain: &Chain, pen: Pen) -> Pen {
+        let Chain { kind, silhouette, both_seen, veiled, part, material, .. } = *chain;
+        let hidden = chain.invisibility > 0;
+        self.pen_of(&LineTraits { kind, hidden, silhouette, both_seen, veiled, part, material }, pen)
+    }
+
+    /// The pen of a line, from the one that rules start from.
+    pub(super) fn pen_of(&self, line: &LineTraits, mut pen: Pen) -> Pen {
+        let behind = if line.veiled { self.behind_glass } else { 1.0 };
         let named = |table: &[bool], index: usize, glob: &Option<Glob>| {
             table.get(index).copied().unwrap_or(glob.is_none())
         };
         for ((rule, parts), materials) in self.options.rules.iter().zip(&self.parts).zip(&self.materials) {
             let when = &rule.when;
-            if (when.kinds.is_empty() || when.kinds.contains(&chain.kind))
-                && when.hidden.is_none_or(|hidden| hidden == (chain.invisibility > 0))
-                && when.silhouette.is_none_or(|silhouette| silhouette == chain.silhouette)
-                && when.both_seen.is_none_or(|both| both == chain.both_seen)
-                && named(parts, chain.part.index(), &when.part)
-                && named(materials, chain.material.index(), &when.material)
+            if (when.kinds.is_empty() || when.kinds.contains(&line.kind))
+                && when.hidden.is_none_or(|hidden| hidden == line.hidden)
+                && when.silhouette.is_none_or(|silhouette| silhouette == line.silhouette)
+                && when.both_seen.is_none_or(|both| both == line.both_seen)
+                && named(parts, line.part.index(), &when.part)
+                && named(materials, line.material.index(), &when.material)
             {
                 rule.pen.apply(&mut pen);
             }

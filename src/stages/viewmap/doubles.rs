@@ -212,6 +212,46 @@ impl Line {
         [vector(self.start), vector(self.end())]
     }
 
+    /// The piece of this line over a range of its parameter (0 to 1).
+    pub fn piece(&self, (from, to): (f64, f64)) -> Self {
+        let start = self.start + self.along * (self.length * from);
+        Self { start, along: self.along, length: self.length * (to - from) }
+    }
+
+    /// The range of this line's parameter (0 to 1) whose distance from the other line is at most `reach`: all of that
+    /// is convex, so it is one range.
+    pub fn within_ink_of(&self, other: &Self, reach: f64) -> Option<(f64, f64)> {
+        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
+        // Round the ends of the other line.
+        for end in [other.start, other.end()] {
+            let (at, off) = (self.along.dot(end - self.start), self.along.cross(end - self.start));
+            let half = (reach * reach - off * off).sqrt();
+            if half.is_finite() {
+                (from, to) = (from.min(at - half), to.max(at + half));
+            }
+        }
+        // In the strip along it: within its length, and no farther to the side.
+        let across = Vec2::new(-other.along.y, other.along.x);
+        let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (way, low, high) in [(other.along, 0.0, other.length), (across, -reach, reach)] {
+            let (at, rate) = (way.dot(self.start - other.start), way.dot(self.along));
+            if rate == 0.0 {
+                if !(low..=high).contains(&at) {
+                    leaves = f64::NEG_INFINITY;
+                }
+            } else {
+                let (p, q) = ((low - at) / rate, (high - at) / rate);
+                (enters, leaves) = (enters.max(p.min(q)), leaves.min(p.max(q)));
+            }
+        }
+        // An edge that is a point in the image has only round ends.
+        if enters < leaves && other.length > 0.0 {
+            (from, to) = (from.min(enters), to.max(leaves));
+        }
+        let (from, to) = (from.max(0.0), to.min(self.length));
+        (to > from).then(|| (from / self.length, to / self.length))
+    }
+
     /// A quick test before the exact one.
     fn runs_along(&self, other: &Self, within: f64) -> bool {
         let shorter = self.length.min(other.length);

@@ -30,6 +30,7 @@ mod rounded;
 mod runs;
 mod sides;
 mod slope;
+mod smooth_lines;
 mod teeth;
 mod tile;
 mod tile_set;
