@@ -19,9 +19,9 @@ use crate::error::Error;
 use crate::export::gzip;
 use crate::load::ModelFormat;
 use crate::pose::Rigged;
-use crate::render::{MapFiles, Prepared, Report, Stopwatch, hatched, trailed};
-use crate::scene::Scene;
+use crate::render::{MapFiles, Prepared, Report, Stopwatch, hatched_for, trailed};
 use crate::scene::framing::world_points;
+use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
 /// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
@@ -105,13 +105,18 @@ pub(super) fn draw_views(
     progress.step("drawing");
     notes.extend(wonder::idle(request, std::env::args_os()));
     if request.section.section.is_some() {
-        // The frame is that of the whole model, so that sections fit over its other views.
-        let whole = framed.get_or_insert_with(|| world_points(&scene));
-        let eye = viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&**whole)))?;
-        let [_, _, forward] = eye.camera.axes();
-        if let Some(section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
-            style = hatched(&style, &section);
+        // The plane and the hatching follow the view of the whole model; the frame holds what is left of it, or all.
+        let whole = framed.take().unwrap_or_else(|| world_points(&scene));
+        let seen = |request: &&DrawRequest| {
+            viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*whole)))
+        };
+        let cameras = requests.iter().map(seen).map(|eye| Ok(eye?.camera));
+        let cameras: Vec<Camera> = cameras.collect::<Result<_, Error>>()?;
+        let forward = cameras.first().map_or(DVec3::NEG_Z, |camera| camera.axes()[2]);
+        if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
+            style = hatched_for(&style, &mut scene, &mut section.faces, &cameras);
         }
+        framed = (request.frame == Frame::All).then_some(whole);
     }
     if request.section.take_apart(&mut scene) {
         framed = None;

@@ -10,8 +10,8 @@ use super::model_unit::ModelUnit;
 /// What of a model comes into the frame, and how large.
 #[derive(Debug, Clone, Args)]
 pub(super) struct FramingArgs {
-    /// What the frame is to hold: the parts that are drawn, or all, also those that --only and --hide leave out, so that the steps of
-    /// an instruction fit over each other
+    /// What to frame: what is drawn, or the whole model even when --only, --hide or --section removes some of it, so that the pictures
+    /// of an instruction line up
     #[arg(long, value_name = "WHAT", help_heading = "View", value_enum, default_value_t = Frame::Visible)]
     pub(super) frame: Frame,
 

@@ -22,6 +22,7 @@ mod anchors;
 mod areas;
 mod at_rest;
 mod beside;
+mod cut_sides;
 pub mod defects;
 mod drawn;
 mod fills;
@@ -54,7 +55,7 @@ pub use maps::MapFiles;
 pub use prepared::Prepared;
 pub use report::{Report, Stopwatch};
 pub use resting::Resting;
-pub use sections::{hatched, trailed};
+pub use sections::{hatched, hatched_for, trailed};
 pub use stage::Stage;
 
 use crate::drawing::{Drawing, Page, Unit};

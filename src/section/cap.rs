@@ -1,8 +1,11 @@
 //! [`caps`]: the faces that close solids where a plane has cut them open.
 //!
-//! Between the outlines of all of them the plane is triangulated; a triangle is within a solid or not by the number of times that its
-//! outlines go round it, so that holes stay open, and shells of one solid that overlap are one. Of a triangle within several solids the
-//! smallest one has it: a bolt in a plate, a pipe in a block, where no hole was made for them.
+//! 1. Between the outlines of all of them, and the sides of faces that lie in the plane, the plane is triangulated.
+//! 2. Just behind the plane a triangle is within a solid by the number of times that its outlines go round it, so that holes stay open, and
+//!    shells of one solid that overlap are one. Of a triangle within several solids the smallest one has it: a bolt in a plate, a pipe in a
+//!    block, where no hole was made for them.
+//! 3. Just in front of the plane that number differs by the faces in the plane: one less where they look to the front, one more where
+//!    they look back. Where nothing is in front, the plane cuts nothing: the surface is a face of the model itself, and stays one.
 
 use std::cmp::Ordering;
 
@@ -11,8 +14,10 @@ use rustc_hash::FxHashMap;
 use spade::Triangulation as _;
 
 use super::clip::Clipped;
+use super::flat::{FlatFaces, Kept};
 use super::outlines::{Edge, Faces, Outlines};
 use super::plane::Plane;
+use super::reach::Reach;
 use super::seam::{Seam, Seams, bits};
 use crate::mesh::EdgeMark;
 
@@ -29,6 +34,10 @@ pub(super) struct Cap {
     pub bounds: Option<[DVec2; 2]>,
     /// What became of the open edges.
     pub seams: Seams,
+    /// Triangles of the solid's own shape that lie in the plane and stay as they are.
+    pub whole: Vec<usize>,
+    /// Pieces of such triangles: of which one, the vertices, and what the sides are.
+    pub pieces: Vec<(usize, [u32; 3], [EdgeMark; 3])>,
 }
 
 /// A solid that was cut open.
@@ -36,8 +45,7 @@ pub(super) struct Opened {
     pub cut: Clipped,
     /// Its volume, world.
     pub volume: f64,
-    /// What rounding leaves of its coordinates, world.
-    pub reach: f64,
+    pub reach: Reach,
 }
 
 impl Opened {
@@ -95,7 +103,7 @@ pub(super) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
 
 /// The cut faces of solids that may overlap, one entry each; vertices where outlines cross are added to their shapes.
 pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
-    let mut outlines = Outlines::new(solids.iter().map(|own| own.reach).fold(0.0, f64::max));
+    let mut outlines = Outlines::new(solids.iter().map(|own| own.reach.points).fold(0.0, f64::max));
     let mut vertices: Vec<FxHashMap<u32, u32>> = vec![FxHashMap::default(); solids.len()];
     let mut open: Vec<Vec<[u32; 2]>> = Vec::with_capacity(solids.len());
     for (number, solid) in solids.iter().enumerate() {
@@ -111,8 +119,17 @@ pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
         let (edges, _) = closed(cut);
         // The new faces run the other way along the edges.
         let ends: Vec<_> = edges.iter().map(|([a, b], times)| ([point(*b), point(*a)], *times)).collect();
+        let flats: Vec<[u32; 3]> = cut.flat.iter().map(|flat| flat.nodes.map(&mut point)).collect();
         for (of, (ends, times)) in ends.into_iter().enumerate().filter(|(_, ([a, b], _))| a != b) {
-            outlines.edges.push(Edge { ends, times, solid: number as u32, of: of as u32 });
+            outlines.edges.push(Edge { ends, times, solid: number as u32, of: of as u32, flat: false });
+        }
+        for corners in flats {
+            for k in 0..3 {
+                let ends = [corners[k], corners[(k + 1) % 3]];
+                if ends[0] != ends[1] {
+                    outlines.edges.push(Edge { ends, times: 1, solid: number as u32, of: 0, flat: true });
+                }
+            }
         }
         open.push(edges.iter().map(|(ends, _)| ends.map(|node| cut.nodes[node as usize])).collect());
     }
@@ -123,6 +140,11 @@ pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
     let mut rank = vec![0; solids.len()];
     ranked.iter().enumerate().for_each(|(k, solid)| rank[*solid] = k);
     let owner = owners(&faces, &outlines, &rank);
+    let flats: Vec<FlatFaces> = solids.iter().map(|own| FlatFaces::new(&own.cut, plane)).collect();
+    let kept = Kept::new(&faces, &outlines, &owner, &flats);
+    for (own, flats) in made.iter_mut().zip(kept.whole(&flats)) {
+        own.whole = flats;
+    }
 
     let mut vertex = |solid: usize, point: u32| {
         *vertices[solid].entry(point).or_insert_with(|| {
@@ -135,12 +157,27 @@ pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
         })
     };
     for face in faces.inner_faces() {
-        let Some(solid) = owner[face.fix().index()] else { continue };
-        let own = &mut made[solid as usize];
-        let is_own = |beyond: usize| owner[beyond] == Some(solid);
-        let mark = |beyond: usize| if is_own(beyond) { EdgeMark::Hidden } else { EdgeMark::Cut };
-        own.marks.push(face.adjacent_edges().map(|edge| mark(edge.rev().face().fix().index())));
+        let index = face.fix().index();
         let corners = face.vertices().map(|corner| corner.fix().index() as u32);
+        let beyond = face.adjacent_edges().map(|edge| edge.rev().face().fix().index());
+        if let Some(piece) = kept.of(index) {
+            if !kept.is_whole(piece) {
+                let [solid, flat] = piece;
+                let is_same = |beyond: usize| kept.of(beyond) == Some(piece);
+                let mark =
+                    |beyond: usize| if is_same(beyond) { EdgeMark::Hidden } else { EdgeMark::Unmarked };
+                let corners = corners.map(|corner| vertex(solid, corner));
+                made[solid].pieces.push((flats[solid].triangle(flat), corners, beyond.map(mark)));
+            }
+            continue;
+        }
+        let Some(Owner { solid, .. }) = owner[index] else { continue };
+        let own = &mut made[solid as usize];
+        let is_own = |beyond: usize| {
+            owner[beyond].is_some_and(|owner| owner.solid == solid) && kept.of(beyond).is_none()
+        };
+        let mark = |beyond: usize| if is_own(beyond) { EdgeMark::Hidden } else { EdgeMark::Cut };
+        own.marks.push(beyond.map(mark));
         own.triangles.push(corners.map(|corner| vertex(solid as usize, corner)));
         let [a, b, c] = corners.map(|corner| outlines.at(corner));
         own.area += (b - a).perp_dot(c - a) / 2.0;
@@ -149,7 +186,7 @@ pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
     }
     // What became of each open edge: along it faces of its solid end, or those of another one have taken their place.
     let corners: Vec<_> = faces.fixed_vertices().collect();
-    let mut pieces: Vec<&Edge> = outlines.edges.iter().collect();
+    let mut pieces: Vec<&Edge> = outlines.edges.iter().filter(|edge| !edge.flat).collect();
     pieces.sort_by_key(|edge| (edge.solid, edge.of));
     for own in pieces.chunk_by(|a, b| (a.solid, a.of) == (b.solid, b.of)) {
         let (solid, of) = (own[0].solid, own[0].of as usize);
@@ -164,7 +201,7 @@ pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
             let Some(edge) = faces.get_edge_from_neighbors(corners[*a as usize], corners[*b as usize]) else {
                 return EdgeMark::Unmarked;
             };
-            let is_own = |face: usize| owner[face] == Some(solid);
+            let is_own = |face: usize| owner[face].is_some_and(|owner| owner.solid == solid);
             let [left, right] = [edge.face().fix().index(), edge.rev().face().fix().index()];
             if is_own(left) == is_own(right) { EdgeMark::Covered } else { EdgeMark::Unmarked }
         };
@@ -179,15 +216,32 @@ pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
     made
 }
 
+/// The solid that has a triangle of the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Owner {
+    pub solid: u32,
+    /// Whether anything in front of it was cut off.
+    pub is_cut: bool,
+}
+
+/// How often outlines of a solid go round a triangle: just behind the plane, and by how much less just in front of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Turns {
+    solid: u32,
+    behind: i32,
+    flat: i32,
+}
+
 /// For each face the solid that has it: of those whose outlines go round it the one of the least rank.
-fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<u32>> {
-    let mut along: FxHashMap<[u32; 2], Vec<(u32, i32)>> = FxHashMap::default();
+fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<Owner>> {
+    let mut along: FxHashMap<[u32; 2], Vec<Turns>> = FxHashMap::default();
     for edge in &outlines.edges {
         let [a, b] = edge.ends;
         let times = if a < b { edge.times } else { -edge.times };
-        add(along.entry([a.min(b), a.max(b)]).or_default(), edge.solid, times);
+        let (behind, flat) = if edge.flat { (0, times) } else { (times, 0) };
+        add(along.entry([a.min(b), a.max(b)]).or_default(), Turns { solid: edge.solid, behind, flat });
     }
-    let mut turns: Vec<Option<Vec<(u32, i32)>>> = vec![None; faces.num_all_faces()];
+    let mut turns: Vec<Option<Vec<Turns>>> = vec![None; faces.num_all_faces()];
     let outer = faces.outer_face();
     turns[outer.fix().index()] = Some(Vec::new());
     let mut waiting: Vec<_> = faces.convex_hull().map(|edge| (edge, Vec::new())).collect();
@@ -200,26 +254,29 @@ fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<u32>
         }
         let [from, to] = [beyond.from(), beyond.to()].map(|corner| corner.fix().index() as u32);
         let mut found = own;
-        for (solid, times) in along.get(&[from.min(to), from.max(to)]).into_iter().flatten() {
-            add(&mut found, *solid, if from < to { *times } else { -times });
+        for turns in along.get(&[from.min(to), from.max(to)]).into_iter().flatten() {
+            let way = if from < to { 1 } else { -1 };
+            add(&mut found, Turns { solid: turns.solid, behind: turns.behind * way, flat: turns.flat * way });
         }
         waiting.extend(next.adjacent_edges().map(|edge| (edge, found.clone())));
         turns[next.fix().index()] = Some(found);
     }
-    let first = |turns: Vec<(u32, i32)>| {
-        let within = turns.into_iter().filter(|(_, times)| *times != 0).map(|(solid, _)| solid);
-        within.min_by_key(|solid| rank[*solid as usize])
+    let first = |turns: Vec<Turns>| {
+        let is_cut = turns.iter().any(|turns| turns.behind != turns.flat);
+        let within = turns.into_iter().filter(|turns| turns.behind != 0).map(|turns| turns.solid);
+        within.min_by_key(|solid| rank[*solid as usize]).map(|solid| Owner { solid, is_cut })
     };
     turns.into_iter().map(|turns| turns.and_then(first)).collect()
 }
 
-/// Adds to the number that stands for a solid.
-fn add(to: &mut Vec<(u32, i32)>, solid: u32, times: i32) {
-    match to.iter().position(|(known, _)| *known == solid) {
-        None => to.push((solid, times)),
+/// Adds to the numbers that stand for a solid.
+fn add(to: &mut Vec<Turns>, more: Turns) {
+    match to.iter().position(|known| known.solid == more.solid) {
+        None => to.push(more),
         Some(k) => {
-            to[k].1 += times;
-            if to[k].1 == 0 {
+            to[k].behind += more.behind;
+            to[k].flat += more.flat;
+            if to[k].behind == 0 && to[k].flat == 0 {
                 to.swap_remove(k);
             }
         }

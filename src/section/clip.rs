@@ -1,14 +1,14 @@
 //! [`clip`]: the part of a shape that lies behind a plane, and the edges along which it was cut open.
 //!
-//! Vertices that lie on the plane, as near as their coordinates tell, count as behind it where a face leads down from them; of faces that lie in the plane those are kept
-//! whose outside is in front. Edges meet because they share vertices: those at one place count as one, and an edge is cut once for
-//! all faces at it.
+//! Each vertex is in front of the plane, behind it or on it, once for all its faces. Those on it are moved onto it, and count as in front:
+//! what is left is what has a corner behind, so that no face is cut along its side. Faces that lie in the plane are listed apart, for
+//! [`caps`](super::cap::caps) to decide about. Edges meet because they share vertices: those at one place count as one, and an
+//! edge is cut once for all faces at it.
 
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::plane::Plane;
-use crate::math::tolerance;
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
 
@@ -21,6 +21,17 @@ pub(super) struct Clipped {
     pub nodes: Vec<u32>,
     /// Edges along which the shape is open now, as the faces run along them, with the number of faces.
     pub open: Vec<([u32; 2], i32)>,
+    /// Faces that lie in the plane.
+    pub flat: Vec<Flat>,
+}
+
+/// A face that lies in the plane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flat {
+    /// Which triangle of the shape it is.
+    pub triangle: usize,
+    /// Its corners among the nodes, counter-clockwise seen from its outside in the world.
+    pub nodes: [u32; 3],
 }
 
 /// On which sides of a plane a shape has vertices that triangles or wires use.
@@ -40,16 +51,18 @@ pub(super) fn reaches(geometry: &Geometry, place: &DAffine3, plane: &Plane, reac
     (behind, before)
 }
 
+/// Whether a shape has triangles that lie in a plane.
+pub(super) fn has_flat(geometry: &Geometry, place: &DAffine3, plane: &Plane, reach: f64) -> bool {
+    let is_on = |v: &u32| {
+        let p = geometry.positions.get(*v as usize);
+        p.is_some_and(|p| side(plane, place.transform_point3(*p), reach) == 0)
+    };
+    geometry.triangles.iter().any(|triangle| triangle.iter().all(is_on))
+}
+
 /// On which side of a plane a point lies; 0 where it lies so near that rounding may have moved it.
 fn side(plane: &Plane, p: DVec3, reach: f64) -> i8 {
     if plane.distance(p).abs() <= reach { 0 } else { plane.side(p) }
-}
-
-/// What rounding leaves of the coordinates of a shape, world.
-pub(super) fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
-    let size = |p: &DVec3| place.transform_point3(*p).abs().max_element();
-    let largest = geometry.positions.iter().map(size).filter(|size| size.is_finite()).fold(0.0, f64::max);
-    largest * if geometry.single_precision { tolerance::WELD_OF_F32_COORDINATE } else { tolerance::ROUNDING }
 }
 
 /// A corner of a clipped triangle: one of its own, or on the side behind that.
@@ -99,8 +112,11 @@ impl<'a> Clipper<'a> {
         let world: Vec<DVec3> =
             shape.positions.iter().map(|p| place.transform_point3(*p) + DVec3::ZERO).collect();
         let one = joined.map_or_else(|| by_place(&world), <[u32]>::to_vec);
-        let positions: Vec<DVec3> = one.iter().map(|v| world[*v as usize]).collect();
-        let sides = positions.iter().map(|p| side(plane, *p, reach)).collect();
+        let mut positions: Vec<DVec3> = one.iter().map(|v| world[*v as usize]).collect();
+        let sides: Vec<i8> = positions.iter().map(|p| side(plane, *p, reach)).collect();
+        for (p, _) in positions.iter_mut().zip(&sides).filter(|(_, side)| **side == 0) {
+            *p = plane.nearest(*p);
+        }
         let turn = place.matrix3.inverse().transpose();
         let normal = |&[x, y, z]: &[f32; 3]| {
             let normal = turn * DVec3::new(x.into(), y.into(), z.into());
@@ -134,8 +150,15 @@ impl<'a> Clipper<'a> {
     fn triangle(&mut self, index: usize, turned: bool) {
         let corners = self.shape.triangles[index];
         let sides = corners.map(|v| self.side(v));
-        let is_kept = if sides == [0; 3] { self.faces_front(corners) != turned } else { sides.contains(&-1) };
-        if !is_kept {
+        if sides == [0; 3] {
+            let nodes = [0, 1, 2].map(|k| self.node(corners, Corner::Own(k), corners[k]));
+            if let [Some(a), Some(b), Some(c)] = nodes {
+                let nodes = if turned { [a, c, b] } else { [a, b, c] };
+                self.to.flat.push(Flat { triangle: index, nodes });
+            }
+            return;
+        }
+        if !sides.contains(&-1) {
             return;
         }
         let mut outline: Vec<Corner> = Vec::with_capacity(4);
@@ -218,15 +241,6 @@ impl<'a> Clipper<'a> {
             self.to.geometry.colours.extend(colour);
             self.to.geometry.wires.push(if from < 0 { [a, cut] } else { [cut, b] });
         }
-    }
-
-    /// Whether a face in the plane looks to the front as it is stored.
-    fn faces_front(&self, corners: [u32; 3]) -> bool {
-        let [a, b, c] = corners.map(|v| {
-            let p = self.plane.flat(self.to.geometry.positions[v as usize]);
-            robust::Coord { x: p.x, y: p.y }
-        });
-        robust::orient2d(a, b, c) > 0.0
     }
 
     /// Where an edge is cut, the same for all that share it, and at which part of the way from its first end.
@@ -331,6 +345,34 @@ impl<'a> Clipper<'a> {
         }
         self.to
     }
+}
+
+/// Adds a triangle of a shape to what is left of it: all of it, or a piece in its plane with other corners, which has no normals or texture
+/// coordinates of its own.
+pub(super) fn add_flat(
+    to: &mut Geometry,
+    shape: &Geometry,
+    index: usize,
+    piece: Option<([u32; 3], [EdgeMark; 3])>,
+    turned: bool,
+) {
+    let order = if turned { [0, 2, 1] } else { [0, 1, 2] };
+    let own = shape.triangles[index];
+    to.edge_marks.resize(to.triangles.len(), [EdgeMark::Unmarked; 3]);
+    to.triangles.push(piece.map_or(order.map(|k| own[k]), |(corners, _)| corners));
+    if !shape.triangle_material.is_empty() {
+        to.triangle_material.push(shape.material_of(index).unwrap_or_default());
+    }
+    for (to, stored) in
+        [(&mut to.corner_normals, &shape.corner_normals), (&mut to.corner_uvs, &shape.corner_uvs)]
+    {
+        if let Some(own) = stored.get(index) {
+            to.push(if piece.is_some() { [u32::MAX; 3] } else { order.map(|k| own[k]) });
+        }
+    }
+    let marks = shape.edge_marks.get(index).copied().unwrap_or_default();
+    let sides = if turned { [marks[2], marks[1], marks[0]] } else { marks };
+    to.edge_marks.push(piece.map_or(sides, |(_, marks)| marks));
 }
 
 /// Adds what is between two entries; `u32::MAX` where one of them is missing.

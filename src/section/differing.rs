@@ -11,14 +11,18 @@ pub(super) fn number(faces: &mut [CutFaces]) {
     order.sort_by(|a, b| faces[*b].area.total_cmp(&faces[*a].area).then(a.cmp(b)));
     let mut done: Vec<usize> = Vec::new();
     for own in order {
-        let taken: Vec<usize> =
-            done.iter().filter(|other| touch(&faces[own], &faces[**other])).map(|k| faces[*k].kind).collect();
+        let taken: Vec<usize> = done
+            .iter()
+            .filter(|other| are_neighbours(&faces[own], &faces[**other]))
+            .map(|k| faces[*k].kind)
+            .collect();
         faces[own].kind = (0..).find(|kind| !taken.contains(kind)).unwrap_or_default();
         done.push(own);
     }
 }
 
-fn touch(a: &CutFaces, b: &CutFaces) -> bool {
+/// Whether the faces of two parts touch or nearly do.
+pub(crate) fn are_neighbours(a: &CutFaces, b: &CutFaces) -> bool {
     let size = |faces: &CutFaces| faces.bounds[0].distance(faces.bounds[1]);
     let near = NEAR * size(a).max(size(b));
     let apart = (a.bounds[0] - b.bounds[1]).max(b.bounds[0] - a.bounds[1]);

@@ -17,22 +17,26 @@
 mod cap;
 mod clip;
 mod differing;
+mod flat;
+mod gaps;
 mod outlines;
 pub mod plane;
+mod reach;
 mod seam;
 pub mod told;
 
 use glam::{DAffine3, DVec2};
 
+pub(crate) use differing::are_neighbours;
 pub use plane::Plane;
 pub use told::CutPlane;
 
 use crate::math::glob::Glob;
-use crate::math::tolerance;
 use crate::mesh::{EdgeMark, Groups, weld};
 use crate::scene::{Alpha, Geometry, Material, Part, Scene};
 use cap::{Cap, Opened};
 use clip::Clipped;
+use reach::Reach;
 
 /// A scene that is cut open.
 #[derive(Debug, Clone, Default)]
@@ -68,8 +72,8 @@ pub fn material_name(kind: usize) -> String {
 ///
 /// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
 /// the part. They cover what the part's outlines in the plane go round, by number of turns; what lies within several parts has the one of
-/// the least volume. Outlines that do not close, where a surface is open, are left open and counted in the warnings of the scene. Of parts
-/// whose name fits `uncut` nothing is cut off where the plane goes through them.
+/// the least volume. Outlines of open surfaces are closed over gaps of up to a ten-thousandth of the part; others are left open and counted
+/// in the warnings of the scene. Of parts whose name fits `uncut` nothing is cut off where the plane goes through them.
 #[must_use]
 pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     let mut keep = vec![true; scene.parts.len()];
@@ -78,32 +82,52 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     scene.materials.push(Material::default());
     let mut numbers = Vec::new();
     let mut opened: Vec<Opened> = Vec::new();
+    // Of each of these whether nothing of it lies in front of the plane.
+    let mut only_ends = Vec::new();
     let mut unclosed = 0;
     for (number, keep) in keep.iter_mut().enumerate() {
         let part = &scene.parts[number];
         let stays = uncut.iter().any(|glob| glob.matches(&part.name));
         let Some(shape) = scene.geometry_of(part) else { continue };
         let place = part.world_from_part;
-        let reach = clip::rounding(shape, &place);
-        let (behind, before) = clip::reaches(shape, &place, plane, reach);
+        let reach = Reach::of(shape, &place);
+        let (behind, before) = clip::reaches(shape, &place, plane, reach.plane);
         *keep = behind || !before;
-        if behind && before && !stays {
+        // What only ends in the plane may lie within what is cut.
+        if behind && !stays && (before || clip::has_flat(shape, &place, plane, reach.plane)) {
             let cut = clipped(shape, &place, (plane, reach));
-            unclosed += cap::closed(&cut).1;
+            if before {
+                unclosed += cap::closed(&cut).1;
+            }
+            only_ends.push(!before);
             numbers.push(number);
             opened.push(Opened { cut, volume: volume(shape, &place), reach });
         }
     }
     let made = capped(&mut opened, plane);
     let mut faces_of = Vec::new();
-    for ((number, Opened { cut: Clipped { mut geometry, .. }, .. }), cap) in
-        numbers.into_iter().zip(opened).zip(made)
+    for (((number, Opened { cut, .. }), cap), only_ends) in
+        numbers.into_iter().zip(opened).zip(made).zip(only_ends)
     {
-        keep[number] = !(geometry.triangles.is_empty() && geometry.wires.is_empty());
+        let Clipped { mut geometry, flat, .. } = cut;
+        if only_ends && cap.triangles.is_empty() && cap.pieces.is_empty() && cap.whole.len() == flat.len() {
+            continue;
+        }
         let part = &scene.parts[number];
         let looks = scene.geometry_of(part).and_then(|shape| shape.material_of(0)).unwrap_or(plain);
         let count = geometry.triangles.len();
         seam::sew(&mut geometry, count, &cap.seams);
+        if let Some(shape) = scene.geometry_of(part) {
+            let turned = part.world_from_part.matrix3.determinant() < 0.0;
+            for triangle in &cap.whole {
+                clip::add_flat(&mut geometry, shape, *triangle, None, turned);
+            }
+            for (triangle, corners, marks) in &cap.pieces {
+                clip::add_flat(&mut geometry, shape, *triangle, Some((*corners, *marks)), turned);
+            }
+        }
+        keep[number] =
+            !(geometry.triangles.is_empty() && geometry.wires.is_empty() && cap.triangles.is_empty());
         if let Some(bounds) = cap.bounds {
             let material = scene.materials.len() as u32;
             scene.materials.push(cut_material(scene.materials.get(looks as usize)));
@@ -164,9 +188,10 @@ fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
     made
 }
 
-/// What is left of a shape; where its outlines do not close, vertices that nearly meet are joined as the mesh does it.
-fn clipped(shape: &Geometry, place: &DAffine3, (plane, rounding): (&Plane, f64)) -> Clipped {
-    let cut = clip::clip(shape, place, (plane, rounding), None);
+/// What is left of a shape; where its outlines do not close, vertices that nearly meet are joined as the mesh does it, and gaps closed that
+/// the mesh would sew.
+fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) -> Clipped {
+    let mut cut = clip::clip(shape, place, (plane, own.plane), None);
     let (_, unclosed) = cap::closed(&cut);
     if unclosed == 0 {
         return cut;
@@ -176,20 +201,15 @@ fn clipped(shape: &Geometry, place: &DAffine3, (plane, rounding): (&Plane, f64))
     let mut used: Vec<u32> = shape.triangles.as_flattened().to_vec();
     used.sort_unstable();
     used.dedup();
-    let corner = |v: &u32| world.get(*v as usize).copied();
-    let (mut low, mut high) = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
-    for p in used.iter().filter_map(corner) {
-        (low, high) = (low.min(p), high.max(p));
+    let reaches = vec![own.points; used.len()];
+    if let Some(joined) = weld::near(&world, &used, &reaches) {
+        let again = clip::clip(shape, place, (plane, own.plane), Some(&joined));
+        if cap::closed(&again).1 < unclosed {
+            cut = again;
+        }
     }
-    let mut reach = (high - low).length() * tolerance::WELD_OF_PART;
-    if shape.single_precision {
-        reach = reach.max(low.abs().max(high.abs()).max_element() * tolerance::WELD_OF_F32_COORDINATE);
-    }
-    let reaches = vec![reach; used.len()];
-    let Some(joined) = weld::near(&world, &used, &reaches) else { return cut };
-    let again = clip::clip(shape, place, (plane, rounding), Some(&joined));
-    let (_, still) = cap::closed(&again);
-    if still < unclosed { again } else { cut }
+    gaps::close(&mut cut, own.gap);
+    cut
 }
 
 /// The material of cut faces of a part that looks so.

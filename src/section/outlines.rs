@@ -31,6 +31,8 @@ pub(super) struct Edge {
     /// The solid it bounds, and which of its open edges it is a piece of.
     pub solid: u32,
     pub of: u32,
+    /// Whether it is a side of a face in the plane rather than an open edge.
+    pub flat: bool,
 }
 
 /// The ways along which solids were cut, in the plane.

@@ -71,6 +71,11 @@ impl Plane {
         (p - self.origin).dot(self.axes[2])
     }
 
+    /// The point of the plane that is nearest to one beside it.
+    pub(super) fn nearest(&self, p: DVec3) -> DVec3 {
+        p - self.axes[2] * self.distance(p)
+    }
+
     /// Where a point lies along the axes of the plane.
     #[must_use]
     pub fn flat(&self, p: DVec3) -> DVec2 {

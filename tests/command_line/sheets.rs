@@ -16,11 +16,51 @@ fn sections_are_hatched_and_closed() {
     folder.ligne("draw cubes.obj one.svg --view front --section z --uncut knob").done();
     let svg = folder.text("one.svg");
     assert!(hatched(&svg, "base") && !hatched(&svg, "knob"), "{svg}");
-    // The frame stays that of the whole model; both sides of a plane may go.
+    // Both sides of a plane may go.
     for plane in ["x=0.5", "+x=0.5", "-x=0.5", "y=20%", "x=1mm", "normal:1,1,0@0.2"] {
         folder.ligne(&format!("draw cubes.obj a.svg --section {plane}")).done();
     }
     assert_ne!(folder.text("a.svg"), svg);
+}
+
+/// The least and the greatest x of all whole numbers in the lines of a drawing, from paths of absolute straight lines.
+fn middle(folder: &Folder, name: &str) -> [f64; 2] {
+    use ligne::kurbo::Shape as _;
+    let svg = folder.text(name);
+    let outlines = svg.lines().filter(|line| line.contains("silhouette"));
+    let path = |line: &str| {
+        let from = line.find(" d=\"")? + 4;
+        let data = &line[from..from + line[from..].find('"')?];
+        Some(ligne::kurbo::BezPath::from_svg(data).ok()?.bounding_box())
+    };
+    let bounds = outlines.filter_map(path).reduce(|a, b| a.union(b)).expect("an outline");
+    [bounds.center().x, bounds.center().y]
+}
+
+#[test]
+fn the_frame_holds_what_a_section_leaves() {
+    let folder = Folder::new("section-frame");
+    folder.write(
+        "bar.obj",
+        "v 0 0 0\nv 9 0 0\nv 9 2 0\nv 0 2 0\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n\
+         f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+    );
+    let centred = |[x, y]: [f64; 2]| (x - 500.0).abs() < 1.0 && (y - 500.0).abs() < 1.0;
+    // Along x two thirds of the bar go; from the front its left third is left.
+    folder.ligne("draw bar.obj a.svg --view front --up z --section +x=3 --style technical").done();
+    assert!(centred(middle(&folder, "a.svg")), "{:?}", middle(&folder, "a.svg"));
+    folder
+        .ligne("draw bar.obj b.svg --view front --up z --section +x=3 --style technical --frame all")
+        .done();
+    assert!(!centred(middle(&folder, "b.svg")), "{:?}", middle(&folder, "b.svg"));
+    // A record of the view is kept as it is.
+    folder.ligne("draw bar.obj whole.svg --view front --up z --save-camera camera.json").done();
+    folder.ligne("draw bar.obj c.svg --camera camera.json --section +x=3 --style technical").done();
+    assert!(!centred(middle(&folder, "c.svg")), "{:?}", middle(&folder, "c.svg"));
+    folder.ligne("draw bar.obj --out-dir d --view front,top --up z --section +x=3 --style technical").done();
+    for name in folder.names_in("d") {
+        assert!(centred(middle(&folder, &format!("d/{name}"))), "{name}");
+    }
 }
 
 #[test]

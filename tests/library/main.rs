@@ -63,6 +63,7 @@ mod random_widths;
 mod regions;
 mod seams;
 mod section_areas;
+mod section_shells;
 mod sections;
 mod shadows;
 mod shallow_creases;

@@ -28,7 +28,7 @@ use super::viewpoint::viewpoint;
 use super::{lod, number, pipeline, print, say, wonder};
 use crate::error::Error;
 use crate::pose::Rigged;
-use crate::render::{Stopwatch, hatched, trailed};
+use crate::render::{Stopwatch, hatched_for, trailed};
 use crate::scene::framing::world_points;
 use crate::style::Style;
 
@@ -172,7 +172,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     Ok(total)
 }
 
-/// Cuts the model open and takes it apart, once for all frames; the frame stays that of the whole where it is cut.
+/// Cuts the model open and takes it apart, once for all frames.
 fn open_up(
     request: &DrawRequest,
     rigged: &mut Rigged,
@@ -184,9 +184,8 @@ fn open_up(
         let points = world_points(&scene);
         let eye = viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*points)))?;
         let [_, _, forward] = eye.camera.axes();
-        whole.get_or_insert_with(|| Rigged::from(scene.clone()));
-        if let Some(section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
-            *style = hatched(style, &section);
+        if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
+            *style = hatched_for(style, &mut scene, &mut section.faces, &[eye.camera]);
         }
     }
     if request.section.take_apart(&mut scene) {

@@ -13,7 +13,7 @@ use crate::lines::HiddenLines;
 use crate::math::glob::Glob;
 use crate::page::figure;
 use crate::page::source::Source;
-use crate::render::{hatched, trailed};
+use crate::render::{hatched_for, trailed};
 use crate::scene::framing::world_points;
 use crate::scene::{Camera, NamedView, Scene};
 use crate::section::{CutPlane, Plane, cut};
@@ -164,7 +164,7 @@ impl Plan {
             let camera = side.map_or_else(|| looking_at(&plane, whole), |view| Camera::named(view, whole.up));
             let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
             let mut section = cut(whole.clone(), &plane, &uncut);
-            let style = hatched(style, &section);
+            let style = hatched_for(style, &mut section.scene, &mut section.faces, &[camera]);
             self.sets.push(Set { scene: std::mem::take(&mut section.scene), style });
             let stands = match side.filter(|view| !taken.contains(view)) {
                 Some(view) => {
