@@ -44,13 +44,14 @@ pub(super) fn idle(request: &DrawRequest, words: impl Iterator<Item = OsString>)
     };
     let has = |wanted: &[Format]| request.outputs.iter().any(|output| wanted.contains(&output.format));
     let svg = has(&[Format::Svg, Format::SvgToStdout]);
+    let draws_all = request.only.is_empty() && request.hide.is_empty() && request.section.section.is_none();
     let rules = [
         ("--dpi", !has(&[Format::Png]), "no PNG is written"),
         ("--precision", !svg, "no SVG is written"),
         ("--id-prefix", !svg, "no SVG is written"),
         ("--group", !svg, "no SVG is written"),
         ("--repeat", request.stands(), "no animation plays"),
-        ("--frame", request.only.is_empty() && request.hide.is_empty(), "all parts are drawn"),
+        ("--frame", draws_all, "all of the model is drawn"),
     ];
     let idle = rules.into_iter().filter(|(option, does_nothing, _)| *does_nothing && typed(option));
     idle.map(|(option, _, why)| format!("{option} changes nothing: {why}")).collect()

@@ -23,7 +23,7 @@ fn sections_are_hatched_and_closed() {
     assert_ne!(folder.text("a.svg"), svg);
 }
 
-/// The least and the greatest x of all whole numbers in the lines of a drawing, from paths of absolute straight lines.
+/// The middle of the outlines of a drawing.
 fn middle(folder: &Folder, name: &str) -> [f64; 2] {
     use ligne::kurbo::Shape as _;
     let svg = folder.text(name);

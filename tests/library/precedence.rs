@@ -38,7 +38,7 @@ fn a_box_seen_square_on_has_no_hidden_line() {
 
 /// The map without what hidden lines have in the ink of lines that are hardly wider than nothing.
 fn apart(map: &ViewMap, extents: &Extents, perspective: bool) -> Option<ViewMap> {
-    precedence::apart(map, &Ink { half_width: &|_| 0.0, extents, perspective, px: 1.0 })
+    precedence::apart(map, &Ink { half_width: &|_: &ViewEdge| 0.0, extents, perspective, px: 1.0 })
 }
 
 /// The length of all hidden lines of a drawing, px.

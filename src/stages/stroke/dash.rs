@@ -287,7 +287,7 @@ mod tests {
     fn corners_between_curves_lie_on_dashes() {
         // Two half circles and a quarter that meet at corners, and a slot, which has none.
         let arc = |r: f64| std::f64::consts::PI * r;
-        let text = "M0 0A60 60 0 0 1 120 0A90 90 0 0 1 300 0A45 45 0 0 0 345 45";
+        let text = "M0 0A60 60 0 0 1 120 0A90 90 0 0 1 300 0A45 45 0 0 1 345 45";
         let (dashes, offset) = fit(&path(text), false, &[12.0, 3.0]);
         for corner in corners_of(&[arc(60.0), arc(90.0)]) {
             for near in [-4.0, 0.0, 4.0] {

@@ -244,7 +244,8 @@ impl Line {
                 (enters, leaves) = (enters.max(p.min(q)), leaves.min(p.max(q)));
             }
         }
-        if enters < leaves {
+        // An edge that is a point in the image has only round ends.
+        if enters < leaves && other.length > 0.0 {
             (from, to) = (from.min(enters), to.max(leaves));
         }
         let (from, to) = (from.max(0.0), to.min(self.length));
