@@ -359,7 +359,7 @@ mod tests {
         points.iter().for_each(|p| line.push(Point::new(p.0, p.1), Sample::new(0.0, 1.0), true, false));
         let class = Class {
             kind: LineKind::Contour,
-            part: PartId(0),
+            body: PartId(0),
             material: MaterialId(0),
             hidden: false,
             silhouette: false,

@@ -287,7 +287,7 @@ mod tests {
     fn ends_continue_each_other_as_one_vertex_after_the_other_says() {
         for (vertices, edges) in [(1, 9), (20, 30), (300, 400), (150, 600)] {
             let map = tangle(vertices, edges);
-            let of = |(k, edge): (usize, &ViewEdge)| (k % 7 != 3).then(|| Class::of(edge));
+            let of = |(k, edge): (usize, &ViewEdge)| (k % 7 != 3).then(|| Class::of(&map, edge));
             let classes: Vec<Option<Class>> = map.edges.iter().enumerate().map(of).collect();
             for window in [0.0, 500.0] {
                 assert_eq!(partners(&map, &classes, window), plain(&map, &classes, window), "{edges} edges");
