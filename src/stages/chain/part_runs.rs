@@ -10,9 +10,9 @@ use super::line::Line;
 use crate::math::plane::length;
 use crate::mesh::PartId;
 
-/// Smoothing shifts a place along a line by no more than this (px) and this share of the line.
+/// From one place to the next, smoothing shifts a place along a line by no more than this (px) and this share of the way.
 const SHIFT_PX: f64 = 4.0;
-const SHIFT_SHARE: f64 = 0.02;
+const SHIFT_SHARE: f64 = 0.1;
 
 /// Lengths of curves are measured within this, px.
 const LENGTH_PX: f64 = 0.01;
@@ -124,36 +124,41 @@ impl PartRuns {
 
     /// Where the runs begin on the finished line, ascending; `None` if that has no length.
     fn places(&self, segments: &[PathSeg], px: f64) -> Option<Vec<Place>> {
-        let lengths: Vec<f64> = segments.iter().map(|segment| segment.arclen(LENGTH_PX * px)).collect();
-        let whole: f64 = lengths.iter().sum();
+        // How far along the line each segment ends.
+        let mut whole = 0.0;
+        let ends: Vec<f64> = segments
+            .iter()
+            .map(|segment| {
+                whole += segment.arclen(LENGTH_PX * px);
+                whole
+            })
+            .collect();
         if whole <= 0.0 {
             return None;
         }
-        let window = SHIFT_PX * px + SHIFT_SHARE * whole;
-        let mut last: Place = (0, 0.0);
-        let place = |(k, (at, point, _)): (usize, &(f64, Point, PartId))| {
-            if k == 0 && !self.closed {
-                return last;
-            }
-            let wanted = at / self.length * whole;
-            let mut best: Option<(f64, Place)> = None;
-            let mut from = 0.0;
-            for (i, (segment, length)) in segments.iter().zip(&lengths).enumerate() {
-                let is_near = from <= wanted + window && from + length >= wanted - window;
-                if is_near && i >= last.0 {
-                    let found = segment.nearest(*point, LENGTH_PX * px);
-                    let share = if i == last.0 { found.t.max(last.1) } else { found.t };
-                    let apart = (segment.eval(share) - *point).hypot2();
-                    if best.is_none_or(|(least, _)| apart < least) {
-                        best = Some((apart, (i, share)));
-                    }
+        let start = |i: usize| if i == 0 { 0.0 } else { ends[i - 1] };
+        // The place found last, how far along the finished line it is, and how far along the raw one.
+        let mut last: (Place, f64, f64) = ((0, 0.0), 0.0, 0.0);
+        let mut places = Vec::with_capacity(self.runs.len());
+        for (k, (at, point, _)) in self.runs.iter().enumerate() {
+            if k > 0 || self.closed {
+                let step = (at - last.2) / self.length * whole;
+                let (wanted, window) = (last.1 + step, SHIFT_PX * px + SHIFT_SHARE * step);
+                let first = ends.partition_point(|end| *end < wanted - window).max(last.0.0);
+                let near = (first..segments.len()).take_while(|i| start(*i) <= wanted + window);
+                let nearest = |i: usize| {
+                    let found = segments[i].nearest(*point, LENGTH_PX * px).t;
+                    let share = if i == last.0.0 { found.max(last.0.1) } else { found };
+                    ((segments[i].eval(share) - *point).hypot2(), (i, share))
+                };
+                let found = near.map(nearest).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
+                if let Some((_, (i, share))) = found {
+                    last = ((i, share), start(i) + (ends[i] - start(i)) * share, *at);
                 }
-                from += length;
             }
-            last = best.map_or(last, |(_, place)| place);
-            last
-        };
-        Some(self.runs.iter().enumerate().map(place).collect())
+            places.push(last.0);
+        }
+        Some(places)
     }
 }
 
