@@ -12,7 +12,7 @@ pub enum Digits {
     /// All that tell a number in double precision from its neighbours.
     All,
     Six,
-    /// All of the nearest number in single precision.
+    /// Those that tell the nearest number in single precision from its neighbours.
     Single,
 }
 
@@ -21,7 +21,7 @@ impl Digits {
         match self {
             Self::All => number.to_string(),
             Self::Six => format!("{number:.6}"),
-            Self::Single => f64::from(number as f32).to_string(),
+            Self::Single => (number as f32).to_string(),
         }
     }
 
