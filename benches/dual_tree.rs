@@ -131,7 +131,7 @@ fn row(name: &str, scene: &Scene) {
             let (plain, time) = timed(|| edge_lines::find(&surface, &view, &options));
             plain_time += time;
             let (by_tree, time) = timed(|| {
-                let among = search.candidates(mesh, view).items;
+                let among = search.candidates(&surface.mesh, &view).items;
                 edge_lines::find_among(&among, &surface, &view, &options)
             });
             tree_time += time;

@@ -7,7 +7,6 @@ use kurbo::{Affine, PathEl, Point};
 use super::number::Decimals;
 use super::pdf_fonts::Fonts;
 use super::pdf_inks::{Ink, Plates};
-use super::pdf_masks::mask_name;
 use super::pdf_pictures::Crops;
 use super::pdf_screen::Screen;
 use super::pictures::matrix;

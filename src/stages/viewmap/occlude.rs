@@ -112,14 +112,15 @@ pub fn hidden_interval(
     let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
     let farthest = corners[0].z.min(corners[1].z).min(corners[2].z);
     // A point that counts as covered may lie a little outside of the triangle, and then beyond its depths.
-    let beyond = (limits.cover * slope.length()).min(nearest - farthest);
+    let outside = limits.cover * slope.length();
     let at_corner = |end: usize| shared[end].is_some() && !segment.cut[end];
     let is_neighbour = shared[0].is_some() || shared[1].is_some();
     let lead = |t: f64| {
         let p = segment.at(t);
         // Steep triangles extrapolate badly: their plane counts only within their own depths.
-        let plane =
-            (base.z + slope.dot(p.truncate() - base.truncate())).clamp(farthest - beyond, nearest + beyond);
+        let plane = base.z + slope.dot(p.truncate() - base.truncate());
+        let within = plane.clamp(farthest, nearest);
+        let plane = if within - plane <= outside { plane.min(within) } else { within };
         plane - p.z - limits.step(p.z, &triangle.slack, is_neighbour, frame)
     };
     if triangle.slack.in_plane > 0.0 {
