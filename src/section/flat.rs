@@ -4,10 +4,18 @@ use glam::DVec2;
 use robust::{Coord, orient2d};
 use spade::Triangulation as _;
 
-use super::cap::{Owner, closed};
 use super::clip::Clipped;
+use super::gaps::closed;
 use super::outlines::{Faces, Outlines};
 use super::plane::Plane;
+
+/// The solid that has a triangle of the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Owner {
+    pub solid: u32,
+    /// Whether anything in front of it was cut off.
+    pub is_cut: bool,
+}
 
 /// The faces of a solid that lie in the plane and look to the front.
 pub(super) struct FlatFaces {

@@ -100,7 +100,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
             let shape = winding::wound_right(shape, &clip::by_place(&shape.positions));
             let cut = clipped(&shape, &place, (plane, reach));
             if before {
-                unclosed += cap::closed(&cut).1;
+                unclosed += gaps::closed(&cut).1;
             }
             only_ends.push(!before);
             numbers.push(number);
@@ -195,7 +195,7 @@ fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
 /// the mesh would sew.
 fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) -> Clipped {
     let mut cut = clip::clip(shape, place, (plane, own.plane), None);
-    let (_, unclosed) = cap::closed(&cut);
+    let (_, unclosed) = gaps::closed(&cut);
     if unclosed == 0 {
         return cut;
     }
@@ -208,7 +208,7 @@ fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) ->
     if let Some(joined) = weld::near(&world, &used, &reaches) {
         let shape = winding::wound_right(shape, &joined);
         let again = clip::clip(&shape, place, (plane, own.plane), Some(&joined));
-        if cap::closed(&again).1 < unclosed {
+        if gaps::closed(&again).1 < unclosed {
             cut = again;
         }
     }

@@ -116,15 +116,15 @@ fn needle(
     let base = p.distance(q) / frame.px_at(frame.depth(p).min(frame.depth(q))) * px;
     let is_slender = base <= tolerance::NEEDLE_BASE_PX * px && SLENDER * base <= lengths[0].min(lengths[1]);
     // A spike has two ridges for sides, and no back.
-    let folds = || is_ridge(mesh, pair[0]) != is_ridge(mesh, pair[1]);
+    let folds = || is_ridge(mesh, lines, pair[0]) != is_ridge(mesh, lines, pair[1]);
     (is_slender && folds()).then_some(Needle { sides, tip, feet, along: along[0] })
 }
 
 /// Whether the second face beside a line falls away behind the outside of the first.
-fn is_ridge(mesh: &Mesh, segment: &ImageSegment) -> bool {
+fn is_ridge(mesh: &Mesh, lines: &FeatureLines, segment: &ImageSegment) -> bool {
     let [first, second] = segment.hosts;
     let third = mesh.triangles[second as usize].iter().find(|v| !segment.ends.contains(v));
     let [a, b, c] = mesh.corners(FaceId(first));
-    let way = third.map_or(a, |v| mesh.positions[*v as usize]) - mesh.positions[segment.ends[0] as usize];
+    let way = third.map_or(a, |v| mesh.positions[*v as usize]) - lines.position(mesh, segment.ends[0]);
     (b - a).cross(c - a).dot(way) < 0.0
 }
