@@ -23,8 +23,9 @@ const SINGLE_DIGITS: i32 = 7;
 /// Numbers with as many digits as this are written in double precision.
 const DOUBLE_DIGITS: i32 = 15;
 
-/// A number written with nine digits differs from the single-precision number it stands for by less than this share.
-const SINGLE_ERROR: f64 = 1e-9;
+/// A number written with nine digits differs from the single-precision number it stands for by no more than this share: half a unit of
+/// the ninth digit.
+const SINGLE_ERROR: f64 = 5.000_001e-9;
 
 /// Numbers smaller than this share of the largest are noise around zero, whose digits mean nothing.
 const NOISE_OF_LARGEST: f64 = 1e-6;
@@ -73,7 +74,6 @@ impl Precision {
                 step = step.max(unit);
             }
         }
-        let is_single = |x: f64| (x - f64::from(x as f32)).abs() <= SINGLE_ERROR * x.abs();
         if most_digits >= SINGLE_DIGITS && all().all(is_single) {
             return Self::Single;
         }
@@ -85,6 +85,13 @@ impl Precision {
         // Not a number where there are no positions.
         if step <= VISIBLE_STEP * low.distance(high) { Self::Decimals(step) } else { Self::Exact }
     }
+}
+
+/// Whether a number stands for one of single precision: it has nine digits or more of it, or the fewest that tell it from its neighbours.
+fn is_single(number: f64) -> bool {
+    let single = number as f32;
+    (number - f64::from(single)).abs() <= SINGLE_ERROR * number.abs()
+        || single.to_string().parse() == Ok(number)
 }
 
 /// The digits that a number needs, and the unit of the last one.

@@ -26,7 +26,9 @@ fn check(surface: &Surface, search: &EdgeSearch, camera: &Camera, options: &Line
     let found = search.tree().candidates(view.frame.homogeneous_eye()).items;
     let with_fixed = search.candidates(&surface.mesh, &view).items;
     assert!(with_fixed.is_sorted() && with_fixed.windows(2).all(|w| w[0] != w[1]));
-    assert_eq!(with_fixed.len(), found.len() + search.fixed().len());
+    let of_both = found.len() + search.fixed().len();
+    // Edges of faces that turn to the eye as their plane does come on top.
+    assert!((of_both..=of_both + 3 * view.unsure.len()).contains(&with_fixed.len()));
     let contours = plain.segments.iter().filter(|s| s.kind == LineKind::Contour).count();
     (found.len(), contours)
 }

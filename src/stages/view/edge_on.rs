@@ -5,7 +5,7 @@
 //! 2. Rounding turns a face by up to the rounding divided by its height. Where the angle is smaller than that, the face is *unsure*.
 //! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::carriers)) are decided together. They follow the widest sure face of
 //!    the plane next to them.
-//! 4. If there is none, they are edge-on unless all of them turn the same way.
+//! 4. If there is none, they are edge-on.
 //!
 //! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact: nothing rounded their corners.
 
@@ -71,11 +71,7 @@ fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) {
                 }
             }
         }
-        let is_facing = |face: &u32| facing[*face as usize];
-        let decided = match widest {
-            Some((_, sure)) => is_facing(&sure),
-            None => plane.iter().all(is_facing),
-        };
+        let decided = widest.is_some_and(|(_, sure)| facing[sure as usize]);
         plane.iter().for_each(|face| facing[*face as usize] = decided);
     }
 }

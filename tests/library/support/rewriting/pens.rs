@@ -43,13 +43,16 @@ impl std::fmt::Display for Difference {
     }
 }
 
-fn pen(mark: &Mark) -> String {
-    let width = match &mark.paint {
+fn width(mark: &Mark) -> f64 {
+    match &mark.paint {
         Paint::Stroke(stroke) => stroke.width,
         Paint::Outline(outline) => outline.pen_width,
         _ => 0.0,
-    };
-    format!("{} {width}", mark.provenance.classes.join(" "))
+    }
+}
+
+fn pen(mark: &Mark) -> String {
+    format!("{} {}", mark.provenance.classes.join(" "), width(mark))
 }
 
 impl Pens {
@@ -57,6 +60,15 @@ impl Pens {
         let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
         for mark in ink_marks(drawing) {
             pens.entry(pen(mark)).or_default().extend(axis(mark));
+        }
+        Self(pens)
+    }
+
+    /// The visible lines of a drawing by the width of their pen alone, whatever their kind.
+    pub fn by_width(drawing: &Drawing) -> Self {
+        let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
+        for mark in ink_marks(drawing) {
+            pens.entry(format!("width {}", width(mark))).or_default().extend(axis(mark));
         }
         Self(pens)
     }
