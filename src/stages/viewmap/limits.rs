@@ -72,7 +72,7 @@ impl Slack {
         Self {
             contact: extent.contact,
             neighbour: tolerance::NEIGHBOUR_OF_PART * extent.scale,
-            in_plane: 2.0 * extent.rounding,
+            in_plane: (2.0 * extent.rounding).max(tolerance::NEIGHBOUR_OF_PART * extent.scale),
         }
     }
 }

@@ -123,21 +123,19 @@ pub fn hidden_interval(
         let plane = if within - plane <= outside { plane.min(within) } else { within };
         plane - p.z - limits.step(p.z, &triangle.slack, is_neighbour, frame)
     };
-    if triangle.slack.in_plane > 0.0 {
-        let is_in_plane = |t: f64| {
-            let p = segment.at(t);
-            let plane = base.z + slope.dot(p.truncate() - base.truncate());
-            let depth = triangle.slack.in_plane * frame.steepness(DVec3::new(p.x, p.y, plane), slope);
-            (plane - p.z).abs() <= frame.nearness_step(p.z, depth)
-        };
-        if is_in_plane(start) && is_in_plane(end) {
-            return None;
-        }
-    }
     let (at_start, at_end) = (lead(start), lead(end));
     let mut hidden =
         Interval { start, end, start_kind: ViewVertexKind::TJunction, end_kind: ViewVertexKind::TJunction };
     if at_start <= 0.0 && at_end <= 0.0 {
+        return None;
+    }
+    let is_in_plane = |t: f64| {
+        let p = segment.at(t);
+        let plane = base.z + slope.dot(p.truncate() - base.truncate());
+        let depth = triangle.slack.in_plane * frame.steepness(DVec3::new(p.x, p.y, plane), slope);
+        (plane - p.z).abs() <= frame.nearness_step(p.z, depth)
+    };
+    if is_in_plane(start) && is_in_plane(end) {
         return None;
     }
     let span = end - start;
