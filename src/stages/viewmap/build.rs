@@ -84,7 +84,7 @@ pub(super) fn of_hidden(
     let mut builder = Builder::new(mesh, view, lines);
     builder.add_all(segments, &cuts);
     let mut map = builder.map;
-    doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
+    doubles::remove(&mut map, limits.double, &view.frame, &mesh.extents);
     map
 }
 
@@ -137,7 +137,7 @@ impl<'a> Asked<'a> {
         map.contours = told.rounded.counts;
         map.seen_contours = told.rounded.seen.clone();
         map.needles = needles;
-        doubles::remove(&mut map, limits.double, view.frame.perspective, &mesh.extents);
+        doubles::remove(&mut map, limits.double, &view.frame, &mesh.extents);
         map
     }
 

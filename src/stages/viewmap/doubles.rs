@@ -14,6 +14,7 @@ use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::grid::Grid;
 use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::Extents;
+use crate::view::Frame;
 
 /// Lines shorter than this many times the distance have no direction to speak of, and are left
 /// alone.
@@ -27,9 +28,10 @@ const JOINED_SHARE: f64 = 1e-3;
 const WALKED: usize = 1 << 11;
 
 /// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
-/// edge. `perspective` tells how depth runs along a line, `extents` which of two parts in one place comes first.
-pub fn remove(map: &mut ViewMap, within: f64, perspective: bool, extents: &Extents) {
-    let covered = find_covered(map, within, extents);
+/// edge of the mesh with these `extents`, seen in a frame.
+pub fn remove(map: &mut ViewMap, within: f64, frame: &Frame, extents: &Extents) {
+    let perspective = frame.perspective;
+    let covered = find_covered(map, within, frame, extents);
     if covered.is_empty() {
         return;
     }
@@ -50,7 +52,7 @@ pub fn remove(map: &mut ViewMap, within: f64, perspective: bool, extents: &Exten
 }
 
 /// For each edge that gives way, the range of its parameter that another covers; ascending.
-fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64, f64))> {
+fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) -> Vec<(u32, (f64, f64))> {
     let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
     let seen: Vec<u32> = seen.map(|(_, id)| id).collect();
     let of_edge = |id: &u32| (*id, Line::of(map, &map.edges[*id as usize]));
@@ -82,7 +84,7 @@ fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64
     let passed = walked.iter().flatten().map(|(tile, number)| (*tile as usize, *number));
     let in_tile = grouped_pairs(grid.len(), passed);
     drop(walked);
-    let among = Among { map, extents, within, lines, grid, in_tile };
+    let among = Among { map, extents, frame, within, lines, grid, in_tile };
     let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
         .into_par_iter()
         .with_min_len(256)
@@ -97,6 +99,7 @@ fn find_covered(map: &ViewMap, within: f64, extents: &Extents) -> Vec<(u32, (f64
 struct Among<'a> {
     map: &'a ViewMap,
     extents: &'a Extents,
+    frame: &'a Frame,
     within: f64,
     /// With the numbers of their edges, ascending.
     lines: Vec<(u32, Line)>,
@@ -119,7 +122,7 @@ impl Among<'_> {
                 || edge.start == other.end
                 || edge.end == other.start
                 || edge.end == other.end;
-            let within = if joined { within * JOINED_SHARE } else { *within };
+            let within = if joined { self.within_joined([edge, other]) } else { *within };
             if !line.runs_along(other_line, within) {
                 continue;
             }
@@ -131,6 +134,17 @@ impl Among<'_> {
             covered.extend(range.map(|range| (loser, range)));
         }
         covered
+    }
+
+    /// How near two lines that share a node must be: what rounding makes of two lines that were one, user units.
+    fn within_joined(&self, edges: [&ViewEdge; 2]) -> f64 {
+        let shift = |edge: &ViewEdge| {
+            let depth = self.map.vertices[edge.start.index()].depth;
+            2.0 * self.extents.of(edge.part).rounding / self.frame.px_at(depth) * self.frame.px()
+        };
+        // Not a number at the eye itself.
+        let rounding = edges.map(shift).into_iter().fold(0.0, f64::max);
+        (self.within * JOINED_SHARE).max(rounding.min(self.within))
     }
 
     /// Finds the lines before one that may run along it within reach, ascending: what does lies in a tile of the line or of one of
@@ -325,9 +339,15 @@ mod tests {
     use super::*;
     use crate::lines::LineKind;
     use crate::mesh::{MaterialId, PartId};
+    use crate::scene::{Camera, NamedView, Projection, UpAxis};
     use crate::shape::Origin;
 
     type Drawn = ((f64, f64), (f64, f64), LineKind);
+
+    fn frame() -> Frame {
+        let camera = Camera::named(NamedView::Front, UpAxis::Y).with_frame(1000.0, 1000.0);
+        Frame::new(&camera.with_projection(Projection::Orthographic { height: 1.0 }), DVec3::ZERO)
+    }
 
     fn map(lines: &[Drawn]) -> ViewMap {
         let mut map = ViewMap::default();
@@ -370,7 +390,7 @@ mod tests {
             ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
             ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, false, &Extents::default());
+        remove(&mut m, 0.005, &frame(), &Extents::default());
         let (k, c) = (LineKind::Crease, LineKind::Contour);
         assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
     }
@@ -382,7 +402,7 @@ mod tests {
             ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
             ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, false, &Extents::default());
+        remove(&mut m, 0.005, &frame(), &Extents::default());
         assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
     }
 
@@ -396,7 +416,7 @@ mod tests {
         let count = 2 * WALKED + 300;
         let lines: Vec<Drawn> = (0..count).chain(count - 50..count).map(row).collect();
         let mut m = map(&lines);
-        remove(&mut m, 0.005, false, &Extents::default());
+        remove(&mut m, 0.005, &frame(), &Extents::default());
         assert_eq!(m.edges.len(), count);
         let left: std::collections::BTreeSet<usize> = m
             .edges
