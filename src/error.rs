@@ -83,6 +83,14 @@ impl Error {
         self
     }
 
+    /// Names what holds the place inside the file: `accessor 3` before `bufferView 1`.
+    #[must_use]
+    pub(crate) fn within(self, holder: impl Into<String>) -> Self {
+        let holder = holder.into();
+        let place = self.place.as_ref().map_or_else(|| holder.clone(), |place| format!("{holder}: {place}"));
+        self.at(place)
+    }
+
     /// Says what to do.
     #[must_use]
     pub fn remedy(mut self, remedy: impl Into<String>) -> Self {

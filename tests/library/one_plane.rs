@@ -212,7 +212,7 @@ fn borders_of_materials_on_a_flat_face_have_corners() {
         ligne::load::obj::read_bytes(text.as_bytes(), "plate", |_| Some(COLOURS.into())).expect("a model");
     let corners = Square::new("red", [12.0, 8.0], 12.0).corners();
     for camera in cameras(24, DMat3::IDENTITY, DVec3::new(20.0, 20.0, 0.0)) {
-        let drawing = render(&scene, &camera, &Style::preset("flat").expect("a style")).expect("a drawing");
+        let drawing = render(&scene, &camera, &flat()).expect("a drawing");
         let eye = Eye::new(&camera);
         let marks = || drawing.layers.iter().flat_map(|layer| &layer.marks);
         let red = marks().filter(|mark| {

@@ -99,7 +99,7 @@ impl Buffers<'_> {
         index: usize,
         make: impl Fn([f64; N]) -> R + Copy,
     ) -> Result<Vec<R>, Error> {
-        let place = |error: Error| error.at(format!("accessor {index}"));
+        let place = |error: Error| error.within(format!("accessor {index}"));
         let accessor = self.accessor(index)?;
         let found = self.lanes(index)?;
         if found != N {
@@ -130,7 +130,7 @@ impl Buffers<'_> {
 
     /// Indices of a primitive.
     pub fn indices(&self, index: usize) -> Result<Indices, Error> {
-        let place = |error: Error| error.at(format!("accessor {index}"));
+        let place = |error: Error| error.within(format!("accessor {index}"));
         let accessor = self.accessor(index)?;
         if accessor.shape != "SCALAR" {
             return Err(place(Error::new(format!("indices must be SCALAR, not {}", accessor.shape))));

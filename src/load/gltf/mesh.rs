@@ -49,14 +49,7 @@ pub fn geometry(
     let name = name.map_or_else(String::new, |name| format!(" of `{}`", uri::shown(name)));
     for (index, primitive) in mesh.primitives.iter().enumerate() {
         let here = || format!("mesh {number} primitive {index}{name}");
-        builder.add(primitive, &here, warnings, missing).map_err(|error| {
-            let here = here();
-            let place = match &error.place {
-                Some(place) => format!("{here}: {place}"),
-                None => here,
-            };
-            error.at(place)
-        })?;
+        builder.add(primitive, &here, warnings, missing).map_err(|error| error.within(here()))?;
     }
     Ok(builder.finish())
 }

@@ -45,11 +45,7 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
             continue;
         };
         let Some(number) = node.mesh else { continue };
-        let here = |error: Error| {
-            let node = format!("node {index}");
-            let place = error.place.as_ref().map_or_else(|| node.clone(), |place| format!("{node}: {place}"));
-            error.at(place)
-        };
+        let here = |error: Error| error.within(format!("node {index}"));
         let weights = match (&node.weights, buffers.root.meshes.get(number)) {
             (Some(weights), _) => weights,
             (None, Some(mesh)) => &mesh.weights,

@@ -14,11 +14,7 @@ const SETS: usize = 16;
 
 /// The joints of a skin and their inverse bind matrices.
 pub fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
-    let place = |error: Error| {
-        let skin = format!("skin {number}");
-        let place = error.place.as_ref().map_or_else(|| skin.clone(), |place| format!("{skin}: {place}"));
-        error.at(place)
-    };
+    let place = |error: Error| error.within(format!("skin {number}"));
     let Some(stored) = buffers.root.skins.get(number) else {
         let message = format!("is pointed to, but the file has {}", buffers.root.skins.len());
         return Err(place(Error::new(message)));

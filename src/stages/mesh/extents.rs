@@ -92,6 +92,8 @@ pub struct Extents {
     pub middle: DVec3,
     /// Diagonal of that box. Only for searches as well.
     pub diagonal: f64,
+    /// The middle and the diagonal of the box around what counts: without faces that have no area, unless there are no others.
+    counted: (DVec3, f64),
 }
 
 impl Extents {
@@ -102,6 +104,9 @@ impl Extents {
         let mut extents = Self::of_all(soup, |_| true);
         if has_flat_faces {
             let counted = Self::of_all(soup, has_own_area);
+            if counted.of_part.iter().any(|part| part.low.x <= part.high.x) {
+                extents.counted = counted.counted;
+            }
             for (own, counted) in extents.of_part.iter_mut().zip(counted.of_part) {
                 // A part of nothing but such faces keeps their box.
                 *own = if counted.low.x <= counted.high.x { counted } else { *own };
@@ -154,7 +159,8 @@ impl Extents {
                 (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
             }
         }
-        Self { of_part, middle: all.middle(), diagonal: all.diagonal() }
+        let (middle, diagonal) = (all.middle(), all.diagonal());
+        Self { of_part, middle, diagonal, counted: (middle, diagonal) }
     }
 
     /// The extent of a part; nothing for a part without faces and wires.
@@ -173,15 +179,19 @@ impl Extents {
     /// seldom change when parts come, go and move.
     #[must_use]
     pub fn ball(&self) -> (DVec3, f64) {
-        if self.diagonal == 0.0 {
-            return (self.middle, 1.0);
-        }
-        let step = power_of_two_above(self.diagonal) / 8.0;
-        let middle = (self.middle / step).round() * step;
-        // The middle is off by no more than half a step along each axis.
-        let least = self.diagonal / 2.0 + step;
-        let quarter = step / 2.0;
-        (middle, (least / quarter).ceil() * quarter)
+        ball(self.middle, self.diagonal)
+    }
+
+    /// The same of what counts: faces without area do not, unless there are no others. For all that shows in a drawing.
+    #[must_use]
+    pub fn counted_ball(&self) -> (DVec3, f64) {
+        ball(self.counted.0, self.counted.1)
+    }
+
+    /// The diagonal of the box around what counts.
+    #[must_use]
+    pub fn counted_diagonal(&self) -> f64 {
+        self.counted.1
     }
 }
 
@@ -204,6 +214,19 @@ impl Extents {
         }
         self
     }
+}
+
+/// A ball around a box, rounded.
+fn ball(middle: DVec3, diagonal: f64) -> (DVec3, f64) {
+    if diagonal == 0.0 {
+        return (middle, 1.0);
+    }
+    let step = power_of_two_above(diagonal) / 8.0;
+    let middle = (middle / step).round() * step;
+    // The middle is off by no more than half a step along each axis.
+    let least = diagonal / 2.0 + step;
+    let quarter = step / 2.0;
+    (middle, (least / quarter).ceil() * quarter)
 }
 
 impl Extent {
@@ -308,6 +331,7 @@ mod tests {
             let apart = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0), PartId(1)]));
             assert_eq!(plain.extents.of(PartId(0)), apart.extents.of(PartId(0)));
             assert_eq!(apart.extents.of(PartId(1)).diagonal(), 2.0);
+            assert_eq!(plain.extents.counted_ball(), flat.extents.counted_ball());
             let (middle, radius) = flat.extents.ball();
             assert!(flat.positions.iter().all(|p| p.distance(middle) <= radius));
         }

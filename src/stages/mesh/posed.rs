@@ -78,7 +78,7 @@ impl Mesh {
         };
         let extents = Extents::new(&moved, self.origin, true);
         let extents = extents.united(&self.bodies, self.origin, moved.single_precision);
-        let together = TOGETHER * extents.diagonal;
+        let together = TOGETHER * extents.counted_diagonal();
         let parted = |(vertex, p): (&u32, &DVec3)| {
             let joined = moved.positions.get(*vertex as usize).copied().unwrap_or(DVec3::NAN);
             (local(*p, self.origin) - joined).length().partial_cmp(&together).is_none_or(Ordering::is_gt)

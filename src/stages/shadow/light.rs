@@ -46,7 +46,7 @@ impl LightView {
 
 /// The views of a light over a mesh; none for a light that is nowhere.
 pub(super) fn views(mesh: &Mesh, caster: &Caster) -> Vec<LightView> {
-    let (middle, radius) = mesh.extents.ball();
+    let (middle, radius) = mesh.extents.counted_ball();
     let camera = |eye: DVec3, forward: DVec3, projection: Projection| {
         let up = forward.any_orthonormal_vector();
         Camera { eye, target: eye + forward * radius, up, projection, width: SIDE, height: SIDE, near: None }
