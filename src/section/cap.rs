@@ -15,7 +15,8 @@ use spade::Triangulation as _;
 
 use super::clip::Clipped;
 use super::flat::{FlatFaces, Kept};
-use super::outlines::{Edge, Faces, Outlines};
+use super::gaps::closed;
+use super::outlines::{Edge, Faces, Outlines, Owner};
 use super::plane::Plane;
 use super::reach::Reach;
 use super::seam::{Seam, Seams, bits};
@@ -71,34 +72,6 @@ impl Opened {
             .fold(Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b)));
         by_volume.then(by_place)
     }
-}
-
-/// The edges that run in closed ways, and the number of connected outlines that do not.
-pub(super) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
-    let mut parent: Vec<u32> = (0..cut.nodes.len() as u32).collect();
-    let mut excess = vec![0_i64; cut.nodes.len()];
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
-    for ([a, b], times) in &cut.open {
-        excess[*a as usize] += i64::from(*times);
-        excess[*b as usize] -= i64::from(*times);
-        let (a, b) = (root(&mut parent, *a), root(&mut parent, *b));
-        parent[a.max(b) as usize] = a.min(b);
-    }
-    let mut is_open = vec![false; cut.nodes.len()];
-    for v in 0..cut.nodes.len() as u32 {
-        if excess[v as usize] != 0 {
-            is_open[root(&mut parent, v) as usize] = true;
-        }
-    }
-    let unclosed = is_open.iter().filter(|open| **open).count() as u64;
-    let closes = |([a, _], _): &&([u32; 2], i32)| !is_open[root(&mut parent, *a) as usize];
-    (cut.open.iter().filter(closes).copied().collect(), unclosed)
 }
 
 /// The cut faces of solids that may overlap, one entry each; vertices where outlines cross are added to their shapes.
@@ -214,14 +187,6 @@ pub(super) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
         }
     }
     made
-}
-
-/// The solid that has a triangle of the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Owner {
-    pub solid: u32,
-    /// Whether anything in front of it was cut off.
-    pub is_cut: bool,
 }
 
 /// How often outlines of a solid go round a triangle: just behind the plane, and by how much less just in front of it.

@@ -4,9 +4,9 @@ use glam::DVec2;
 use robust::{Coord, orient2d};
 use spade::Triangulation as _;
 
-use super::cap::{Owner, closed};
 use super::clip::Clipped;
-use super::outlines::{Faces, Outlines};
+use super::gaps::closed;
+use super::outlines::{Faces, Outlines, Owner};
 use super::plane::Plane;
 
 /// The faces of a solid that lie in the plane and look to the front.

@@ -1,9 +1,37 @@
-//! [`close`]: outlines that do not close are closed over small gaps.
+//! [`closed`], [`close`]: which outlines close; those that do not are closed over small gaps.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::clip::Clipped;
+
+/// The edges that run in closed ways, and the number of connected outlines that do not.
+pub(super) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
+    let mut parent: Vec<u32> = (0..cut.nodes.len() as u32).collect();
+    let mut excess = vec![0_i64; cut.nodes.len()];
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    for ([a, b], times) in &cut.open {
+        excess[*a as usize] += i64::from(*times);
+        excess[*b as usize] -= i64::from(*times);
+        let (a, b) = (root(&mut parent, *a), root(&mut parent, *b));
+        parent[a.max(b) as usize] = a.min(b);
+    }
+    let mut is_open = vec![false; cut.nodes.len()];
+    for v in 0..cut.nodes.len() as u32 {
+        if excess[v as usize] != 0 {
+            is_open[root(&mut parent, v) as usize] = true;
+        }
+    }
+    let unclosed = is_open.iter().filter(|open| **open).count() as u64;
+    let closes = |([a, _], _): &&([u32; 2], i32)| !is_open[root(&mut parent, *a) as usize];
+    (cut.open.iter().filter(closes).copied().collect(), unclosed)
+}
 
 /// Joins ends of outlines that lie within `reach` (world) of each other, the nearest first: an outline that ends goes on where
 /// another one begins.
