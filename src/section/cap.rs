@@ -14,9 +14,9 @@ use rustc_hash::FxHashMap;
 use spade::Triangulation as _;
 
 use super::clip::Clipped;
-use super::flat::{FlatFaces, Kept, Owner};
+use super::flat::{FlatFaces, Kept};
 use super::gaps::closed;
-use super::outlines::{Edge, Faces, Outlines};
+use super::outlines::{Edge, Faces, Outlines, Owner};
 use super::plane::Plane;
 use super::reach::Reach;
 use super::seam::{Seam, Seams, bits};

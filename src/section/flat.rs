@@ -6,16 +6,8 @@ use spade::Triangulation as _;
 
 use super::clip::Clipped;
 use super::gaps::closed;
-use super::outlines::{Faces, Outlines};
+use super::outlines::{Faces, Outlines, Owner};
 use super::plane::Plane;
-
-/// The solid that has a triangle of the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Owner {
-    pub solid: u32,
-    /// Whether anything in front of it was cut off.
-    pub is_cut: bool,
-}
 
 /// The faces of a solid that lie in the plane and look to the front.
 pub(super) struct FlatFaces {

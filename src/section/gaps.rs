@@ -1,4 +1,4 @@
-//! [`closed`], [`close`]: which outlines close, and those that do not closed over small gaps.
+//! [`closed`], [`close`]: which outlines close; those that do not are closed over small gaps.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;

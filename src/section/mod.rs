@@ -72,8 +72,9 @@ pub fn material_name(kind: usize) -> String {
 /// Cuts a scene along a plane, and leaves what lies behind it.
 ///
 /// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
-/// the part. They cover what the part's outlines in the plane go round, by number of turns. How the file winds a surface does not
-/// matter: a closed surface inside another one bounds a void. What lies within several parts has the one of the least volume. Outlines
+/// the part. They cover what the part's outlines in the plane go round, by number of turns. A closed surface inside another one bounds a
+/// void if the file winds it the other way round, and is a solid otherwise; apart from that the winding does not matter. What lies within
+/// several parts has the one of the least volume. Outlines
 /// of open surfaces are closed over gaps of up to a ten-thousandth of the part; others are left open and counted in the warnings of the
 /// scene. Of parts whose name fits `uncut` nothing is cut off where the plane goes through them.
 #[must_use]

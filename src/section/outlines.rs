@@ -193,3 +193,11 @@ impl Outlines {
         None
     }
 }
+
+/// The solid that has a triangle of the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Owner {
+    pub solid: u32,
+    /// Whether anything in front of it was cut off.
+    pub is_cut: bool,
+}

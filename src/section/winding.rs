@@ -1,14 +1,17 @@
 //! [`wound_right`]: a shape whose surfaces are wound so that sums of turns tell material from voids.
 //!
-//! Each surface is turned to show its outside (see `mesh::orientation`). Of closed surfaces inside each other every second one
-//! bounds a void, however the file winds it. A surface is inside others if rays from all its vertices cross them an odd number
-//! of times: surfaces that merely overlap stay solid, and become one with their neighbours.
+//! Each surface is turned to show its outside (see `mesh::orientation`). A closed surface inside others bounds a void if the file
+//! winds it against them: nothing else tells a void from a solid that lies within another one. It is inside if it is so just behind
+//! all its vertices. Surfaces that merely overlap are solids, however they are wound, and become one with their neighbours.
 
 use std::borrow::Cow;
+use std::cmp::Ordering;
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
+use super::reach::Reach;
+use crate::math::function::acos;
 use crate::mesh::Edges;
 use crate::mesh::orientation::{Surfaces, Triangles};
 use crate::scene::Geometry;
@@ -26,7 +29,8 @@ pub(super) fn wound_right<'a>(shape: &'a Geometry, one: &[u32]) -> Cow<'a, Geome
     let edges = Edges::build(shape.positions.len(), &triangles);
     let mesh = Triangles { positions: &shape.positions, triangles: &triangles, parts: &[], edges: &edges };
     let mut surfaces = Surfaces::new(&mesh);
-    if turn_voids(&mesh, &mut surfaces).is_none() || surfaces.turned.is_empty() {
+    let inset = Reach::of(shape, &DAffine3::IDENTITY).plane;
+    if turn_voids(&mesh, &mut surfaces, inset).is_none() || surfaces.turned.is_empty() {
         return Cow::Borrowed(shape);
     }
     let mut shape = shape.clone();
@@ -51,16 +55,20 @@ impl Geometry {
     }
 }
 
-/// Turns closed surfaces that bound voids inside others; none if that takes too long.
-fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces) -> Option<()> {
+/// Turns closed surfaces that bound voids inside others; none if that takes too long. Surfaces nearer than `inset` may touch.
+fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces, inset: f64) -> Option<()> {
     let mut budget = PATIENCE * mesh.triangles.len();
     let mut is_void = in_boxes(mesh, surfaces, &mut budget)?;
     if !is_void.contains(&true) {
         return Some(());
     }
-    let mut rays = Rays::new(mesh, surfaces, &is_void);
-    rays.cross(mesh, surfaces, budget)?;
-    rays.starts.iter().filter(|ray| !ray.is_odd).for_each(|ray| is_void[ray.surface as usize] = false);
+    let ways = ways(mesh, surfaces);
+    let mut rays = Rays::new(mesh, surfaces, (&is_void, inset));
+    rays.cross(mesh, surfaces, &ways, budget)?;
+    for ray in &rays.starts {
+        let surface = ray.surface as usize;
+        is_void[surface] &= ray.turns * ways[surface] < 0;
+    }
     surfaces.turned.resize(mesh.triangles.len(), false);
     for (turned, surface) in surfaces.turned.iter_mut().zip(&surfaces.of_face.of_face) {
         *turned ^= is_void[*surface as usize];
@@ -71,7 +79,22 @@ fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces) -> Option<()> {
     Some(())
 }
 
-/// Which closed surfaces have their box in the box of another one.
+/// For each surface 1 if the file winds the larger part of it outward, and -1 if inward.
+fn ways(mesh: &Triangles, surfaces: &Surfaces) -> Vec<i32> {
+    let mut outward = vec![0.0; surfaces.is_closed.len()];
+    for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+        let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
+        let area = (b - a).cross(c - a).length();
+        outward[*surface as usize] += if is_turned(surfaces, face) { -area } else { area };
+    }
+    outward.into_iter().map(|area| if area < 0.0 { -1 } else { 1 }).collect()
+}
+
+fn is_turned(surfaces: &Surfaces, face: usize) -> bool {
+    surfaces.turned.get(face).copied().unwrap_or_default()
+}
+
+/// Which closed surfaces have their box in the box of another one, or at its sides.
 fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option<Vec<bool>> {
     let count = surfaces.is_closed.len();
     let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; count];
@@ -82,7 +105,15 @@ fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option
         }
     }
     let mut closed: Vec<usize> = (0..count).filter(|surface| surfaces.is_closed[*surface]).collect();
-    closed.sort_by(|a, b| boxes[*a][0].x.total_cmp(&boxes[*b][0].x).then(a.cmp(b)));
+    // The larger of two boxes that begin at one x comes first.
+    let key = |surface: usize| {
+        let [low, high] = boxes[surface];
+        [low.x, low.y, low.z, -high.x, -high.y, -high.z]
+    };
+    closed.sort_by(|a, b| {
+        let pairs = key(*a).into_iter().zip(key(*b));
+        pairs.fold(Ordering::Equal, |order, (p, q)| order.then(p.total_cmp(&q))).then(a.cmp(b))
+    });
     let mut inside = vec![false; count];
     for (k, inner) in closed.iter().enumerate() {
         let [low, high] = boxes[*inner];
@@ -90,7 +121,7 @@ fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option
         for outer in closed[..k].iter().rev() {
             *budget = budget.checked_sub(1)?;
             let [from, to] = boxes[*outer];
-            if from.cmplt(low).all() && to.cmpgt(high).all() {
+            if from.cmple(low).all() && to.cmpge(high).all() && [from, to] != [low, high] {
                 inside[*inner] = true;
                 break;
             }
@@ -99,11 +130,11 @@ fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option
     Some(inside)
 }
 
-/// A ray along x, and whether it crosses other surfaces an odd number of times.
+/// A ray along x, and how often other surfaces go round its start, as the file winds them.
 struct Ray {
     from: DVec3,
     surface: u32,
-    is_odd: bool,
+    turns: i32,
 }
 
 /// Rays in rows of about equal height along y, each by z, of where they start.
@@ -116,16 +147,33 @@ struct Rays {
 }
 
 impl Rays {
-    /// Those of all vertices of some surfaces.
-    fn new(mesh: &Triangles, surfaces: &Surfaces, wanted: &[bool]) -> Self {
-        let faces = mesh.triangles.iter().zip(&surfaces.of_face.of_face);
-        let corners = faces.filter(|(_, surface)| wanted[**surface as usize]);
-        let mut corners: Vec<(u32, u32)> =
-            corners.flat_map(|(t, surface)| t.map(|v| (v, *surface))).collect();
-        corners.sort_unstable();
-        corners.dedup();
-        let ray = |(v, surface): (u32, u32)| Ray { from: mesh.positions[v as usize], surface, is_odd: false };
-        let mut starts: Vec<Ray> = corners.into_iter().map(ray).collect();
+    /// Those just behind all vertices of some surfaces.
+    ///
+    /// Source: Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal", 2005: a point goes into the
+    /// solid against the normals of a vertex, each weighted by its angle.
+    fn new(mesh: &Triangles, surfaces: &Surfaces, (wanted, inset): (&[bool], f64)) -> Self {
+        let mut corners: Vec<((u32, u32), DVec3)> = Vec::new();
+        for (face, (t, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+            if !wanted[*surface as usize] {
+                continue;
+            }
+            let place = |k: usize| mesh.positions[t[k % 3] as usize];
+            let normal = (place(1) - place(0)).cross(place(2) - place(0)).normalize_or_zero();
+            let outward = if is_turned(surfaces, face) { -normal } else { normal };
+            for (k, v) in t.iter().enumerate() {
+                let sides = [1, 2].map(|n| (place(k + n) - place(k)).normalize_or_zero());
+                let angle = acos(sides[0].dot(sides[1]).clamp(-1.0, 1.0));
+                corners.push(((*v, *surface), outward * angle));
+            }
+        }
+        // Stable, so that sums are taken in the order of faces.
+        corners.sort_by_key(|corner| corner.0);
+        let ray = |own: &[((u32, u32), DVec3)]| {
+            let ((v, surface), _) = own[0];
+            let outward = own.iter().map(|corner| corner.1).sum::<DVec3>().normalize_or_zero();
+            Ray { from: mesh.positions[v as usize] - outward * inset, surface, turns: 0 }
+        };
+        let mut starts: Vec<Ray> = corners.chunk_by(|a, b| a.0 == b.0).map(ray).collect();
         let y = |ray: &Ray| ray.from.y;
         let low = starts.iter().map(y).fold(f64::INFINITY, f64::min);
         let high = starts.iter().map(y).fold(f64::NEG_INFINITY, f64::max);
@@ -147,12 +195,19 @@ impl Rays {
     }
 
     /// Counts crossings with closed surfaces other than the rays' own; none if that takes too long.
-    fn cross(&mut self, mesh: &Triangles, surfaces: &Surfaces, mut budget: usize) -> Option<()> {
-        for (corners, surface) in mesh.triangles.iter().zip(&surfaces.of_face.of_face) {
+    fn cross(
+        &mut self,
+        mesh: &Triangles,
+        surfaces: &Surfaces,
+        ways: &[i32],
+        mut budget: usize,
+    ) -> Option<()> {
+        for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
             if !surfaces.is_closed[*surface as usize] {
                 continue;
             }
             let corners = corners.map(|v| mesh.positions[v as usize]);
+            let way = ways[*surface as usize] * if is_turned(surfaces, face) { -1 } else { 1 };
             let [a, b, c] = corners;
             let (low, high) = (a.min(b).min(c), a.max(b).max(c));
             for row in self.row(low.y)..=self.row(high.y) {
@@ -162,7 +217,7 @@ impl Rays {
                 for ray in own[first..].iter_mut().take_while(|ray| ray.from.z <= high.z) {
                     budget = budget.checked_sub(1)?;
                     if ray.surface != *surface && ray.from.x < high.x {
-                        ray.is_odd ^= crosses(corners, ray.from);
+                        ray.turns += way * crosses(corners, ray.from);
                     }
                 }
             }
@@ -171,10 +226,11 @@ impl Rays {
     }
 }
 
-/// Whether a ray from a point along x crosses a triangle. A ray through an edge crosses one of the two triangles there.
+/// 1 if a ray from a point along x crosses a triangle from behind, -1 if from the front, and 0 if not at all. A ray through an edge
+/// crosses one of the two triangles there.
 ///
 /// Source: crossing numbers of polygons, Haines, "Point in polygon strategies", Graphics Gems IV, 1994, with exact signs.
-fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> bool {
+fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> i32 {
     let flat = |p: DVec3| DVec2::new(p.y, p.z);
     let is_left = |q: DVec3, r: DVec3| {
         let (q, r) = if q.z < r.z { (flat(q), flat(r)) } else { (flat(r), flat(q)) };
@@ -184,10 +240,17 @@ fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> bool {
     let is_within = is_left(a, b) ^ is_left(b, c) ^ is_left(c, a);
     let [ay, by, cy] = [a, b, c].map(|p| Coord { x: p.y, y: p.z });
     let coord = |p: DVec3| Coord3D { x: p.x, y: p.y, z: p.z };
-    is_within && {
-        // The first is positive if the normal leads along x, the second if the point lies behind the triangle.
-        let (along, behind) = (orient2d(ay, by, cy), orient3d(coord(a), coord(b), coord(c), coord(p)));
-        along != 0.0 && behind != 0.0 && (along > 0.0) == (behind > 0.0)
+    if !is_within {
+        return 0;
+    }
+    // The first is positive if the normal leads along x, the second if the point lies behind the triangle.
+    let (along, behind) = (orient2d(ay, by, cy), orient3d(coord(a), coord(b), coord(c), coord(p)));
+    if along > 0.0 && behind > 0.0 {
+        1
+    } else if along < 0.0 && behind < 0.0 {
+        -1
+    } else {
+        0
     }
 }
 
@@ -227,15 +290,22 @@ mod tests {
     }
 
     #[test]
-    fn every_second_of_nested_surfaces_bounds_a_void_however_it_is_wound() {
+    fn surfaces_inside_others_bound_voids_if_they_are_wound_against_them() {
         let o = DVec3::ZERO;
         for flags in 0..8_u32 {
             let is = |k: u32| flags >> k & 1 == 1;
-            assert_eq!(inward(&[(o, 3.0, is(0)), (o, 2.0, is(1)), (o, 1.0, is(2))]), [false, true, false]);
-            // Next to each other, overlapping, and one that sticks out of the other.
+            assert_eq!(inward(&[(o, 3.0, is(0)), (o, 2.0, is(1))]), [false, is(0) != is(1)]);
+            // A core in a void is a solid, and a void in a core is one again.
+            let core = [(o, 4.0, is(0)), (o, 3.0, !is(0)), (o, 2.0, is(1)), (o, 1.0, !is(0))];
+            assert_eq!(inward(&core), [false, true, false, is(0) == is(1)]);
+            // Inside, and at one side.
+            let at_side = [(o, 3.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))];
+            assert_eq!(inward(&at_side), [false, is(0) != is(1)]);
+            // Next to each other, overlapping, one that sticks out of the other, and two that touch.
             assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::X * 5.0, 1.0, is(1))]), [false; 2]);
             assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::ONE, 1.0, is(1))]), [false; 2]);
             assert_eq!(inward(&[(o, 2.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))]), [false; 2]);
+            assert_eq!(inward(&[(o, 2.0, is(0)), (DVec3::X * 3.0, 1.0, is(1))]), [false; 2]);
         }
     }
 
@@ -243,8 +313,8 @@ mod tests {
     fn rays_cross_one_of_two_triangles_at_an_edge() {
         let [a, b, c, d] =
             [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(2.0, y, z));
-        for (p, wanted) in [(DVec3::new(0.0, 0.5, 0.5), true), (DVec3::new(3.0, 0.5, 0.5), false)] {
-            assert_eq!(crosses([a, b, c], p) ^ crosses([a, c, d], p), wanted);
+        for (p, wanted) in [(DVec3::new(0.0, 0.5, 0.5), 1), (DVec3::new(3.0, 0.5, 0.5), 0)] {
+            assert_eq!(crosses([a, b, c], p) + crosses([a, c, d], p), wanted);
         }
     }
 }
