@@ -117,18 +117,33 @@ fn round_solids() -> Vec<(&'static str, Solid)> {
 
 /// Rounded solids, each before as many of the three cameras as told.
 pub fn round(cameras: usize) -> Vec<Subject> {
+    round_solids().into_iter().flat_map(|solid| seen_round(solid, cameras)).collect()
+}
+
+/// Those of them that have an outside, before one camera.
+pub fn round_closed() -> Vec<Subject> {
+    let closed = round_solids().into_iter().filter(|(name, _)| !["saddle", "bulging tube"].contains(name));
+    closed.flat_map(|solid| seen_round(solid, 1)).collect()
+}
+
+/// Open surfaces, before one camera: both of their sides are seen.
+pub fn round_open() -> Vec<Subject> {
+    let tubes = round_solids().into_iter().filter(|(name, _)| *name == "bulging tube");
+    let uneven = |p: DVec3| p + DVec3::Z * (0.05 * p.x + 0.03 * p.y + (0.1 * p.x + 0.2 * p.y) * p.x * p.x);
+    let uneven_saddle = ("uneven saddle", saddle(16).moved(uneven));
+    tubes.chain([uneven_saddle]).flat_map(|solid| seen_round(solid, 1)).collect()
+}
+
+fn seen_round((name, solid): (&str, Solid), cameras: usize) -> Vec<Subject> {
     let all = [
         perspective(DVec3::new(3.1, -4.2, 2.3), DVec3::new(0.1, 0.0, -0.1), 35.0),
         perspective(DVec3::new(-2.0, 0.9, 5.4), DVec3::ZERO, 40.0),
         orthographic(DVec3::new(1.3, 4.0, 1.9), DVec3::ZERO, 4.5),
     ];
-    let seen = |(name, solid): (&str, Solid)| {
-        let one = |camera: &Camera| {
-            Subject::new(format!("{name} from {}", camera.eye), scene([solid.clone()]), *camera)
-        };
-        all[..cameras].iter().map(one).collect::<Vec<_>>()
+    let one = |camera: &Camera| {
+        Subject::new(format!("{name} from {}", camera.eye), scene([solid.clone()]), *camera)
     };
-    round_solids().into_iter().flat_map(seen).collect()
+    all[..cameras].iter().map(one).collect()
 }
 
 /// A box, a step and a ball, seen along the faces of the boxes from the front and from above.
