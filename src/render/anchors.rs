@@ -12,6 +12,7 @@ use crate::chain::{Anchor, Chain, identity};
 use crate::math::function::{cbrt, tan};
 use crate::math::identity::identities;
 use crate::mesh::PartId;
+use crate::mesh::area::has_own_area;
 use crate::scene::{Camera, Geometry, Part, Projection, Scene};
 use crate::trees::nearest::NearestTree;
 
@@ -133,13 +134,19 @@ impl Anchors {
 impl Resting {
     fn new(geometry: &Geometry) -> Self {
         let triangles = corners(geometry);
-        let finite = || triangles.iter().flatten().copied().filter(|p| p.is_finite());
-        let low = finite().reduce(DVec3::min).unwrap_or_default();
-        let high = finite().reduce(DVec3::max).unwrap_or_default();
+        // Faces without area are not drawn, and count only where there are no others.
+        let counted = bounds(triangles.iter().filter(|corners| has_own_area(**corners)));
+        let (low, high) = counted.or_else(|| bounds(triangles.iter())).unwrap_or_default();
         let diagonal = (high - low).length();
         let diagonal = if diagonal > 0.0 { diagonal } else { 1.0 };
         Self { middle: low / 2.0 + high / 2.0, diagonal, triangles: triangles.into() }
     }
+}
+
+/// The box around the corners of triangles that are numbers.
+fn bounds<'a>(triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> Option<(DVec3, DVec3)> {
+    let finite = triangles.flatten().filter(|p| p.is_finite());
+    finite.map(|p| (*p, *p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
 }
 
 /// The corners of all triangles of a geometry; of those that refer to nothing none is a number.
