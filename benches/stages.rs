@@ -5,11 +5,11 @@ use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
 use ligne::render;
-use ligne::scene::{Camera, Geometry, Part, Scene};
+use ligne::scene::{Camera, Geometry, NamedView, Part, Scene, UpAxis};
 use ligne::stages::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
 use ligne::stages::mesh::{Edges, Extents, Mesh};
 use ligne::stages::shape::{HardEdges, SmoothNormals};
-use ligne::stages::view::View;
+use ligne::stages::view::{Frame, View};
 use ligne::stages::viewmap::{self, ViewMap, doubles};
 use ligne::style::Style;
 
@@ -147,9 +147,11 @@ fn visibility(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn doubles(bencher: Bencher, name: &str) {
     let map = made(name).view_map();
+    let camera = Camera::named(NamedView::Front, UpAxis::Y).with_frame(1000.0, 1000.0);
+    let frame = Frame::new(&camera, DVec3::ZERO);
     bencher
         .with_inputs(|| map.clone())
-        .bench_refs(|map| doubles::remove(map, 0.02, true, &Extents::default()));
+        .bench_refs(|map| doubles::remove(map, 0.02, &frame, &Extents::default()));
 }
 
 #[divan::bench(args = SCENES)]

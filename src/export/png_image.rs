@@ -3,6 +3,8 @@
 //! Source of the copies that are smaller along one axis only: Larson and Shah, "Texture mapping with ripmaps", 1990; their pixels
 //! are means over areas of the picture.
 
+use std::collections::hash_map::Entry;
+
 use kurbo::{Affine, BezPath, PathEl};
 use rustc_hash::FxHashMap;
 use tiny_skia::{
@@ -120,14 +122,16 @@ impl Copies {
         if steps == [0, 0] {
             return Some((whole, Affine::IDENTITY));
         }
-        if !self.smaller.contains_key(&steps) {
-            let size = [0, 1].map(|axis| {
-                let long = (0..steps[axis]).fold(f64::from(sides[axis]), |long, _| long / STEP);
-                (long.round() as u32).clamp(1, sides[axis])
-            });
-            self.smaller.insert(steps, averaged(whole, size)?);
-        }
-        let copy = self.smaller.get(&steps)?;
+        let copy = match self.smaller.entry(steps) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => {
+                let size = [0, 1].map(|axis| {
+                    let long = (0..steps[axis]).fold(f64::from(sides[axis]), |long, _| long / STEP);
+                    (long.round() as u32).clamp(1, sides[axis])
+                });
+                new.insert(averaged(whole, size)?)
+            }
+        };
         let [x, y] = [(whole.width(), copy.width()), (whole.height(), copy.height())]
             .map(|(whole, copy)| f64::from(whole) / f64::from(copy));
         Some((copy, Affine::scale_non_uniform(x, y)))

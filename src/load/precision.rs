@@ -82,8 +82,11 @@ impl Precision {
         }
         let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
         let high = positions.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
-        // Not a number where there are no positions.
-        if step <= VISIBLE_STEP * low.distance(high) { Self::Decimals(step) } else { Self::Exact }
+        if step > 0.0 && step <= VISIBLE_STEP * low.distance(high) {
+            Self::Decimals(step)
+        } else {
+            Self::Exact
+        }
     }
 }
 

@@ -75,8 +75,15 @@ fn every_model_is_drawn() {
         let name = path.strip_prefix(&folder).unwrap().display().to_string();
         let scene = match Scene::open(path) {
             Ok(scene) => scene,
-            // A cloud of points has nothing to draw and says so.
-            Err(error) if error.message.contains("nothing to draw") && name.contains("points-only") => {
+            // A cloud of points and corners that cannot be read leave nothing to draw, and say so.
+            Err(error)
+                if error.message.contains("nothing to draw")
+                    && ["points-only", "all-in-brackets"].iter().any(|kind| name.contains(kind)) =>
+            {
+                continue;
+            }
+            // An accessor that is not there is named, with its mesh.
+            Err(error) if name.ends_with("plate-minus1.glb") && error.to_string().contains("accessor -1") => {
                 continue;
             }
             Err(error) => {

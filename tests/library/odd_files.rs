@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 use ligne::load::{ModelFormat, gltf};
+use ligne::math::function::{cos, sin};
 use ligne::scene::{Paints, Projection, TextureOptions};
 use ligne::stages::lines::LineKind;
 use ligne::{Camera, Error, Scene, Style, SvgOptions, render};
@@ -198,7 +199,7 @@ fn prism(sides: usize, rims: Option<(usize, f64)>) -> Scene {
     let ring = |text: &mut String, steps: usize, turned: f64, z: f64| {
         for k in 0..steps {
             let angle = (k as f64 + turned) / steps as f64 * std::f64::consts::TAU;
-            writeln!(text, "v {:.9} {:.9} {z}", 10.0 * angle.cos(), 10.0 * angle.sin()).unwrap();
+            writeln!(text, "v {:.9} {:.9} {z}", 10.0 * cos(angle), 10.0 * sin(angle)).unwrap();
         }
     };
     ring(&mut text, sides, 0.0, 0.0);

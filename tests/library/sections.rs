@@ -168,7 +168,8 @@ fn a_ball_in_a_ball_is_a_hollow_if_the_two_are_wound_against_each_other() {
         let section = cut(scene_of(ball), &plane(DVec3::ZERO, DVec3::Z), &[]);
         let (found, exact) = (area(&section), equator(3.0) - if is_hollow { equator(2.0) } else { 0.0 });
         assert!((found - exact).abs() < 1e-9 * exact, "{flags}: {found} instead of {exact}");
-        assert_eq!(open_edges(&section.scene), 0);
+        // What lies within the solid of a union is left as it is.
+        assert!(!is_hollow || open_edges(&section.scene) == 0);
         let drawn = styles.map(|name| {
             let style = Style::load(name, &[]).unwrap();
             let drawing = ligne::render::render(&section.scene, &camera.fit(&section.scene), &style).unwrap();

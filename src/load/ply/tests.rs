@@ -195,9 +195,12 @@ fn the_first_triangle_of_many_that_points_nowhere_is_named() {
     assert!(error.contains("vertex 5 does not exist") && error.contains("23456"), "{error}");
 }
 
+/// An element: its name, its properties, and rows of numbers.
+type Table<'a> = (&'a str, &'a [&'a str], &'a [&'a [f64]]);
+
 /// The rows of a table: names of elements, their properties, and rows of numbers, as text or binary. A property that is a list has its
 /// length in front.
-fn encoded(format: &str, elements: &[(&str, &[&str], &[&[f64]])]) -> Vec<u8> {
+fn encoded(format: &str, elements: &[Table]) -> Vec<u8> {
     let mut head = format!("ply\nformat {format} 1.0\n");
     let mut body = Vec::new();
     for (name, properties, rows) in elements {
@@ -265,8 +268,7 @@ fn elements_come_in_any_order() {
         }
         let lost = encoded(format, &[other, faces]);
         assert!(error(&lost).contains("element face: the file has no vertices"), "{}", error(&lost));
-        let bad: (&str, &[&str], &[&[f64]]) =
-            ("face", &["list uchar int vertex_indices"], &[&[3.0, 0.0, 1.0, 4.0]]);
+        let bad: Table = ("face", &["list uchar int vertex_indices"], &[&[3.0, 0.0, 1.0, 4.0]]);
         let text = error(encoded(format, &[bad, vertices]));
         assert!(text.contains("vertex 4 does not exist"), "{text}");
         assert!(text.contains(if format == "ascii" { "line 10" } else { "face 0" }), "{text}");

@@ -273,7 +273,7 @@ impl Triangles<'_> {
     fn sums(&self, surfaces: &Numbered, is_turned: impl Fn(usize) -> bool + Sync) -> Vec<Sums> {
         let mut sums = vec![Sums::default(); surfaces.first.len()];
         let of_face = |surface: u32, face: usize| {
-            let [a, b, c] = self.from_corner(surfaces, surface, face);
+            let [a, b, c] = self.corners_relative_to_first(surfaces, surface, face);
             let turned = is_turned(face);
             let across = (b - a).cross(c - a) / 2.0;
             let (area, normal) = (across.length(), if turned { -across } else { across });
@@ -300,7 +300,8 @@ impl Triangles<'_> {
         let centroids: Vec<DVec3> = sums.iter().map(Sums::centroid).collect();
         let of_face = |surface: u32, face: usize| {
             let centroid = centroids[surface as usize];
-            let corners = self.from_corner(surfaces, surface, face).map(|p| p.distance(centroid));
+            let corners =
+                self.corners_relative_to_first(surfaces, surface, face).map(|p| p.distance(centroid));
             let radius = corners.into_iter().fold(0.0, f64::max);
             Sums { radius: if is_closed[surface as usize] { 0.0 } else { radius }, ..Sums::default() }
         };
@@ -309,7 +310,7 @@ impl Triangles<'_> {
 
     /// The corners of a face, as seen from the first corner of its surface.
     #[inline]
-    fn from_corner(&self, surfaces: &Numbered, surface: u32, face: usize) -> [DVec3; 3] {
+    fn corners_relative_to_first(&self, surfaces: &Numbered, surface: u32, face: usize) -> [DVec3; 3] {
         let first = self.triangles[surfaces.first[surface as usize] as usize][0];
         let from = self.positions[first as usize];
         self.triangles[face].map(|v| self.positions[v as usize] - from)

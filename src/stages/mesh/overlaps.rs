@@ -62,9 +62,8 @@ pub(super) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
         (0..surfaces.all.len() as u32).map(|surface| (planes.root(surface), surface)).collect();
     numbers.sort_unstable();
     let mut of_surface = vec![Overlay::default(); surfaces.all.len()];
-    let mut plane = 0;
-    for same in numbers.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
-        plane += 1;
+    let shared = numbers.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1);
+    for (same, plane) in shared.zip(1..) {
         let mut order: Vec<u32> = same.iter().map(|(_, surface)| *surface).collect();
         surfaces.sort_upwards(&mut order);
         for (surface, rank) in order.into_iter().zip(0..) {

@@ -124,7 +124,7 @@ pub fn decals(
         .filter_map(|anchor| {
             let figure = &figures[anchor.figure as usize];
             let [i, j] = anchor.place.map(|k| k as f64);
-            walker.lay(anchor, figure, (figure.period * DVec2::new(i, j), offset), &shows)
+            walker.lay(anchor, figure, (figure.period * DVec2::new(i, j), offset), shows)
         })
         .collect();
     let asked: Vec<(Point, f64)> = laid.iter().flat_map(|laid| laid.asked.iter().copied()).collect();

@@ -63,7 +63,7 @@ pub(super) fn edges(surface: &Surface, light: &LightView) -> Vec<CastEdge> {
         let source = &lines.segments[edge.segment as usize];
         let [a, b] = [edge.start, edge.end].map(|v| image_point(&map, view, v));
         let whole = [(a, source.ends[0]), (b, source.ends[1])]
-            .map(|(p, vertex)| view.points[vertex as usize].truncate() == p.truncate());
+            .map(|(p, end)| view.points.get(end as usize).is_some_and(|own| own.truncate() == p.truncate()));
         let mut cast = CastEdge {
             a,
             b,

@@ -1,5 +1,6 @@
 use super::*;
 use crate::math::dice::Dice;
+use crate::math::function::{cos, sin};
 use crate::mesh::{EdgeMark, FaceId, Mesh, Soup};
 
 /// A ball of 12 x 6 quads, each of two triangles, about a point.
@@ -10,7 +11,7 @@ fn ball(soup: &mut Soup, middle: DVec3, radius: f64) {
         for i in 0..around {
             let (u, v) = (f64::from(i) / f64::from(around), f64::from(j) / f64::from(up));
             let (turn, tilt) = (u * std::f64::consts::TAU, v * std::f64::consts::PI);
-            let at = DVec3::new(tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), -tilt.cos());
+            let at = DVec3::new(sin(tilt) * cos(turn), sin(tilt) * sin(turn), -cos(tilt));
             soup.positions.push(middle + at * radius);
         }
     }
@@ -105,8 +106,8 @@ fn open_surfaces_that_enclose_a_volume_show_their_outside() {
 
 #[test]
 fn sheets_without_an_outside_keep_the_winding_of_most() {
-    let mut soup = Soup::default();
-    soup.positions = (0..24).map(|k| DVec3::new(f64::from(k / 2), f64::from(k % 2), 0.0)).collect();
+    let positions = (0..24).map(|k| DVec3::new(f64::from(k / 2), f64::from(k % 2), 0.0)).collect();
+    let mut soup = Soup { positions, ..Soup::default() };
     for k in 0..11 {
         let a = 2 * k;
         soup.triangles.extend([[a, a + 2, a + 1], [a + 1, a + 2, a + 3]]);
@@ -123,9 +124,9 @@ fn strips_with_one_side_stay_as_they_are() {
     let point = |k: u32| {
         let turn = f64::from(k / 2 % 9) / 9.0 * std::f64::consts::TAU;
         let half = turn / 2.0 + if k >= 18 { std::f64::consts::PI } else { 0.0 };
-        let across = if k % 2 == 0 { 0.3 } else { -0.3 };
-        let out = 1.0 + across * half.cos();
-        DVec3::new(out * turn.cos(), out * turn.sin(), across * half.sin())
+        let across = if k.is_multiple_of(2) { 0.3 } else { -0.3 };
+        let out = 1.0 + across * cos(half);
+        DVec3::new(out * cos(turn), out * sin(turn), across * sin(half))
     };
     let mut soup = Soup { positions: (0..18).map(point).collect(), ..Soup::default() };
     for k in 0..9 {

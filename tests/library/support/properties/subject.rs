@@ -172,7 +172,8 @@ pub fn upright_sheets() -> Subject {
         let left = DVec3::X * 1.5 * f64::from(k);
         let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]];
         let positions = positions.map(|[x, z]| left + DVec3::new(x, 0.2 * x, z)).to_vec();
-        let triangles = if k % 3 == 0 { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 2, 1], [0, 3, 2]] };
+        let triangles =
+            if k.is_multiple_of(3) { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 2, 1], [0, 3, 2]] };
         Solid { positions, triangles }
     };
     let mut camera = perspective(DVec3::new(2.0, -8.0, 3.0), DVec3::new(2.5, 0.0, 1.0), 40.0);

@@ -96,10 +96,10 @@ fn ears(points: &[DVec2], mut ring: Vec<usize>) -> Vec<[usize; 3]> {
         // Go on at the far end, so that fans are rare.
         ring.rotate_left(1);
     }
-    if let [a, b, c] = ring[..] {
-        if turn(a, b, c) > least {
-            found.push([a, b, c]);
-        }
+    if let [a, b, c] = ring[..]
+        && turn(a, b, c) > least
+    {
+        found.push([a, b, c]);
     }
     found
 }
