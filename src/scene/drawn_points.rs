@@ -31,10 +31,12 @@ pub(crate) struct DrawnPoints {
 #[derive(Debug, Clone)]
 pub(crate) struct DrawnPart {
     /// Its number in the scene.
+    #[cfg_attr(not(feature = "cli"), expect(dead_code))]
     pub part: usize,
     /// Its points among all.
     pub points: Range<usize>,
     /// What of it is left out.
+    #[cfg_attr(not(feature = "cli"), expect(dead_code))]
     pub left_out: LeftOut,
 }
 
@@ -49,6 +51,7 @@ pub(crate) struct LeftOut {
 
 impl LeftOut {
     /// Whether nothing is left out.
+    #[cfg(feature = "cli")]
     pub fn is_none(&self) -> bool {
         self.faces + self.wires == 0
     }

@@ -17,7 +17,9 @@ use crate::mesh::{FaceId, Mesh};
 use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::shape::Origin;
 use crate::trees::finer::{Hosts, PairSearch};
-use crate::trees::intersect::{IntersectionCurves, IntersectionInput, intersections_of_parts};
+use crate::trees::intersect::{
+    IntersectionCurves, IntersectionInput, IntersectionSegment, intersections_of_parts,
+};
 use crate::trees::trace::Tracer;
 use crate::trees::triangle_pair::PairTolerance;
 use crate::view::View;
@@ -37,12 +39,24 @@ pub fn is_searched_in_full(mesh: &Mesh, hidden: HiddenLines) -> bool {
     hidden != HiddenLines::None || mesh.triangles.len() <= FULL_SEARCH_TRIANGLES
 }
 
-/// Adds curves of a mesh to the lines of a view.
+/// Adds curves of a mesh to the lines of a view: their segments run the same way and come in the same order whatever the order of
+/// parts in the file.
 pub(super) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: &mut FeatureLines) {
     let first = (mesh.positions.len() + lines.points.len()) as u32;
     lines.points.extend_from_slice(&curves.points);
-    lines.segments.extend(curves.segments.iter().map(|s| {
-        let owner = owner(mesh, view, s.faces) as usize;
+    let ranks = mesh.extents.ranks();
+    let rank = |face: u32| ranks[mesh.face_part[face as usize].index()];
+    let mut segments: Vec<IntersectionSegment> = curves.segments.clone();
+    segments.par_iter_mut().with_min_len(GRAIN).for_each(|segment| {
+        let [a, b] = segment.faces;
+        if (rank(b), b) < (rank(a), a) {
+            segment.faces.reverse();
+            segment.ends.reverse();
+        }
+    });
+    segments.par_sort_unstable_by_key(|segment| (segment.faces.map(rank), segment.faces));
+    lines.segments.extend(segments.iter().map(|s| {
+        let owner = owner(view, s.faces) as usize;
         FeatureSegment {
             ends: s.ends.map(|end| first + end),
             hosts: s.faces,
@@ -58,22 +72,10 @@ pub(super) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: 
     }));
 }
 
-/// Of two faces that pass through each other the one to which the line belongs: the one that turns its
-/// outside to the eye, of two such that of the smaller part, which is what sticks in the other. The order of
-/// parts in the file does not matter.
-fn owner(mesh: &Mesh, view: &View, [a, b]: [u32; 2]) -> u32 {
-    let sides = [a, b].map(|face| view.facing[face as usize]);
-    if sides[0] != sides[1] {
-        return if sides[0] { a } else { b };
-    }
-    let [of_a, of_b] = [a, b].map(|face| mesh.extent(FaceId(face)));
-    let corners = |face: u32| {
-        let mut corners = mesh.triangles[face as usize];
-        corners.sort_unstable();
-        corners
-    };
-    // Of two parts in one place the place of the face decides: vertices are numbered by theirs.
-    if of_a.precedence(of_b).then_with(|| corners(a).cmp(&corners(b))).is_le() { a } else { b }
+/// Of two faces that pass through each other, the one of the smaller part first, the one to which the line belongs: the one that
+/// turns its outside to the eye, of two such the first, which sticks in the other.
+fn owner(view: &View, [a, b]: [u32; 2]) -> u32 {
+    if view.facing[b as usize] && !view.facing[a as usize] { b } else { a }
 }
 
 /// All curves of a mesh.

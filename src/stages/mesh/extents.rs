@@ -169,6 +169,18 @@ impl Extents {
         self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
     }
 
+    /// The place of each part in the order of [`Extent::precedence`]; parts of one size in one place keep the order of the file.
+    #[must_use]
+    pub fn ranks(&self) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..self.of_part.len() as u32).collect();
+        order.sort_by(|a, b| self.of_part[*a as usize].precedence(&self.of_part[*b as usize]));
+        let mut ranks = vec![0; order.len()];
+        for (rank, part) in (0..).zip(order) {
+            ranks[part as usize] = rank;
+        }
+        ranks
+    }
+
     /// Whether the coordinates of some part are rounded.
     #[must_use]
     pub fn is_rounded(&self) -> bool {

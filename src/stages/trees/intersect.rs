@@ -7,6 +7,8 @@
 //! place: it is then "edge of one through face of the other", the same the other way round, and
 //! "border of one on border of the other", so that all triangles around the place agree.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -191,12 +193,18 @@ pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
         }
     }
 
-    // Of several names the first gives the position, that of a vertex before that of an edge.
-    let mut place: Vec<Option<DVec3>> = vec![None; end_count as usize];
-    let is_of_vertex = |naming: &&Naming| naming.name.0[0] == naming.name.0[1];
-    let of_edges = namings.iter().filter(|naming| !is_of_vertex(naming));
-    for naming in namings.iter().filter(is_of_vertex).chain(of_edges) {
-        place[root(&mut parent, naming.end) as usize].get_or_insert(naming.point);
+    // Of several positions, apart by rounding, that of a vertex counts before those on edges, and then the least: vertices in one
+    // place and faces are numbered by the order of their parts, which must not matter.
+    let order = |a: &&Naming, b: &&Naming| {
+        let is_of_edge = |naming: &Naming| naming.name.0[0] != naming.name.0[1];
+        is_of_edge(a).cmp(&is_of_edge(b)).then_with(|| compare_places(a.point, b.point))
+    };
+    let mut place: Vec<Option<&Naming>> = vec![None; end_count as usize];
+    for naming in &namings {
+        let slot = &mut place[root(&mut parent, naming.end) as usize];
+        if slot.is_none_or(|best| order(&naming, &best).is_lt()) {
+            *slot = Some(naming);
+        }
     }
 
     let mut points = Vec::new();
@@ -205,7 +213,7 @@ pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
         segment.ends = segment.ends.map(|end| {
             let end = root(&mut parent, end) as usize;
             *index[end].get_or_insert_with(|| {
-                points.extend(place[end]);
+                points.extend(place[end].map(|naming| naming.point));
                 points.len() as u32 - 1
             })
         });
@@ -228,6 +236,10 @@ fn name_end([a, b]: End, faces: [u32; 2], end: u32, namings: &mut Vec<Naming>) {
         let (first, second) = if a.feature < b.feature { (a, b) } else { (b, a) };
         namings.push(Naming { name: (first.feature, second.feature), end, point: first.point });
     }
+}
+
+fn compare_places(a: DVec3, b: DVec3) -> Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
 
 /// The least end that is the same point as `end`.
