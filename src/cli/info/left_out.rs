@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::number::{counted, short};
+use crate::cli::number::{counted, short};
 use crate::scene::Scene;
 use crate::scene::drawn_points::{DrawnPart, LeftOut};
 

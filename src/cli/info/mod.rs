@@ -1,0 +1,33 @@
+//! `ligne info`: what is in a model file, and what is wrong with it.
+//!
+//! `contents` collects what a scene holds, with a file for each kind of entry: `parts`, `left_out`, `materials`, and `staging` for
+//! lights, cameras and animations. `summary` writes it for people, in the lists of `lists`; programs get the same as JSON.
+
+mod args;
+mod contents;
+mod left_out;
+mod lists;
+mod materials;
+mod parts;
+mod staging;
+mod summary;
+#[cfg(test)]
+mod tests;
+
+pub(super) use self::args::InfoArgs;
+use self::contents::Info;
+use super::print;
+use crate::error::Error;
+use crate::pose::Rigged;
+
+/// Reads the model and says what is in it.
+pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
+    let rigged = Rigged::open(&args.model)?;
+    let info = Info::of(&rigged.posed(&[])?, &rigged.rig.clips, args);
+    if args.json {
+        let json = serde_json::to_string_pretty(&info).unwrap_or_default();
+        print(format!("{json}\n").as_bytes())
+    } else {
+        print(info.text().as_bytes())
+    }
+}

@@ -1,0 +1,46 @@
+//! What is in a model file, as a text for people.
+
+use std::fmt::Write;
+
+use super::contents::{BoundsInfo, Info};
+use super::left_out;
+use super::lists::{SHOWN, list};
+use super::materials::MaterialInfo;
+use super::parts::PartInfo;
+use super::staging::{CameraInfo, ClipInfo, LightInfo};
+use crate::cli::number::{counted, short};
+
+impl Info {
+    /// What is in the file, for people.
+    pub(super) fn text(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);
+        let _ = writeln!(text, "  {}, {}", counted(self.triangles, "triangle"), vertices(self.vertices));
+        if let Some(BoundsInfo { min, max, .. }) = &self.bounds {
+            let size: Vec<String> = min.iter().zip(max).map(|(low, high)| short(high - low)).collect();
+            let corner = |corner: &[f64; 3]| corner.map(short).join(", ");
+            let unit = self.unit.map_or_else(String::new, |unit| format!(" {unit}"));
+            let _ =
+                writeln!(text, "  {}{unit}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
+        }
+        if self.unused_vertices > 0 {
+            let _ = writeln!(text, "  {} that no face or line uses", vertices(self.unused_vertices));
+        }
+        left_out::add(&mut text, &self.left_out, SHOWN);
+        if let Some(turned) = self.turned.words() {
+            let _ = writeln!(text, "  {turned}: wound inward or against their neighbours in the file");
+        }
+        list(&mut text, "part", self.parts.iter().map(PartInfo::line));
+        list(&mut text, "material", self.materials.iter().map(MaterialInfo::line));
+        list(&mut text, "light", self.lights.iter().map(LightInfo::line));
+        list(&mut text, "camera", self.cameras.iter().map(CameraInfo::line));
+        list(&mut text, "animation", self.animations.iter().map(ClipInfo::line));
+        list(&mut text, "warning", self.warnings.iter().cloned());
+        text
+    }
+}
+
+fn vertices(n: u64) -> String {
+    counted(n, "vertex").replace("vertexs", "vertices")
+}
