@@ -11,6 +11,7 @@ use crate::cli::model_unit::ModelUnit;
 #[command(after_help = "Examples:
   ligne info bunny.obj
   ligne info bracket.stl --unit in
+  ligne info drive.glb --all
   ligne info drive.glb --json | jq '.parts[].name'")]
 pub(in crate::cli) struct InfoArgs {
     /// The model: .obj, .gltf, .glb, .stl or .ply
@@ -20,7 +21,11 @@ pub(in crate::cli) struct InfoArgs {
     #[arg(long, value_name = "UNIT", value_enum, hide_possible_values = true)]
     pub(super) unit: Option<ModelUnit>,
 
-    /// Write JSON, for programs
+    /// List everything in full, with the step of each part's coordinates and the rounding that follows from it [default: 20 entries a list]
+    #[arg(long)]
+    pub(super) all: bool,
+
+    /// Write JSON, for programs; always in full
     #[arg(long)]
     pub(super) json: bool,
 }

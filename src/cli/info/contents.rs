@@ -6,6 +6,7 @@ use super::args::InfoArgs;
 use super::left_out::{self, LeftOutInfo};
 use super::materials::MaterialInfo;
 use super::parts::{PartInfo, TurnedInfo};
+use super::precision;
 use super::staging::{CameraInfo, ClipInfo, LightInfo};
 use crate::cli::model_unit::{self, ModelUnit};
 use crate::cli::pipeline;
@@ -57,11 +58,14 @@ impl Info {
         let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;
         let unused_vertices = scene.unused_vertices + scene.geometries.iter().map(unused).sum::<u64>();
         let left_out = left_out::by_part(scene, &drawn);
-        let (of_mesh, turned) = pipeline::mesh_findings(scene);
+        let (of_mesh, mesh) = pipeline::mesh_findings(scene);
         let parts: Vec<PartInfo> = left_out
             .iter()
+            .zip(precision::by_part(scene, &mesh))
             .enumerate()
-            .filter_map(|(part, left_out)| PartInfo::of(scene, part, left_out, &turned))
+            .filter_map(|(part, (left_out, precision))| {
+                PartInfo::of(scene, part, left_out, &mesh.turned, precision)
+            })
             .collect();
         let left_out = LeftOutInfo::of(scene, &left_out);
         let mut warnings = scene.warnings.clone();
@@ -82,7 +86,7 @@ impl Info {
             },
             triangles: parts.iter().map(|part| part.triangles).sum(),
             vertices: points.len() as u64,
-            turned: TurnedInfo::of(&turned),
+            turned: TurnedInfo::of(&mesh.turned),
             parts,
             materials: scene.materials.iter().map(|material| MaterialInfo::of(scene, material)).collect(),
             lights: scene.lights.iter().map(LightInfo::of).collect(),

@@ -38,7 +38,7 @@ pub(super) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
         let _ = writeln!(text, "  left out: {}", own.line().replace(char::is_control, " "));
     }
     if left_out.len() > most {
-        let _ = writeln!(text, "  left out in {} more parts (--json lists all)", left_out.len() - most);
+        let _ = writeln!(text, "  left out in {} more parts (--all lists them)", left_out.len() - most);
     }
 }
 

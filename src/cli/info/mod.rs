@@ -1,7 +1,8 @@
 //! `ligne info`: what is in a model file, and what is wrong with it.
 //!
-//! `contents` collects what a scene holds, with a file for each kind of entry: `parts`, `left_out`, `materials`, and `staging` for
-//! lights, cameras and animations. `summary` writes it for people, in the lists of `lists`; programs get the same as JSON.
+//! `contents` collects what a scene holds, with a file for each kind of entry: `parts` with their `precision`, `left_out`,
+//! `materials`, and `staging` for lights, cameras and animations. `summary` writes it for people, in the lists of `lists`. JSON, for
+//! programs, has all of it.
 
 mod args;
 mod contents;
@@ -9,6 +10,7 @@ mod left_out;
 mod lists;
 mod materials;
 mod parts;
+mod precision;
 mod staging;
 mod summary;
 #[cfg(test)]
@@ -28,6 +30,6 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
         let json = serde_json::to_string_pretty(&info).unwrap_or_default();
         print(format!("{json}\n").as_bytes())
     } else {
-        print(info.text().as_bytes())
+        print(info.text(args.all).as_bytes())
     }
 }

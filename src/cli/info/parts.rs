@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::lists::named;
+use super::precision::PrecisionInfo;
 use crate::cli::number::counted;
 use crate::mesh::TurnedFaces;
 use crate::scene::Scene;
@@ -19,6 +20,8 @@ pub(super) struct PartInfo {
     /// Whether its vertices are painted.
     pub vertex_colours: bool,
     pub turned: TurnedInfo,
+    #[serde(flatten)]
+    pub precision: PrecisionInfo,
 }
 
 /// How many triangles are turned, and in how many connected surfaces.
@@ -30,7 +33,13 @@ pub(super) struct TurnedInfo {
 
 impl PartInfo {
     /// What a part of a scene holds, without what is left out of it; none for a number that no part has.
-    pub fn of(scene: &Scene, number: usize, left_out: &LeftOut, turned: &[TurnedFaces]) -> Option<Self> {
+    pub fn of(
+        scene: &Scene,
+        number: usize,
+        left_out: &LeftOut,
+        turned: &[TurnedFaces],
+        precision: PrecisionInfo,
+    ) -> Option<Self> {
         let part = scene.parts.get(number)?;
         let geometry = scene.geometries.get(part.geometry);
         let triangles = geometry.map_or(0, |geometry| geometry.triangles.len() as u64);
@@ -43,11 +52,12 @@ impl PartInfo {
             texture_coordinates: geometry.is_some_and(|geometry| !geometry.corner_uvs.is_empty()),
             vertex_colours: geometry.is_some_and(|geometry| !geometry.colours.is_empty()),
             turned: TurnedInfo::of(turned),
+            precision,
         })
     }
 
-    /// The part's entry in the list for people.
-    pub fn line(&self) -> String {
+    /// The part's entry in the list for people, with its precision or without.
+    pub fn line(&self, has_precision: bool) -> String {
         let lines = if self.wires > 0 { format!(", {}", counted(self.wires, "line")) } else { String::new() };
         let painted = match (self.texture_coordinates, self.vertex_colours) {
             (true, true) => ", texture coordinates, coloured vertices",
@@ -56,7 +66,10 @@ impl PartInfo {
             (false, false) => "",
         };
         let turned = self.turned.words().map_or_else(String::new, |turned| format!(", {turned}"));
-        format!("{}: {}{lines}{painted}{turned}", named(&self.name), counted(self.triangles, "triangle"))
+        let precision = self.precision.words().filter(|_| has_precision);
+        let precision = precision.map_or_else(String::new, |words| format!(", {words}"));
+        let triangles = counted(self.triangles, "triangle");
+        format!("{}: {triangles}{lines}{painted}{turned}{precision}", named(&self.name))
     }
 }
 

@@ -6,13 +6,13 @@ use super::contents::{BoundsInfo, Info};
 use super::left_out;
 use super::lists::{SHOWN, list};
 use super::materials::MaterialInfo;
-use super::parts::PartInfo;
 use super::staging::{CameraInfo, ClipInfo, LightInfo};
 use crate::cli::number::{counted, short};
 
 impl Info {
-    /// What is in the file, for people.
-    pub(super) fn text(&self) -> String {
+    /// What is in the file, for people: all of it, with the precision of each part, or the beginning of each list.
+    pub(super) fn text(&self, is_full: bool) -> String {
+        let most = if is_full { usize::MAX } else { SHOWN };
         let mut text = String::new();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);
@@ -27,16 +27,16 @@ impl Info {
         if self.unused_vertices > 0 {
             let _ = writeln!(text, "  {} that no face or line uses", vertices(self.unused_vertices));
         }
-        left_out::add(&mut text, &self.left_out, SHOWN);
+        left_out::add(&mut text, &self.left_out, most);
         if let Some(turned) = self.turned.words() {
             let _ = writeln!(text, "  {turned}: wound inward or against their neighbours in the file");
         }
-        list(&mut text, "part", self.parts.iter().map(PartInfo::line));
-        list(&mut text, "material", self.materials.iter().map(MaterialInfo::line));
-        list(&mut text, "light", self.lights.iter().map(LightInfo::line));
-        list(&mut text, "camera", self.cameras.iter().map(CameraInfo::line));
-        list(&mut text, "animation", self.animations.iter().map(ClipInfo::line));
-        list(&mut text, "warning", self.warnings.iter().cloned());
+        list(&mut text, "part", most, self.parts.iter().map(|part| part.line(is_full)));
+        list(&mut text, "material", most, self.materials.iter().map(MaterialInfo::line));
+        list(&mut text, "light", most, self.lights.iter().map(LightInfo::line));
+        list(&mut text, "camera", most, self.cameras.iter().map(CameraInfo::line));
+        list(&mut text, "animation", most, self.animations.iter().map(ClipInfo::line));
+        list(&mut text, "warning", most, self.warnings.iter().cloned());
         text
     }
 }

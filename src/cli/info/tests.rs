@@ -39,16 +39,16 @@ fn walk() -> Clip {
 }
 
 fn args(model: &str) -> InfoArgs {
-    InfoArgs { model: model.into(), unit: None, json: false }
+    InfoArgs { model: model.into(), unit: None, all: false, json: false }
 }
 
 #[test]
 fn people_read_lists_of_a_bearable_length() {
-    let text = Info::of(&scene(22), &[walk()], &args("m.obj")).text();
+    let text = Info::of(&scene(22), &[walk()], &args("m.obj")).text(false);
     let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
                  22 parts:\n    bolt 0: 1 triangle, 1 line\n";
     assert!(text.starts_with(start), "{text}");
-    assert!(text.contains("    and 2 more (--json lists all)\n  1 material:\n    (no name): #cccccc\n"));
+    assert!(text.contains("    and 2 more (--all lists them)\n  1 material:\n    (no name): #cccccc\n"));
     assert!(
         text.contains("  1 animation:\n    Walk: 2 s, from 0.5 s, 1 key a second\n")
             && text.contains("    3 doubled faces\n"),
@@ -62,10 +62,12 @@ fn people_read_what_parts_are_painted_by() {
     let mut scene = scene(1);
     scene.geometries[0].corner_uvs = vec![[0; 3]];
     assert!(
-        Info::of(&scene, &[], &args("m.obj")).text().contains(": 1 triangle, 1 line, texture coordinates\n")
+        Info::of(&scene, &[], &args("m.obj"))
+            .text(false)
+            .contains(": 1 triangle, 1 line, texture coordinates\n")
     );
     scene.geometries[0].colours = vec![[1.0; 4]; 3];
-    let text = Info::of(&scene, &[], &args("m.obj")).text();
+    let text = Info::of(&scene, &[], &args("m.obj")).text(false);
     assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
 }
 
@@ -81,7 +83,7 @@ fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
     scene.geometries.push(right);
     scene.parts[1].geometry = 1;
     let info = Info::of(&scene, &[], &args("m.obj"));
-    let text = info.text();
+    let text = info.text(false);
     let wanted = "  4 triangles turned in 1 surface: wound inward or against their neighbours in the file\n  2 parts:\n    \
                   bolt 0: 4 triangles, 4 triangles turned in 1 surface\n    bolt 1: 4 triangles\n";
     assert!(text.contains(wanted), "{text}");
@@ -104,6 +106,42 @@ fn programs_read_everything() -> Result<(), serde_json::Error> {
 }
 
 #[test]
+fn parts_that_are_not_drawn_have_no_precision() -> Result<(), serde_json::Error> {
+    let mut scene = scene(2);
+    scene.parts[1].world_from_part = DAffine3::from_scale(DVec3::ZERO);
+    let info = Info::of(&scene, &[], &args("m.obj"));
+    assert!(
+        info.text(true).contains(", exact coordinates\n    bolt 1: 1 triangle, 1 line\n"),
+        "{}",
+        info.text(true)
+    );
+    let value: serde_json::Value = serde_json::from_str(&serde_json::to_string(&info)?)?;
+    let steps = [&value["parts"][0]["step"], &value["parts"][1]["step"]];
+    assert_eq!(steps, [&serde_json::json!(0.0), &serde_json::Value::Null]);
+    Ok(())
+}
+
+#[test]
+fn parts_of_one_body_have_the_step_of_the_coarsest() {
+    // Two faces of one tetrahedron, each a part of its own; only the first part is of a lattice.
+    let mut scene = scene(2);
+    let step = 1e-5;
+    scene.parts.iter_mut().for_each(|part| part.world_from_part = DAffine3::IDENTITY);
+    scene.geometries[0].lattice_step = step;
+    scene.geometries[0].wires.clear();
+    let mut other = scene.geometries[0].clone();
+    other.positions.push(DVec3::Z);
+    other.lattice_step = 0.0;
+    other.triangles = vec![[1, 0, 3]];
+    scene.geometries.push(other);
+    scene.parts[1].geometry = 1;
+    let text = Info::of(&scene, &[], &args("m.obj")).text(true);
+    assert_eq!(text.matches(", step 1e-5 (decimals of the file), rounding 9e-6\n").count(), 2, "{text}");
+}
+
+#[test]
 fn an_empty_model_has_no_bounds() {
-    assert!(Info::of(&scene(0), &[], &args("m.obj")).text().starts_with("m.obj: OBJ, y up\n  0 triangles"));
+    assert!(
+        Info::of(&scene(0), &[], &args("m.obj")).text(false).starts_with("m.obj: OBJ, y up\n  0 triangles")
+    );
 }
