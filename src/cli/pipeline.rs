@@ -63,7 +63,7 @@ fn check_left(scene: &Scene, names: &[String]) -> Result<(), Error> {
     Ok(())
 }
 
-/// What cleaning the mesh of a scene finds wrong with it, and the mesh.
+/// The mesh of a scene, with the defects that cleaning found.
 pub(super) fn mesh_findings(scene: &Scene) -> (Warnings, Mesh) {
     let mesh = Mesh::build(scene.to_soup());
     (defects::of_mesh(&mesh, scene), mesh)

@@ -29,12 +29,17 @@ const SIDES: [[usize; 3]; 12] = [
 /// Single precision: the distance between neighbouring numbers, as a share of the number.
 const SINGLE: f64 = 1.0 / 8_388_608.0;
 
-/// Corners of a box of 20 x 12 x 8, turned around z by an angle in radians.
-fn corners(angle: f64) -> [[f64; 3]; 8] {
+/// Cosine and sine of 0.3.
+const TURNED: [f64; 2] = [0.955_336_489_125_606, 0.295_520_206_661_339_6];
+
+const STRAIGHT: [f64; 2] = [1.0, 0.0];
+
+/// Corners of a box of 20 x 12 x 8, turned around z by an angle with this cosine and sine.
+fn corners([cos, sin]: [f64; 2]) -> [[f64; 3]; 8] {
     std::array::from_fn(|k| {
         let side = |bit: usize, length: f64| if k >> bit & 1 == 1 { length } else { 0.0 };
         let (x, y) = (side(0, 20.0), side(1, 12.0));
-        [x * angle.cos() - y * angle.sin(), x * angle.sin() + y * angle.cos(), side(2, 8.0)]
+        [x * cos - y * sin, x * sin + y * cos, side(2, 8.0)]
     })
 }
 
@@ -109,14 +114,14 @@ fn bounds(corners: &[[f64; 3]; 8]) -> [[f64; 3]; 2] {
     })
 }
 
-/// What `info` says of the first part: the end of its line with `--all`, and its entry in JSON.
+/// The first part as `info` lists it: the end of its line with `--all`, and its entry in JSON.
 fn first_part(folder: &Folder, model: &str) -> (String, Value) {
     let plain = folder.ligne(&format!("info {model}")).done().out.clone();
     assert!(!plain.contains("step") && !plain.contains("exact"), "{plain}");
     let text = folder.ligne(&format!("info --all {model}")).done().out.clone();
     let lines: Vec<&str> = text.lines().collect();
     let heading = lines.iter().position(|line| line.trim() == "1 part:").expect("a list of parts");
-    let (_, said) = lines[heading + 1].split_once(": 12 triangles, ").expect("what is said of the part");
+    let (_, said) = lines[heading + 1].split_once(": 12 triangles, ").expect("the precision of the part");
     let json = folder.ligne(&format!("info --json {model}")).done().out.clone();
     let json: Value = serde_json::from_str(&json).expect("JSON");
     (said.to_owned(), json["parts"][0].clone())
@@ -135,7 +140,7 @@ fn check(part: &Value, step: f64, source: &str, rounding: f64) {
 #[test]
 fn decimals_of_a_text_are_the_step() {
     let folder = Folder::new("info-decimals");
-    folder.write("box.obj", &obj(&corners(0.3), 3));
+    folder.write("box.obj", &obj(&corners(TURNED), 3));
     let (said, part) = first_part(&folder, "box.obj");
     assert_eq!(said, "step 0.001 (decimals of the file), rounding 0.0009");
     check(&part, 1e-3, "decimals", 0.9);
@@ -144,7 +149,7 @@ fn decimals_of_a_text_are_the_step() {
 #[test]
 fn single_precision_has_the_step_of_its_largest_coordinate() {
     let folder = Folder::new("info-single");
-    let corners = corners(0.3);
+    let corners = corners(TURNED);
     fs::write(folder.path("box.stl"), stl(&corners)).expect("a model");
     let (said, part) = first_part(&folder, "box.stl");
     assert_eq!(said, "step 2.28e-6 (single precision), rounding 3.99e-6");
@@ -163,7 +168,7 @@ fn single_precision_has_the_step_of_its_largest_coordinate() {
 #[test]
 fn quantised_coordinates_have_the_step_of_their_whole_numbers() {
     let folder = Folder::new("info-quantised");
-    let corners = corners(0.0).map(|corner| corner.map(|x| 1000.0 * x));
+    let corners = corners(STRAIGHT).map(|corner| corner.map(|x| 1000.0 * x));
     let mut positions = Vec::new();
     for corner in &corners {
         positions.extend(corner.iter().flat_map(|x| (*x as u16).to_le_bytes()));
@@ -180,8 +185,8 @@ fn quantised_coordinates_have_the_step_of_their_whole_numbers() {
 #[test]
 fn coordinates_that_are_not_rounded_are_exact() {
     let folder = Folder::new("info-exact");
-    folder.write("whole.obj", &obj(&corners(0.0), 0));
-    folder.write("double.obj", &obj(&corners(0.3), 15));
+    folder.write("whole.obj", &obj(&corners(STRAIGHT), 0));
+    folder.write("double.obj", &obj(&corners(TURNED), 15));
     for model in ["whole.obj", "double.obj"] {
         let (said, part) = first_part(&folder, model);
         assert_eq!(said, "exact coordinates", "{model}");

@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::cli::model_unit::ModelUnit;
 
-/// What was typed.
+/// Options of `ligne info`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   ligne info bunny.obj

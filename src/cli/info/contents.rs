@@ -1,4 +1,4 @@
-//! [`Info`]: what is in a model file.
+//! [`Info`]: contents and defects of a model file.
 
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ use crate::scene::drawn_points::{DrawnPoints, used_points};
 use crate::scene::framing::bounds;
 use crate::scene::{Geometry, Scene, UpAxis};
 
-/// What is in a model file.
+/// Contents and defects of a model file.
 #[derive(Debug, Serialize)]
 pub(super) struct Info {
     pub file: String,
@@ -36,7 +36,7 @@ pub(super) struct Info {
     pub left_out: Vec<LeftOutInfo>,
     /// Vertices that no face and no line uses.
     pub unused_vertices: u64,
-    /// What a unit is, where the format or the call says so.
+    /// Length of a unit, where the format or the call says so.
     pub unit: Option<&'static str>,
     pub warnings: Vec<String>,
 }
@@ -52,7 +52,7 @@ pub(super) struct BoundsInfo {
 }
 
 impl Info {
-    /// Collects what is in a scene.
+    /// Collects the contents and defects of a scene.
     pub fn of(scene: &Scene, clips: &[Clip], args: &InfoArgs) -> Self {
         let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
         let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;

@@ -1,4 +1,4 @@
-//! What `ligne info` says of faces without area and lines without length.
+//! Faces without area and lines without length, as `ligne info` lists them.
 
 use std::fmt::Write;
 

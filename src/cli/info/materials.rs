@@ -1,4 +1,4 @@
-//! [`MaterialInfo`]: what a material looks like.
+//! [`MaterialInfo`]: colour, texture and opacity of a material.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use crate::math::colour::Colour;
 use crate::scene::texture::picture_of;
 use crate::scene::{Alpha, Material, Scene};
 
-/// What a material looks like.
+/// Colour, texture and opacity of a material.
 #[derive(Debug, Serialize)]
 pub(super) struct MaterialInfo {
     name: String,
@@ -30,7 +30,7 @@ pub(super) struct MaterialInfo {
 }
 
 impl MaterialInfo {
-    /// What a material of a scene looks like.
+    /// Describes a material of a scene.
     pub fn of(scene: &Scene, material: &Material) -> Self {
         let (alpha, cutoff) = match material.alpha {
             Alpha::Mask { cutoff } => ("mask", Some(cutoff)),

@@ -1,4 +1,4 @@
-//! `ligne info`: what is in a model file, and what is wrong with it.
+//! `ligne info`: contents and defects of a model file.
 //!
 //! `contents` collects what a scene holds, with a file for each kind of entry: `parts` with their `precision`, `left_out`,
 //! `materials`, and `staging` for lights, cameras and animations. `summary` writes it for people, in the lists of `lists`. JSON, for
@@ -22,7 +22,7 @@ use super::print;
 use crate::error::Error;
 use crate::pose::Rigged;
 
-/// Reads the model and says what is in it.
+/// Reads the model and prints its contents.
 pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
     let rigged = Rigged::open(&args.model)?;
     let info = Info::of(&rigged.posed(&[])?, &rigged.rig.clips, args);

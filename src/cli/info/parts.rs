@@ -1,4 +1,4 @@
-//! [`PartInfo`]: what a part holds.
+//! [`PartInfo`]: contents and precision of a part.
 
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use crate::mesh::TurnedFaces;
 use crate::scene::Scene;
 use crate::scene::drawn_points::LeftOut;
 
-/// What a part holds.
+/// Contents and precision of a part.
 #[derive(Debug, Serialize)]
 pub(super) struct PartInfo {
     pub name: String,
@@ -32,7 +32,7 @@ pub(super) struct TurnedInfo {
 }
 
 impl PartInfo {
-    /// What a part of a scene holds, without what is left out of it; none for a number that no part has.
+    /// Describes a part of a scene, without elements that are left out of it; none for a number that no part has.
     pub fn of(
         scene: &Scene,
         number: usize,

@@ -1,7 +1,7 @@
-//! [`PrecisionInfo`]: how finely the file wrote the coordinates of a part.
+//! [`PrecisionInfo`]: precision of the coordinates of a part.
 //!
-//! The mesh knows the step and the rounding that tolerances derive from. Parts of one body share them. The source of the step is read
-//! off its size: if a lattice of the body has this step in world space, it is that lattice, and else single precision.
+//! The mesh stores the step and the rounding that tolerances derive from. Parts of one body share them. The step is the largest of two:
+//! the step of single precision, and the coarsest lattice of the body in world space. The larger one is the source of the step.
 
 use serde::Serialize;
 
@@ -14,15 +14,15 @@ use crate::scene::flatten::longest_axis;
 /// The precision of a part's coordinates in world space.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct PrecisionInfo {
-    /// Distance between neighbouring coordinates, units of the model; 0 where coordinates are exact, none where nothing is drawn.
+    /// Distance between neighbouring coordinates, units of the model; 0 if coordinates are exact, none if nothing is drawn.
     step: Option<f64>,
-    /// Where the step comes from; none where it is 0.
+    /// Source of the step; none if the step is 0.
     step_from: Option<StepSource>,
-    /// How far rounding may have moved a vertex, units of the model; 0 where coordinates count as exact.
+    /// How far rounding may have moved a vertex, units of the model; 0 if coordinates count as exact.
     rounding: Option<f64>,
 }
 
-/// Where a step comes from.
+/// Source of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 enum StepSource {
@@ -56,7 +56,6 @@ pub(super) fn by_part(scene: &Scene, mesh: &Mesh) -> Vec<PrecisionInfo> {
 impl PrecisionInfo {
     fn of(extent: &Extent, lattice: f64, lattice_source: StepSource) -> Self {
         let is_drawn = extent.low.x <= extent.high.x;
-        // The step is the greatest of those that the numbers and the lattices have.
         let source = if lattice >= extent.step { lattice_source } else { StepSource::SinglePrecision };
         Self {
             step: is_drawn.then_some(extent.step),

@@ -66,7 +66,7 @@ impl CameraInfo {
 }
 
 impl ClipInfo {
-    /// What an animation holds.
+    /// Name, time span and key rate of an animation.
     pub fn of(clip: &Clip) -> Self {
         let [from, to] = clip.span();
         Self { name: clip.name.clone(), from, to, rate: clip.rate() }

@@ -1,4 +1,4 @@
-//! What is in a model file, as a text for people.
+//! The text of `ligne info` for people.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use super::staging::{CameraInfo, ClipInfo, LightInfo};
 use crate::cli::number::{counted, short};
 
 impl Info {
-    /// What is in the file, for people: all of it, with the precision of each part, or the beginning of each list.
+    /// The text for people. A full one lists everything, with the precision of each part; another one stops after [`SHOWN`] entries.
     pub(super) fn text(&self, is_full: bool) -> String {
         let most = if is_full { usize::MAX } else { SHOWN };
         let mut text = String::new();

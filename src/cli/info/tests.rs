@@ -1,4 +1,4 @@
-//! Tests of what `ligne info` says.
+//! Tests of `ligne info` on scenes in memory.
 
 use glam::{DAffine3, DVec3};
 
@@ -123,7 +123,7 @@ fn parts_that_are_not_drawn_have_no_precision() -> Result<(), serde_json::Error>
 
 #[test]
 fn parts_of_one_body_have_the_step_of_the_coarsest() {
-    // Two faces of one tetrahedron, each a part of its own; only the first part is of a lattice.
+    // Two faces of one tetrahedron in two parts; only the first part has a lattice.
     let mut scene = scene(2);
     let step = 1e-5;
     scene.parts.iter_mut().for_each(|part| part.world_from_part = DAffine3::IDENTITY);
