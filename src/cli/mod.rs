@@ -13,7 +13,6 @@ mod fmt;
 mod framing_args;
 mod info;
 mod keys;
-mod left_out;
 mod lod;
 mod man;
 mod many;

@@ -44,6 +44,12 @@ pub(super) fn short(value: f64) -> String {
     plain(value, 7_usize.saturating_sub(before_point).min(6))
 }
 
+/// A small length with three digits that count: `0.0009`, `1.19e-7`.
+pub(super) fn three_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    if rounded != 0.0 && rounded.abs() < 1e-4 { format!("{rounded:e}") } else { rounded.to_string() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,5 +71,8 @@ mod tests {
         let numbers = [0.0, -1.5, 4_600_000.123, 1e-7, 3e9, 77.990_000_1, 0.25];
         let texts = ["0", "-1.5", "4600000", "1.00000e-7", "3.00000e9", "77.99", "0.25"];
         assert_eq!(numbers.map(short), texts);
+        let numbers = [0.0, 1e-3, 9e-4, 1.192_092_9e-7, 9e-5, 0.062_5, 1234.0];
+        let texts = ["0", "0.001", "0.0009", "1.19e-7", "9e-5", "0.0625", "1230"];
+        assert_eq!(numbers.map(three_digits), texts);
     }
 }

@@ -8,7 +8,7 @@ use crate::drawing::Drawing;
 use crate::error::Error;
 use crate::export::{Grouping, PngOptions, Resolution, SvgOptions};
 use crate::math::colour::Colour;
-use crate::mesh::{Mesh, TurnedFaces};
+use crate::mesh::Mesh;
 use crate::pose::Rigged;
 use crate::render::defects;
 use crate::scene::{Scene, Warnings};
@@ -63,10 +63,10 @@ fn check_left(scene: &Scene, names: &[String]) -> Result<(), Error> {
     Ok(())
 }
 
-/// What cleaning the mesh of a scene finds wrong with it, and which of its faces are turned.
-pub(super) fn mesh_findings(scene: &Scene) -> (Warnings, Vec<TurnedFaces>) {
+/// The mesh of a scene, with the defects that cleaning found.
+pub(super) fn mesh_findings(scene: &Scene) -> (Warnings, Mesh) {
     let mesh = Mesh::build(scene.to_soup());
-    (defects::of_mesh(&mesh, scene), mesh.turned)
+    (defects::of_mesh(&mesh, scene), mesh)
 }
 
 /// The drawing as SVG.

@@ -204,7 +204,7 @@ fn append_attributes(
 }
 
 /// By how much a placement stretches lengths, at most along one of the axes of the shape.
-fn longest_axis(place: &DAffine3) -> f64 {
+pub(crate) fn longest_axis(place: &DAffine3) -> f64 {
     let axes = place.matrix3;
     axes.x_axis.length().max(axes.y_axis.length()).max(axes.z_axis.length())
 }

@@ -102,7 +102,7 @@ fn tests_that_documents_name_are_there() {
 
 #[test]
 fn options_that_the_readme_names_are_there() {
-    let help: String = ["draw", "animate", "diff", "fmt", "test", "lod", "styles", "page"]
+    let help: String = ["draw", "animate", "diff", "fmt", "test", "info", "lod", "styles", "page"]
         .map(|command| {
             let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
             String::from_utf8(help.stdout).unwrap()

@@ -14,6 +14,7 @@ mod dxf;
 mod fmt;
 mod framing;
 mod heap;
+mod info;
 mod left_out;
 mod lod;
 mod many;

@@ -1,10 +1,10 @@
-//! What `ligne info` says of faces without area and lines without length.
+//! Faces without area and lines without length, as `ligne info` lists them.
 
 use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::number::{counted, short};
+use crate::cli::number::{counted, short};
 use crate::scene::Scene;
 use crate::scene::drawn_points::{DrawnPart, LeftOut};
 
@@ -38,7 +38,7 @@ pub(super) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
         let _ = writeln!(text, "  left out: {}", own.line().replace(char::is_control, " "));
     }
     if left_out.len() > most {
-        let _ = writeln!(text, "  left out in {} more parts (--json lists all)", left_out.len() - most);
+        let _ = writeln!(text, "  left out in {} more parts (--all lists them)", left_out.len() - most);
     }
 }
 

@@ -1,0 +1,106 @@
+//! [`Info`]: contents and defects of a model file.
+
+use serde::Serialize;
+
+use super::args::InfoArgs;
+use super::left_out::{self, LeftOutInfo};
+use super::materials::MaterialInfo;
+use super::parts::{PartInfo, TurnedInfo};
+use super::precision;
+use super::staging::{CameraInfo, ClipInfo, LightInfo};
+use crate::cli::model_unit::{self, ModelUnit};
+use crate::cli::pipeline;
+use crate::pose::Clip;
+use crate::scene::drawn_points::{DrawnPoints, used_points};
+use crate::scene::framing::bounds;
+use crate::scene::{Geometry, Scene, UpAxis};
+
+/// Contents and defects of a model file.
+#[derive(Debug, Serialize)]
+pub(super) struct Info {
+    pub file: String,
+    pub format: &'static str,
+    pub up: &'static str,
+    pub triangles: u64,
+    /// As stored, those that are drawn; instances counted each.
+    pub vertices: u64,
+    /// Triangles that the file winds inward or against their neighbours; they are drawn turned.
+    pub turned: TurnedInfo,
+    pub parts: Vec<PartInfo>,
+    pub materials: Vec<MaterialInfo>,
+    pub lights: Vec<LightInfo>,
+    pub cameras: Vec<CameraInfo>,
+    pub animations: Vec<ClipInfo>,
+    pub bounds: Option<BoundsInfo>,
+    /// Faces without area and lines without length, part by part; they count in nothing else.
+    pub left_out: Vec<LeftOutInfo>,
+    /// Vertices that no face and no line uses.
+    pub unused_vertices: u64,
+    /// Length of a unit, where the format or the call says so.
+    pub unit: Option<&'static str>,
+    pub warnings: Vec<String>,
+}
+
+/// The box around all that is drawn.
+#[derive(Debug, Serialize)]
+pub(super) struct BoundsInfo {
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+    /// Along x, y and z, where it is known what a unit is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_mm: Option<[f64; 3]>,
+}
+
+impl Info {
+    /// Collects the contents and defects of a scene.
+    pub fn of(scene: &Scene, clips: &[Clip], args: &InfoArgs) -> Self {
+        let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
+        let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;
+        let unused_vertices = scene.unused_vertices + scene.geometries.iter().map(unused).sum::<u64>();
+        let left_out = left_out::by_part(scene, &drawn);
+        let (of_mesh, mesh) = pipeline::mesh_findings(scene);
+        let parts: Vec<PartInfo> = left_out
+            .iter()
+            .zip(precision::by_part(scene, &mesh))
+            .enumerate()
+            .filter_map(|(part, (left_out, precision))| {
+                PartInfo::of(scene, part, left_out, &mesh.turned, precision)
+            })
+            .collect();
+        let left_out = LeftOutInfo::of(scene, &left_out);
+        let mut warnings = scene.warnings.clone();
+        warnings.extend(&of_mesh);
+        let mut warnings = warnings.lines();
+        let bounds = bounds(&points);
+        let unit =
+            (args.unit.is_some() || model_unit::is_in_metres(scene)).then(|| ModelUnit::of(scene, args.unit));
+        if let Some((min, max)) = bounds.filter(|_| args.unit.is_none()) {
+            warnings.extend(model_unit::doubt(scene, (max - min).max_element()));
+        }
+        Self {
+            file: args.model.display().to_string(),
+            format: scene.format,
+            up: match scene.up {
+                UpAxis::Y => "y",
+                UpAxis::Z => "z",
+            },
+            triangles: parts.iter().map(|part| part.triangles).sum(),
+            vertices: points.len() as u64,
+            turned: TurnedInfo::of(&mesh.turned),
+            parts,
+            materials: scene.materials.iter().map(|material| MaterialInfo::of(scene, material)).collect(),
+            lights: scene.lights.iter().map(LightInfo::of).collect(),
+            cameras: scene.cameras.iter().map(CameraInfo::of).collect(),
+            animations: clips.iter().map(ClipInfo::of).collect(),
+            bounds: bounds.map(|(min, max)| BoundsInfo {
+                min: min.to_array(),
+                max: max.to_array(),
+                size_mm: unit.map(|unit| ((max - min) * unit.mm()).to_array()),
+            }),
+            left_out,
+            unused_vertices,
+            unit: unit.map(ModelUnit::name),
+            warnings,
+        }
+    }
+}

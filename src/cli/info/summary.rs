@@ -1,0 +1,46 @@
+//! The text of `ligne info` for people.
+
+use std::fmt::Write;
+
+use super::contents::{BoundsInfo, Info};
+use super::left_out;
+use super::lists::{SHOWN, list};
+use super::materials::MaterialInfo;
+use super::staging::{CameraInfo, ClipInfo, LightInfo};
+use crate::cli::number::{counted, short};
+
+impl Info {
+    /// The text for people. A full one lists everything, with the precision of each part; another one stops after [`SHOWN`] entries.
+    pub(super) fn text(&self, is_full: bool) -> String {
+        let most = if is_full { usize::MAX } else { SHOWN };
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);
+        let _ = writeln!(text, "  {}, {}", counted(self.triangles, "triangle"), vertices(self.vertices));
+        if let Some(BoundsInfo { min, max, .. }) = &self.bounds {
+            let size: Vec<String> = min.iter().zip(max).map(|(low, high)| short(high - low)).collect();
+            let corner = |corner: &[f64; 3]| corner.map(short).join(", ");
+            let unit = self.unit.map_or_else(String::new, |unit| format!(" {unit}"));
+            let _ =
+                writeln!(text, "  {}{unit}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
+        }
+        if self.unused_vertices > 0 {
+            let _ = writeln!(text, "  {} that no face or line uses", vertices(self.unused_vertices));
+        }
+        left_out::add(&mut text, &self.left_out, most);
+        if let Some(turned) = self.turned.words() {
+            let _ = writeln!(text, "  {turned}: wound inward or against their neighbours in the file");
+        }
+        list(&mut text, "part", most, self.parts.iter().map(|part| part.line(is_full)));
+        list(&mut text, "material", most, self.materials.iter().map(MaterialInfo::line));
+        list(&mut text, "light", most, self.lights.iter().map(LightInfo::line));
+        list(&mut text, "camera", most, self.cameras.iter().map(CameraInfo::line));
+        list(&mut text, "animation", most, self.animations.iter().map(ClipInfo::line));
+        list(&mut text, "warning", most, self.warnings.iter().cloned());
+        text
+    }
+}
+
+fn vertices(n: u64) -> String {
+    counted(n, "vertex").replace("vertexs", "vertices")
+}

@@ -1,0 +1,147 @@
+//! Tests of `ligne info` on scenes in memory.
+
+use glam::{DAffine3, DVec3};
+
+use super::args::InfoArgs;
+use super::contents::Info;
+use crate::pose::{Channel, Clip, Interpolation, Property, Target, Track};
+use crate::scene::{Geometry, Material, Part, Scene};
+
+fn scene(parts: usize) -> Scene {
+    let geometry = Geometry {
+        positions: vec![DVec3::ZERO, DVec3::X * 12.5, DVec3::Y],
+        triangles: vec![[0, 1, 2]],
+        wires: vec![[0, 1]],
+        ..Geometry::default()
+    };
+    let part = |n: usize| Part {
+        name: format!("bolt\u{1b}{n}"),
+        geometry: 0,
+        world_from_part: DAffine3::from_translation(DVec3::Z * n as f64),
+    };
+    let mut scene = Scene {
+        format: "OBJ",
+        geometries: vec![geometry],
+        parts: (0..parts).map(part).collect(),
+        materials: vec![Material::default()],
+        ..Scene::default()
+    };
+    scene.warnings.count("doubled faces", 3);
+    scene
+}
+
+fn walk() -> Clip {
+    let track = Track::new(vec![0.5, 1.0, 2.5], vec![0.0; 9], Interpolation::Linear).unwrap();
+    Clip {
+        name: "Walk".to_owned(),
+        channels: vec![Channel { target: Target::Node(0, Property::Scale), track }],
+    }
+}
+
+fn args(model: &str) -> InfoArgs {
+    InfoArgs { model: model.into(), unit: None, all: false, json: false }
+}
+
+#[test]
+fn people_read_lists_of_a_bearable_length() {
+    let text = Info::of(&scene(22), &[walk()], &args("m.obj")).text(false);
+    let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
+                 22 parts:\n    bolt 0: 1 triangle, 1 line\n";
+    assert!(text.starts_with(start), "{text}");
+    assert!(text.contains("    and 2 more (--all lists them)\n  1 material:\n    (no name): #cccccc\n"));
+    assert!(
+        text.contains("  1 animation:\n    Walk: 2 s, from 0.5 s, 1 key a second\n")
+            && text.contains("    3 doubled faces\n"),
+        "{text}"
+    );
+    assert!(!text.contains("camera") && !text.contains("light"));
+}
+
+#[test]
+fn people_read_what_parts_are_painted_by() {
+    let mut scene = scene(1);
+    scene.geometries[0].corner_uvs = vec![[0; 3]];
+    assert!(
+        Info::of(&scene, &[], &args("m.obj"))
+            .text(false)
+            .contains(": 1 triangle, 1 line, texture coordinates\n")
+    );
+    scene.geometries[0].colours = vec![[1.0; 4]; 3];
+    let text = Info::of(&scene, &[], &args("m.obj")).text(false);
+    assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
+}
+
+#[test]
+fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
+    let mut scene = scene(2);
+    scene.geometries[0].positions.push(DVec3::Z);
+    // A tetrahedron that is wound inward.
+    scene.geometries[0].triangles = vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]];
+    scene.geometries[0].wires.clear();
+    let mut right = scene.geometries[0].clone();
+    right.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    scene.geometries.push(right);
+    scene.parts[1].geometry = 1;
+    let info = Info::of(&scene, &[], &args("m.obj"));
+    let text = info.text(false);
+    let wanted = "  4 triangles turned in 1 surface: wound inward or against their neighbours in the file\n  2 parts:\n    \
+                  bolt 0: 4 triangles, 4 triangles turned in 1 surface\n    bolt 1: 4 triangles\n";
+    assert!(text.contains(wanted), "{text}");
+    let value: serde_json::Value = serde_json::from_str(&serde_json::to_string(&info)?)?;
+    assert_eq!(value["turned"], serde_json::json!({"triangles": 4, "surfaces": 1}));
+    assert_eq!(value["parts"][0]["turned"]["triangles"], 4);
+    assert_eq!(value["parts"][1]["turned"]["triangles"], 0);
+    Ok(())
+}
+
+#[test]
+fn programs_read_everything() -> Result<(), serde_json::Error> {
+    let json = serde_json::to_string(&Info::of(&scene(22), &[walk()], &args("m.obj")))?;
+    let value: serde_json::Value = serde_json::from_str(&json)?;
+    assert_eq!(value["parts"].as_array().map(Vec::len), Some(22));
+    assert_eq!(value["parts"][3]["name"], "bolt\u{1b}3");
+    assert_eq!(value["bounds"]["max"], serde_json::json!([12.5, 1.0, 21.0]));
+    assert_eq!(value["warnings"][0], "3 doubled faces");
+    Ok(())
+}
+
+#[test]
+fn parts_that_are_not_drawn_have_no_precision() -> Result<(), serde_json::Error> {
+    let mut scene = scene(2);
+    scene.parts[1].world_from_part = DAffine3::from_scale(DVec3::ZERO);
+    let info = Info::of(&scene, &[], &args("m.obj"));
+    assert!(
+        info.text(true).contains(", exact coordinates\n    bolt 1: 1 triangle, 1 line\n"),
+        "{}",
+        info.text(true)
+    );
+    let value: serde_json::Value = serde_json::from_str(&serde_json::to_string(&info)?)?;
+    let steps = [&value["parts"][0]["step"], &value["parts"][1]["step"]];
+    assert_eq!(steps, [&serde_json::json!(0.0), &serde_json::Value::Null]);
+    Ok(())
+}
+
+#[test]
+fn parts_of_one_body_have_the_step_of_the_coarsest() {
+    // Two faces of one tetrahedron in two parts; only the first part has a lattice.
+    let mut scene = scene(2);
+    let step = 1e-5;
+    scene.parts.iter_mut().for_each(|part| part.world_from_part = DAffine3::IDENTITY);
+    scene.geometries[0].lattice_step = step;
+    scene.geometries[0].wires.clear();
+    let mut other = scene.geometries[0].clone();
+    other.positions.push(DVec3::Z);
+    other.lattice_step = 0.0;
+    other.triangles = vec![[1, 0, 3]];
+    scene.geometries.push(other);
+    scene.parts[1].geometry = 1;
+    let text = Info::of(&scene, &[], &args("m.obj")).text(true);
+    assert_eq!(text.matches(", step 1e-5 (decimals of the file), rounding 9e-6\n").count(), 2, "{text}");
+}
+
+#[test]
+fn an_empty_model_has_no_bounds() {
+    assert!(
+        Info::of(&scene(0), &[], &args("m.obj")).text(false).starts_with("m.obj: OBJ, y up\n  0 triangles")
+    );
+}
