@@ -118,7 +118,7 @@ pub(super) fn draw_views(
         }
         framed = (request.frame == Frame::All).then_some(whole);
     }
-    if request.section.take_apart(&mut scene) {
+    if request.section.take_apart(&mut scene)? {
         framed = None;
         style = trailed(&style);
     }

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::model_unit::ModelUnit;
 use crate::error::Error;
-use crate::explode::{Explosion, explode, with_trails};
+use crate::explode::{Explosion, PartExplosion, direction, explode, with_trails};
 use crate::math::glob::Glob;
 use crate::scene::Scene;
 use crate::section::{CutPlane, Section, cut};
@@ -22,24 +22,65 @@ pub(super) struct SectionArgs {
     #[arg(long, value_name = "GLOB", help_heading = "View", requires = "section")]
     pub(super) uncut: Vec<String>,
 
-    /// Take the model apart along the axis x, y or z, or the best one (auto), with trail lines; :FACTOR says how far [default: 1]
-    #[arg(long, value_name = "AXIS[:FACTOR]", help_heading = "View", value_parser = explosion)]
+    /// Take the model apart along the axis x, y, z or 1,0,1, or the best one (auto), with trail lines; :FACTOR says how far
+    /// [default: 1]
+    #[arg(long, value_name = "AXIS[:FACTOR]", help_heading = "View", allow_hyphen_values = true, value_parser = explosion)]
     pub(super) explode: Option<Explosion>,
+
+    /// Say how parts whose name matches come apart: 'nut*: along=-z distance=12 order=2 group=cover', any of these four; may be given
+    /// again. The distance is in units of the model, 0 has them stay; a greater order stands farther along the axis; a group stays together
+    #[arg(long, value_name = "GLOB: KEYS", help_heading = "View", requires = "explode", value_parser = part_explosion)]
+    explode_part: Vec<PartExplosion>,
 }
 
-/// Reads `z`, `auto`, `x:1.5` or `:2`.
+/// Reads `nut*: along=-z distance=12 order=2 group=cover`.
+fn part_explosion(text: &str) -> Result<PartExplosion, String> {
+    let wrong = |what: &str| {
+        format!("{what}: write the name of the part, a colon, and along=, distance=, order= or group=")
+    };
+    let (name, keys) = text.rsplit_once(':').ok_or_else(|| wrong("there is no colon"))?;
+    let mut part = PartExplosion::new(name.trim());
+    for key in keys.split_whitespace() {
+        let (key, value) = key.split_once('=').ok_or_else(|| wrong(&format!("`{key}` has no value")))?;
+        let number = || {
+            let number = value.parse().ok().filter(|number: &f64| number.is_finite());
+            number.ok_or_else(|| format!("{key} is no number: `{value}`"))
+        };
+        match key {
+            "along" => {
+                let way = direction(value).ok_or_else(|| {
+                    format!("along is no direction: `{value}`; write x, -y or three numbers such as 1,0,1")
+                })?;
+                part.direction = Some(way);
+            }
+            "distance" => part.distance = Some(number()?),
+            "order" => part.order = Some(number()?),
+            "group" => part.group = Some(value.to_owned()),
+            _ => return Err(wrong(&format!("there is no key `{key}`"))),
+        }
+    }
+    if part == PartExplosion::new(name.trim()) {
+        return Err(wrong("nothing is told of it"));
+    }
+    Ok(part)
+}
+
+/// Reads `z`, `1,0,1`, `auto`, `x:1.5` or `:2`.
 fn explosion(text: &str) -> Result<Explosion, String> {
     let (axis, factor) = text.split_once(':').map_or((text, None), |(axis, factor)| (axis, Some(factor)));
-    let wrong = || "write x, y, z or auto, and how far behind a colon: z:1.5".to_owned();
+    let wrong = || {
+        "write x, y, z, three numbers such as 1,0,1, or auto, and how far behind a colon: z:1.5".to_owned()
+    };
     let axis = match axis.trim() {
-        "x" | "X" => Some(DVec3::X),
-        "y" | "Y" => Some(DVec3::Y),
-        "z" | "Z" => Some(DVec3::Z),
         "" | "auto" => None,
-        _ => return Err(wrong()),
+        axis => Some(direction(axis).ok_or_else(wrong)?),
     };
     let factor = factor.map_or(Ok(1.0), |factor| factor.trim().parse::<f64>().map_err(|_| wrong()))?;
-    if (0.0..=1000.0).contains(&factor) { Ok(Explosion { axis, factor }) } else { Err(wrong()) }
+    if (0.0..=1000.0).contains(&factor) {
+        Ok(Explosion { axis, factor, parts: Vec::new() })
+    } else {
+        Err(wrong())
+    }
 }
 
 impl SectionArgs {
@@ -49,11 +90,19 @@ impl SectionArgs {
     }
 
     /// Takes the scene apart, if it is to be.
-    pub(super) fn take_apart(&self, scene: &mut Scene) -> bool {
-        let Some(explosion) = &self.explode else { return false };
-        let ways = explode(scene, explosion);
+    pub(super) fn take_apart(&self, scene: &mut Scene) -> Result<bool, Error> {
+        let Some(explosion) = &self.explode else { return Ok(false) };
+        let is_unknown =
+            |told: &&PartExplosion| !scene.parts.iter().any(|part| told.name.matches(&part.name));
+        if let Some(unknown) = self.explode_part.iter().find(is_unknown) {
+            return Err(Error::new(format!("no part of the model is called `{}`", unknown.name.as_str()))
+                .at("--explode-part")
+                .remedy("`ligne info` lists the names; a pattern such as bolt* stands for several"));
+        }
+        let parts = [explosion.parts.as_slice(), &self.explode_part].concat();
+        let ways = explode(scene, &Explosion { parts, ..explosion.clone() });
         *scene = with_trails(std::mem::take(scene), &ways);
-        true
+        Ok(true)
     }
 
     /// The scene as it is cut open, if it is to be.
@@ -85,9 +134,29 @@ mod tests {
 
     #[test]
     fn reads_explosions() {
-        let apart = |axis, factor| Ok(Explosion { axis, factor });
+        let apart = |axis, factor| Ok(Explosion { axis, factor, parts: Vec::new() });
         assert_eq!(explosion("z"), apart(Some(DVec3::Z), 1.0));
         assert_eq!(explosion("auto:1.5"), apart(None, 1.5));
-        assert!(["w", "z:", "z:-1", "z:a"].iter().all(|wrong| explosion(wrong).is_err()));
+        assert_eq!(explosion("1,0,-2:3"), apart(Some(DVec3::new(1.0, 0.0, -2.0)), 3.0));
+        assert!(["w", "0,0,0", "1,2", "z:", "z:-1", "z:a"].iter().all(|wrong| explosion(wrong).is_err()));
+    }
+
+    #[test]
+    fn reads_what_is_told_of_parts() {
+        let part = part_explosion("M6: nut*: along=-z distance=12.5 order=2 group=cover").unwrap();
+        assert_eq!(part.name, Glob::new("M6: nut*"));
+        assert_eq!((part.direction, part.distance, part.order), (Some(DVec3::NEG_Z), Some(12.5), Some(2.0)));
+        assert_eq!(part.group.as_deref(), Some("cover"));
+        for wrong in [
+            "nut",
+            "nut:",
+            "nut: up",
+            "nut: along=w",
+            "nut: distance=far",
+            "nut: distance=inf",
+            "nut: size=3",
+        ] {
+            assert!(part_explosion(wrong).is_err(), "{wrong}");
+        }
     }
 }

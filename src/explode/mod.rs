@@ -1,53 +1,64 @@
 //! [`explode`]: how far the parts of an assembly move so that each is seen by itself.
 //!
-//! Along an axis, parts that stand in each other's way are put apart in the order in which they can be taken off; parts that hold each
-//! other in both directions move as one, and are put apart along another axis.
+//! 1. Along an axis it is computed for each pair of parts whether one can be moved past the other, up or down.
+//! 2. Parts that hold each other in both directions move as one. So do sub-assemblies that stand askew: parts without an axis along
+//!    this one that share another.
+//! 3. The others are put in the order in which they can be taken off, with gaps between them.
+//! 4. What moves as one is taken apart in the same way along the next best axis: one of the world, or of its own faces.
+//! 5. What is told of a part comes last: its direction, its distance, its place in the order, its group.
 //!
-//! Source: Li, Agrawala, Curless, Salesin, Automated generation of interactive 3D exploded view diagrams, 2008, 3: blocking along the
-//! main axes, and offsets that end all overlap. Here what blocks is told by columns over a grid, and all parts of one axis move at once.
+//! Source: Li, Agrawala, Curless, Salesin, Automated generation of interactive 3D exploded view diagrams, 2008, 3: blocking along
+//! axes, offsets that end all overlap, and sub-assemblies. Here all parts of one axis move at once.
 
-mod columns;
+mod assembly;
+mod axes;
+mod bodies;
+mod boxes;
+mod level;
 mod order;
+mod shadow;
+mod told;
 mod trails;
 
 use glam::{DAffine3, DVec3};
 
+pub use told::{PartExplosion, direction};
 pub use trails::{TRAIL, with_trails};
 
-use crate::mesh::area::has_own_area;
 use crate::scene::Scene;
-use columns::{Columns, Grid};
+use assembly::{Assembly, MOST_AXES, Moves};
+use bodies::{Body, joined};
+use level::Level;
 
 /// How an assembly is taken apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explosion {
-    /// The axis along which parts move first; found if none is told.
+    /// The axis along which parts move first, world space; found if none is told.
     pub axis: Option<DVec3>,
     /// How far apart they come: 1 leaves a gap of 4 % of the model's diagonal.
     pub factor: f64,
+    /// What is told of some parts. Of several that name one part the last one that says a thing counts.
+    pub parts: Vec<PartExplosion>,
 }
 
 impl Default for Explosion {
     fn default() -> Self {
-        Self { axis: None, factor: 1.0 }
+        Self { axis: None, factor: 1.0, parts: Vec::new() }
     }
 }
 
 /// A gap between parts, as a share of the model's diagonal.
 const GAP: f64 = 0.04;
 
-/// Fields of the grid along the longer side of the model.
-const FIELDS: f64 = 160.0;
-
 /// Surfaces so near, as a share of the model's diagonal, touch.
 const TOUCH: f64 = 1e-5;
 
-/// How far the parts of a scene move, world: zero for those that stay.
+/// How far the parts of a scene move, world units: zero for those that stay.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Ways {
     /// The whole way of each part.
     pub offsets: Vec<DVec3>,
-    /// What of it the part goes by itself, and not with others that it is held by.
+    /// The share of it that the part goes by itself, and not with others that it is held by.
     pub alone: Vec<DVec3>,
 }
 
@@ -57,65 +68,91 @@ pub struct Ways {
 /// parts that hold each other along all axes, which move as one.
 #[must_use]
 pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
-    let bodies: Vec<Vec<[DVec3; 3]>> = (0..scene.parts.len()).map(|part| body(scene, part)).collect();
-    let mut ways = Ways { offsets: vec![DVec3::ZERO; bodies.len()], alone: vec![DVec3::ZERO; bodies.len()] };
+    let count = scene.parts.len();
+    let mut ways = Ways { offsets: vec![DVec3::ZERO; count], alone: vec![DVec3::ZERO; count] };
+    let bodies = bodies::bodies(scene);
     let Some((low, high)) = scene.bounds() else { return ways };
     let diagonal = (high - low).length();
-    let parts: Vec<usize> = (0..bodies.len()).filter(|part| !bodies[*part].is_empty()).collect();
-    if diagonal <= 0.0 || parts.len() < 2 {
+    let units = told::units(scene, &bodies, &explosion.parts);
+    if diagonal <= 0.0 {
         return ways;
     }
-    let step = (high - low).max_element() / FIELDS;
-    let mut grids: Vec<Grid> = match explosion.axis.and_then(DVec3::try_normalize) {
-        Some(axis) => {
-            let grid = grid(axis, step);
-            vec![
-                grid,
-                Grid { axes: rotated(grid.axes), step },
-                Grid { axes: rotated(rotated(grid.axes)), step },
-            ]
-        }
-        None => [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| grid(axis, step)).into(),
+    let unit_bodies: Vec<Body> =
+        units.iter().map(|unit| joined(unit.parts.iter().map(|part| &bodies[*part]))).collect();
+    let assembly = Assembly {
+        orders: units.iter().map(|unit| unit.told.order).collect(),
+        axes: unit_bodies.iter().map(axes::axes_of).collect(),
+        bodies: &unit_bodies,
+        gap: GAP * diagonal * explosion.factor.max(0.0),
+        touch: TOUCH * diagonal,
     };
-    let reach = Reach { gap: GAP * diagonal * explosion.factor.max(0.0), touch: TOUCH * diagonal };
-    if explosion.axis.is_none() {
-        // The axis first along which fewest parts hold each other; of equals the one along which more are put apart.
-        let held = |grid: &Grid| {
-            let columns: Vec<Columns> = parts.iter().map(|part| Columns::new(&bodies[*part], grid)).collect();
-            order::held_and_met(&columns, reach.touch)
-        };
-        let mut ranked: Vec<_> = grids.iter().map(|grid| (held(grid), *grid)).collect();
-        ranked.sort_by_key(|((held, met), _)| (*held, usize::MAX - *met));
-        grids = ranked.into_iter().map(|(_, grid)| grid).collect();
+    let mut moves = Moves { whole: vec![DVec3::ZERO; units.len()], alone: vec![DVec3::ZERO; units.len()] };
+    let own_way = |unit: &told::Unit| unit.told.direction.is_some();
+    let others: Vec<usize> = (0..units.len()).filter(|k| !own_way(&units[*k])).collect();
+    let first = explosion.axis.and_then(DVec3::try_normalize);
+    let main = assembly.all(&others, first, &mut moves);
+    told::move_told(&assembly, &units, main.or(first), &mut moves);
+    for (unit, (whole, alone)) in units.iter().zip(moves.whole.iter().zip(&moves.alone)) {
+        for part in &unit.parts {
+            ways.offsets[*part] = *whole;
+            ways.alone[*part] = *alone;
+        }
     }
-    apart(&bodies, &parts, &grids, &reach, &mut ways);
     ways
 }
 
-/// Lengths that putting apart needs, world.
-struct Reach {
-    gap: f64,
-    touch: f64,
-}
+impl Assembly<'_> {
+    /// Takes some bodies apart, first along an axis that is told, else along the best one; returns that axis.
+    fn all(&self, of: &[usize], told: Option<DVec3>, moves: &mut Moves) -> Option<DVec3> {
+        let level = match told {
+            Some(axis) => Level::new(self, of, axis),
+            None => self.best(of, &[])?,
+        };
+        let mut groups = level.groups(self);
+        if groups.len() < 2 {
+            // All of it stands askew, or holds together.
+            groups = level.held();
+        }
+        self.along(&level, &groups, &[level.axis], moves);
+        Some(level.axis)
+    }
 
-/// Puts parts apart along the first axis, and those that hold each other along the next ones.
-fn apart(bodies: &[Vec<[DVec3; 3]>], parts: &[usize], grids: &[Grid], reach: &Reach, ways: &mut Ways) {
-    let Some((grid, others)) = grids.split_first() else { return };
-    let columns: Vec<Columns> = parts.iter().map(|part| Columns::new(&bodies[*part], grid)).collect();
-    let groups = order::groups(&columns, reach.touch);
-    let moved = order::offsets(&columns, &groups, reach.touch, reach.gap);
-    for (group, offset) in groups.iter().zip(moved) {
-        let own: Vec<usize> = group.iter().map(|k| parts[*k]).collect();
-        for part in &own {
-            ways.offsets[*part] += grid.axes[2] * offset;
-            if offset != 0.0 {
-                ways.alone[*part] = grid.axes[2] * offset;
+    /// Puts groups apart along the axis of a level, then takes each apart. Along the axes `tried` the whole did not come apart.
+    fn along(&self, level: &Level, groups: &[Vec<usize>], tried: &[DVec3], moves: &mut Moves) {
+        for (group, offset) in groups.iter().zip(level.offsets(self, groups)) {
+            let way = level.axis * offset;
+            for unit in group {
+                moves.whole[*unit] += way;
+                if offset != 0.0 {
+                    moves.alone[*unit] = way;
+                }
+            }
+            if group.len() < 2 {
+                continue;
+            }
+            group.iter().for_each(|unit| moves.alone[*unit] = DVec3::ZERO);
+            let tried = if groups.len() > 1 { &[level.axis] } else { tried };
+            if let Some(next) = self.best(group, tried) {
+                let all: Vec<DVec3> = tried.iter().copied().chain([next.axis]).collect();
+                let held = next.held();
+                self.along(&next, &held, &all, moves);
             }
         }
-        if own.len() > 1 {
-            own.iter().for_each(|part| ways.alone[*part] = DVec3::ZERO);
-            apart(bodies, &own, others, reach, ways);
+    }
+
+    /// The axis along which fewest of some bodies hold each other; of equals the one along which more are put apart, then the first.
+    /// Axes of the world come before those of bodies. None if nothing can be put apart.
+    fn best(&self, of: &[usize], but: &[DVec3]) -> Option<Level> {
+        let mut axes = vec![DVec3::X, DVec3::Y, DVec3::Z];
+        for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
+            if axes.len() < 3 + MOST_AXES && !axes.iter().any(|known| axes::is_same(*known, *axis)) {
+                axes.push(*axis);
+            }
         }
+        axes.retain(|axis| !but.iter().any(|known| axes::is_same(*known, *axis)));
+        let levels = axes.into_iter().map(|axis| Level::new(self, of, axis));
+        let useful = levels.filter(|level| level.parted() > 0 && level.held().len() > 1);
+        useful.min_by_key(|level| (level.held_pairs(), usize::MAX - level.parted()))
     }
 }
 
@@ -126,23 +163,4 @@ pub fn moved(mut scene: Scene, ways: &Ways) -> Scene {
         part.world_from_part = DAffine3::from_translation(*way) * part.world_from_part;
     }
     scene
-}
-
-fn body(scene: &Scene, part: usize) -> Vec<[DVec3; 3]> {
-    let part = &scene.parts[part];
-    let Some(geometry) = scene.geometry_of(part) else { return Vec::new() };
-    let corner = |v: u32| geometry.positions.get(v as usize).copied().unwrap_or_default();
-    let corners = |t: &[u32; 3]| t.map(|v| part.world_from_part.transform_point3(corner(v)));
-    geometry.triangles.iter().map(corners).filter(|corners| has_own_area(*corners)).collect()
-}
-
-fn grid(axis: DVec3, step: f64) -> Grid {
-    let least = axis.abs().min_element();
-    let beside = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().find(|v| axis.dot(*v).abs() == least);
-    let u = axis.cross(beside.unwrap_or(DVec3::X)).normalize();
-    Grid { axes: [u, axis.cross(u).normalize(), axis], step }
-}
-
-fn rotated([u, v, axis]: [DVec3; 3]) -> [DVec3; 3] {
-    [v, axis, u]
 }

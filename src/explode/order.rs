@@ -1,15 +1,14 @@
-//! [`offsets`]: in which order parts stand along an axis once they are apart, and how far each moves for that.
+//! [`offsets`]: in which order bodies stand along an axis once they are apart, and how far each moves for that.
 
-use super::columns::Columns;
+use std::collections::BTreeMap;
 
-/// Parts that meet on less than this share of the fields of the smaller one only graze each other.
-const GRAZE: f64 = 0.02;
+use super::shadow::Meeting;
 
-/// How a part stands to another one along the axis.
+/// How a body stands to another one along the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Standing {
+pub(super) enum Standing {
     /// They do not meet.
-    Beside,
+    Apart,
     /// It can be taken off along the axis, and not the other one.
     Above,
     /// The other one can.
@@ -20,78 +19,79 @@ enum Standing {
     Held,
 }
 
-fn standing(a: &Columns, b: &Columns, touch: f64) -> Standing {
-    let [both, above, below] = a.meets(b, touch);
-    let graze = (GRAZE * a.count.min(b.count) as f64).floor() as usize;
-    if both <= graze {
-        // A bearing in its bore is hidden as long as it stays there.
-        let [small, large] = if a.count <= b.count { [a, b] } else { [b, a] };
-        let is_within = small.count > 0 && small.lies_within(large) + graze >= small.count;
-        return if is_within { Standing::Free } else { Standing::Beside };
-    }
-    // Where the other is in the way above, this one cannot go up, nor the other down.
-    match (above > graze, below > graze) {
-        (false, false) => Standing::Free,
-        (false, true) => Standing::Above,
-        (true, false) => Standing::Below,
-        (true, true) => Standing::Held,
-    }
-}
-
-/// How many pairs hold each other, and how many can be put apart.
-pub(super) fn held_and_met(columns: &[Columns], touch: f64) -> (usize, usize) {
-    let (mut held, mut met) = (0, 0);
-    for a in 0..columns.len() {
-        for b in 0..a {
-            match standing(&columns[a], &columns[b], touch) {
-                Standing::Beside => {}
-                Standing::Held => held += 1,
-                _ => met += 1,
-            }
+impl Meeting {
+    /// How the first body stands to the second.
+    pub fn standing(self) -> Standing {
+        match (self.meets, self.blocks_up, self.blocks_down) {
+            // A bearing in its bore is hidden as long as it stays there.
+            (false, ..) if self.is_within => Standing::Free,
+            (false, ..) => Standing::Apart,
+            (true, false, false) => Standing::Free,
+            (true, false, true) => Standing::Above,
+            (true, true, false) => Standing::Below,
+            (true, true, true) => Standing::Held,
         }
     }
-    (held, met)
 }
 
-/// Parts that hold each other, together; each group by its least part.
-pub(super) fn groups(columns: &[Columns], touch: f64) -> Vec<Vec<usize>> {
-    let mut group: Vec<usize> = (0..columns.len()).collect();
-    for a in 0..columns.len() {
-        for b in 0..a {
-            let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
-            if from != to && standing(&columns[a], &columns[b], touch) == Standing::Held {
-                group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
-            }
-        }
+/// How bodies meet, for each pair that does: the greater number first.
+pub(super) type Meetings = BTreeMap<[usize; 2], Meeting>;
+
+/// A body along the axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch {
+    pub low: f64,
+    pub high: f64,
+    /// Its size, by which the one that stays is chosen.
+    pub size: f64,
+    /// Its place among those that have one, if it is told: a greater one stands higher.
+    pub order: Option<f64>,
+}
+
+impl Stretch {
+    /// What several bodies take up together.
+    pub fn joined(all: impl Iterator<Item = Self>) -> Self {
+        let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, size: 0.0, order: None };
+        all.fold(nothing, |sum, own| Self {
+            low: sum.low.min(own.low),
+            high: sum.high.max(own.high),
+            size: sum.size + own.size,
+            order: sum.order.or(own.order),
+        })
     }
-    let of = |own: usize| (0..columns.len()).filter(|k| group[*k] == own).collect::<Vec<_>>();
-    (0..columns.len()).map(of).filter(|group| !group.is_empty()).collect()
+
+    /// How it stands to another one, whatever blocks what, if both have a place that is told.
+    pub fn told(&self, other: &Self) -> Option<Standing> {
+        let (own, its) = (self.order?, other.order?);
+        (own != its).then_some(if own > its { Standing::Above } else { Standing::Below })
+    }
+
+    fn middle(&self) -> f64 {
+        self.low + self.high
+    }
 }
 
-/// How far each group moves along the axis.
-pub(super) fn offsets(columns: &[Columns], groups: &[Vec<usize>], touch: f64, gap: f64) -> Vec<f64> {
-    let whole = |group: &Vec<usize>| group.iter().fold(Columns::default(), |sum, k| sum.with(&columns[*k]));
-    let bodies: Vec<Columns> = groups.iter().map(whole).collect();
+/// How far each body moves along the axis, with a gap between those that meet. The largest of those that hang together stays.
+pub(super) fn offsets(bodies: &[Stretch], meetings: &Meetings, gap: f64) -> Vec<f64> {
     let count = bodies.len();
-    let middle = |k: usize| bodies[k].low + bodies[k].high;
-    // Which others stand under each one.
-    let mut under: Vec<Vec<usize>> = vec![Vec::new(); count];
-    let mut piece: Vec<usize> = (0..count).collect();
+    let middle = |k: usize| bodies[k].middle();
+    // The others under each body, and over it.
+    let (mut under, mut over) = (vec![Vec::new(); count], vec![Vec::new(); count]);
     let mut above = Above::new(count);
     let mut free: Vec<[usize; 2]> = Vec::new();
-    for a in 0..count {
-        for b in 0..a {
-            let [upper, lower] = match standing(&bodies[a], &bodies[b], touch) {
-                Standing::Beside => continue,
-                Standing::Above => [a, b],
-                Standing::Below => [b, a],
-                Standing::Free | Standing::Held => {
-                    free.push(if middle(a) >= middle(b) { [a, b] } else { [b, a] });
-                    continue;
-                }
-            };
-            above.add(upper, lower);
-            under[upper].push(lower);
+    let mut put = |[upper, lower]: [usize; 2], above: &mut Above| {
+        above.add(upper, lower);
+        under[upper].push(lower);
+        over[lower].push(upper);
+    };
+    for (&[a, b], meeting) in meetings {
+        match bodies[a].told(&bodies[b]).unwrap_or(meeting.standing()) {
+            Standing::Apart => {}
+            Standing::Above => put([a, b], &mut above),
+            Standing::Below => put([b, a], &mut above),
+            Standing::Free | Standing::Held => {
+                free.push(if middle(a) >= middle(b) { [a, b] } else { [b, a] });
+            }
         }
     }
     // Those that can go both ways go by the nearer end, unless others between them say otherwise; the clearest ones are asked first.
@@ -99,38 +99,61 @@ pub(super) fn offsets(columns: &[Columns], groups: &[Vec<usize>], touch: f64, ga
     free.sort_by(|a, b| far(b).total_cmp(&far(a)).then(a.cmp(b)));
     for [upper, lower] in free {
         let turned = above.has(lower, upper) && !above.has(upper, lower);
-        let [upper, lower] = if turned { [lower, upper] } else { [upper, lower] };
-        above.add(upper, lower);
-        under[upper].push(lower);
-    }
-    for (upper, lower) in (0..count).flat_map(|k| under[k].iter().map(move |lower| (k, *lower))) {
-        let (from, to) = (piece[upper].max(piece[lower]), piece[upper].min(piece[lower]));
-        piece.iter_mut().filter(|p| **p == from).for_each(|p| *p = to);
+        put(if turned { [lower, upper] } else { [upper, lower] }, &mut above);
     }
     let mut offsets: Vec<Option<f64>> = vec![None; count];
+    let mut waits: Vec<usize> = under.iter().map(Vec::len).collect();
     for _ in 0..count {
         // The lowest of those under which nothing is left; where they go round in a circle, the lowest of all.
         let left = || (0..count).filter(|k| offsets[*k].is_none());
         let lowest = |a: &usize, b: &usize| middle(*a).total_cmp(&middle(*b)).then(a.cmp(b));
-        let is_free = |k: &usize| under[*k].iter().all(|lower| offsets[*lower].is_some());
-        let Some(next) = left().filter(is_free).min_by(lowest).or_else(|| left().min_by(lowest)) else {
+        let Some(next) = left().filter(|k| waits[*k] == 0).min_by(lowest).or_else(|| left().min_by(lowest))
+        else {
             break;
         };
-        let needed = (0..count)
-            .filter(|k| under[next].contains(k) || under[*k].contains(&next))
-            .filter_map(|k| Some(bodies[k].high + offsets[k]? + gap - bodies[next].low));
+        let around = || under[next].iter().chain(&over[next]);
+        let needed = around().filter_map(|k| Some(bodies[*k].high + offsets[*k]? + gap - bodies[next].low));
         offsets[next] = Some(needed.fold(0.0, f64::max));
+        for upper in &over[next] {
+            waits[*upper] = waits[*upper].saturating_sub(1);
+        }
     }
     let mut offsets: Vec<f64> = offsets.into_iter().map(Option::unwrap_or_default).collect();
-    // The largest of those that hang together stays.
-    let size = |k: usize| bodies[k].count as f64 * (bodies[k].high - bodies[k].low);
-    for own in 0..count {
-        let together: Vec<usize> = (0..count).filter(|k| piece[*k] == own).collect();
-        let largest = together.iter().copied().max_by(|a, b| size(*a).total_cmp(&size(*b)).then(b.cmp(a)));
-        let stays = largest.map(|k| offsets[k]).unwrap_or_default();
-        together.iter().for_each(|k| offsets[*k] -= stays);
-    }
+    stay(bodies, &under, &mut offsets);
     offsets
+}
+
+/// Shifts those that hang together so that the largest of them stays.
+fn stay(bodies: &[Stretch], under: &[Vec<usize>], offsets: &mut [f64]) {
+    let mut piece: Vec<usize> = (0..bodies.len()).collect();
+    for (upper, lower) in (0..bodies.len()).flat_map(|k| under[k].iter().map(move |lower| (k, *lower))) {
+        unite(&mut piece, upper, lower);
+    }
+    let mut stays: Vec<Option<usize>> = vec![None; bodies.len()];
+    for k in 0..bodies.len() {
+        let largest = &mut stays[root(&piece, k)];
+        if largest.is_none_or(|known| bodies[k].size > bodies[known].size) {
+            *largest = Some(k);
+        }
+    }
+    let shift: Vec<f64> = stays.iter().map(|stays| stays.map_or(0.0, |k| offsets[k])).collect();
+    for (k, offset) in offsets.iter_mut().enumerate() {
+        *offset -= shift[root(&piece, k)];
+    }
+}
+
+/// The least member of the group of `k`.
+pub(super) fn root(group: &[usize], mut k: usize) -> usize {
+    while group[k] != k {
+        k = group[k];
+    }
+    k
+}
+
+/// Makes one group of the groups of two.
+pub(super) fn unite(group: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(group, a), root(group, b));
+    group[a.max(b)] = a.min(b);
 }
 
 /// What stands above what, by itself or by way of others.

@@ -2,7 +2,8 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::{Ways, body};
+use super::Ways;
+use super::bodies::bodies;
 use crate::math::colour::Colour;
 use crate::scene::{Geometry, Material, Part, Scene};
 
@@ -14,15 +15,10 @@ pub const TRAIL: &str = "trail";
 #[must_use]
 pub fn with_trails(scene: Scene, ways: &Ways) -> Scene {
     let mut wires = Geometry::default();
+    let bodies = bodies(&scene);
     let both = ways.offsets.iter().zip(&ways.alone).enumerate();
     for (part, (whole, way)) in both.filter(|(_, (_, alone))| **alone != DVec3::ZERO) {
-        let body = body(&scene, part);
-        let corners = body.as_flattened();
-        let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        if !(low.is_finite() && high.is_finite()) {
-            continue;
-        }
+        let Some([low, high]) = bodies[part].bounds() else { continue };
         let from = (low + high) / 2.0;
         let first = wires.positions.len() as u32;
         wires.positions.extend([from + (*whole - *way), from + *whole]);

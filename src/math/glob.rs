@@ -14,6 +14,12 @@ impl Glob {
         Self(pattern.into())
     }
 
+    /// The pattern.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+
     /// Whether the whole name fits the pattern.
     #[must_use]
     pub fn matches(&self, name: &str) -> bool {

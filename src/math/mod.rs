@@ -10,6 +10,7 @@ pub mod function;
 pub mod glob;
 pub mod grain;
 pub mod grouped;
+pub(crate) mod hull;
 pub mod identity;
 pub mod joined;
 pub mod level_lines;

@@ -1,8 +1,8 @@
 //! Assemblies taken apart: order, room between parts, what cannot be parted, trail lines.
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 use ligne::Scene;
-use ligne::explode::{Explosion, TRAIL, explode, moved, with_trails};
+use ligne::explode::{Explosion, PartExplosion, TRAIL, explode, moved, with_trails};
 use ligne::scene::{Geometry, Part};
 
 use crate::support::dice::Dice;
@@ -44,7 +44,7 @@ fn boxes(scene: &Scene) -> Vec<[DVec3; 2]> {
 }
 
 fn along(axis: DVec3, factor: f64) -> Explosion {
-    Explosion { axis: Some(axis), factor }
+    Explosion { axis: Some(axis), factor, ..Explosion::default() }
 }
 
 #[test]
@@ -157,6 +157,115 @@ fn trails_lead_from_where_parts_were() {
     let wires = &drawn.geometries[trail.geometry];
     assert_eq!(wires.wires, [[0, 1]]);
     assert_eq!(wires.positions, [DVec3::new(0.0, 0.0, 1.5), DVec3::new(0.0, 0.0, 1.5) + ways.offsets[1]]);
+}
+
+/// A base, a washer, a disc, a nut and a stud through these three, about the z axis, as tall as 6.
+fn stack(place: impl Fn(DVec3) -> DVec3) -> Vec<(&'static str, Solid)> {
+    let parts = vec![
+        ("base", block([-2.0, -2.0, 0.0], [2.0, 2.0, 1.0])),
+        ("washer", frame(0.5, 1.0, 1.0, 1.3)),
+        ("disc", frame(0.5, 1.6, 1.3, 2.0)),
+        ("nut", frame(0.48, 1.0, 2.0, 2.8)),
+        ("stud", block([-0.5, -0.5, 1.0], [0.5, 0.5, 6.0])),
+    ];
+    let placed = |(name, mut solid): (&'static str, Solid)| {
+        solid.positions.iter_mut().for_each(|p| *p = place(*p));
+        (name, solid)
+    };
+    parts.into_iter().map(placed).collect()
+}
+
+#[test]
+fn sub_assemblies_come_apart_along_their_own_axis() {
+    let mut dice = Dice::new(57);
+    for round in 0..12 {
+        let turn = DQuat::from_axis_angle(dice.direction(), dice.between(0.3, 1.2));
+        let rounded = |p: DVec3| if round % 2 == 0 { p } else { p.as_vec3().as_dvec3() };
+        let mut parts = vec![("ground", block([-8.0, -4.0, -3.0], [12.0, 4.0, -2.5]))];
+        parts.extend(stack(|p| p - DVec3::X * 4.0 - DVec3::Z * 2.5));
+        parts.extend(stack(|p| rounded(turn * p + DVec3::X * 6.0)));
+        let ways = explode(&assembly(&parts), &Explosion::default());
+        for (first, axis) in [(1, DVec3::Z), (6, turn * DVec3::Z)] {
+            let of_base = ways.offsets[first];
+            let heights: Vec<f64> = (0..5).map(|k| (ways.offsets[first + k] - of_base).dot(axis)).collect();
+            for k in 1..5 {
+                let aside = (ways.offsets[first + k] - of_base).cross(axis).length();
+                assert!(aside < 1e-5, "round {round}: part {k} leaves the axis by {aside}: {ways:?}");
+            }
+            assert!(heights.windows(2).all(|pair| pair[0] < pair[1]), "round {round}: {heights:?}");
+            assert!(heights[4] > heights[3] + 1.8, "round {round}: the stud stays in the nut: {heights:?}");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_pulled_through_what_holds_it() {
+    // The nut is cut a little by the stud, as threads are.
+    let parts = stack(|p| p);
+    for axis in [DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)] {
+        let ways = explode(&assembly(&parts), &along(axis, 1.0));
+        let between = ways.offsets[4] - ways.offsets[3];
+        assert!(between.cross(DVec3::Z).length() < 1e-9 && between.z > 0.0, "{axis}: {ways:?}");
+    }
+}
+
+#[test]
+fn what_blocks_is_seen_however_thin_it_is() {
+    // A pin under a hook, both far thinner than a hundredth of the plate that they stand on.
+    for side in [0.5, 0.05, 0.005] {
+        let mut hook = block([side, 0.0, 0.0], [2.0 * side, side, 3.0]);
+        hook.add(block([0.0, 0.0, 2.0], [side, side, 3.0]));
+        let scene = assembly(&[
+            ("plate", block([-50.0, -50.0, -1.0], [50.0, 50.0, 0.0])),
+            ("pin", block([0.0, 0.0, 0.0], [side, side, 1.0])),
+            ("hook", hook),
+        ]);
+        let ways = explode(&scene, &along(DVec3::Z, 1.0));
+        assert!(ways.offsets[2].z > ways.offsets[1].z && ways.offsets[1].z > 0.0, "{side}: {ways:?}");
+    }
+}
+
+#[test]
+fn what_is_told_of_parts_is_done() {
+    let scene = assembly(&stack(|p| p));
+    let ways = |told: Vec<PartExplosion>| {
+        explode(&scene, &Explosion { axis: Some(DVec3::Z), parts: told, ..Explosion::default() }).offsets
+    };
+    let found = ways(Vec::new());
+    let told = |name: &str| PartExplosion::new(name);
+    let group = Some("plates".to_owned());
+    let ways_of_group = ways(vec![
+        PartExplosion { group: group.clone(), ..told("washer") },
+        PartExplosion { group, ..told("dis?") },
+    ]);
+    assert!(ways_of_group[1] == ways_of_group[2] && ways_of_group[1].z > 0.0, "{ways_of_group:?}");
+    assert!(found[2].z > found[1].z);
+
+    let far = ways(vec![
+        PartExplosion { distance: Some(7.5), ..told("nut") },
+        PartExplosion { distance: Some(0.0), ..told("stud") },
+    ]);
+    assert_eq!([far[3], far[4]], [DVec3::Z * 7.5, DVec3::ZERO]);
+    assert_eq!(far[..3], found[..3]);
+
+    let aside = ways(vec![PartExplosion { direction: Some(DVec3::new(-2.0, 0.0, 0.0)), ..told("*t*") }]);
+    assert!(
+        aside.iter().all(|way| way.cross(DVec3::X).length() == 0.0 || way.cross(DVec3::Z).length() == 0.0)
+    );
+    assert!(aside[4].x < 0.0 && aside[3].x < 0.0 && aside[2].x == 0.0, "{aside:?}");
+    let exactly = PartExplosion { direction: Some(DVec3::NEG_X), distance: Some(4.0), ..told("base") };
+    assert_eq!(ways(vec![exactly])[0], DVec3::X * -4.0);
+
+    // The stud below the base.
+    let order = |name: &str, order: f64| PartExplosion { order: Some(order), ..told(name) };
+    let turned = ways(vec![order("stud", 1.0), order("base", 2.0)]);
+    assert!(turned[4].z + 6.0 < turned[0].z, "{turned:?}");
+    // The last that says a thing counts.
+    let last = ways(vec![
+        PartExplosion { distance: Some(1.0), ..told("*") },
+        PartExplosion { distance: Some(2.0), ..told("nut") },
+    ]);
+    assert_eq!((last[3].length(), last[4].length()), (2.0, 1.0));
 }
 
 #[test]

@@ -188,7 +188,7 @@ fn open_up(
             *style = hatched_for(style, &mut scene, &mut section.faces, &[eye.camera]);
         }
     }
-    if request.section.take_apart(&mut scene) {
+    if request.section.take_apart(&mut scene)? {
         *whole = None;
         *style = trailed(style);
     }

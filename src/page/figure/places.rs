@@ -3,6 +3,7 @@
 use glam::DVec3;
 use kurbo::{Point, Rect};
 
+use crate::math::hull::hull;
 use crate::scene::drawn_points::DrawnPoints;
 use crate::scene::select::glob_matches;
 use crate::scene::{Camera, Scene};
@@ -54,33 +55,6 @@ pub fn places(scene: &Scene, camera: &Camera, glob: &str) -> Vec<Place> {
     places
 }
 
-/// The convex hull of points, clockwise where y points down (Andrew's monotone chain).
-fn hull(mut points: Vec<Point>) -> Vec<Point> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let turns = |a: Point, b: Point, c: Point| (b - a).cross(c - a) > 0.0;
-    let chain = |points: &mut dyn Iterator<Item = Point>| {
-        let mut chain: Vec<Point> = Vec::new();
-        for p in points {
-            while let [.., a, b] = chain.as_slice() {
-                if turns(*a, *b, p) {
-                    break;
-                }
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut lower = chain(&mut points.iter().copied());
-    lower.extend(chain(&mut points.iter().rev().copied()));
-    lower
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,12 +67,5 @@ mod tests {
             assert!(is_named(glob, name), "{glob} {name}");
         }
         assert!(!is_named("head", "hero/hand") && !is_named("her", "hero/head"));
-    }
-
-    #[test]
-    fn hulls_hold_their_points() {
-        let points = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (2.0, 2.0), (0.0, 2.0), (1.0, 0.0)];
-        let found = hull(points.iter().map(|p| Point::new(p.0, p.1)).collect());
-        assert_eq!(found.len(), 4, "{found:?}");
     }
 }

@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::block::TitleKeys;
 use super::method::Method;
 use super::rows::Side;
+use crate::math::glob::Glob;
 use crate::page::figure::Models;
 use crate::page::size::Size;
 
@@ -105,12 +106,30 @@ pub struct DetailKeys {
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExplodedKeys {
-    /// Along which axis: x, y or z. Default: the best one.
+    /// Along which axis: x, y, z, or three numbers such as 1,0,1. Default: the best one.
     pub axis: Option<Spanned<String>>,
     /// How far. Default: 1.
     pub factor: Option<Spanned<f64>>,
     /// From where it is seen. Default: iso.
     pub view: Option<Spanned<String>>,
+    /// How single parts come apart.
+    pub part: Vec<PartExplosionKeys>,
+}
+
+/// How parts come apart whose name matches; what is not told is found.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PartExplosionKeys {
+    /// The pattern for their names.
+    pub name: Spanned<Glob>,
+    /// The direction in which they move: x, -y, or three numbers such as 1,0,1.
+    pub along: Option<Spanned<String>>,
+    /// How far they move, in units of the model; 0 has them stay.
+    pub distance: Option<Spanned<f64>>,
+    /// Their place: of two parts that have one and overlap, that with the greater one comes to stand farther along the axis.
+    pub order: Option<Spanned<f64>>,
+    /// Parts of one group stay together.
+    pub group: Option<String>,
 }
 
 /// A length or a diameter in a view.

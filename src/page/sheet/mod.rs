@@ -9,6 +9,7 @@ pub mod balloons;
 pub mod block;
 mod centre;
 mod dimension;
+mod exploded;
 pub mod frame;
 mod ink;
 pub mod keys;

@@ -4,11 +4,12 @@ use glam::DVec3;
 use toml::Spanned;
 
 use super::arrange::{Placed, Stands};
+use super::exploded;
 use super::keys::{DetailKeys, SheetPage};
 use super::scales;
 use super::sight::Sight;
 use crate::error::Error;
-use crate::explode::{Explosion, explode, with_trails};
+use crate::explode::{explode, with_trails};
 use crate::lines::HiddenLines;
 use crate::math::glob::Glob;
 use crate::page::figure;
@@ -186,26 +187,9 @@ impl Plan {
 
     fn add_exploded(&mut self, sheet: &SheetPage, style: &Style, source: &Source) -> Result<(), Error> {
         let Some(keys) = &sheet.exploded else { return Ok(()) };
-        let axis = match &keys.axis {
-            None => None,
-            Some(axis) => Some(match &**axis.get_ref() {
-                "x" => DVec3::X,
-                "y" => DVec3::Y,
-                "z" => DVec3::Z,
-                _ => return Err(source.unknown(axis, "axis", &["x", "y", "z"])),
-            }),
-        };
-        let factor = keys.factor.as_ref().map_or(1.0, |factor| *factor.get_ref());
-        if let Some(told) = keys.factor.as_ref().filter(|_| !(0.0..=1000.0).contains(&factor)) {
-            return Err(source.fault(
-                &told.span(),
-                "parts cannot come apart so far",
-                "write a number from 0 to 1000",
-            ));
-        }
         let view = keys.view.as_ref().map_or(Ok(NamedView::Iso), |view| named(view, source))?;
         let whole = &self.sets[0].scene;
-        let ways = explode(whole, &Explosion { axis, factor });
+        let ways = explode(whole, &exploded::explosion(keys, whole, source)?);
         let scene = with_trails(whole.clone(), &ways);
         let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
         self.sets.push(Set { scene, style: trailed(style) });

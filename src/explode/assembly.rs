@@ -1,0 +1,36 @@
+//! [`Assembly`]: bodies that are taken apart, and [`Moves`], how far each goes.
+
+use glam::DVec3;
+
+use super::bodies::Body;
+
+/// The bodies of an assembly, none of which is taken apart itself.
+pub(super) struct Assembly<'a> {
+    pub bodies: &'a [Body],
+    /// The axes of each body, those of the largest faces first.
+    pub axes: Vec<Vec<DVec3>>,
+    /// The place of each body among those that have one.
+    pub orders: Vec<Option<f64>>,
+    /// The gap between bodies that were put apart, world units.
+    pub gap: f64,
+    /// Surfaces so near touch, world units.
+    pub touch: f64,
+}
+
+/// Axes of bodies that are tried for one group.
+pub(super) const MOST_AXES: usize = 6;
+
+/// How far each body of an assembly moves, world units.
+pub(super) struct Moves {
+    pub whole: Vec<DVec3>,
+    /// The share of it that the body goes by itself.
+    pub alone: Vec<DVec3>,
+}
+
+/// Two directions at right angles to an axis and to each other, and the axis: right-handed.
+pub(super) fn frame(axis: DVec3) -> [DVec3; 3] {
+    let least = axis.abs().min_element();
+    let other = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().find(|v| axis.dot(*v).abs() == least);
+    let u = axis.cross(other.unwrap_or(DVec3::X)).normalize();
+    [u, axis.cross(u).normalize(), axis]
+}

@@ -1,0 +1,390 @@
+//! [`Shadow`]: a body seen along an axis, as triangles in the plane with heights along the axis.
+//!
+//! What blocks what is computed from pairs of triangles, one of each body:
+//!
+//! 1. Two triangles have a convex polygon in common in the plane, or none.
+//! 2. A face of one body that looks up blocks its way up where a face of the other that looks down stands above it, and the other way
+//!    round. In the polygon the difference of their heights is linear, so the part of it where this holds is a polygon again.
+//! 3. The areas of these polygons are added. What passes through the other body already is not in the way so.
+//! 4. Where bodies pass through each other along the axis, and the other stands out on one side only, it blocks the way to that side: a
+//!    thread does so across its axis. What stands out on both sides, like the ground around a bolt, does not.
+
+use glam::{DVec2, DVec3};
+use kurbo::Point;
+
+use super::bodies::Body;
+use super::boxes::{Boxes, EMPTY, Rect, overlap, union};
+use crate::math::function::atan2;
+use crate::math::hull::hull;
+
+/// Bodies that overlap on less than this share of the smaller one's area only graze each other: facets of a shaft and its bore do.
+const GRAZE: f64 = 0.02;
+
+/// Faces whose area in the plane is below this share of their own are parallel to the axis.
+const UPRIGHT: f64 = 1e-9;
+
+/// A body seen along an axis.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Shadow {
+    triangles: Vec<Flat>,
+    tree: Boxes,
+    /// The box around it in the plane.
+    bounds: Rect,
+    /// Least and greatest height along the axis.
+    pub low: f64,
+    pub high: f64,
+    /// Area in the plane of its upper or lower side; surfaces behind each other count each.
+    pub area: f64,
+}
+
+/// A triangle in the plane, counter-clockwise.
+#[derive(Debug, Clone, Copy)]
+struct Flat {
+    at: [DVec2; 3],
+    height: [f64; 3],
+    /// Twice its area.
+    area: f64,
+    /// Whether it looks up or down the axis; faces of open surfaces do both.
+    is_up: bool,
+    is_down: bool,
+}
+
+/// How two bodies stand to each other along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Meeting {
+    /// Whether they overlap in the plane.
+    pub meets: bool,
+    /// Whether the other is in the way when the first moves up.
+    pub blocks_up: bool,
+    /// Whether the other is in the way when the first moves down.
+    pub blocks_down: bool,
+    /// Whether one is surrounded by the other in the plane, and does not overlap it.
+    pub is_within: bool,
+}
+
+impl Meeting {
+    /// The same from the side of the other.
+    pub fn turned(self) -> Self {
+        Self { blocks_up: self.blocks_down, blocks_down: self.blocks_up, ..self }
+    }
+
+    /// What holds of either.
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            meets: self.meets | other.meets,
+            blocks_up: self.blocks_up | other.blocks_up,
+            blocks_down: self.blocks_down | other.blocks_down,
+            is_within: self.is_within | other.is_within,
+        }
+    }
+}
+
+impl Shadow {
+    /// A body seen along the third of three axes at right angles, which are right-handed.
+    pub fn new(body: &Body, axes: &[DVec3; 3]) -> Self {
+        let mut shadow =
+            Self { bounds: EMPTY, low: f64::INFINITY, high: f64::NEG_INFINITY, ..Self::default() };
+        let mut boxes = Vec::new();
+        for corners in &body.triangles {
+            let placed = corners.map(|p| axes.map(|axis| p.dot(axis)));
+            let mut at = placed.map(|[x, y, _]| DVec2::new(x, y));
+            let mut height = placed.map(|[.., z]| z);
+            for z in height {
+                (shadow.low, shadow.high) = (shadow.low.min(z), shadow.high.max(z));
+            }
+            let own = at.iter().fold(EMPTY, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
+            shadow.bounds = union(shadow.bounds, own);
+            let area = (at[1] - at[0]).perp_dot(at[2] - at[0]);
+            let whole = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+            if area.abs() <= UPRIGHT * whole {
+                continue;
+            }
+            let looks_up = area > 0.0;
+            if !looks_up {
+                at.swap(1, 2);
+                height.swap(1, 2);
+            }
+            let (is_up, is_down) = (looks_up || body.is_open, !looks_up || body.is_open);
+            shadow.triangles.push(Flat { at, height, area: area.abs(), is_up, is_down });
+            shadow.area += area.abs() / 4.0;
+            boxes.push(own);
+        }
+        shadow.tree = Boxes::new(&boxes);
+        shadow
+    }
+
+    /// How this body stands to another one; surfaces within `touch` of each other touch.
+    pub fn meeting(&self, other: &Self, touch: f64) -> Meeting {
+        if !overlap(&self.bounds, &other.bounds) {
+            return Meeting::default();
+        }
+        let graze = GRAZE * self.area.min(other.area);
+        if self.triangles.len() > other.triangles.len() {
+            return other.areas(self, touch, graze).turned();
+        }
+        self.areas(other, touch, graze)
+    }
+
+    fn areas(&self, other: &Self, touch: f64, graze: f64) -> Meeting {
+        let (mut both, mut above, mut below) = (0.0, 0.0, 0.0);
+        for own in &self.triangles {
+            let bounds = own.at.iter().fold(EMPTY, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
+            let goes_on = other.tree.near(&bounds, &mut |number| {
+                let its = &other.triangles[number as usize];
+                let common = common(own, its);
+                if common.len() > 2 {
+                    // The difference of heights at each corner of the common polygon.
+                    let gap = |p: &DVec2| its.height_at(*p) - own.height_at(*p);
+                    if own.is_up && its.is_down {
+                        above += area(&cut(&common, |p| gap(p) + touch));
+                    }
+                    if own.is_down && its.is_up {
+                        below += area(&cut(&common, |p| touch - gap(p)));
+                    }
+                    if own.is_up && its.is_up {
+                        both += area(&common);
+                        let (over, under) =
+                            (cut(&common, |p| gap(p) - touch), cut(&common, |p| -touch - gap(p)));
+                        above += self.passing([own, its], other, &over);
+                        below += other.passing([its, own], self, &under);
+                    }
+                }
+                both <= graze || above <= graze || below <= graze
+            });
+            if !goes_on {
+                break;
+            }
+        }
+        let meets = both > graze;
+        let is_within = !meets && (self.lies_within(other) || other.lies_within(self));
+        let [blocks_up, blocks_down] = [above, below].map(|area| meets && area > graze);
+        Meeting { meets, blocks_up, blocks_down, is_within }
+    }
+
+    /// The area of a polygon in the plane if the other body begins inside of this one there, and ends above it: `tops` are the faces
+    /// at which both end. It is 0 if one of the bodies has no inside.
+    fn passing(&self, tops: [&Flat; 2], other: &Self, polygon: &[DVec2]) -> f64 {
+        if polygon.len() < 3 || tops.iter().any(|top| top.is_down) {
+            return 0.0;
+        }
+        let middle = polygon.iter().sum::<DVec2>() / polygon.len() as f64;
+        let [own_top, its_top] = tops.map(|top| top.height_at(middle));
+        let (own, its) = (self.floor(middle, own_top), other.floor(middle, its_top));
+        let begins_inside = own.zip(its).is_some_and(|(own, its)| own < its && its < own_top);
+        if begins_inside { area(polygon) } else { 0.0 }
+    }
+
+    /// The greatest height below `top` at which a face that looks down stands over a point.
+    fn floor(&self, point: DVec2, top: f64) -> Option<f64> {
+        let mut floor = None;
+        self.tree.near(&[point.x, point.y, point.x, point.y], &mut |number| {
+            let triangle = &self.triangles[number as usize];
+            if triangle.is_down && triangle.holds(point) {
+                let height = triangle.height_at(point);
+                if height < top && floor.is_none_or(|known| height > known) {
+                    floor = Some(height);
+                }
+            }
+            true
+        });
+        floor
+    }
+
+    /// Whether the other surrounds it in the plane: from no corner of its convex hull a straight way leads out.
+    fn lies_within(&self, other: &Self) -> bool {
+        let [a, b] = [&self.bounds, &other.bounds];
+        if self.triangles.is_empty() || a[0] < b[0] || a[1] < b[1] || a[2] > b[2] || a[3] > b[3] {
+            return false;
+        }
+        let corners = self.triangles.iter().flat_map(|t| t.at).map(|p| Point::new(p.x, p.y)).collect();
+        hull(corners).iter().all(|p| other.surrounds(DVec2::new(p.x, p.y)))
+    }
+
+    /// Whether triangles stand in all directions of the plane around a point.
+    fn surrounds(&self, point: DVec2) -> bool {
+        let full = std::f64::consts::TAU;
+        let mut covered: Vec<[f64; 2]> = Vec::new();
+        for triangle in &self.triangles {
+            if triangle.holds(point) {
+                return true;
+            }
+            let ways = triangle.at.map(|p| p - point);
+            // Less than half a turn, from the corner that has all others to its left.
+            let angle = |way: DVec2| atan2(way.y, way.x);
+            let first = (0..3).find(|k| ways.iter().all(|way| ways[*k].perp_dot(*way) >= 0.0));
+            let Some(first) = first else { continue };
+            let from = angle(ways[first]);
+            let wide = |way: DVec2| (angle(way) - from).rem_euclid(full);
+            let widest = ways.map(wide).into_iter().filter(|w| *w < full / 2.0).fold(0.0, f64::max);
+            covered.push([from, from + widest]);
+            covered.push([from + full, from + full + widest]);
+        }
+        covered.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let Some(first) = covered.first() else { return false };
+        let mut until = first[1];
+        let end = first[0] + full;
+        for [from, to] in &covered {
+            if *from > until + ANGLE {
+                return false;
+            }
+            until = until.max(*to);
+        }
+        until >= end - ANGLE
+    }
+}
+
+/// Rounding of an angle.
+const ANGLE: f64 = 1e-9;
+
+impl Flat {
+    /// Whether a point lies in it.
+    fn holds(&self, point: DVec2) -> bool {
+        (0..3).all(|k| (self.at[k] - point).perp_dot(self.at[(k + 1) % 3] - point) >= 0.0)
+    }
+
+    /// The height of the triangle over a point of it.
+    fn height_at(&self, p: DVec2) -> f64 {
+        let [a, b, c] = self.at;
+        let weights = [(b, c), (c, a), (a, b)].map(|(p0, p1)| (p0 - p).perp_dot(p1 - p) / self.area);
+        let [low, high] = [
+            self.height.iter().copied().fold(f64::INFINITY, f64::min),
+            self.height.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        weights.iter().zip(self.height).map(|(weight, height)| weight * height).sum::<f64>().clamp(low, high)
+    }
+}
+
+/// The polygon that two triangles have in common.
+fn common(one: &Flat, other: &Flat) -> Vec<DVec2> {
+    let mut polygon = other.at.to_vec();
+    for k in 0..3 {
+        let (from, to) = (one.at[k], one.at[(k + 1) % 3]);
+        polygon = cut(&polygon, |p| (to - from).perp_dot(*p - from));
+        if polygon.len() < 3 {
+            break;
+        }
+    }
+    polygon
+}
+
+/// What of a convex polygon lies where a linear function is not negative (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
+fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> Vec<DVec2> {
+    let sides: Vec<f64> = polygon.iter().map(side).collect();
+    let mut left = Vec::with_capacity(polygon.len() + 1);
+    for k in 0..polygon.len() {
+        let next = (k + 1) % polygon.len();
+        if sides[k] >= 0.0 {
+            left.push(polygon[k]);
+        }
+        if (sides[k] >= 0.0) != (sides[next] >= 0.0) {
+            left.push(polygon[k].lerp(polygon[next], sides[k] / (sides[k] - sides[next])));
+        }
+    }
+    left
+}
+
+fn area(polygon: &[DVec2]) -> f64 {
+    let Some(first) = polygon.first() else { return 0.0 };
+    let twice: f64 = polygon.windows(2).map(|pair| (pair[0] - *first).perp_dot(pair[1] - *first)).sum();
+    twice.abs() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::dice::Dice;
+
+    type Box3 = [DVec3; 2];
+
+    fn body(boxes: &[Box3]) -> Body {
+        let mut body = Body::default();
+        for [low, high] in boxes {
+            let at = |k: usize| {
+                let pick = |bit: usize, l: f64, h: f64| if k >> bit & 1 == 1 { h } else { l };
+                DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+            };
+            let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+            for [a, b, c, d] in sides {
+                body.triangles.extend([[at(a), at(b), at(c)], [at(a), at(c), at(d)]]);
+            }
+        }
+        body
+    }
+
+    /// The areas by columns: between the sides of boxes, what stands at a place of the plane is the same everywhere.
+    fn by_columns(a: &[Box3], b: &[Box3]) -> [f64; 3] {
+        let sides = |k: usize| {
+            let mut sides: Vec<f64> = a.iter().chain(b).flatten().map(|p| p[k]).collect();
+            sides.sort_by(f64::total_cmp);
+            sides
+        };
+        let (across, along) = (sides(0), sides(1));
+        let mut areas = [0.0; 3];
+        for (x, y) in across.windows(2).flat_map(|x| along.windows(2).map(move |y| (x, y))) {
+            let (middle, area) = ([(x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0], (x[1] - x[0]) * (y[1] - y[0]));
+            let stands = |of: &&Box3| (0..2).all(|k| of[0][k] < middle[k] && middle[k] < of[1][k]);
+            let (mut up, mut down, mut met) = (false, false, false);
+            for (a, b) in a.iter().filter(stands).flat_map(|a| b.iter().filter(stands).map(move |b| (a, b))) {
+                met = true;
+                let ([a0, a1], [b0, b1]) = (a.map(|p| p.z), b.map(|p| p.z));
+                up |= b0 >= a1 || a0 < b0 && b0 < a1 && a1 < b1;
+                down |= b1 <= a0 || b0 < a0 && a0 < b1 && b1 < a1;
+            }
+            for (sum, is) in areas.iter_mut().zip([met, up, down]) {
+                *sum += if is { area } else { 0.0 };
+            }
+        }
+        areas
+    }
+
+    #[test]
+    fn bodies_meet_as_columns_through_both_say() {
+        let mut dice = Dice::new(8);
+        let (mut held, mut apart) = (0, 0);
+        for round in 0..200 {
+            // Two boxes a body, one over the other.
+            let mut random = || {
+                let mut box_between = |low: f64, high: f64| {
+                    let (x, y, z) = (dice.between(0.0, 1.5), dice.between(0.0, 1.5), dice.between(low, high));
+                    let size =
+                        DVec3::new(dice.between(0.2, 1.5), dice.between(0.2, 1.5), dice.between(0.2, 0.6));
+                    [DVec3::new(x, y, z), DVec3::new(x, y, z) + size]
+                };
+                [box_between(0.0, 1.0), box_between(2.0, 3.0)]
+            };
+            let (a, b) = (random(), random());
+            let shadow = |boxes: &[Box3]| Shadow::new(&body(boxes), &DVec3::AXES);
+            let (of_a, of_b) = (shadow(&a), shadow(&b));
+            let meeting = of_a.meeting(&of_b, 1e-9);
+            assert_eq!(of_b.meeting(&of_a, 1e-9), meeting.turned(), "round {round}");
+            let graze = GRAZE * of_a.area.min(of_b.area);
+            // Columns count once where several boxes stand over each other.
+            let columns = by_columns(&a, &b);
+            let said = [meeting.meets, meeting.blocks_up, meeting.blocks_down];
+            for (said, area) in said.iter().zip(columns).filter(|(_, area)| *area == 0.0 || *area > graze) {
+                assert_eq!(*said, area > graze, "round {round}: {columns:?}");
+            }
+            held += usize::from(said == [true; 3]);
+            apart += usize::from(said == [true, true, false]);
+        }
+        assert!(held > 10 && apart > 10, "{held} {apart}");
+    }
+
+    #[test]
+    fn what_stands_in_a_ring_is_surrounded() {
+        let block = |x: [f64; 2], y: [f64; 2]| [DVec3::new(x[0], y[0], 0.0), DVec3::new(x[1], y[1], 1.0)];
+        let ring = [
+            block([-3.0, -2.0], [-3.0, 3.0]),
+            block([2.0, 3.0], [-3.0, 3.0]),
+            block([-2.0, 2.0], [-3.0, -2.0]),
+            block([-2.0, 2.0], [2.0, 3.0]),
+        ];
+        let shadow = |boxes: &[Box3]| Shadow::new(&body(boxes), &DVec3::AXES);
+        let within = |inner: &[Box3], outer: &[Box3]| shadow(inner).meeting(&shadow(outer), 1e-9).is_within;
+        assert!(within(&[block([-1.0, 1.0], [-1.0, 1.0])], &ring));
+        assert!(within(&ring, &[block([-2.0, 2.0], [-2.0, 2.0])]));
+        // Through a gap there is a way out.
+        assert!(!within(&[block([-1.0, 1.0], [-1.0, 1.0])], &ring[..3]));
+        assert!(!within(&[block([4.0, 5.0], [-1.0, 1.0])], &ring));
+    }
+}
