@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::lines::NO_FACE;
-use crate::mesh::Mesh;
+use crate::mesh::{EdgeFaces, Mesh};
 use crate::view::View;
 
 /// A straight line in image space, and its own faces.
@@ -30,11 +30,10 @@ impl HostedLine {
     /// covered if it has no own face.
     pub fn covered_sides(&self, across: DVec2, mesh: &Mesh, view: &View, beside: f64) -> [bool; 2] {
         let mut cover = [false; 2];
-        let hosts = || self.hosts.into_iter().filter(|face| *face != NO_FACE);
-        if hosts().next().is_none() {
+        if self.hosts == [NO_FACE; 2] {
             return [true; 2];
         }
-        for face in hosts() {
+        for face in self.faces(mesh) {
             let corners = mesh.triangles[face as usize];
             for corner in corners.into_iter().filter(|v| !self.ends.contains(v)) {
                 let height = (view.points[corner as usize] - self.line[0]).truncate().dot(across);
@@ -51,6 +50,19 @@ impl HostedLine {
             }
         }
         cover
+    }
+}
+
+impl HostedLine {
+    /// Its own faces, and all others that have it as an edge: which two of more are its own depends on the order of parts.
+    fn faces<'a>(&self, mesh: &'a Mesh) -> impl Iterator<Item = u32> + use<'a> {
+        let [v, w] = self.ends;
+        let found = mesh.edges.vertices.binary_search(&[v.min(w), v.max(w)]).ok();
+        let others = match found.map(|edge| mesh.edges.faces(edge)) {
+            Some(EdgeFaces::Many(faces)) => faces,
+            _ => &[],
+        };
+        self.hosts.into_iter().filter(|face| *face != NO_FACE).chain(others.iter().copied())
     }
 }
 
