@@ -42,7 +42,7 @@ const FILES: [&str; 4] = [
      over what is built in. An option that excludes a configured one (--azimuth a view, --size a page) displaces it; \
      --set adds to configured changes. --no-config leaves the file aside.",
     "[draw] says how models are drawn, by ligne draw, ligne animate and ligne diff; its keys are the long names of options: style, set (a table of style keys, or a list of texts), \
-     seed, camera, view, azimuth, elevation, fov, ortho, up, only, hide, section, uncut, explode, animation, repeat, time, faces, frame, centre, unit, size, page, landscape, margin, scale, \
+     seed, camera, view, azimuth, elevation, fov, ortho, up, only, hide, section, uncut, explode, explode-part, animation, repeat, time, faces, frame, centre, unit, size, page, landscape, margin, scale, \
      background, precision, dpi, group, id-prefix, threads, quiet, strict.",
     "[diff] holds tolerance: within which distance lines and fills count as the same, as text or as a table. \
      ligne test takes it for cases that say nothing else, and takes nothing else of the file.",

@@ -9,8 +9,8 @@ const LEAF: usize = 8;
 /// A tree in an array: each node halves its range of the boxes, put in order along its longer side.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Boxes {
-    /// The numbers of the boxes in the order of the tree.
-    order: Vec<u32>,
+    /// The boxes in the order of the tree, with their numbers.
+    boxes: Vec<(Rect, u32)>,
     nodes: Vec<Node>,
 }
 
@@ -25,49 +25,48 @@ struct Node {
 impl Boxes {
     /// The tree of some boxes.
     pub fn new(boxes: &[Rect]) -> Self {
-        let mut tree = Self { order: (0..boxes.len() as u32).collect(), nodes: Vec::new() };
+        let mut tree = Self { boxes: boxes.iter().copied().zip(0..).collect(), nodes: Vec::new() };
         if !boxes.is_empty() {
-            tree.grow(boxes, 0, boxes.len());
+            tree.grow(0, boxes.len());
         }
         tree
     }
 
-    fn grow(&mut self, boxes: &[Rect], first: usize, last: usize) {
-        let own = &mut self.order[first..last];
-        let bounds = own.iter().fold(EMPTY, |sum, k| union(sum, boxes[*k as usize]));
+    fn grow(&mut self, first: usize, last: usize) {
+        let own = &mut self.boxes[first..last];
+        let bounds = own.iter().fold(EMPTY, |sum, (own, _)| union(sum, *own));
         let node = self.nodes.len();
         self.nodes.push(Node { bounds, range: [first as u32, last as u32], second: None });
         if own.len() <= LEAF {
             return;
         }
         let along = usize::from(bounds[3] - bounds[1] > bounds[2] - bounds[0]);
-        let middle = |k: &u32| boxes[*k as usize][along] + boxes[*k as usize][along + 2];
+        let middle = |(own, _): &(Rect, u32)| own[along] + own[along + 2];
         let half = own.len() / 2;
-        own.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
-        self.grow(boxes, first, first + half);
+        own.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.1.cmp(&b.1)));
+        self.grow(first, first + half);
         self.nodes[node].second = Some(self.nodes.len() as u32);
-        self.grow(boxes, first + half, last);
+        self.grow(first + half, last);
     }
 
-    /// Calls `found` with the number of each box near `probe`, until it returns false: at least all that overlap it.
-    pub fn near(&self, probe: &Rect, found: &mut impl FnMut(u32) -> bool) -> bool {
-        let mut open: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
-        while let Some(number) = open.pop() {
-            let node = &self.nodes[number as usize];
-            if !overlap(&node.bounds, probe) {
-                continue;
-            }
-            match node.second {
-                Some(second) => open.extend([second, number + 1]),
-                None => {
-                    let [first, last] = node.range.map(|k| k as usize);
-                    if !self.order[first..last].iter().all(|k| found(*k)) {
-                        return false;
-                    }
-                }
+    /// Calls `found` with the number of each box that overlaps `probe`, until it returns false; whether it never did.
+    pub fn overlapping(&self, probe: &Rect, found: &mut impl FnMut(u32) -> bool) -> bool {
+        self.nodes.is_empty() || self.visit(0, probe, found)
+    }
+
+    fn visit(&self, number: usize, probe: &Rect, found: &mut impl FnMut(u32) -> bool) -> bool {
+        let node = &self.nodes[number];
+        if !overlap(&node.bounds, probe) {
+            return true;
+        }
+        match node.second {
+            Some(second) => self.visit(number + 1, probe, found) && self.visit(second as usize, probe, found),
+            None => {
+                let [first, last] = node.range.map(|k| k as usize);
+                let mut near = self.boxes[first..last].iter().filter(|(own, _)| overlap(own, probe));
+                near.all(|(_, number)| found(*number))
             }
         }
-        true
     }
 }
 
@@ -101,11 +100,10 @@ mod tests {
         for _ in 0..100 {
             let probe = random(0.2);
             let mut found = Vec::new();
-            tree.near(&probe, &mut |k| {
+            tree.overlapping(&probe, &mut |k| {
                 found.push(k);
                 true
             });
-            found.retain(|k| overlap(&boxes[*k as usize], &probe));
             found.sort_unstable();
             let all: Vec<u32> = (0..500).filter(|k| overlap(&boxes[*k as usize], &probe)).collect();
             assert_eq!(found, all);

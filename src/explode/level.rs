@@ -6,9 +6,10 @@ use rayon::prelude::*;
 use super::assembly::{Assembly, MOST_AXES, frame};
 use super::axes;
 use super::order::{Meetings, Standing, Stretch, offsets, root, unite};
-use super::shadow::Shadow;
+use super::shadow::{Meeting, Shadow};
 
 /// Bodies seen along an axis.
+#[derive(Clone)]
 pub(super) struct Level {
     pub axis: DVec3,
     /// The numbers of the bodies, ascending.
@@ -39,6 +40,20 @@ impl Level {
         };
         let meetings = (0..of.len()).into_par_iter().with_max_len(1).flat_map_iter(of_one).collect();
         Self { axis, of: of.to_vec(), stretches, meetings }
+    }
+
+    /// The same of some of its bodies.
+    pub fn of_some(&self, of: &[usize]) -> Self {
+        let place: Vec<Option<usize>> = self.of.iter().map(|unit| of.binary_search(unit).ok()).collect();
+        let kept =
+            |(pair, meeting): (&[usize; 2], &Meeting)| Some(([place[pair[0]]?, place[pair[1]]?], *meeting));
+        let stretches = self.stretches.iter().zip(&place).filter(|(_, place)| place.is_some());
+        Self {
+            axis: self.axis,
+            of: of.to_vec(),
+            stretches: stretches.map(|(stretch, _)| *stretch).collect(),
+            meetings: self.meetings.iter().filter_map(kept).collect(),
+        }
     }
 
     fn standing(&self, [a, b]: [usize; 2]) -> Standing {

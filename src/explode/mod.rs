@@ -104,21 +104,29 @@ pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
 impl Assembly<'_> {
     /// Takes some bodies apart, first along an axis that is told, else along the best one; returns that axis.
     fn all(&self, of: &[usize], told: Option<DVec3>, moves: &mut Moves) -> Option<DVec3> {
+        let mut known = Vec::new();
         let level = match told {
             Some(axis) => Level::new(self, of, axis),
-            None => self.best(of, &[])?,
+            None => self.best(of, &[], &mut known)?,
         };
         let mut groups = level.groups(self);
         if groups.len() < 2 {
             // All of it stands askew, or holds together.
             groups = level.held();
         }
-        self.along(&level, &groups, &[level.axis], moves);
+        self.along(&level, &groups, (&[level.axis], &known), moves);
         Some(level.axis)
     }
 
-    /// Puts groups apart along the axis of a level, then takes each apart. Along the axes `tried` the whole did not come apart.
-    fn along(&self, level: &Level, groups: &[Vec<usize>], tried: &[DVec3], moves: &mut Moves) {
+    /// Puts groups apart along the axis of a level, then takes each apart. Along the axes `tried` the whole did not come apart;
+    /// `known` is how its bodies stand along some axes.
+    fn along(
+        &self,
+        level: &Level,
+        groups: &[Vec<usize>],
+        (tried, known): (&[DVec3], &[Level]),
+        moves: &mut Moves,
+    ) {
         for (group, offset) in groups.iter().zip(level.offsets(self, groups)) {
             let way = level.axis * offset;
             for unit in group {
@@ -132,27 +140,55 @@ impl Assembly<'_> {
             }
             group.iter().for_each(|unit| moves.alone[*unit] = DVec3::ZERO);
             let tried = if groups.len() > 1 { &[level.axis] } else { tried };
-            if let Some(next) = self.best(group, tried) {
+            let mut known: Vec<Level> = known.iter().map(|level| level.of_some(group)).collect();
+            if let Some(next) = self.best(group, tried, &mut known) {
                 let all: Vec<DVec3> = tried.iter().copied().chain([next.axis]).collect();
                 let held = next.held();
-                self.along(&next, &held, &all, moves);
+                self.along(&next, &held, (&all, &known), moves);
             }
         }
     }
 
     /// The axis along which fewest of some bodies hold each other; of equals the one along which more are put apart, then the first.
-    /// Axes of the world come before those of bodies. None if nothing can be put apart.
-    fn best(&self, of: &[usize], but: &[DVec3]) -> Option<Level> {
-        let mut axes = vec![DVec3::X, DVec3::Y, DVec3::Z];
-        for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
-            if axes.len() < 3 + MOST_AXES && !axes.iter().any(|known| axes::is_same(*known, *axis)) {
-                axes.push(*axis);
+    /// None if nothing can be put apart. Axes of bodies are tried where some hold each other along those of the world. What is found
+    /// of axes is added to what is `known`.
+    fn best(&self, of: &[usize], but: &[DVec3], known: &mut Vec<Level>) -> Option<Level> {
+        let mut axes: Vec<DVec3> = vec![DVec3::X, DVec3::Y, DVec3::Z];
+        let mut best: Option<((usize, usize), Level)> = None;
+        for own in [false, true] {
+            if own {
+                axes = self.axes_of(of);
+            }
+            for axis in axes.iter().filter(|axis| !but.iter().any(|tried| axes::is_same(*tried, **axis))) {
+                let found = known.iter().find(|level| level.axis == *axis).cloned();
+                let level = found.unwrap_or_else(|| {
+                    let level = Level::new(self, of, *axis);
+                    known.push(level.clone());
+                    level
+                });
+                let rank = (level.held_pairs(), usize::MAX - level.parted());
+                let is_better = best.as_ref().is_none_or(|(least, _)| rank < *least);
+                if is_better && level.parted() > 0 && level.held().len() > 1 {
+                    best = Some((rank, level));
+                }
+            }
+            if best.as_ref().is_some_and(|((held, _), _)| *held == 0) {
+                break;
             }
         }
-        axes.retain(|axis| !but.iter().any(|known| axes::is_same(*known, *axis)));
-        let levels = axes.into_iter().map(|axis| Level::new(self, of, axis));
-        let useful = levels.filter(|level| level.parted() > 0 && level.held().len() > 1);
-        useful.min_by_key(|level| (level.held_pairs(), usize::MAX - level.parted()))
+        best.map(|(_, level)| level)
+    }
+
+    /// The axes of some bodies, but for those of the world.
+    fn axes_of(&self, of: &[usize]) -> Vec<DVec3> {
+        let mut found: Vec<DVec3> = Vec::new();
+        for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
+            let mut others = found.iter().chain(&DVec3::AXES);
+            if found.len() < MOST_AXES && !others.any(|known| axes::is_same(*known, *axis)) {
+                found.push(*axis);
+            }
+        }
+        found
     }
 }
 

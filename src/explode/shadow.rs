@@ -127,29 +127,43 @@ impl Shadow {
 
     fn areas(&self, other: &Self, touch: f64, graze: f64) -> Meeting {
         let (mut both, mut above, mut below) = (0.0, 0.0, 0.0);
+        // What stands over the other as a whole is not in its way down, and the other way round.
+        let [may_be_above, may_be_below] = [other.high > self.low + touch, other.low < self.high - touch];
+        let is_open = |both: f64, above: f64, below: f64| {
+            both <= graze || may_be_above && above <= graze || may_be_below && below <= graze
+        };
         for own in &self.triangles {
             let bounds = own.at.iter().fold(EMPTY, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
-            let goes_on = other.tree.near(&bounds, &mut |number| {
+            let goes_on = other.tree.overlapping(&bounds, &mut |number| {
                 let its = &other.triangles[number as usize];
+                let counts = own.is_up && its.is_up;
+                let up = own.is_up && its.is_down && may_be_above && above <= graze;
+                let down = own.is_down && its.is_up && may_be_below && below <= graze;
+                if !(counts || up || down) {
+                    return true;
+                }
                 let common = common(own, its);
-                if common.len() > 2 {
-                    // The difference of heights at each corner of the common polygon.
-                    let gap = |p: &DVec2| its.height_at(*p) - own.height_at(*p);
-                    if own.is_up && its.is_down {
-                        above += area(&cut(&common, |p| gap(p) + touch));
+                if common.len() < 3 {
+                    return true;
+                }
+                // The difference of heights at each corner of the common polygon.
+                let gap = |p: &DVec2| its.height_at(*p) - own.height_at(*p);
+                if up {
+                    above += area(&cut(&common, |p| gap(p) + touch));
+                }
+                if down {
+                    below += area(&cut(&common, |p| touch - gap(p)));
+                }
+                if counts {
+                    both += area(&common);
+                    if may_be_above && above <= graze {
+                        above += self.passing([own, its], other, &cut(&common, |p| gap(p) - touch));
                     }
-                    if own.is_down && its.is_up {
-                        below += area(&cut(&common, |p| touch - gap(p)));
-                    }
-                    if own.is_up && its.is_up {
-                        both += area(&common);
-                        let (over, under) =
-                            (cut(&common, |p| gap(p) - touch), cut(&common, |p| -touch - gap(p)));
-                        above += self.passing([own, its], other, &over);
-                        below += other.passing([its, own], self, &under);
+                    if may_be_below && below <= graze {
+                        below += other.passing([its, own], self, &cut(&common, |p| -touch - gap(p)));
                     }
                 }
-                both <= graze || above <= graze || below <= graze
+                is_open(both, above, below)
             });
             if !goes_on {
                 break;
@@ -157,7 +171,8 @@ impl Shadow {
         }
         let meets = both > graze;
         let is_within = !meets && (self.lies_within(other) || other.lies_within(self));
-        let [blocks_up, blocks_down] = [above, below].map(|area| meets && area > graze);
+        let blocks_up = meets && may_be_above && above > graze;
+        let blocks_down = meets && may_be_below && below > graze;
         Meeting { meets, blocks_up, blocks_down, is_within }
     }
 
@@ -177,7 +192,7 @@ impl Shadow {
     /// The greatest height below `top` at which a face that looks down stands over a point.
     fn floor(&self, point: DVec2, top: f64) -> Option<f64> {
         let mut floor = None;
-        self.tree.near(&[point.x, point.y, point.x, point.y], &mut |number| {
+        self.tree.overlapping(&[point.x, point.y, point.x, point.y], &mut |number| {
             let triangle = &self.triangles[number as usize];
             if triangle.is_down && triangle.holds(point) {
                 let height = triangle.height_at(point);
@@ -254,9 +269,34 @@ impl Flat {
     }
 }
 
+/// A convex polygon. Two triangles share one of at most six corners, and each of two more cuts adds one.
+#[derive(Debug, Clone, Copy, Default)]
+struct Polygon {
+    corners: [DVec2; 8],
+    count: usize,
+}
+
+impl Polygon {
+    fn push(&mut self, corner: DVec2) {
+        if let Some(slot) = self.corners.get_mut(self.count) {
+            *slot = corner;
+            self.count += 1;
+        }
+    }
+}
+
+impl std::ops::Deref for Polygon {
+    type Target = [DVec2];
+
+    fn deref(&self) -> &[DVec2] {
+        &self.corners[..self.count]
+    }
+}
+
 /// The polygon that two triangles have in common.
-fn common(one: &Flat, other: &Flat) -> Vec<DVec2> {
-    let mut polygon = other.at.to_vec();
+fn common(one: &Flat, other: &Flat) -> Polygon {
+    let mut polygon = Polygon::default();
+    other.at.iter().for_each(|p| polygon.push(*p));
     for k in 0..3 {
         let (from, to) = (one.at[k], one.at[(k + 1) % 3]);
         polygon = cut(&polygon, |p| (to - from).perp_dot(*p - from));
@@ -268,17 +308,19 @@ fn common(one: &Flat, other: &Flat) -> Vec<DVec2> {
 }
 
 /// What of a convex polygon lies where a linear function is not negative (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
-fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> Vec<DVec2> {
-    let sides: Vec<f64> = polygon.iter().map(side).collect();
-    let mut left = Vec::with_capacity(polygon.len() + 1);
-    for k in 0..polygon.len() {
-        let next = (k + 1) % polygon.len();
-        if sides[k] >= 0.0 {
-            left.push(polygon[k]);
+fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> Polygon {
+    let mut left = Polygon::default();
+    let Some(last) = polygon.last() else { return left };
+    let (mut before, mut side_before) = (*last, side(last));
+    for corner in polygon {
+        let own = side(corner);
+        if (own >= 0.0) != (side_before >= 0.0) {
+            left.push(before.lerp(*corner, side_before / (side_before - own)));
         }
-        if (sides[k] >= 0.0) != (sides[next] >= 0.0) {
-            left.push(polygon[k].lerp(polygon[next], sides[k] / (sides[k] - sides[next])));
+        if own >= 0.0 {
+            left.push(*corner);
         }
+        (before, side_before) = (*corner, own);
     }
     left
 }

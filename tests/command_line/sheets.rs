@@ -72,6 +72,8 @@ fn explosions_have_trails() {
     folder.ligne("draw cubes.obj b.svg --view front --explode y:30").done();
     assert_ne!(svg, folder.text("b.svg"));
     folder.ligne("draw cubes.obj c.svg --view front --explode auto").done();
+    folder.ligne("draw cubes.obj d.svg --view front --explode y:20 --explode-part *:distance=0").done();
+    assert!(!folder.text("d.svg").contains("data-part=\"trail\""));
 }
 
 #[test]
@@ -80,7 +82,12 @@ fn wrong_planes_and_axes_are_refused() {
     folder.ligne("draw cubes.obj a.svg --section w").refused("write a plane such as");
     folder.ligne("draw cubes.obj a.svg --section x=99").refused("beside the model");
     folder.ligne("draw cubes.obj a.svg --uncut knob").refused("--section");
-    folder.ligne("draw cubes.obj a.svg --explode w").refused("x, y, z or auto");
+    folder.ligne("draw cubes.obj a.svg --explode w").refused("or auto");
+    folder.ligne("draw cubes.obj a.svg --explode z --explode-part nut").refused("there is no colon");
+    folder
+        .ligne("draw cubes.obj a.svg --explode z --explode-part wheel:distance=2")
+        .refused("no part of the model");
+    folder.ligne("draw cubes.obj a.svg --explode-part base:distance=2").refused("--explode");
     folder.ligne("animate cubes.obj a.gif --section x").refused("neither cut open");
     folder.ligne("animate cubes.obj a.gif --turntable 3 --explode z --faces 20").refused("levels of detail");
 }

@@ -341,6 +341,31 @@ fn parts_lists_come_from_files() {
 }
 
 #[test]
+fn sheets_tell_how_single_parts_come_apart() {
+    let folder = folder("told-parts");
+    let parts = [
+        ("plate".into(), block([0.0, 0.0, 0.0], [40.0, 40.0, 5.0])),
+        ("lid".into(), block([0.0, 0.0, 5.0], [40.0, 40.0, 10.0])),
+    ];
+    fs::write(folder.join("two.obj"), obj(&parts)).expect("written");
+    let proportion = |told: &str| {
+        let text = format!(
+            "[page]\nkind = 'sheet'\nscale = '1:1'\nviews = ['front']\nmodel = {{ file = 'two.obj', up = 'z' }}\n\
+             [page.exploded]\naxis = 'z'\nview = 'front'\n{told}"
+        );
+        let page =
+            PageFile::from_text(&text, folder.join("sheet.toml")).expect("a page").compose().expect("drawn");
+        let bounds = bounds(item(&page[0], "exploded"));
+        bounds.height() / bounds.width()
+    };
+    let (found, told) =
+        (proportion(""), proportion("[[page.exploded.part]]\nname = 'l?d'\nalong = '-z'\ndistance = 60\n"));
+    fs::remove_dir_all(&folder).expect("removed");
+    // The lid ends 60 below the upper side of the plate, which is 40 wide; the box is that of the middles of the lines.
+    assert!((told - 1.5).abs() < 0.07 && found < 0.5, "{found} {told}");
+}
+
+#[test]
 fn what_is_wrong_is_told_with_its_place() {
     for (keys, told) in [
         ("views = ['frnt']\n", "did you mean `front`?"),
@@ -353,6 +378,9 @@ fn what_is_wrong_is_told_with_its_place() {
         ("[[page.dimension]]\nof = 'back'\nfrom = [0,0,0]\nto = [1,0,0]\n", "no view on this sheet"),
         ("[[page.detail]]\nat = [0,0,0]\nradius = -1\n", "no radius"),
         ("[page.exploded]\naxis = 'w'\n", "no axis"),
+        ("[[page.exploded.part]]\nname = 'wheel'\n", "no part of the model"),
+        ("[[page.exploded.part]]\nname = '*'\nalong = 'w'\n", "no direction"),
+        ("[[page.exploded.part]]\nname = '*'\ndistance = inf\n", "no number"),
         ("[page.title]\nheading = 'a'\n", "heading"),
         ("font = 'none such'\n", "none such"),
     ] {
