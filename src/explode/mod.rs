@@ -16,6 +16,7 @@ mod bodies;
 mod boxes;
 mod level;
 mod order;
+mod polygon;
 mod shadow;
 mod told;
 mod trails;
