@@ -137,9 +137,10 @@ fn turn(way: DVec3, right: DVec3, up: DVec3) -> f64 {
     }
 }
 
-/// The sine of the angle by which a face may be off that reaches so far from a line of this length, if its corners are by `contact`.
-pub(super) fn doubt(contact: f64, reach: f64, length: f64) -> f64 {
-    (contact / reach + contact / length).min(UNSURE_SINE)
+/// The sine of the angle about a line of this length by which a triangle of this least height may be off, if rounding moves corners
+/// by half of `contact`.
+pub(super) fn doubt(contact: f64, height: f64, length: f64) -> f64 {
+    (contact / height + contact / length).min(UNSURE_SINE)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::Piece;
 use super::around::{Around, Ray, doubt};
+use crate::mesh::carriers::height;
 use crate::mesh::{FaceId, Mesh, PartId};
 use crate::trees::boxes::BoxTree;
 
@@ -34,8 +35,8 @@ struct Way {
 struct Reached {
     face: u32,
     normal: DVec3,
-    /// How far it reaches from the line in its plane, at least.
-    reach: f64,
+    /// The least height of the triangle that says which plane it is in.
+    height: f64,
     /// Which parts of the line's length it covers on the side to which the normal turns along the line, and on the other one.
     covers: [Option<[f64; 2]>; 2],
 }
@@ -121,12 +122,7 @@ impl<'a> Faces<'a> {
         if covers == [None; 2] {
             return None;
         }
-        let reach = if carrier.is_ok() {
-            crate::mesh::carriers::height(&known)
-        } else {
-            flat.iter().map(|p| p.y.abs()).fold(0.0, f64::max)
-        };
-        Some(Reached { face, normal, reach, covers })
+        Some(Reached { face, normal, height: height(&known), covers })
     }
 
     /// The pieces of a line at which some faces are.
@@ -167,7 +163,7 @@ impl<'a> Faces<'a> {
                     rays.push(Ray {
                         way: side,
                         begins,
-                        doubt: doubt(contact, own.reach, way.length),
+                        doubt: doubt(contact, own.height, way.length),
                         kind: kind(mesh, self.kinds, own.face),
                         part: mesh.face_part[own.face as usize],
                         body: mesh.body(own.face),
