@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Piece;
 use super::around::{Around, Ray, doubt};
 use crate::mesh::carriers::height;
 use crate::mesh::{FaceId, Mesh, PartId};
@@ -21,6 +20,16 @@ pub(super) struct Faces<'a> {
     tree: BoxTree,
     /// The greatest reach of contact of all parts.
     contact: f64,
+}
+
+/// A piece of a line, and whether it is a joint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    /// Where it ends, as a part of the line's length.
+    pub end: f64,
+    /// The vertex of the mesh at its end, if there is one.
+    pub vertex: Option<u32>,
+    pub is_joint: bool,
 }
 
 /// A straight line from end to end.

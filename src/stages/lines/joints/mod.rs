@@ -17,7 +17,7 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use self::faces::Faces;
+use self::faces::{Faces, Piece};
 use super::{FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
 
@@ -79,16 +79,6 @@ fn may_be_joint(segment: &FeatureSegment) -> bool {
     use LineKind::{Border, Contour, Crease, Intersection, Material};
     let is_kind = matches!(segment.kind, Contour | Border | Crease | Material | Intersection);
     is_kind && segment.role == Role::Line
-}
-
-/// A piece of a line, and whether it is a joint.
-#[derive(Debug, Clone, Copy)]
-struct Piece {
-    /// Where it ends, as a part of the line's length.
-    end: f64,
-    /// The vertex of the mesh at its end, if there is one.
-    vertex: Option<u32>,
-    is_joint: bool,
 }
 
 /// Lines that are cut, in place of what they were.
