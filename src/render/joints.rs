@@ -9,8 +9,7 @@ use crate::scene::Scene;
 use crate::scene::paint::{Paint, Paints};
 use crate::style::Style;
 
-/// Takes the joints out of the lines of a view, or makes borders of regions of them, if regions are asked for: the numbers of these
-/// lines, ascending.
+/// Takes the joints out of the lines of a view. Drawings with regions keep them as borders of these: returns their numbers, ascending.
 pub(super) fn take_out(
     scene: &Scene,
     paints: Option<&Paints>,

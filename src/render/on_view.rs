@@ -17,7 +17,7 @@ pub(super) struct OnView<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
-    /// The tone borders among them at which no tone changes, and joints that are left out, by their numbers, ascending.
+    /// The numbers of tone borders without a change of tone, and of joints that are left out, ascending.
     pub unchanged: Vec<u32>,
     /// Where lines or surfaces have colours.
     pub textures: Option<&'a Textures>,
@@ -75,7 +75,7 @@ impl Prepared<'_> {
         };
         known.intersections = known.intersections.or(in_sight.as_ref());
         let mut lines = lines::extract_with(surface, known, &view, sought);
-        // Parts on both sides of a joint stay regions of their own.
+        // Parts on both sides of a joint stay separate regions.
         let has_regions = self.paintable.is_some();
         let joints =
             joints::take_out(scene, paints.as_deref(), &surface.mesh, &mut lines, style, has_regions);

@@ -1,4 +1,4 @@
-//! [`Around`]: what a short stretch of a line has around it, seen along the line, and whether surfaces run on over it.
+//! [`Around`]: the faces around a short stretch of a line, seen along the line, and whether surfaces run on over it.
 //!
 //! In the plane across the line each face that reaches it is a ray. The two rays of a corner of a solid enclose its material; where
 //! solids touch face on face, two rays coincide and material lies on both sides of them. So material of one kind is bounded by the rays
@@ -16,7 +16,7 @@ pub(super) struct Ray {
     pub way: DVec3,
     /// Whether material begins behind the ray, for one who turns about the line from `right` to `up`.
     pub begins: bool,
-    /// The sine of the angle by which it may be off.
+    /// The sine of its possible error.
     pub doubt: f64,
     pub kind: u32,
     pub part: PartId,
@@ -82,7 +82,7 @@ impl Around {
         is_shared
     }
 
-    /// The directions in which the surface of what is of one kind leaves the line.
+    /// The directions of the surface of one kind, away from the line.
     fn bounds(&self, kind: u32) -> Vec<usize> {
         let count = self.directions.len();
         let own =
@@ -137,8 +137,8 @@ fn turn(way: DVec3, right: DVec3, up: DVec3) -> f64 {
     }
 }
 
-/// The sine of the angle about a line of this length by which a triangle of this least height may be off, if rounding moves corners
-/// by half of `contact`.
+/// The sine of the largest error of a triangle's angle about a line, given its least height and the line's length, if rounding moves
+/// corners by half of `contact`.
 pub(super) fn doubt(contact: f64, height: f64, length: f64) -> f64 {
     (contact / height + contact / length).min(UNSURE_SINE)
 }

@@ -7,10 +7,10 @@ use crate::mesh::carriers::height;
 use crate::mesh::{FaceId, Mesh, PartId};
 use crate::trees::boxes::BoxTree;
 
-/// What covers the places beside a line is asked so many times the reach of contact from it.
+/// Faces are tested on both sides of a line, at this many times the reach of contact.
 const BESIDE: f64 = 4.0;
 
-/// Pieces of lines shorter than so many times that are cut off by where it is asked, not by what is there.
+/// Pieces of lines shorter than this many times that distance come from the test, not from the shape.
 const SHORTEST: f64 = 8.0;
 
 /// The faces of a mesh by where they are, and the kind of each.
@@ -46,7 +46,7 @@ struct Reached {
     normal: DVec3,
     /// The least height of the triangle that says which plane it is in.
     height: f64,
-    /// Which parts of the line's length it covers on the side to which the normal turns along the line, and on the other one.
+    /// The parts of the line's length that it covers: first on the side of normal × line, then on the other one.
     covers: [Option<[f64; 2]>; 2],
 }
 
@@ -104,7 +104,7 @@ impl<'a> Faces<'a> {
         (near.len() <= most).then_some(near)
     }
 
-    /// How a face covers what is beside a line in its own plane, if that holds the line.
+    /// The stretches that a face covers on both sides of a line, if its plane holds the line.
     fn reached(&self, way: &Way, face: u32, contact: f64) -> Option<Reached> {
         let mesh = self.mesh;
         let corners = mesh.corners(FaceId(face));
@@ -117,7 +117,7 @@ impl<'a> Faces<'a> {
             DVec2::new(from.dot(way.along) / way.length, from.dot(side))
         });
         let beside = BESIDE * contact;
-        // Where the plane is as near as can be told.
+        // Where the plane holds the line, within rounding.
         let heights = [way.from, way.to].map(|end| normal.dot(end - corners[0]));
         let held = held(heights, contact)?;
         let least = SHORTEST * beside / way.length;
@@ -134,7 +134,7 @@ impl<'a> Faces<'a> {
         Some(Reached { face, normal, height: height(&known), covers })
     }
 
-    /// The pieces of a line at which some faces are.
+    /// The pieces of a line, given the faces that reach it.
     fn cut(&self, way: &Way, reached: &[Reached], contact: f64) -> Vec<Piece> {
         let least = SHORTEST * BESIDE * contact / way.length;
         let mut cuts: Vec<f64> =

@@ -1,4 +1,4 @@
-//! Joints: lines at which parts of one material meet and their surfaces run on in one plane. A style may leave them out.
+//! Joints: lines where parts of one material meet and their surfaces run on in one plane. A style may leave them out.
 //!
 //! A joint is no edge of the union of the parts, in no view. So it is told by what is around the line in space:
 //!
