@@ -31,6 +31,7 @@ mod glass;
 mod hatching;
 mod hidden;
 mod image;
+mod joints;
 mod late_search;
 mod late_shadows;
 mod maps;

@@ -2,6 +2,7 @@
 
 use super::fills::{self, Colours, Fills};
 use super::glass::{self, Behind};
+use super::joints;
 use super::on_threads::on_threads;
 use super::prepared::Prepared;
 use super::report::{Report, Stopwatch};
@@ -16,7 +17,7 @@ pub(super) struct OnView<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
-    /// The tone borders among them at which no tone changes, by their numbers, ascending.
+    /// The numbers of tone borders without a change of tone, and of joints that are left out, ascending.
     pub unchanged: Vec<u32>,
     /// Where lines or surfaces have colours.
     pub textures: Option<&'a Textures>,
@@ -74,6 +75,10 @@ impl Prepared<'_> {
         };
         known.intersections = known.intersections.or(in_sight.as_ref());
         let mut lines = lines::extract_with(surface, known, &view, sought);
+        // Parts on both sides of a joint stay separate regions.
+        let has_regions = self.paintable.is_some();
+        let joints =
+            joints::take_out(scene, paints.as_deref(), &surface.mesh, &mut lines, style, has_regions);
         let mut warnings = Vec::new();
         let px = Length::px(1.0).in_unit(unit);
         let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
@@ -92,8 +97,10 @@ impl Prepared<'_> {
         });
         warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
         let inked = fills::asks_isophotes(style);
-        let unchanged =
-            fills.as_ref().map(|fills| fills.add_tone_borders(&mut lines, inked)).unwrap_or_default();
+        let mut unchanged = joints;
+        unchanged.extend(
+            fills.as_ref().map(|fills| fills.add_tone_borders(&mut lines, inked)).unwrap_or_default(),
+        );
         report.stages_ms.features = watch.lap_ms();
 
         let map = viewmap::build_with(&surface.mesh, &view, &lines, sought, covers.as_ref());

@@ -37,6 +37,7 @@ mod inked_lines;
 mod inked_models;
 mod intersections;
 mod isophote_lines;
+mod joints;
 mod lattice;
 mod lines_inside;
 mod loading;

@@ -13,6 +13,7 @@ mod in_faces;
 pub mod inside;
 pub mod intersections;
 pub mod isophotes;
+pub mod joints;
 pub mod kind;
 mod levels;
 pub mod line;

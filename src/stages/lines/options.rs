@@ -74,6 +74,8 @@ pub struct LineOptions {
     pub artist_smooth: f64,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
+    /// Draw the joints of parts of one material: lines at which their surfaces run on in one plane. Default: true.
+    pub joints: bool,
     /// How suggestive contours, ridges and valleys are found.
     pub inside: InsideOptions,
     /// How lines are found in the image.
@@ -100,6 +102,7 @@ impl Default for LineOptions {
             artist_texture: ArtistTextures::default(),
             artist_smooth: 0.7,
             hidden: HiddenLines::None,
+            joints: true,
             inside: InsideOptions::default(),
             image: ImageOptions::default(),
         }

@@ -155,6 +155,11 @@ impl BoxTree {
         tree
     }
 
+    /// Calls `visit` for the faces whose boxes come near a box given by its corners.
+    pub fn near_box(&self, low: DVec3, high: DVec3, visit: impl FnMut(u32)) {
+        self.near(self.box_of([low, high, high]), &mut Vec::new(), visit);
+    }
+
     /// Calls `visit` for the faces whose boxes overlap a given one.
     pub(super) fn near(&self, own: FineBox, stack: &mut Vec<(usize, usize)>, mut visit: impl FnMut(u32)) {
         let wanted = &own.coarse().into();

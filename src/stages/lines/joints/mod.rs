@@ -1,0 +1,114 @@
+//! Joints: lines where parts of one material meet and their surfaces run on in one plane. A style may leave them out.
+//!
+//! A joint is no edge of the union of the parts, in no view. So it is told by what is around the line in space:
+//!
+//! 1. For each line the faces that reach it are sought: those whose plane holds a stretch of the line, and that cover what is just
+//!    to one side of it in this plane, or to both.
+//! 2. The line is cut where such a stretch ends.
+//! 3. Each piece sees the faces as rays in the plane across it, which say whether surfaces end or turn there ([`around`]).
+//!
+//! So an edge that runs along a joint for a part of its length keeps the rest.
+
+mod around;
+mod faces;
+
+use std::ops::Range;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use self::faces::{Faces, Piece};
+use super::{FeatureLines, FeatureSegment, LineKind, Role};
+use crate::mesh::Mesh;
+
+/// Faces near lines that are looked at in all, and at least for each line; a line with more near it stays.
+const MAX_TESTS: usize = 100_000_000;
+const LEAST_TESTS: usize = 1000;
+
+/// Takes the joints out of the lines of a view. `kinds` has for each paint the number of its kind: the parts of one kind look the same.
+///
+/// With `keep` they stay as borders between regions, of kind [`LineKind::Isophote`]: then their numbers are returned, ascending.
+pub fn take_out(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool) -> Vec<u32> {
+    let Some(faces) = Faces::new(mesh, kinds) else { return Vec::new() };
+    let most = (MAX_TESTS / lines.segments.len().max(1)).max(LEAST_TESTS);
+    let pieces: Vec<Option<Vec<Piece>>> = lines
+        .segments
+        .par_iter()
+        .map(|segment| {
+            let ends = segment.ends.map(|end| lines.position(mesh, end));
+            may_be_joint(segment).then(|| faces.pieces(segment.part, ends, most)).flatten()
+        })
+        .collect();
+    if pieces.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let first_point = mesh.positions.len() + lines.points.len();
+    let mut split = Split { keep, first_point, added: Vec::new(), borders: Vec::new(), points: Vec::new() };
+    for (segment, pieces) in lines.segments.iter().zip(&pieces) {
+        if let Some(pieces) = pieces {
+            let ends = segment.ends.map(|end| lines.position(mesh, end));
+            split.add(segment, ends, pieces);
+        }
+    }
+    // Curves are none of the lines that are cut, and stay together.
+    let mut before = 0u32;
+    let places: Vec<u32> = pieces
+        .iter()
+        .map(|pieces| {
+            before += u32::from(pieces.is_none());
+            before - u32::from(pieces.is_none())
+        })
+        .collect();
+    let place = |at: u32| places.get(at as usize).copied().unwrap_or(before);
+    for curve in &mut lines.curves {
+        let Range { start, end } = curve.segments;
+        curve.segments = place(start)..place(end);
+    }
+    let mut own = pieces.iter();
+    lines.segments.retain(|_| own.next().is_some_and(Option::is_none));
+    lines.segments.append(&mut split.added);
+    let first = lines.segments.len() as u32;
+    let borders = first..first + split.borders.len() as u32;
+    lines.segments.append(&mut split.borders);
+    lines.points.append(&mut split.points);
+    borders.collect()
+}
+
+/// Whether a line may be a joint by its kind.
+fn may_be_joint(segment: &FeatureSegment) -> bool {
+    use LineKind::{Border, Contour, Crease, Intersection, Material};
+    let is_kind = matches!(segment.kind, Contour | Border | Crease | Material | Intersection);
+    is_kind && segment.role == Role::Line
+}
+
+/// Lines that are cut, in place of what they were.
+struct Split {
+    keep: bool,
+    first_point: usize,
+    added: Vec<FeatureSegment>,
+    borders: Vec<FeatureSegment>,
+    points: Vec<DVec3>,
+}
+
+impl Split {
+    fn add(&mut self, segment: &FeatureSegment, [a, b]: [DVec3; 2], pieces: &[Piece]) {
+        let mut from = segment.ends[0];
+        for (number, piece) in pieces.iter().enumerate() {
+            let to = if number + 1 == pieces.len() {
+                segment.ends[1]
+            } else if let Some(vertex) = piece.vertex {
+                vertex
+            } else {
+                self.points.push(a.lerp(b, piece.end));
+                (self.first_point + self.points.len() - 1) as u32
+            };
+            let own = FeatureSegment { ends: [from, to], ..*segment };
+            if !piece.is_joint {
+                self.added.push(own);
+            } else if self.keep {
+                self.borders.push(FeatureSegment { kind: LineKind::Isophote, smooth: false, ..own });
+            }
+            from = to;
+        }
+    }
+}
