@@ -11,6 +11,13 @@ const MOST_CORNERS: usize = 4096;
 /// Corner tests after which the search for ears gives up.
 const MOST_TESTS: usize = 100_000_000;
 
+/// Convex polygons of more corners are fanned from the first.
+const MOST_APEXES: usize = 512;
+
+/// Three points are in line if the sine of the angle at one of them is no larger: a hundred times what single precision leaves of a
+/// straight side.
+const IN_LINE: f64 = 1e-5;
+
 /// Whether a polygon could be cut as it should.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CutOutcome {
@@ -23,9 +30,9 @@ pub enum CutOutcome {
 /// Cuts a polygon of three or more corners into triangles of corner numbers, in the polygon's sense.
 ///
 /// Triangles stay as they are; a quad is cut along corners 0 and 2, unless a corner is reflex
-/// there; a larger polygon is fanned from corner 0 where it is convex seen along its normal, and
-/// else loses its first ear until three corners are left. A polygon of n corners gives n − 2
-/// triangles, but for very large ones, which lose corners that repeat the one before.
+/// there or three corners are in line; a larger polygon is fanned from its first corner that gives only triangles with an area, where
+/// it is convex seen along its normal, and else loses its first ear until three corners are left. No cut runs along corners that are
+/// in line. A polygon of n corners gives n − 2 triangles, but for very large ones, which lose corners that repeat the one before.
 pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
     match *points {
         [] | [_] | [_, _] => CutOutcome::Sound,
@@ -46,7 +53,12 @@ pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcom
 pub fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
     let (u, v, w) = (b - a, c - a, d - a);
     // The two halves face opposite ways where the cut 0-2 runs outside.
-    if u.cross(v).dot(v.cross(w)) < 0.0 { [[0, 1, 3], [1, 2, 3]] } else { [[0, 1, 2], [0, 2, 3]] }
+    let runs_outside = u.cross(v).dot(v.cross(w)) < 0.0;
+    let is_flat = |u: DVec3, v: DVec3| {
+        u.cross(v).length_squared() <= IN_LINE * IN_LINE * u.length_squared() * v.length_squared()
+    };
+    let is_in_line = (is_flat(u, v) || is_flat(v, w)) && !(is_flat(u, w) || is_flat(c - b, d - b));
+    if runs_outside || is_in_line { [[0, 1, 3], [1, 2, 3]] } else { [[0, 1, 2], [0, 2, 3]] }
 }
 
 fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
@@ -55,8 +67,11 @@ fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
         return CutOutcome::Sound;
     };
     if is_convex(&flat) {
-        fan(0..points.len() as u32, triangles);
-        return CutOutcome::Sound;
+        let count = points.len() as u32;
+        if let Some(apex) = apex(&flat) {
+            fan((0..count).map(|k| (apex + k) % count), triangles);
+            return CutOutcome::Sound;
+        }
     }
     if points.len() <= MOST_CORNERS {
         return Ears::new(&flat).clip(triangles);
@@ -128,6 +143,21 @@ fn is_convex(points: &[DVec2]) -> bool {
     let after = points.iter().cycle().skip(2);
     rest.windows(2).all(|w| matches!(w, [b, c] if cross(*first, *b, *c) >= 0.0))
         && points.iter().zip(next).zip(after).all(|((a, b), c)| cross(*a, *b, *c) >= 0.0)
+}
+
+/// The first corner of a convex polygon from which all triangles of the fan have an area; corner 0 of a large polygon.
+fn apex(points: &[DVec2]) -> Option<u32> {
+    let count = points.len();
+    if count > MOST_APEXES {
+        return Some(0);
+    }
+    let has_area =
+        |a: DVec2, b: DVec2, c: DVec2| cross(a, b, c) > IN_LINE * (b - a).length() * (c - a).length();
+    let is_apex = |apex: &usize| {
+        let at = |k: usize| points[(apex + k) % count];
+        (1..count - 1).all(|k| has_area(points[*apex], at(k), at(k + 1)))
+    };
+    (0..count).find(is_apex).map(|apex| apex as u32)
 }
 
 /// What is known of a corner.
@@ -232,7 +262,7 @@ impl Ears {
                 && m != ear.after
                 && cross(a, b, p) >= 0.0
                 && cross(b, c, p) >= 0.0
-                && cross(c, a, p) >= 0.0
+                && cross(c, a, p) >= -IN_LINE * (a - c).length() * (p - c).length()
                 && p != a
                 && p != b
                 && p != c
@@ -356,7 +386,8 @@ mod tests {
                             && m != c
                             && cross(p[a], p[b], p[m]) >= 0.0
                             && cross(p[b], p[c], p[m]) >= 0.0
-                            && cross(p[c], p[a], p[m]) >= 0.0
+                            && cross(p[c], p[a], p[m])
+                                >= -IN_LINE * (p[a] - p[c]).length() * (p[m] - p[c]).length()
                             && [a, b, c].iter().all(|&o| p[o] != p[m])
                     })
             });
@@ -413,6 +444,38 @@ mod tests {
         let triangles = cut(&points);
         assert_eq!(triangles.len(), points.len() - 2);
         assert!(areas(&points, &triangles).1 >= 0.0);
+    }
+
+    #[test]
+    fn no_triangle_lies_along_a_side_with_a_corner_in_it() {
+        // Triangles, quads and a concave polygon with corners in the middle of their sides.
+        let shapes: [&[(f64, f64)]; 3] = [
+            &[(0.0, 0.0), (3.0, 0.1), (1.0, 2.0)],
+            &[(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)],
+            &[(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0)],
+        ];
+        for shape in shapes {
+            for pattern in 1..1_u32 << (2 * shape.len()) {
+                let mut points = Vec::new();
+                for k in 0..shape.len() {
+                    let (p, q) = (DVec2::from(shape[k]), DVec2::from(shape[(k + 1) % shape.len()]));
+                    points.push(p);
+                    // None, one or two corners, off the side by rounding to single precision.
+                    for t in [0.37, 0.71].into_iter().take((pattern >> (2 * k) & 3) as usize) {
+                        points.push(p.lerp(q, t).as_vec2().as_dvec2());
+                    }
+                }
+                let points: Vec<DVec3> = points.iter().map(|p| p.extend(0.0)).collect();
+                let triangles = cut(&points);
+                assert_eq!(triangles.len(), points.len() - 2);
+                let least = triangles.iter().map(|t| {
+                    let [a, b, c] = t.map(|k| points[k as usize]);
+                    (b - a).cross(c - a).z
+                });
+                let least = least.fold(f64::INFINITY, f64::min);
+                assert!(least > 1e-3, "{points:?}: {triangles:?} {least}");
+            }
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! A text holds decimals, often six, and many programs compute in single precision before they write. So positions lie on a
 //! lattice whose step is much coarser than double precision. The numbers show it:
 //!
-//! - Numbers with seven digits or more that all are single-precision numbers: single precision.
+//! - Numbers of which some have eight digits or more, and that all are single-precision numbers: single precision.
 //! - Otherwise the step is the unit of the last digit of the numbers with the most digits. Whole numbers and short
 //!   decimals, such as 2.5, are exact: their "step" would be visible in a drawing.
 
@@ -17,8 +17,8 @@ use crate::scene::{Geometry, Scene};
 /// So many positions of a file are measured, spread evenly.
 const MAX_SAMPLES: usize = 1024;
 
-/// Fewer digits than this say nothing about single precision, which holds seven of them.
-const SINGLE_DIGITS: i32 = 7;
+/// Fewer digits than this say nothing about single precision: nearly every number of seven digits is the shortest text of one.
+const SINGLE_DIGITS: i32 = 8;
 
 /// Numbers with as many digits as this are written in double precision.
 const DOUBLE_DIGITS: i32 = 15;
@@ -135,10 +135,14 @@ mod tests {
             Precision::Decimals(step) => step,
             other => panic!("{other:?}"),
         };
-        for (places, unit) in [(4, 1e-4), (6, 1e-6), (9, 1e-9)] {
+        for (places, unit) in [(4, 1e-4), (5, 1e-5), (9, 1e-9)] {
             let found = step(written(20.0, decimals(places)));
             assert!((found / unit - 1.0).abs() < 1e-9, "{places}: {found}");
         }
+        let found = step(written(9.0, decimals(6)));
+        assert!((found / 1e-6 - 1.0).abs() < 1e-9, "{found}");
+        // Eight digits are as fine as single precision, and may be either.
+        assert!(matches!(written(20.0, decimals(6)), Precision::Single | Precision::Decimals(_)));
         // Six digits, C's %g, of numbers up to 20.
         let found = step(written(20.0, |x| format!("{x:.5e}").parse().unwrap()));
         assert!((found / 1e-4 - 1.0).abs() < 1e-9, "{found}");
