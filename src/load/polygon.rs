@@ -145,6 +145,13 @@ fn is_convex(points: &[DVec2]) -> bool {
         && points.iter().zip(next).zip(after).all(|((a, b), c)| cross(*a, *b, *c) >= 0.0)
 }
 
+/// Whether a triangle runs counter-clockwise, and no corner of it is in line with the others.
+#[inline]
+fn has_area(a: DVec2, b: DVec2, c: DVec2) -> bool {
+    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    cross(a, b, c) > IN_LINE * longest
+}
+
 /// The first corner of a convex polygon from which all triangles of the fan have an area; corner 0 of a large polygon.
 fn apex(points: &[DVec2]) -> Option<u32> {
     let count = points.len();
@@ -164,7 +171,7 @@ fn apex(points: &[DVec2]) -> Option<u32> {
 #[derive(Clone, Copy, PartialEq)]
 enum Known {
     Nothing,
-    /// It is reflex, so no ear while its neighbours stay.
+    /// It is reflex or in line with its neighbours, so no ear while these stay.
     Reflex,
     /// That corner lies inside it, so no ear while that one and the neighbours stay.
     Blocked(u32),
@@ -250,7 +257,7 @@ impl Ears {
     fn look(&mut self, i: u32) -> Known {
         let ear = self.corner(i);
         let (a, b, c) = (self.corner(ear.before).point, ear.point, self.corner(ear.after).point);
-        if cross(a, b, c) <= 0.0 {
+        if !has_area(a, b, c) {
             return Known::Reflex;
         }
         let mut tests = 0;
@@ -379,7 +386,7 @@ mod tests {
             let at = |k: usize| (left[(k + n - 1) % n], left[k], left[(k + 1) % n]);
             let ear = (0..n).find(|&k| {
                 let (a, b, c) = at(k);
-                cross(p[a], p[b], p[c]) > 0.0
+                has_area(p[a], p[b], p[c])
                     && !left.iter().any(|&m| {
                         m != a
                             && m != b
@@ -454,6 +461,38 @@ mod tests {
             &[(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)],
             &[(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0)],
         ];
+        // Corners of a plus, some of which are in line across it.
+        let plus = [
+            (1.0, 0.0),
+            (2.0, 0.0),
+            (2.0, 1.0),
+            (3.0, 1.0),
+            (3.0, 2.0),
+            (2.0, 2.0),
+            (2.0, 3.0),
+            (1.0, 3.0),
+            (1.0, 2.0),
+            (0.0, 2.0),
+            (0.0, 1.0),
+            (1.0, 1.0),
+        ];
+        let mut state = 3_u64;
+        for _ in 0..500 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let angle = (state >> 40) as f64 / 1e5;
+            let (sin, cos) = (crate::math::function::sin(angle), crate::math::function::cos(angle));
+            let first = (state >> 20) as usize % 12;
+            let at = |k: usize| plus[(first + k) % 12];
+            let points: Vec<DVec3> = (0..12)
+                .map(|k| DVec3::new(at(k).0 * cos - at(k).1 * sin, at(k).0 * sin + at(k).1 * cos, 0.0))
+                .collect();
+            let triangles = cut(&points);
+            let least = triangles.iter().map(|t| {
+                let [a, b, c] = t.map(|k| points[k as usize]);
+                (b - a).cross(c - a).z
+            });
+            assert!(least.fold(f64::INFINITY, f64::min) > 1e-3, "{points:?}");
+        }
         for shape in shapes {
             for pattern in 1..1_u32 << (2 * shape.len()) {
                 let mut points = Vec::new();
