@@ -365,3 +365,49 @@ fn empty_input_gives_nothing() {
     let point = Solid { positions: vec![DVec3::ONE; 6], triangles: vec![[0, 1, 2], [3, 4, 5]] };
     assert_eq!(find(&point), IntersectionCurves::default());
 }
+
+/// A square face in two halves whose common side runs along x, crossed there by a wall that goes on to both sides or ends.
+fn crossed_on_a_diagonal(halves: &[f64], turn: glam::DQuat) -> Solid {
+    let mut solid = Solid {
+        positions: vec![
+            DVec3::new(-1.0, 0.0, 0.0),
+            DVec3::new(2.0, 0.0, 0.0),
+            // The wall stands in the plane y = 0.
+            DVec3::new(0.1, 0.0, -0.7),
+            DVec3::new(0.9, 0.0, -0.5),
+            DVec3::new(0.4, 0.0, 0.8),
+        ],
+        triangles: vec![[2, 3, 4]],
+    };
+    for side in halves {
+        solid.positions.push(DVec3::new(0.3, *side, 0.0));
+        solid.triangles.push([0, 1, solid.positions.len() as u32 - 1]);
+    }
+    solid.positions.iter_mut().for_each(|p| *p = turn * *p);
+    solid
+}
+
+#[test]
+fn surfaces_that_cross_along_a_diagonal_have_a_curve_there() {
+    let mut dice = Dice::new(12);
+    for round in 0..200 {
+        let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
+        let both = find(&crossed_on_a_diagonal(&[1.0, -1.5], turn));
+        let strict = {
+            let mut solid = crossed_on_a_diagonal(&[1.0, -1.5], turn);
+            let aside = turn * DVec3::Y * 1e-6;
+            solid.positions[2..5].iter_mut().for_each(|p| *p += aside);
+            find(&solid)
+        };
+        assert!(
+            (length(&both) - length(&strict)).abs() < 1e-5,
+            "{round}: {} {}",
+            length(&both),
+            length(&strict)
+        );
+        assert!(length(&both) > 0.4, "{round}");
+        // What only touches has none.
+        assert!(find(&crossed_on_a_diagonal(&[1.0], turn)).segments.is_empty(), "{round}");
+        assert!(find(&crossed_on_a_diagonal(&[1.0, 1.5], turn)).segments.is_empty(), "{round}");
+    }
+}

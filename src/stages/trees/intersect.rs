@@ -11,9 +11,10 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::boxes::BoxTree;
-use super::triangle_pair::{Common, End, Feature, PairTolerance, Triangle, cross_beyond};
+use super::triangle_pair::{Common, End, Feature, PairTolerance, Touch, Triangle, cross_beyond};
 
 /// The triangles to look at.
 #[derive(Debug, Clone, Copy)]
@@ -171,10 +172,25 @@ pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
     let mut namings = Vec::new();
     let mut end_count = 0;
     let mut segments = Vec::new();
+    let passing = passing_edges(pairs);
     for &Pair { faces, common } in pairs {
         let (ends, step) = match common {
             Common::Segment(ends) => (ends, 1),
             Common::Point(ends) => (ends, 0),
+            Common::Touch(touch) => {
+                let Some([first, second]) = passing.get(&pierced_and_edge(faces, &touch)) else { continue };
+                let (pierced, own) = pierced_and_own(faces, &touch);
+                if own != *first {
+                    continue;
+                }
+                // Neighbours may name either face at the edge.
+                let other = if pierced < *second { [pierced, *second] } else { [*second, pierced] };
+                let turned = (pierced < own) != (pierced < *second);
+                let ends = if turned { touch.ends.map(|[a, b]| [b, a]) } else { touch.ends };
+                name_end(ends[0], other, end_count, &mut namings);
+                name_end(ends[1], other, end_count + 1, &mut namings);
+                (touch.ends, 1)
+            }
         };
         if step == 1 {
             segments.push(IntersectionSegment { ends: [end_count, end_count + 1], faces });
@@ -220,6 +236,34 @@ pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
     }
     segments.retain(|segment| segment.ends[0] != segment.ends[1]);
     IntersectionCurves { points, segments }
+}
+
+/// Of two faces of which one has an edge in the other: the one that it lies in, and its own.
+fn pierced_and_own([a, b]: [u32; 2], touch: &Touch) -> (u32, u32) {
+    if touch.is_of_second { (a, b) } else { (b, a) }
+}
+
+fn pierced_and_edge(faces: [u32; 2], touch: &Touch) -> (u32, Feature) {
+    (pierced_and_own(faces, touch).0, touch.edge)
+}
+
+/// The edges along which surfaces pass through a face that the edges lie in, with the first two faces on either side of it that have
+/// the edge, the lesser first.
+fn passing_edges(pairs: &[Pair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
+    let mut sides: FxHashMap<(u32, Feature), [Option<u32>; 2]> = FxHashMap::default();
+    for Pair { faces, common } in pairs {
+        if let Common::Touch(touch) = common {
+            let side =
+                &mut sides.entry(pierced_and_edge(*faces, touch)).or_default()[usize::from(touch.is_above)];
+            let own = pierced_and_own(*faces, touch).1;
+            *side = Some(side.map_or(own, |known| known.min(own)));
+        }
+    }
+    let both = |(key, [below, above]): (_, [Option<u32>; 2])| {
+        let (below, above) = (below?, above?);
+        Some((key, [below.min(above), below.max(above)]))
+    };
+    sides.into_iter().filter_map(both).collect()
 }
 
 /// Adds all names of the end of the common part of two faces.

@@ -45,8 +45,7 @@ impl<'a> Tracer<'a> {
         while let Some(faces) = waiting.pop() {
             let Some(common) = self.common(faces) else { continue };
             found.push(Pair { faces, common });
-            let (Common::Segment(ends) | Common::Point(ends)) = common;
-            for end in ends {
+            for end in common.ends() {
                 self.faces_at(end, 0, faces[0], &mut firsts);
                 self.faces_at(end, 1, faces[1], &mut seconds);
                 for &a in &firsts {

@@ -11,6 +11,9 @@ use robust::{Coord3D, orient3d};
 use crate::math::tolerance::{OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART};
 use crate::mesh::Extent;
 
+/// Two corners that are nearer to a plane than this share of the third one's distance may lie in it.
+const NEAR_OF_FAR: f64 = 1e-4;
+
 /// Lengths below which a pair of triangles merely touches, in world units.
 #[derive(Debug, Clone, Copy)]
 pub struct PairTolerance {
@@ -79,15 +82,19 @@ impl Triangle {
         Self { vertices, corners, normal, trusted }
     }
 
-    /// Whether the points certainly lie all on one side of the plane, or in it.
+    /// Whether the points certainly lie all on one side of the plane, or in it, and no two of them alone in it.
     #[inline]
     #[must_use]
     pub fn has_on_one_side(&self, points: &[DVec3; 3]) -> bool {
         let [a, b, c] = points.map(|p| self.normal.dot(p - self.corners[0]));
-        self.trusted & (a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0)
+        let is_on_one = a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0;
+        let [x, y, z] = [a.abs(), b.abs(), c.abs()];
+        let middle = x.min(y).max(x.max(y).min(z));
+        self.trusted & is_on_one & (middle > NEAR_OF_FAR * x.max(y).max(z))
     }
 
-    /// Distances of points from the plane, right in sign; zero within the tolerance. None where they are surely not on both sides.
+    /// Distances of points from the plane, right in sign; zero within the tolerance. None where they are surely not on both sides, and
+    /// not two of them in it.
     #[inline]
     fn distances(
         &self,
@@ -112,7 +119,7 @@ impl Triangle {
             below |= !*is_zero && about <= error;
             above |= !*is_zero && about >= -error;
         }
-        if !(below && above) {
+        if !(below && above) && is_zero.iter().filter(|is_zero| **is_zero).count() != 2 {
             return None;
         }
         let mut distances = [0.0; 3];
@@ -177,12 +184,37 @@ pub enum Common {
     Segment([End; 2]),
     /// A segment too short to count, whose ends are one: segments of neighbours may end there.
     Point([End; 2]),
+    /// An edge of one triangle that lies in the other, which is cut by that edge if the triangle beyond the edge lies on the other side.
+    Touch(Touch),
+}
+
+impl Common {
+    /// Where it begins and ends.
+    #[must_use]
+    pub fn ends(&self) -> [End; 2] {
+        match self {
+            Self::Segment(ends) | Self::Point(ends) => *ends,
+            Self::Touch(touch) => touch.ends,
+        }
+    }
+}
+
+/// An edge of one triangle that lies in the plane of the other, as far as it lies in the triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// From its first to its last end along the cross product of the normals.
+    pub ends: [End; 2],
+    /// The edge, lesser vertex first.
+    pub edge: Feature,
+    /// Whether it is an edge of the second triangle.
+    pub is_of_second: bool,
+    /// Whether the triangle with the edge lies on the side of the other one's normal.
+    pub is_above: bool,
 }
 
 /// Where two triangles without common vertices strictly pass through each other, if they do.
 ///
-/// Triangles in one plane, and triangles that touch the other's plane from one side, have nothing
-/// in common.
+/// Triangles in one plane have nothing in common, nor have triangles that touch the other's plane with a vertex.
 #[must_use]
 pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
     if a.has_on_one_side(&b.corners) || b.has_on_one_side(&a.corners) {
@@ -198,9 +230,14 @@ pub(super) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
         return None;
     }
     let b_distances = a.distances(&b.corners, a_length, tolerance)?;
-    let b_crossings = crossings(b, b_distances)?;
+    let b_edge = edge_in_plane(b_distances);
+    let b_crossings = crossings(b, b_distances, b_edge)?;
     let a_distances = b.distances(&a.corners, b_length, tolerance)?;
-    let a_crossings = crossings(a, a_distances)?;
+    let a_edge = edge_in_plane(a_distances);
+    let a_crossings = crossings(a, a_distances, a_edge)?;
+    if a_edge.is_some() && b_edge.is_some() {
+        return None;
+    }
 
     let along = (a.normal / a_length).cross(b.normal / b_length);
     let sine = along.length();
@@ -221,6 +258,17 @@ pub(super) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
         [(meet || a_is_inner).then_some(a.1), (meet || !a_is_inner).then_some(b.1)]
     };
     let ends = [end(a_first, b_first, a_first.0 >= b_first.0), end(a_last, b_last, a_last.0 <= b_last.0)];
+    let touch = match (a_edge, b_edge) {
+        (Some(side), _) => Some((a, a_distances, side, false)),
+        (_, Some(side)) => Some((b, b_distances, side, true)),
+        _ => None,
+    };
+    if let Some((own, distances, third, is_of_second)) = touch {
+        let [v, w] = [own.vertices[(third + 1) % 3], own.vertices[(third + 2) % 3]];
+        let touch =
+            Touch { ends, edge: [v.min(w), v.max(w)], is_of_second, is_above: distances[third] > 0.0 };
+        return (length > tolerance.overlap).then_some(Common::Touch(touch));
+    }
     if length > tolerance.overlap {
         Some(Common::Segment(ends))
     } else if length >= -tolerance.overlap {
@@ -230,9 +278,20 @@ pub(super) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
     }
 }
 
+/// The corner opposite the edge that lies in a plane, given the distances of the corners from it; none if no edge does, or all.
+fn edge_in_plane(distances: [f64; 3]) -> Option<usize> {
+    let third = distances.iter().position(|d| *d != 0.0)?;
+    (distances.iter().filter(|d| **d == 0.0).count() == 2).then_some(third)
+}
+
 /// The two places where the border of a triangle goes through a plane, given the distances of its
-/// corners from it; none unless there are corners on both sides.
-fn crossings(triangle: &Triangle, distances: [f64; 3]) -> Option<[Piercing; 2]> {
+/// corners from it; the ends of the edge opposite the corner `third` if that lies in the plane, else none unless there are corners on
+/// both sides.
+fn crossings(triangle: &Triangle, distances: [f64; 3], third: Option<usize>) -> Option<[Piercing; 2]> {
+    if let Some(third) = third {
+        let at = |k: usize| Piercing { feature: [triangle.vertices[k]; 2], point: triangle.corners[k] };
+        return Some([at((third + 1) % 3), at((third + 2) % 3)]);
+    }
     let below = distances.iter().any(|&d| d < 0.0);
     let above = distances.iter().any(|&d| d > 0.0);
     if !(below && above) {
