@@ -12,10 +12,11 @@ pub struct Known {
     pub why: &'static str,
 }
 
-const FLUSH: &str = "lines of round bodies that touch others appear or change their pen with rounding";
-const NESTED: &str = "nested transforms round more than single precision says";
-const COPLANAR: &str = "lines along coplanar or tangent faces depend on how the faces are cut";
-const SPLICED: &str = "a vertex in an edge that other bodies touch changes the pen, or the line goes";
+const JUDGED_ALONE: &str = "bodies touch along an edge: where both have its vertices it is judged by all its faces, else by those of \
+    each body, so that contour, crease, border and material change places";
+const TANGENT: &str = "a face touches a round body along an edge, at an angle that rounding puts on either side of the limit for contact";
+const EDGE_ON: &str = "round bodies are flush in a plane that is seen nearly edge-on, and rounding decides which has the outline";
+const NEEDLE: &str = "a face without area lies along the edge that a decal and its wall share";
 const SHORT: &str = "the pen of a stretch shorter than about 40 px depends on the size of the picture";
 
 const fn known(relation: Relation, in_short_run: usize, share: f64, why: &'static str) -> Known {
@@ -23,24 +24,24 @@ const fn known(relation: Relation, in_short_run: usize, share: f64, why: &'stati
 }
 
 pub const KNOWN: [Known; 19] = [
-    known(Relation::AllReversed, 0, 0.05, COPLANAR),
-    known(Relation::SomeReversed, 0, 0.05, COPLANAR),
-    known(Relation::ObjSixDecimals, 0, 0.1, FLUSH),
-    known(Relation::ObjSinglePrecision, 0, 0.1, FLUSH),
-    known(Relation::Stl, 2, 0.15, FLUSH),
-    known(Relation::PlySinglePrecision, 0, 0.1, FLUSH),
-    known(Relation::GlbNested, 3, 0.2, NESTED),
-    known(Relation::GlbSinglePrecision, 0, 0.1, FLUSH),
-    known(Relation::Turned, 1, 0.05, COPLANAR),
-    known(Relation::Scaled, 0, 0.05, COPLANAR),
-    known(Relation::MovedFar, 3, 0.15, COPLANAR),
-    known(Relation::Mirrored, 0, 0.05, COPLANAR),
-    known(Relation::FacesSplit, 1, 0.1, COPLANAR),
-    known(Relation::VertexInEdge, 8, 0.4, SPLICED),
-    known(Relation::VertexInEdgeOneSided, 7, 0.3, SPLICED),
-    known(Relation::OtherDiagonals, 1, 0.06, COPLANAR),
-    known(Relation::FacesWithoutArea, 2, 0.1, COPLANAR),
-    known(Relation::OtherOrder, 1, 0.06, COPLANAR),
+    known(Relation::AllReversed, 0, 0.05, JUDGED_ALONE),
+    known(Relation::SomeReversed, 0, 0.05, JUDGED_ALONE),
+    known(Relation::ObjSixDecimals, 0, 0.1, TANGENT),
+    known(Relation::ObjSinglePrecision, 0, 0.1, TANGENT),
+    known(Relation::Stl, 2, 0.15, EDGE_ON),
+    known(Relation::PlySinglePrecision, 0, 0.1, TANGENT),
+    known(Relation::GlbNested, 2, 0.2, EDGE_ON),
+    known(Relation::GlbSinglePrecision, 1, 0.1, TANGENT),
+    known(Relation::Turned, 1, 0.05, JUDGED_ALONE),
+    known(Relation::Scaled, 0, 0.05, JUDGED_ALONE),
+    known(Relation::MovedFar, 0, 0.15, JUDGED_ALONE),
+    known(Relation::Mirrored, 0, 0.05, JUDGED_ALONE),
+    known(Relation::FacesSplit, 0, 0.1, JUDGED_ALONE),
+    known(Relation::VertexInEdge, 3, 0.4, JUDGED_ALONE),
+    known(Relation::VertexInEdgeOneSided, 5, 0.3, JUDGED_ALONE),
+    known(Relation::OtherDiagonals, 0, 0.06, JUDGED_ALONE),
+    known(Relation::FacesWithoutArea, 2, 0.1, NEEDLE),
+    known(Relation::OtherOrder, 0, 0.06, JUDGED_ALONE),
     known(Relation::PictureSize, 2, 0.15, SHORT),
 ];
 
