@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bodies::Body;
 
-/// The bodies of an assembly, none of which is taken apart itself.
+/// The bodies of an assembly. They move as wholes.
 pub(super) struct Assembly<'a> {
     pub bodies: &'a [Body],
     /// The axes of each body, those of the largest faces first.
@@ -23,7 +23,7 @@ pub(super) const MOST_AXES: usize = 6;
 /// How far each body of an assembly moves, world units.
 pub(super) struct Moves {
     pub whole: Vec<DVec3>,
-    /// The share of it that the body goes by itself.
+    /// The share of it that the body moves alone.
     pub alone: Vec<DVec3>,
 }
 

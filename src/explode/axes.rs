@@ -1,7 +1,7 @@
 //! [`axes_of`]: the directions along which a body may have been put together.
 //!
 //! 1. The faces of a body are grouped by their planes' directions.
-//! 2. The three directions with the largest area are axes of the body: a box has all of its own.
+//! 2. The three directions with the largest area are axes of the body: a box has exactly three.
 //! 3. So is what is at right angles to two of these: the axis of a tube or a nut is at right angles to all its sides.
 
 use glam::DVec3;
@@ -11,7 +11,7 @@ use super::bodies::Body;
 /// Sine of the angle below which two directions are one. Rounded to single precision, the faces of the test models turn by less.
 const SAME_SINE: f64 = 1e-3;
 
-/// Directions of planes that are told apart: those of the largest faces.
+/// The most directions of planes that are kept: those of the largest faces.
 const MOST_PLANES: usize = 64;
 
 /// Axes of one body.

@@ -80,8 +80,8 @@ impl Level {
         self.grouped((0..self.of.len()).collect())
     }
 
-    /// The same, with sub-assemblies that stand askew together: bodies without an axis along this one, of which two share another axis
-    /// along which they meet.
+    /// The same, with sub-assemblies that stand askew together: bodies without an axis along this one. Two of them are joined if they share another axis
+    /// and meet along it.
     pub fn groups(&self, assembly: &Assembly) -> Vec<Vec<usize>> {
         let has = |k: usize, axis: DVec3| assembly.axes[k].iter().any(|own| axes::is_same(*own, axis));
         let askew: Vec<usize> = self

@@ -3,9 +3,9 @@
 //! 1. Along an axis it is computed for each pair of parts whether one can be moved past the other, up or down.
 //! 2. Parts that hold each other in both directions move as one. So do sub-assemblies that stand askew: parts without an axis along
 //!    this one that share another.
-//! 3. The others are put in the order in which they can be taken off, with gaps between them.
-//! 4. What moves as one is taken apart in the same way along the next best axis: one of the world, or of its own faces.
-//! 5. What is told of a part comes last: its direction, its distance, its place in the order, its group.
+//! 3. The others are put in order, so that each can be taken off after those above it, with gaps between them.
+//! 4. Parts that move as one are taken apart in the same way along the next best axis: one of the world, or of their faces.
+//! 5. Settings of single parts come last: direction, distance, place in the order, group.
 //!
 //! Source: Li, Agrawala, Curless, Salesin, Automated generation of interactive 3D exploded view diagrams, 2008, 3: blocking along
 //! axes, offsets that end all overlap, and sub-assemblies. Here all parts of one axis move at once.
@@ -34,11 +34,11 @@ use level::Level;
 /// How an assembly is taken apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explosion {
-    /// The axis along which parts move first, world space; found if none is told.
+    /// The axis along which parts move first, world space; found if none is given.
     pub axis: Option<DVec3>,
     /// How far apart they come: 1 leaves a gap of 4 % of the model's diagonal.
     pub factor: f64,
-    /// What is told of some parts. Of several that name one part the last one that says a thing counts.
+    /// Settings of single parts. If several name one part, the last one that sets a value counts.
     pub parts: Vec<PartExplosion>,
 }
 
@@ -59,7 +59,7 @@ const TOUCH: f64 = 1e-5;
 pub struct Ways {
     /// The whole way of each part.
     pub offsets: Vec<DVec3>,
-    /// The share of it that the part goes by itself, and not with others that it is held by.
+    /// The share of it that the part moves alone, and not with others that hold it.
     pub alone: Vec<DVec3>,
 }
 
@@ -103,7 +103,7 @@ pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
 }
 
 impl Assembly<'_> {
-    /// Takes some bodies apart, first along an axis that is told, else along the best one; returns that axis.
+    /// Takes some bodies apart, first along a given axis, else along the best one; returns that axis.
     fn all(&self, of: &[usize], told: Option<DVec3>, moves: &mut Moves) -> Option<DVec3> {
         let mut known = Vec::new();
         let level = match told {
@@ -180,7 +180,7 @@ impl Assembly<'_> {
         best.map(|(_, level)| level)
     }
 
-    /// The axes of some bodies, but for those of the world.
+    /// The axes of some bodies without those of the world.
     fn axes_of(&self, of: &[usize]) -> Vec<DVec3> {
         let mut found: Vec<DVec3> = Vec::new();
         for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {

@@ -1,4 +1,4 @@
-//! [`offsets`]: in which order bodies stand along an axis once they are apart, and how far each moves for that.
+//! [`offsets`]: the order of bodies along an axis once they are apart, and how far each moves for that.
 
 use std::collections::BTreeMap;
 
@@ -42,14 +42,14 @@ pub(super) type Meetings = BTreeMap<[usize; 2], Meeting>;
 pub(super) struct Stretch {
     pub low: f64,
     pub high: f64,
-    /// Its size, by which the one that stays is chosen.
+    /// Its size. The largest body stays.
     pub size: f64,
-    /// Its place among those that have one, if it is told: a greater one stands higher.
+    /// Its place among those that have one, if it is given: a greater one stands higher.
     pub order: Option<f64>,
 }
 
 impl Stretch {
-    /// What several bodies take up together.
+    /// The stretch of several bodies together.
     pub fn joined(all: impl Iterator<Item = Self>) -> Self {
         let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, size: 0.0, order: None };
         all.fold(nothing, |sum, own| Self {
@@ -60,7 +60,7 @@ impl Stretch {
         })
     }
 
-    /// How it stands to another one, whatever blocks what, if both have a place that is told.
+    /// How it stands to another one if both are given a place. Then it does not matter which blocks the other.
     pub fn told(&self, other: &Self) -> Option<Standing> {
         let (own, its) = (self.order?, other.order?);
         (own != its).then_some(if own > its { Standing::Above } else { Standing::Below })

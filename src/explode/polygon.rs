@@ -1,4 +1,4 @@
-//! [`Polygon`]: what triangles in the plane have in common, and its area.
+//! [`Polygon`]: the common part of two triangles in the plane, and its area.
 
 use glam::DVec2;
 
@@ -40,7 +40,7 @@ pub(super) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> Polygon {
     polygon
 }
 
-/// What of a convex polygon lies where a linear function is not negative (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
+/// The part of a convex polygon where a linear function is not negative (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
 pub(super) fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> Polygon {
     let mut left = Polygon::default();
     let Some(last) = polygon.last() else { return left };

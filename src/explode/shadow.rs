@@ -1,13 +1,13 @@
 //! [`Shadow`]: a body seen along an axis, as triangles in the plane with heights along the axis.
 //!
-//! What blocks what is computed from pairs of triangles, one of each body:
+//! Whether one body blocks another is computed from pairs of triangles, one of each body:
 //!
 //! 1. Two triangles have a convex polygon in common in the plane, or none.
 //! 2. A face of one body that looks up blocks its way up where a face of the other that looks down stands above it, and the other way
 //!    round. In the polygon the difference of their heights is linear, so the part of it where this holds is a polygon again.
-//! 3. The areas of these polygons are added. What passes through the other body already is not in the way so.
+//! 3. The areas of these polygons are added. A part that passes through the other body already is not in the way.
 //! 4. Where bodies pass through each other along the axis, and the other stands out on one side only, it blocks the way to that side: a
-//!    thread does so across its axis. What stands out on both sides, like the ground around a bolt, does not.
+//!    thread does so across its axis. A body that stands out on both sides, like the ground around a bolt, does not.
 
 use glam::{DVec2, DVec3};
 use kurbo::Point;
@@ -21,7 +21,7 @@ use crate::math::hull::hull;
 /// Bodies that overlap on less than this share of the smaller one's area only graze each other: facets of a shaft and its bore do.
 const GRAZE: f64 = 0.02;
 
-/// Faces whose area in the plane is below this share of their own are parallel to the axis.
+/// Faces whose area in the plane is below this share of their full area are parallel to the axis.
 const UPRIGHT: f64 = 1e-9;
 
 /// A body seen along an axis.
@@ -69,7 +69,7 @@ impl Meeting {
         Self { blocks_up: self.blocks_down, blocks_down: self.blocks_up, ..self }
     }
 
-    /// What holds of either.
+    /// The union of two meetings.
     pub fn or(self, other: Self) -> Self {
         Self {
             meets: self.meets | other.meets,
@@ -128,7 +128,7 @@ impl Shadow {
 
     fn areas(&self, other: &Self, touch: f64, graze: f64) -> Meeting {
         let (mut both, mut above, mut below) = (0.0, 0.0, 0.0);
-        // What stands over the other as a whole is not in its way down, and the other way round.
+        // A body that stands wholly over the other is not in its way down, and the other way round.
         let [may_be_above, may_be_below] = [other.high > self.low + touch, other.low < self.high - touch];
         let is_open = |both: f64, above: f64, below: f64| {
             both <= graze || may_be_above && above <= graze || may_be_below && below <= graze
@@ -190,7 +190,7 @@ impl Shadow {
         if begins_inside { area(polygon) } else { 0.0 }
     }
 
-    /// The greatest height below `top` at which a face that looks down stands over a point.
+    /// The greatest height below `top` of a face that looks down, over a point.
     fn floor(&self, point: DVec2, top: f64) -> Option<f64> {
         let mut floor = None;
         self.tree.overlapping(&[point.x, point.y, point.x, point.y], &mut |number| {

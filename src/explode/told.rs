@@ -1,4 +1,4 @@
-//! What is told of single parts: direction, distance, place in the order, group.
+//! Settings of single parts: direction, distance, place in the order, group.
 
 use glam::DVec3;
 
@@ -9,12 +9,12 @@ use super::shadow::{Meeting, Shadow};
 use crate::math::glob::Glob;
 use crate::scene::Scene;
 
-/// What is told of the parts whose names match; what is not told is found.
+/// Settings of the parts whose names match. Values that are not set are found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartExplosion {
     /// The pattern for their names.
     pub name: Glob,
-    /// The direction in which they move, from where they stand in the model: world space, of any length above 0.
+    /// The direction of their way from where they stand in the model: world space, of any length above 0.
     pub direction: Option<DVec3>,
     /// How far they move, world units; 0 has them stay.
     pub distance: Option<f64>,
@@ -25,7 +25,7 @@ pub struct PartExplosion {
 }
 
 impl PartExplosion {
-    /// Nothing is told of the parts whose names match a pattern.
+    /// No settings for the parts whose names match a pattern.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: Glob::new(name), direction: None, distance: None, order: None, group: None }
@@ -54,7 +54,7 @@ pub fn direction(text: &str) -> Option<DVec3> {
     direction.try_normalize().map(|_| direction)
 }
 
-/// Parts that move as one, and what is told of them.
+/// Parts that move as one, and their settings.
 pub(super) struct Unit {
     pub parts: Vec<usize>,
     pub told: PartExplosion,
@@ -85,7 +85,7 @@ pub(super) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> V
     units
 }
 
-/// Moves the units whose direction or distance is told; `main` is the axis along which the others came assembly.
+/// Moves the units with a given direction or distance; `main` is the axis along which the others came apart.
 pub(super) fn move_told(assembly: &Assembly, units: &[Unit], main: Option<DVec3>, moves: &mut Moves) {
     let direction = |k: usize| units[k].told.direction.and_then(DVec3::try_normalize);
     let mut left: Vec<usize> = (0..units.len()).filter(|k| direction(*k).is_some()).collect();
@@ -110,7 +110,7 @@ pub(super) fn move_told(assembly: &Assembly, units: &[Unit], main: Option<DVec3>
 /// Cosine of the angle below which two directions are one: a tenth of a degree.
 const SAME_WAY: f64 = 0.999_998_5;
 
-/// How far some units move along a direction so that they are past all others, in the order in which they can be taken off.
+/// How far some units move along a direction so that they are past all others, in an order that lets each be taken off.
 fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
     let axes = frame(way);
     let others = (0..assembly.bodies.len()).filter(|k| !own.contains(k)).map(|k| &assembly.bodies[k]);
@@ -139,6 +139,6 @@ fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
     }
     let mut found = offsets(&stretches, &meetings, assembly.gap);
     found.truncate(last);
-    // What nothing is in the way of moves by the gap: that it moves was told.
+    // A unit with nothing in its way moves by the gap, since a direction was given.
     found.iter().map(|offset| offset.max(assembly.gap)).collect()
 }

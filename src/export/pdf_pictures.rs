@@ -35,7 +35,7 @@ pub(super) struct Crop<'a> {
 #[derive(Default)]
 pub(super) struct Crops<'a> {
     pub list: Vec<Crop<'a>>,
-    /// What marks show through masks, in the order of the marks.
+    /// The content of masks, in the order of the marks.
     pub masked: Vec<&'a ImagePaint>,
     /// The number and the ink of what is shown through a mask, by where it lies in memory.
     inks: FxHashMap<usize, (usize, Colour)>,

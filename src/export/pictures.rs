@@ -165,7 +165,7 @@ fn half_clear_ink(picture: &Picture) -> Option<Colour> {
     (is_half_clear && is_one).then_some(first)
 }
 
-/// Whether a piece shows pixels, or a colour that is an ink but for its opacity.
+/// Whether a piece shows pixels, or a colour that is an ink except for its opacity.
 fn is_of_ink(piece: &ImagePiece, ink: Colour) -> bool {
     match piece.shows {
         Shows::Pixels(_) => true,

@@ -25,7 +25,7 @@ pub(super) enum Winding {
     EvenOdd,
 }
 
-/// What the edges of a path add to a pixel.
+/// The coverage that the edges of a path add to a pixel.
 #[derive(Debug, Clone, Copy)]
 struct Cell {
     row: u32,

@@ -32,7 +32,7 @@ pub enum CutOutcome {
 /// Triangles stay as they are; a quad is cut along corners 0 and 2, unless a corner is reflex
 /// there or three corners are in line; a larger polygon is fanned from its first corner that gives only triangles with an area, where
 /// it is convex seen along its normal, and else loses its first ear until three corners are left. No cut runs along corners that are
-/// in line. A polygon of n corners gives n − 2 triangles, but for very large ones, which lose corners that repeat the one before.
+/// in line. A polygon of n corners gives n − 2 triangles. Very large ones lose corners that repeat the one before.
 pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
     match *points {
         [] | [_] | [_, _] => CutOutcome::Sound,
@@ -152,7 +152,7 @@ fn has_area(a: DVec2, b: DVec2, c: DVec2) -> bool {
     cross(a, b, c) > IN_LINE * longest
 }
 
-/// The first corner of a convex polygon from which all triangles of the fan have an area; corner 0 of a large polygon.
+/// The first corner of a convex polygon whose fan has triangles with an area only; corner 0 of a large polygon.
 fn apex(points: &[DVec2]) -> Option<u32> {
     let count = points.len();
     if count > MOST_APEXES {
@@ -461,7 +461,7 @@ mod tests {
             &[(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)],
             &[(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0)],
         ];
-        // Corners of a plus, some of which are in line across it.
+        // Corners of a plus. Some are in line across it.
         let plus = [
             (1.0, 0.0),
             (2.0, 0.0),

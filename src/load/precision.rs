@@ -1,9 +1,9 @@
-//! The precision in which a file wrote its coordinates, measured on the coordinates themselves.
+//! The precision of a file's coordinates, measured on the coordinates themselves.
 //!
 //! A text holds decimals, often six, and many programs compute in single precision before they write. So positions lie on a
 //! lattice whose step is much coarser than double precision. The numbers show it:
 //!
-//! - Numbers of which some have eight digits or more, and that all are single-precision numbers: single precision.
+//! - All numbers are single-precision numbers, and some have eight digits or more: single precision.
 //! - Otherwise the step is the unit of the last digit of the numbers with the most digits. Whole numbers and short
 //!   decimals, such as 2.5, are exact: their "step" would be visible in a drawing.
 
@@ -14,7 +14,7 @@ use glam::DVec3;
 use crate::math::tolerance::VISIBLE_STEP;
 use crate::scene::{Geometry, Scene};
 
-/// So many positions of a file are measured, spread evenly.
+/// The number of positions of a file that are measured, spread evenly.
 const MAX_SAMPLES: usize = 1024;
 
 /// Fewer digits than this say nothing about single precision: nearly every number of seven digits is the shortest text of one.
@@ -30,7 +30,7 @@ const SINGLE_ERROR: f64 = 5.000_001e-9;
 /// Numbers smaller than this share of the largest are noise around zero, whose digits mean nothing.
 const NOISE_OF_LARGEST: f64 = 1e-6;
 
-/// Notes in each shape of a scene in which precision its positions were written.
+/// Notes in each shape of a scene the precision of its positions.
 pub(super) fn measure(scene: &mut Scene) {
     let is_open = |geometry: &Geometry| !geometry.single_precision && geometry.lattice_step == 0.0;
     let count: usize = scene.geometries.iter().filter(|g| is_open(g)).map(|g| g.positions.len()).sum();
@@ -47,7 +47,7 @@ pub(super) fn measure(scene: &mut Scene) {
     }
 }
 
-/// What the numbers of a file say of their precision.
+/// The precision that the numbers of a file show.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Precision {
     /// Whole numbers, short decimals, or double precision.

@@ -237,7 +237,7 @@ fn has_extent(scene: &Scene, place: usize, body: &Body) -> bool {
     faces.is_empty() || faces.iter().any(has_area)
 }
 
-/// Whether several places are one, but for rounding.
+/// Whether several places are one, except for rounding.
 fn is_point(mut places: impl Iterator<Item = DVec3>) -> bool {
     let Some(first) = places.next() else { return false };
     let mut count = 1;

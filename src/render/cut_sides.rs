@@ -1,4 +1,4 @@
-//! [`long_sides`]: the directions in which the long straight sides of a cut face run in the picture.
+//! [`long_sides`]: the directions of the long straight sides of a cut face in the picture.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;

@@ -30,7 +30,7 @@ pub(super) fn reason(scene: &Scene, (mesh, view): (&Mesh, &View), style: &Style,
     format!("the drawing is empty: {why}")
 }
 
-/// What the scene lacks.
+/// The reason in the scene.
 fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<&'static str> {
     if scene.parts.is_empty() {
         return Some("the scene has no parts");
@@ -52,7 +52,7 @@ fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<&'static str> {
     })
 }
 
-/// What the style leaves out.
+/// The reason in the style.
 fn of_style(style: &Style) -> Option<&'static str> {
     let has_lines = style.lines.enabled && !style.lines.kinds.is_empty();
     let draws = has_lines || style.region.enabled || style.hatch.enabled || style.motion.enabled;

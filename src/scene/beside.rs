@@ -87,7 +87,7 @@ impl Neighbours {
     /// end of the path that is there, in any letter case. `C:\work\maps\Wall.PNG` is `maps/wall.png`, or else `wall.png`.
     ///
     /// The path is looked for in `below`, the folder of the file that names it (empty, or with a slash at its end), and then
-    /// beside the model. Of several names that differ in case only, the first in alphabetical order is taken.
+    /// next to the model. Of several names that differ in case only, the first in alphabetical order is taken.
     pub fn find(&self, below: &str, name: &str) -> Option<String> {
         let mut steps: Vec<&str> = Vec::new();
         for step in name.split(['/', '\\']) {
@@ -123,7 +123,7 @@ impl Neighbours {
         self.has(&path).then_some(path)
     }
 
-    /// The names in a folder that are alike but for their case, in alphabetical order.
+    /// The names in a folder that are alike except for their case, in alphabetical order.
     fn names(&self, folder: &str, lower: &str) -> Vec<String> {
         let mut listed = self.listed.borrow_mut();
         if !listed.contains_key(folder) {

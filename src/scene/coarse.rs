@@ -105,7 +105,7 @@ fn steps(geometry: &Geometry) -> DVec3 {
     DVec3::new(along(0), along(1), along(2))
 }
 
-/// Whether a number is a multiple of a step, but for the rounding of double precision.
+/// Whether a number is a multiple of a step, except for the rounding of double precision.
 fn is_multiple(value: f64, step: f64) -> bool {
     let times = value / step;
     (times - times.round()).abs() <= 4.0 * f64::EPSILON * times.abs()

@@ -35,7 +35,7 @@ pub(crate) struct DrawnPart {
     pub part: usize,
     /// Its points among all.
     pub points: Range<usize>,
-    /// What of it is left out.
+    /// The faces and wires of it that are left out.
     #[cfg_attr(not(feature = "cli"), expect(dead_code))]
     pub left_out: LeftOut,
 }
@@ -132,7 +132,7 @@ impl DrawnPoints {
                 known.entry(std::ptr::from_ref(own.geometry)).or_insert_with(|| used_points(own.geometry));
             own.add(used, &mut all.points);
             let points = all.points.get(first..).unwrap_or_default();
-            // A part that reaches beyond all numbers is not drawn.
+            // A part with coordinates that are no finite numbers is not drawn.
             let is_drawn = points.par_iter().with_min_len(GRAIN).all(|&p| is_drawable(p));
             if is_drawn {
                 let points = first..all.points.len();

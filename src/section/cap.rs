@@ -35,7 +35,7 @@ pub(super) struct Cap {
     pub bounds: Option<[DVec2; 2]>,
     /// What became of the open edges.
     pub seams: Seams,
-    /// Triangles of the solid's own shape that lie in the plane and stay as they are.
+    /// Triangles of the solid's own shape that lie in the plane and stay unchanged.
     pub whole: Vec<usize>,
     /// Pieces of such triangles: of which one, the vertices, and what the sides are.
     pub pieces: Vec<(usize, [u32; 3], [EdgeMark; 3])>,

@@ -1,4 +1,4 @@
-//! [`FlatFaces`], [`Kept`]: faces of the model that lie in the plane of a section and are not cut: what of them is left.
+//! [`FlatFaces`], [`Kept`]: the remains of faces of the model that lie in the plane of a section and are not cut.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};

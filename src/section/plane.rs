@@ -71,7 +71,7 @@ impl Plane {
         (p - self.origin).dot(self.axes[2])
     }
 
-    /// The point of the plane that is nearest to one beside it.
+    /// The point of the plane that is nearest to one next to it.
     pub(super) fn nearest(&self, p: DVec3) -> DVec3 {
         p - self.axes[2] * self.distance(p)
     }

@@ -406,7 +406,7 @@ fn surfaces_that_cross_along_a_diagonal_have_a_curve_there() {
             length(&strict)
         );
         assert!(length(&both) > 0.4, "{round}");
-        // What only touches has none.
+        // Surfaces that only touch have none.
         assert!(find(&crossed_on_a_diagonal(&[1.0], turn)).segments.is_empty(), "{round}");
         assert!(find(&crossed_on_a_diagonal(&[1.0, 1.5], turn)).segments.is_empty(), "{round}");
     }

@@ -50,7 +50,7 @@ fn shared_models_are_as_their_facts_say() {
         let Some((least, greatest)) = scene.bounds() else { panic!("{file} has no bounds") };
         let diagonal = (greatest - least).length();
         for (column, point) in [("min", least), ("max", greatest)] {
-            // The facts count a face on a line from 2 to 4, beside the cube, which has no area and is left out.
+            // The facts count a face on a line from 2 to 4, next to the cube, which has no area and is left out.
             let is_beside = file == "edge/degenerate.obj" && column == "max";
             let fact = if is_beside { "1 1 1".to_owned() } else { fact(column) };
             let wanted: Vec<f64> = fact.split(' ').filter_map(|v| v.parse().ok()).collect();

@@ -178,7 +178,7 @@ fn colours_of_vertices_without_a_material_stand_on_white() {
     let painted = json!({"attributes": {"POSITION": 0}, "indices": 4, "material": 0});
     assert_eq!(colours(&only(json!([tinted]))).0, ["#ff0000"]);
     assert_eq!(colours(&only(json!([plain]))).0, ["#cccccc"]);
-    // What has neither in the same mesh stays as it is, before and after what has colours.
+    // What has neither in the same mesh stays unchanged, before and after what has colours.
     for primitives in [json!([tinted, plain]), json!([plain, tinted])] {
         assert_eq!(colours(&only(primitives)).0, ["#cccccc", "#ff0000"]);
     }
@@ -264,7 +264,7 @@ fn edges_that_a_file_draws_itself_are_drawn_once() {
 fn lines_of_a_file_that_no_edge_has_are_drawn() {
     let style = Style::default();
     let wires = |paths: &[String]| paths.iter().filter(|path| path.contains("class=\"wire\"")).count();
-    // A circle around a square, one beside the rim, and a line across a face.
+    // A circle around a square, one next to the rim, and a line across a face.
     assert!(wires(&drawn(&prism(4, Some((64, 0.0))), &style)) > 0);
     let mut inner = prism(48, Some((48, 0.0)));
     for position in &mut inner.geometries[0].positions[96..] {

@@ -1,4 +1,4 @@
-//! Lines of every kind with background on one side are outline: places beside them against rays.
+//! Lines of every kind with background on one side are outline: places next to them against rays.
 
 use crate::support::dice::Dice;
 use crate::support::eye::Eye;
@@ -20,7 +20,7 @@ use rayon::prelude::*;
 const KINDS: [LineKind; 5] =
     [LineKind::Contour, LineKind::Border, LineKind::Crease, LineKind::Material, LineKind::Intersection];
 
-/// How far beside a line rays are shot, px. Where they do not agree with each other, rounding decides.
+/// How far next to a line rays are shot, px. Where they do not agree with each other, rounding decides.
 const ASIDE: [f64; 4] = [5e-4, 1e-3, 2e-3, 1e-2];
 
 /// No place is nearer than this to an end of a line, px.

@@ -8,7 +8,7 @@ use crate::cli::number::{counted, short};
 use crate::scene::Scene;
 use crate::scene::drawn_points::{DrawnPart, LeftOut};
 
-/// What is left out of a part.
+/// The faces and lines of a part that are left out.
 #[derive(Debug, Serialize)]
 pub(super) struct LeftOutInfo {
     part: String,
@@ -20,7 +20,7 @@ pub(super) struct LeftOutInfo {
     pub first_at: Option<[f64; 3]>,
 }
 
-/// What is left out of each part of a scene.
+/// The faces and lines of each part of a scene that are left out.
 pub(super) fn by_part(scene: &Scene, drawn: &[DrawnPart]) -> Vec<LeftOut> {
     let mut left_out = vec![LeftOut::default(); scene.parts.len()];
     for own in drawn {
@@ -31,7 +31,7 @@ pub(super) fn by_part(scene: &Scene, drawn: &[DrawnPart]) -> Vec<LeftOut> {
     left_out
 }
 
-/// Adds a line for each part of which something is left out, up to `most`.
+/// Adds a line for each part with faces or lines left out, up to `most`.
 pub(super) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
     for own in left_out.iter().take(most) {
         // Writing to a string cannot fail; a name may hold the codes of a terminal.
@@ -43,7 +43,7 @@ pub(super) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
 }
 
 impl LeftOutInfo {
-    /// The parts of which something is left out.
+    /// The parts with faces or lines left out.
     pub fn of(scene: &Scene, left_out: &[LeftOut]) -> Vec<Self> {
         let parts = scene.parts.iter().zip(left_out).filter(|(_, own)| !own.is_none());
         let info = parts.map(|(part, own)| Self {

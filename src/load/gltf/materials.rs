@@ -16,7 +16,7 @@ type TextureSource = (Option<String>, Option<Arc<[u8]>>);
 /// Bytes of an image that are looked at to tell whether it is one.
 const HEAD: usize = 32;
 
-/// The files beside a model.
+/// The files next to a model.
 #[derive(Clone, Copy)]
 pub struct Files<'a> {
     /// Reads the beginning of one.

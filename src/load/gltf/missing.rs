@@ -1,4 +1,4 @@
-//! [`Missing`]: what the file points to and does not have, where the rest can be drawn without it.
+//! [`Missing`]: references of the file to things that it does not have, and that can be left out.
 
 use crate::scene::Warnings;
 use crate::scene::warnings::Spots;
@@ -8,7 +8,7 @@ use crate::scene::warnings::Spots;
 pub struct Missing {
     /// Meshes of nodes, whose parts are left out.
     pub meshes: Spots,
-    /// Skins of nodes, whose meshes stay as they are stored.
+    /// Skins of nodes, whose meshes stay unchanged stored.
     pub skins: Spots,
     /// Materials of primitives.
     pub materials: Spots,

@@ -59,7 +59,7 @@ pub fn inside_folder(uri: &str) -> Result<String, String> {
     Ok(parts.join("/"))
 }
 
-/// What a URI says without its escapes.
+/// The text of a URI without its escapes.
 pub fn decoded(uri: &str) -> String {
     String::from_utf8_lossy(&percent_decoded(uri)).into_owned()
 }

@@ -12,7 +12,7 @@ use crate::scene::coordinate::is_drawable;
 /// Names of the two ends: those of Turk's paper, and those that VCGlib and CGAL write.
 const ENDS: [[&str; 2]; 3] = [["vertex1", "vertex2"], ["v1", "v2"], ["v0", "v1"]];
 
-/// What the element `edge` holds.
+/// The content of the element `edge` holds.
 #[derive(Default)]
 pub(super) struct Edges {
     /// Ends of each edge.

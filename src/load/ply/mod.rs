@@ -74,7 +74,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     model.into_scene(stem)
 }
 
-/// What was read of a file.
+/// The content of a file.
 #[derive(Default)]
 struct Model {
     geometry: Geometry,

@@ -1,4 +1,4 @@
-//! What a sheet tells of its exploded view.
+//! The settings of a sheet's exploded view.
 
 use glam::DVec3;
 use toml::Spanned;

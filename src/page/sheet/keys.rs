@@ -116,13 +116,13 @@ pub struct ExplodedKeys {
     pub part: Vec<PartExplosionKeys>,
 }
 
-/// How parts come apart whose name matches; what is not told is found.
+/// How parts come apart whose name matches. Values that are not set are found.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartExplosionKeys {
     /// The pattern for their names.
     pub name: Spanned<Glob>,
-    /// The direction in which they move: x, -y, or three numbers such as 1,0,1.
+    /// The direction of their way: x, -y, or three numbers such as 1,0,1.
     pub along: Option<Spanned<String>>,
     /// How far they move, in units of the model; 0 has them stay.
     pub distance: Option<Spanned<f64>>,

@@ -30,7 +30,7 @@ pub(super) struct PartRuns {
     points: Vec<Point>,
 }
 
-/// What lies in one part of a finished line.
+/// The piece of a finished line in one part.
 pub(super) struct Piece {
     pub line: Line,
     pub path: BezPath,

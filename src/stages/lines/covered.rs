@@ -43,7 +43,7 @@ pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
 }
 
 /// For each part whether its faces are drawn where they show their inside: those of solid parts never, those of other parts if any
-/// pixel does. Strokes along hidden insides would change those beside them.
+/// pixel does. Strokes along hidden insides would change those next to them.
 pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
     let Lit { mesh, view, solid, .. } = *lit;
     let count = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);

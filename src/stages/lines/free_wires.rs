@@ -81,7 +81,7 @@ impl Chord {
         (self.start.min(self.end()) - room, self.start.max(self.end()) + room)
     }
 
-    /// The range of lengths along this chord over which another one runs beside it.
+    /// The range of lengths along this chord over which another one runs next to it.
     fn along(&self, other: &Self) -> Option<(f64, f64)> {
         let cosine = self.along.dot(other.along);
         if cosine.abs() < ALONG {

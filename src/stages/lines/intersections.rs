@@ -39,7 +39,7 @@ pub fn is_searched_in_full(mesh: &Mesh, hidden: HiddenLines) -> bool {
     hidden != HiddenLines::None || mesh.triangles.len() <= FULL_SEARCH_TRIANGLES
 }
 
-/// Adds curves of a mesh to the lines of a view: their segments run the same way and come in the same order whatever the order of
+/// Adds curves of a mesh to the lines of a view: their segments run the same way and come in the same order for any order of
 /// parts in the file.
 pub(super) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: &mut FeatureLines) {
     let first = (mesh.positions.len() + lines.points.len()) as u32;

@@ -50,7 +50,7 @@ struct Tracer<'a> {
     lit: &'a Lit<'a>,
     ready: &'a Ready,
     found: Vec<Found>,
-    /// What each of these was traced for.
+    /// The reason why each of these was traced.
     traced: Vec<Traced>,
 }
 

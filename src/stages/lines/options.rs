@@ -74,7 +74,7 @@ pub struct LineOptions {
     pub artist_smooth: f64,
     /// What becomes of lines behind surfaces. Default: none.
     pub hidden: HiddenLines,
-    /// Draw the joints of parts of one material: lines at which their surfaces run on in one plane. Default: true.
+    /// Draw the joints of parts of one material: lines where their surfaces continue in one plane. Default: true.
     pub joints: bool,
     /// How suggestive contours, ridges and valleys are found.
     pub inside: InsideOptions,

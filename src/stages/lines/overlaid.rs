@@ -2,7 +2,7 @@
 //!
 //! The rim of a label on a wall is an edge with one face, but no border of what is seen: it parts two materials, as if the wall had a
 //! hole for the label. So does the rim of a body that is let into the wall. Where a rim runs under another surface of its plane there is
-//! no line. So each edge is cut where what is on top changes just beside it, on one side or the other.
+//! no line. So each edge is cut where what is on top changes just next to it, on one side or the other.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::view::View;
 
-/// What is on top is asked so many times the reach of contact beside an edge.
+/// What is on top is asked so many times the reach of contact next to an edge.
 const BESIDE: f64 = 4.0;
 
 /// Pieces shorter than so many times that are cut off by where it is asked, not by what is there.
@@ -150,7 +150,7 @@ impl Piece {
     }
 }
 
-/// An edge in a plane, and how to look at what lies beside it.
+/// An edge in a plane, and how to look at what lies next to it.
 struct Rim<'a> {
     mesh: &'a Mesh,
     /// The face from which it looks outward.

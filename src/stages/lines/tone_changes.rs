@@ -17,7 +17,7 @@ use crate::field::SurfacePoint;
 use crate::math::tolerance;
 use crate::mesh::{FaceId, PaintId};
 
-/// What an isophote was traced for.
+/// The reason why an isophote was traced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Traced {
     /// The channel of the shading.
@@ -33,7 +33,7 @@ pub struct ToneBorders {
     pub edges: Range<usize>,
     /// Isophotes.
     pub isophotes: Range<usize>,
-    /// What each of these was traced for.
+    /// The reason why each of these was traced.
     pub traced: Vec<Traced>,
     /// Borders of shadows.
     pub shadows: Range<usize>,
@@ -90,7 +90,7 @@ pub fn unchanged(
 /// Cuts nearer to each other than this part of a segment are one.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Lights do not reach points of an edge by what stands on the face beside it: so far towards its middle they are asked for, as part of the
+/// Lights do not reach points of an edge by what stands on the face next to it: so far towards its middle they are asked for, as part of the
 /// way.
 const INWARD: f64 = 1e-4;
 

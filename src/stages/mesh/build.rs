@@ -30,7 +30,7 @@ impl Mesh {
             cleaning.short_wires = soup.wires.len() as u64;
             return Self { cleaning, ..Self::default() };
         };
-        // What is left out does not count in where the model is and how large it is.
+        // Faces without area do not count in the place and the size of the model.
         let has_flat_faces = may_have_flat_faces(&soup.positions, &soup.triangles, (low, high));
         let counted = if has_flat_faces { bounds(&soup, has_own_area) } else { None };
         // The sum makes zeros positive.

@@ -1,4 +1,4 @@
-//! Narrow faces that lie in the plane of a wider neighbour, as far as the rounding of the file can tell.
+//! Narrow faces that lie in the plane of a wider neighbour, within the rounding of the file.
 //!
 //! Programs cut flat polygons into triangles, and some of these are narrow. Once the coordinates are rounded, a narrow triangle leans
 //! by any angle: its normal is as uncertain as the rounding divided by its height. Its wider neighbour in the same plane knows the
@@ -109,7 +109,7 @@ impl<'a> Faces<'a> {
         sides.into_iter().filter_map(beyond).filter(move |other| self.parts[*other as usize] == part)
     }
 
-    /// Whether points lie in the plane of a face, as far as the rounding can tell.
+    /// Whether points lie in the plane of a face, within the rounding.
     fn holds(&self, face: u32, points: &[DVec3; 3]) -> bool {
         let corners = self.corners(face);
         points.iter().all(|point| is_in_plane(&corners, *point, self.rounding(face)))

@@ -33,7 +33,7 @@ pub(super) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> b
     polygon.len() > 2 && area.abs() > contact * around && polygon.iter().all(|p| height(p).abs() <= contact)
 }
 
-/// What of a convex polygon lies to the left of a line.
+/// The part of a convex polygon to the left of a line.
 fn left_of(polygon: &[DVec2], from: DVec2, way: DVec2) -> Vec<DVec2> {
     let side = |p: &DVec2| way.perp_dot(*p - from);
     let mut left = Vec::with_capacity(polygon.len() + 1);

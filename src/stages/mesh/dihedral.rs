@@ -88,7 +88,7 @@ impl Dihedral {
         least + (2.0 * rounding / height).min(1.0).to_degrees()
     }
 
-    /// Whether the surface is flat at an edge of the mesh, as far as the numbers of the file can tell: the corners of both faces that
+    /// Whether the surface is flat at an edge of the mesh, within the rounding of the file: the corners of both faces that
     /// are not on the edge lie within `contact` of a plane through it.
     #[must_use]
     pub fn is_flat(&self, mesh: &Mesh, edge: usize) -> bool {
@@ -146,7 +146,7 @@ pub fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
     [(a, b), (b, c), (c, a)].contains(&(lo, hi))
 }
 
-/// What the file says of an edge through some of its faces; the strongest mark counts. It is a diagonal only if all of these faces
+/// The mark that the file gives an edge through some of its faces; the strongest mark counts. It is a diagonal only if all of these faces
 /// that have it as a side say so: a diagonal of one polygon may be a side of another.
 #[must_use]
 pub fn mark(mesh: &Mesh, edge: usize, faces: impl IntoIterator<Item = u32>) -> EdgeMark {

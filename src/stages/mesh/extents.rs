@@ -39,7 +39,7 @@ pub struct Extent {
     pub step: f64,
     /// How far rounding may have moved a vertex, world units; 0 where coordinates are exact.
     pub rounding: f64,
-    /// What the part is without the rest of its body.
+    /// The part without the rest of its body.
     own: Own,
 }
 

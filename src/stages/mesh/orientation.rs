@@ -1,7 +1,7 @@
 //! [`Surfaces`]: the connected surfaces of a mesh, and which faces must be turned so that each shows its outside.
 //!
 //! 1. Faces are connected where exactly two faces meet at an edge, of all parts or of one part.
-//! 2. Within a surface, windings are made to agree by union-find with parity. Surfaces with one side (Möbius strips) stay as they are.
+//! 2. Within a surface, windings are made to agree by union-find with parity. Surfaces with one side (Möbius strips) stay unchanged.
 //! 3. A closed surface encloses a positive volume. Each counts on its own, also inside another one.
 //! 4. An open surface is closed by a cone over its border. Where the volume has the same sign for every apex in the ball around the
 //!    surface, that sign counts, as for a box without lid. Otherwise, as in sheets, the winding of the larger area stays.
@@ -85,7 +85,7 @@ impl Surfaces {
         self.is_closed.contains(&false)
     }
 
-    /// Leaves open surfaces as they are.
+    /// Leaves open surfaces unchanged.
     pub fn turn_closed_only(&mut self) {
         let is_closed = |surface: u32| self.is_closed[surface as usize];
         self.turned.iter_mut().zip(&self.of_face.of_face).for_each(|(turned, of)| *turned &= is_closed(*of));
@@ -137,7 +137,7 @@ struct Joints {
     mixed: Vec<bool>,
 }
 
-/// What the faces of a surface add up to, as seen from one of its corners.
+/// The sums over the faces of a surface, as seen from one of its corners.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     faces: u32,
@@ -254,7 +254,7 @@ impl Triangles<'_> {
         Joints { open: values(open), mixed: values(mixed) }
     }
 
-    /// Which faces to turn so that neighbours agree; surfaces where this is impossible are `twisted` and stay as they are.
+    /// Which faces to turn so that neighbours agree; surfaces where this is impossible are `twisted` and stay unchanged.
     fn agreeing(&self, surfaces: &Numbered, mixed: &[bool], twisted: &mut [bool]) -> Vec<bool> {
         let of = |face: u32| surfaces.of_face[face as usize] as usize;
         let mut parities = Parities::new(self.triangles.len());
@@ -269,7 +269,7 @@ impl Triangles<'_> {
         faces.map(|face| mixed[of(face)] && !twisted[of(face)] && parities.root(face).1).collect()
     }
 
-    /// What all faces of each surface add up to.
+    /// The sums over the faces of each surface.
     fn sums(&self, surfaces: &Numbered, is_turned: impl Fn(usize) -> bool + Sync) -> Vec<Sums> {
         let mut sums = vec![Sums::default(); surfaces.first.len()];
         let of_face = |surface: u32, face: usize| {

@@ -106,7 +106,7 @@ impl Mesh {
     }
 }
 
-/// What the colour of a face comes from.
+/// The source of a face's colour.
 fn colour(mesh: &Mesh, face: u32) -> (MaterialId, PaintId) {
     (mesh.face_material[face as usize], mesh.paint(FaceId(face)))
 }

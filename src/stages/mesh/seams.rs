@@ -293,7 +293,7 @@ impl<'a> Seams<'a> {
         })
     }
 
-    /// Whether the border of an open edge and that of a vertex beside it part at a common corner before them and meet at
+    /// Whether the border of an open edge and that of a vertex next to it part at a common corner before them and meet at
     /// another one behind them.
     fn meets_on_both_sides(&self, own: &Open, vertex: u32) -> bool {
         [0, 1].into_iter().all(|end| {

@@ -96,7 +96,7 @@ fn tips(shape: &BrushShape) -> [f64; 2] {
     [part(edges.iter().position(is_full)), part(edges.iter().rev().position(is_full))]
 }
 
-/// What of a shape lies in the frame; `None` if nothing does.
+/// The part of a shape in the frame; `None` if nothing does.
 pub(super) fn cut(shape: Shape, frame: Rect, px: f64) -> Option<Shape> {
     let tolerance = TOLERANCE_PX * px;
     let region = Region::new(&frame.to_path(tolerance), tolerance);

@@ -123,7 +123,7 @@ impl StrokeOptions {
     }
 }
 
-/// What rules ask of a line.
+/// The conditions of rules for a line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LineTraits {
     pub kind: LineKind,

@@ -238,7 +238,7 @@ pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
     IntersectionCurves { points, segments }
 }
 
-/// Of two faces of which one has an edge in the other: the one that it lies in, and its own.
+/// Two faces, one with an edge in the other: first the face that holds the edge, then the face with the edge.
 fn pierced_and_own([a, b]: [u32; 2], touch: &Touch) -> (u32, u32) {
     if touch.is_of_second { (a, b) } else { (b, a) }
 }

@@ -184,7 +184,7 @@ pub enum Common {
     Segment([End; 2]),
     /// A segment too short to count, whose ends are one: segments of neighbours may end there.
     Point([End; 2]),
-    /// An edge of one triangle that lies in the other, which is cut by that edge if the triangle beyond the edge lies on the other side.
+    /// An edge of one triangle that lies in the other. The surfaces cross there if the next triangle at the edge lies on the other side.
     Touch(Touch),
 }
 

@@ -45,7 +45,7 @@ impl Cuts {
             return;
         }
         let first = self.pieces.len();
-        // The witnesses of a smooth contour say what lies beside it.
+        // The witnesses of a smooth contour say what lies next to it.
         let bounds = segment.bounds || segment.role == Role::Curve;
         cut_segment(segment, seen, bounds, shortest, &mut self.pieces);
         if keeps_hidden || self.pieces[first..].iter().any(|p| p.invisibility == 0) {
@@ -57,7 +57,7 @@ impl Cuts {
 }
 
 /// Cuts a segment where its invisibility changes, and the visible parts of one that `bounds` a surface also where background
-/// begins or ends beside them.
+/// begins or ends next to them.
 fn cut_segment(segment: &ImageSegment, seen: Seen, bounds: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
     let shortest = shortest / segment.length().max(shortest);
     let mut at = 0.0;

@@ -1,4 +1,5 @@
-//! [`HostedLine`]: a line in the image and the faces that it lies on, which show on which sides of it there may be background.
+//! [`HostedLine`]: a line in the image and the faces that it lies on. They leave one side of it open, both or none: only there can
+//! background be seen next to the line.
 
 use glam::{DVec2, DVec3};
 
@@ -16,7 +17,7 @@ pub(super) struct HostedLine {
 }
 
 impl HostedLine {
-    /// Whether its own faces leave a side of it open, so that there may be background beside it.
+    /// Whether its own faces leave a side of it open, so that there may be background next to it.
     pub fn may_bound(&self, mesh: &Mesh, view: &View, beside: f64) -> bool {
         self.across().is_some_and(|across| self.covered_sides(across, mesh, view, beside) != [true; 2])
     }

@@ -60,7 +60,7 @@ pub struct Slack {
     pub contact: f64,
     /// What counts as touching for lines that share a vertex with the triangle.
     pub neighbour: f64,
-    /// Distance within which a line lies in the plane of the triangle, as far as the rounding of both can tell.
+    /// Distance within which a line lies in the plane of the triangle, within the rounding of both.
     pub in_plane: f64,
 }
 

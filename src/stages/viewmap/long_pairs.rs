@@ -38,7 +38,7 @@ pub(super) struct LongPairs {
 #[derive(Debug, Default)]
 struct Known {
     hidden: Vec<Layer>,
-    /// Where one of them lies beside it, on either of its [`OuterSides`].
+    /// Where one of them lies next to it, on either of its [`OuterSides`].
     backed: [Vec<Layer>; 2],
     tests: u64,
 }
@@ -101,7 +101,7 @@ impl LongPairs {
         self.known(item.segment).into_iter().flat_map(|known| within(&known.hidden, *item))
     }
 
-    /// Beside what of an item one of them lies, on one of its outer sides.
+    /// The parts of an item that one of them lies next to, on one of its outer sides.
     pub fn backed(&self, item: &Item, side: usize) -> impl Iterator<Item = Interval> {
         let known = self.known(item.segment).into_iter();
         known.flat_map(move |known| within(&known.backed[side], *item)).map(|layer| layer.interval)

@@ -10,7 +10,7 @@
 //! - A surface that touches the line (within a tolerance of depth) does not hide it: lines on
 //!   coplanar and touching faces are seen.
 //! - A triangle that shares one end of the segment may come as near as rounding allows.
-//! - A line that lies in the plane of a triangle, as far as the rounding of the file can tell, is not hidden by it. Distances from the
+//! - A line that lies in the plane of a triangle, within the rounding of the file, is not hidden by it. Distances from the
 //!   plane count, which are much shorter than differences of depth where the triangle is seen at a grazing angle.
 //! - A triangle seen edge-on covers nothing.
 

@@ -1,4 +1,4 @@
-//! [`OuterSides`]: lines just beside a segment, on the sides that none of its own faces covers. They show whether there is
+//! [`OuterSides`]: lines just next to a segment, on the sides that none of its own faces covers. They show whether there is
 //! background there.
 //!
 //! A contour and a border have one such side, a crease between two faces that are seen has none. A segment whose faces are all
@@ -54,20 +54,20 @@ impl OuterSide {
         [from, to].map(|end| end.truncate() + self.shift)
     }
 
-    /// The range of the segment's parameters beside which a triangle lies.
+    /// The range of the segment's parameters where a triangle lies next to it.
     #[inline]
     pub(super) fn range(&self, triangle: &Occluder, limits: &Limits) -> Option<(f64, f64)> {
         covered(self.line[0], self.line[1], &triangle.corners, limits)
     }
 }
 
-/// A range of parameters beside which a surface lies.
+/// A range of parameters where a surface lies next to the segment.
 pub(super) fn backdrop(start: f64, end: f64) -> Interval {
     let kind = ViewVertexKind::Backdrop;
     Interval { start, end, start_kind: kind, end_kind: kind }
 }
 
-/// What two sets of ranges have in common, ascending.
+/// The common part of two sets of ranges, ascending.
 pub(super) fn common(
     mut first: Vec<Interval>,
     mut second: Vec<Interval>,

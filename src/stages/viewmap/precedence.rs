@@ -3,7 +3,7 @@
 //!
 //! 1. Half the width of its ink is known for every edge of the map.
 //! 2. For each hidden edge, the ranges that run along a visible edge within that edge's ink are found. A line that
-//!    lies in the ink of visible lines from end to end is left out as a whole, whatever its direction.
+//!    lies in the ink of visible lines from end to end is left out as a whole, in any direction.
 //! 3. Hidden edges are taken in order: the stronger kind first, then the lesser invisibility. Each loses what runs along
 //!    the remaining pieces of those before it, so that hidden lines that coincide are drawn once.
 //!
@@ -29,7 +29,7 @@ const CELL_OF_DISTANCE: f64 = 2.0;
 /// A range of an edge's parameter, 0 to 1.
 type Range = (f64, f64);
 
-/// What the ink of lines covers on the page.
+/// The area that the ink of lines covers on the page.
 pub struct Ink<'a> {
     /// Half the width of the ink of an edge, user units; 0 where it is not known. Never less than
     /// [`BEHIND_INK_PX`] is taken.
@@ -93,7 +93,7 @@ fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<Range>> {
     among.resolve(found)
 }
 
-/// What lies around a hidden edge.
+/// The edges around a hidden edge.
 #[derive(Default)]
 struct Found {
     /// The ranges along visible edges, within their ink.
@@ -118,7 +118,7 @@ struct Among<'a> {
 }
 
 impl Among<'_> {
-    /// What lies around an edge; nothing around a visible one.
+    /// The edges around an edge; none around a visible one.
     fn around(&self, number: usize) -> Found {
         let (edge, line) = (&self.map.edges[number], &self.lines[number]);
         if edge.invisibility == 0 || line.length == 0.0 {
@@ -207,7 +207,7 @@ impl Among<'_> {
     }
 }
 
-/// What is left of the parameter from 0 to 1 without ranges that are in order and apart.
+/// The remainder of the parameter from 0 to 1 without ranges that are in order and apart.
 fn rest(lost: &[Range]) -> Vec<Range> {
     let mut left = Vec::with_capacity(lost.len() + 1);
     let mut at = 0.0;

@@ -24,7 +24,7 @@ pub struct ImageSegment {
     pub hosts: [u32; 2],
     /// Index of the feature segment.
     pub source: u32,
-    /// Whether its own faces leave a side of it open in the image, so that there may be background beside it.
+    /// Whether its own faces leave a side of it open in the image, so that there may be background next to it.
     pub bounds: bool,
     /// What it does in the drawing.
     pub role: Role,
@@ -115,7 +115,7 @@ fn project_one(
         cut[0] = true;
     }
     let bounds = match segment.kind {
-        // The witnesses of a smooth contour say whether there is background beside it.
+        // The witnesses of a smooth contour say whether there is background next to it.
         _ if segment.role == Role::Curve => false,
         LineKind::Contour | LineKind::Border => true,
         LineKind::Crease | LineKind::Material | LineKind::Intersection => {

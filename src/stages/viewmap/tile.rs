@@ -33,7 +33,7 @@ pub(super) struct TileResult {
     pub(super) whole: Vec<Item>,
     /// Hidden pieces of others.
     pub(super) hidden: Vec<(u32, Layer)>,
-    /// Where a segment that may bound a surface has no background beside it.
+    /// Where a segment that may bound a surface has no background next to it.
     pub(super) backed: Vec<(u32, Interval)>,
     /// How many times a segment was compared with a triangle.
     pub(super) tests: u64,
@@ -318,7 +318,7 @@ impl Context<'_> {
         false
     }
 
-    /// Collects where a segment has no background beside it: where surfaces lie beside all sides that its own faces leave open.
+    /// Collects where a segment has no background next to it: where surfaces lie beside all sides that its own faces leave open.
     #[inline(never)]
     fn gather_backed(
         &self,

@@ -1,6 +1,6 @@
 //! Joints: lines where parts of one material meet and their surfaces run on in one plane. A style may leave them out.
 //!
-//! A joint is no edge of the union of the parts, in no view. So it is told by what is around the line in space:
+//! A joint is no edge of the union of the parts in any view. So the faces around the line in space decide:
 //!
 //! 1. For each line the faces that reach it are sought: those whose plane holds a stretch of the line, and that cover what is just
 //!    to one side of it in this plane, or to both.
@@ -81,7 +81,7 @@ fn may_be_joint(segment: &FeatureSegment) -> bool {
     is_kind && segment.role == Role::Line
 }
 
-/// Lines that are cut, in place of what they were.
+/// The cut lines, in place of the whole ones.
 struct Split {
     keep: bool,
     first_point: usize,
