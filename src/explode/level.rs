@@ -1,5 +1,8 @@
 //! [`Level`]: some bodies seen along one axis, and which of them move as one.
 
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -22,6 +25,12 @@ pub(super) struct Level {
 impl Level {
     /// How some bodies stand to each other along an axis.
     pub fn new(assembly: &Assembly, of: &[usize], axis: DVec3) -> Self {
+        let nothing = || Self { axis, of: of.to_vec(), stretches: Vec::new(), meetings: Meetings::new() };
+        Self::holding(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
+    }
+
+    /// The same if no more than so many pairs hold each other; the search ends as soon as there are more.
+    pub fn holding(assembly: &Assembly, of: &[usize], axis: DVec3, most_held: usize) -> Option<Self> {
         let axes = frame(axis);
         let shadows: Vec<Shadow> = of.par_iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();
         let stretch = |(unit, shadow): (&usize, &Shadow)| Stretch {
@@ -30,7 +39,8 @@ impl Level {
             size: shadow.area * (shadow.high - shadow.low),
             order: assembly.orders[*unit],
         };
-        let stretches = of.iter().zip(&shadows).map(stretch).collect();
+        let stretches: Vec<Stretch> = of.iter().zip(&shadows).map(stretch).collect();
+        let held = AtomicUsize::new(0);
         let of_one = |a: usize| {
             let meeting = |b: usize| ([a, b], shadows[a].meeting(&shadows[b], assembly.touch));
             (0..a)
@@ -39,7 +49,8 @@ impl Level {
                 .collect::<Vec<_>>()
         };
         let meetings = (0..of.len()).into_par_iter().with_max_len(1).flat_map_iter(of_one).collect();
-        Self { axis, of: of.to_vec(), stretches, meetings }
+        let is_known = held.load(Relaxed) <= most_held;
+        is_known.then(|| Self { axis, of: of.to_vec(), stretches, meetings })
     }
 
     /// The same of some of its bodies.

@@ -162,11 +162,13 @@ impl Assembly<'_> {
             }
             for axis in axes.iter().filter(|axis| !but.iter().any(|tried| axes::is_same(*tried, **axis))) {
                 let found = known.iter().find(|level| level.axis == *axis).cloned();
-                let level = found.unwrap_or_else(|| {
-                    let level = Level::new(self, of, *axis);
+                let most_held = best.as_ref().map_or(usize::MAX, |((held, _), _)| *held);
+                let search = || {
+                    let level = Level::holding(self, of, *axis, most_held)?;
                     known.push(level.clone());
-                    level
-                });
+                    Some(level)
+                };
+                let Some(level) = found.or_else(search) else { continue };
                 let rank = (level.held_pairs(), usize::MAX - level.parted());
                 let is_better = best.as_ref().is_none_or(|(least, _)| rank < *least);
                 if is_better && level.parted() > 0 && level.held().len() > 1 {

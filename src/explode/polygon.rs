@@ -28,6 +28,16 @@ impl std::ops::Deref for Polygon {
 
 /// The polygon that two triangles have in common, both counter-clockwise.
 pub(super) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> Polygon {
+    // Most pairs whose boxes overlap are parted by a side of one of them.
+    let are_parted = |one: &[DVec2; 3], other: &[DVec2; 3]| {
+        (0..3).any(|k| {
+            let (from, to) = (one[k], one[(k + 1) % 3]);
+            other.iter().all(|p| (to - from).perp_dot(*p - from) <= 0.0)
+        })
+    };
+    if are_parted(one, other) || are_parted(other, one) {
+        return Polygon::default();
+    }
     let mut polygon = Polygon::default();
     other.iter().for_each(|p| polygon.push(*p));
     for k in 0..3 {
