@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::axes::is_same;
 use super::bodies::Body;
 
 /// The bodies of an assembly. They move as wholes.
@@ -17,8 +18,25 @@ pub(super) struct Assembly<'a> {
     pub touch: f64,
 }
 
-/// Axes of bodies that are tried for one group.
-pub(super) const MOST_AXES: usize = 6;
+/// Axes of a group that are compared to find those that bodies share.
+const MOST_DISTINCT: usize = 256;
+
+impl Assembly<'_> {
+    /// The axes that at least two of some bodies share, the most common ones first.
+    pub fn shared_axes(&self, of: &[usize]) -> Vec<DVec3> {
+        let mut found: Vec<(DVec3, usize)> = Vec::new();
+        for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
+            match found.iter().position(|(known, _)| is_same(*known, *axis)) {
+                Some(known) => found[known].1 += 1,
+                None if found.len() < MOST_DISTINCT => found.push((*axis, 1)),
+                None => {}
+            }
+        }
+        found.retain(|(_, count)| *count > 1);
+        found.sort_by_key(|(_, count)| usize::MAX - count);
+        found.into_iter().map(|(axis, _)| axis).collect()
+    }
+}
 
 /// How far each body of an assembly moves, world units.
 pub(super) struct Moves {

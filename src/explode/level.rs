@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::assembly::{Assembly, MOST_AXES, frame};
+use super::assembly::{Assembly, frame};
 use super::axes;
 use super::order::{Meetings, Standing, Stretch, offsets, root, unite};
 use super::shadow::{Meeting, Shadow};
@@ -102,17 +102,7 @@ impl Level {
             .filter(|k| !assembly.axes[*k].is_empty() && !has(*k, self.axis))
             .collect();
         let mut group: Vec<usize> = (0..self.of.len()).collect();
-        let mut shared: Vec<DVec3> = Vec::new();
-        for axis in askew.iter().flat_map(|k| assembly.axes[*k].iter()) {
-            let is_shared = askew.iter().filter(|k| has(**k, *axis)).count() > 1;
-            if is_shared
-                && shared.len() < MOST_AXES
-                && !shared.iter().any(|known| axes::is_same(*known, *axis))
-            {
-                shared.push(*axis);
-            }
-        }
-        for axis in shared {
+        for axis in assembly.shared_axes(&askew) {
             let of: Vec<usize> = askew.iter().copied().filter(|k| has(*k, axis)).collect();
             let level = Self::new(assembly, &of, axis);
             for pair in level.pairs() {

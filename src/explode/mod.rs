@@ -27,7 +27,7 @@ pub use told::{PartExplosion, direction};
 pub use trails::{TRAIL, with_trails};
 
 use crate::scene::Scene;
-use assembly::{Assembly, MOST_AXES, Moves};
+use assembly::{Assembly, Moves};
 use bodies::{Body, joined};
 use level::Level;
 
@@ -158,7 +158,9 @@ impl Assembly<'_> {
         let mut best: Option<((usize, usize), Level)> = None;
         for own in [false, true] {
             if own {
-                axes = self.axes_of(of);
+                axes = self.shared_axes(of);
+                axes.retain(|axis| !DVec3::AXES.iter().any(|known| axes::is_same(*known, *axis)));
+                axes.truncate(MOST_AXES);
             }
             for axis in axes.iter().filter(|axis| !but.iter().any(|tried| axes::is_same(*tried, **axis))) {
                 let found = known.iter().find(|level| level.axis == *axis).cloned();
@@ -181,19 +183,10 @@ impl Assembly<'_> {
         }
         best.map(|(_, level)| level)
     }
-
-    /// The axes of some bodies without those of the world.
-    fn axes_of(&self, of: &[usize]) -> Vec<DVec3> {
-        let mut found: Vec<DVec3> = Vec::new();
-        for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
-            let mut others = found.iter().chain(&DVec3::AXES);
-            if found.len() < MOST_AXES && !others.any(|known| axes::is_same(*known, *axis)) {
-                found.push(*axis);
-            }
-        }
-        found
-    }
 }
+
+/// Axes of bodies that are tried for one group.
+const MOST_AXES: usize = 3;
 
 /// The scene with its parts moved so.
 #[must_use]
