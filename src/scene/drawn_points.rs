@@ -31,7 +31,7 @@ pub(crate) struct DrawnPoints {
 #[derive(Debug, Clone)]
 pub(crate) struct DrawnPart {
     /// Its number in the scene.
-    #[cfg_attr(not(feature = "cli"), expect(dead_code))]
+    #[cfg_attr(not(any(feature = "cli", feature = "page")), expect(dead_code))]
     pub part: usize,
     /// Its points among all.
     pub points: Range<usize>,

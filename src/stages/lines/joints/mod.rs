@@ -5,7 +5,7 @@
 //! 1. For each line the faces that reach it are sought: those whose plane holds a stretch of the line, and that cover what is just
 //!    to one side of it in this plane, or to both.
 //! 2. The line is cut where such a stretch ends.
-//! 3. Each piece sees the faces as rays in the plane across it, which say whether surfaces end or turn there ([`around`]).
+//! 3. Each piece sees the faces as rays in the plane across it, which say whether surfaces end or turn there (`around`).
 //!
 //! So an edge that runs along a joint for a part of its length keeps the rest.
 
