@@ -4,7 +4,7 @@
 //! hole for the label. So does the rim of a body that is let into the wall. Where a rim runs under another surface of its plane there is
 //! no line. So each edge is cut where what is on top changes just next to it, on one side or the other.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -26,6 +26,9 @@ pub(super) struct Overlaid {
     points: Vec<DVec3>,
 }
 
+/// A face of a plane with its corners, side by side with the others: each edge of the plane looks at all of them.
+type PlaneFace = (u32, [DVec3; 3]);
+
 /// Whether there are such edges: borders are then sought whatever kinds are.
 pub(super) fn is_asked(mesh: &Mesh) -> bool {
     !mesh.overlays.is_empty()
@@ -39,9 +42,9 @@ pub(super) fn settle(
     segments: &mut Vec<FeatureSegment>,
     options: &LineOptions,
 ) -> Overlaid {
-    let mut faces_of: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+    let mut faces_of: FxHashMap<u32, Vec<PlaneFace>> = FxHashMap::default();
     for (overlay, face) in mesh.overlays.iter().zip(0..).filter(|(overlay, _)| overlay.plane != 0) {
-        faces_of.entry(overlay.plane).or_default().push(face);
+        faces_of.entry(overlay.plane).or_default().push((face, mesh.corners(FaceId(face))));
     }
     let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
     let settled: Vec<Option<Vec<Piece>>> = segments
@@ -181,12 +184,14 @@ impl<'a> Rim<'a> {
     }
 
     /// The pieces that are lines, from end to end, given all faces of the plane.
-    fn pieces(&self, faces: &[u32]) -> Vec<Piece> {
+    fn pieces(&self, faces: &[PlaneFace]) -> Vec<Piece> {
         // What each face covers of the lines to both sides.
-        let covers = [1.0, -1.0].map(|side| {
-            let covered = |face: &u32| Some((self.covered(*face, side * self.beside)?, *face));
-            faces.iter().filter_map(covered).collect::<Vec<_>>()
-        });
+        let mut covers = [Vec::new(), Vec::new()];
+        for (face, corners) in faces {
+            for (covers, range) in covers.iter_mut().zip(self.covered(corners)) {
+                covers.extend(range.map(|range| (range, *face)));
+            }
+        }
         let mut cuts: Vec<f64> =
             covers.iter().flatten().flat_map(|((start, end), _)| [*start, *end]).collect();
         let least = SHORTEST * self.beside / self.length;
@@ -239,21 +244,26 @@ impl<'a> Rim<'a> {
         }
     }
 
-    /// Between which parts of the edge's length a face covers the line that runs so far inward of it.
-    fn covered(&self, face: u32, inward: f64) -> Option<(f64, f64)> {
-        let flat = |p: DVec3| {
-            let way = p - self.from;
-            DVec2::new(way.dot(self.along) / self.length, way.dot(self.inward) - inward)
-        };
-        let corners = self.mesh.corners(FaceId(face)).map(flat);
-        let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
-        for k in 0..3 {
-            let (p, q) = (corners[k], corners[(k + 1) % 3]);
-            if (p.y < 0.0) != (q.y < 0.0) {
-                let at = p.x + (q.x - p.x) * (p.y / (p.y - q.y));
-                (start, end) = (start.min(at), end.max(at));
-            }
+    /// Between which parts of the edge's length a face covers the lines that run next to it, inward and outward.
+    fn covered(&self, corners: &[DVec3; 3]) -> [Option<(f64, f64)>; 2] {
+        let heights = corners.map(|p| (p - self.from).dot(self.inward));
+        let [low, high] =
+            [heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2])];
+        // Most faces of a large plane lie far to one side.
+        if high < -self.beside || low > self.beside {
+            return [None; 2];
         }
-        (start < end && end > 0.0 && start < 1.0).then_some((start, end))
+        let places = corners.map(|p| (p - self.from).dot(self.along) / self.length);
+        [self.beside, -self.beside].map(|inward| {
+            let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
+            for k in 0..3 {
+                let (p, q) = (heights[k] - inward, heights[(k + 1) % 3] - inward);
+                if (p < 0.0) != (q < 0.0) {
+                    let at = places[k] + (places[(k + 1) % 3] - places[k]) * (p / (p - q));
+                    (start, end) = (start.min(at), end.max(at));
+                }
+            }
+            (start < end && end > 0.0 && start < 1.0).then_some((start, end))
+        })
     }
 }
