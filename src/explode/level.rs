@@ -29,7 +29,7 @@ impl Level {
         Self::holding(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
     }
 
-    /// The same if no more than so many pairs hold each other; the search ends as soon as there are more.
+    /// The same if at most `most_held` pairs hold each other; the search ends as soon as there are more.
     pub fn holding(assembly: &Assembly, of: &[usize], axis: DVec3, most_held: usize) -> Option<Self> {
         let axes = frame(axis);
         let shadows: Vec<Shadow> = of.par_iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();

@@ -177,8 +177,8 @@ impl Shadow {
         Meeting { meets, blocks_up, blocks_down, is_within }
     }
 
-    /// The area of a polygon in the plane if the other body begins inside of this one there, and ends above it: `tops` are the faces
-    /// at which both end. It is 0 if one of the bodies has no inside.
+    /// The area of a polygon in the plane if the other body begins inside of this one there, and ends above it. `tops` are the upper
+    /// ends of both. It is 0 if one of the bodies has no inside.
     fn passing(&self, tops: [&Flat; 2], other: &Self, polygon: &[DVec2]) -> f64 {
         if polygon.len() < 3 || tops.iter().any(|top| top.is_down) {
             return 0.0;

@@ -17,7 +17,7 @@ pub(in crate::cli) struct InfoArgs {
     /// The model: .obj, .gltf, .glb, .stl or .ply
     pub(super) model: PathBuf,
 
-    /// What a unit of the model is: mm, cm, m, in, ft [default: m in glTF, which demands it; the other formats do not say]
+    /// The unit of the model: mm, cm, m, in, ft [default: m in glTF, which demands it; the other formats do not say]
     #[arg(long, value_name = "UNIT", value_enum, hide_possible_values = true)]
     pub(super) unit: Option<ModelUnit>,
 

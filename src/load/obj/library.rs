@@ -120,7 +120,7 @@ fn byte(channel: f64) -> u8 {
 /// Where the file of a texture statement lies as seen from the model; none, with a warning, if outside of its folder.
 ///
 /// Many libraries hold the paths of the machine that wrote them, or names in another letter case: then the file of that
-/// name next to the model is meant.
+/// name next to the model is taken.
 fn texture_path(statement: &[u8], place: Place, material: &str, warnings: &mut Warnings) -> Option<String> {
     let name = texture(statement).name;
     if name.is_empty() {

@@ -72,8 +72,8 @@ pub(super) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: 
     }));
 }
 
-/// Of two faces that pass through each other, the one of the smaller part first, the one to which the line belongs: the one that
-/// turns its outside to the eye, of two such the first, which sticks in the other.
+/// The face that a line belongs to, of two faces that pass through each other, that of the smaller part first: the one that turns its
+/// outside to the eye; if both do, the first, which sticks in the other.
 fn owner(view: &View, [a, b]: [u32; 2]) -> u32 {
     if view.facing[b as usize] && !view.facing[a as usize] { b } else { a }
 }
