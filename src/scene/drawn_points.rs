@@ -190,18 +190,31 @@ impl DrawnPoints {
 impl Placed<'_> {
     /// The box around what `counted` gives, world.
     fn bounds(&self, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DVec3, DVec3)> {
-        let mut points = Vec::new();
-        self.add(&self.counted(counts), &mut points);
-        bounds(&points)
+        let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let count = self.geometry.positions.len();
+        let grow = |own: (DVec3, DVec3), corners: &[u32]| {
+            let real = corners.iter().filter(|corner| (**corner as usize) < count);
+            real.fold(own, |(low, high), corner| {
+                let p = self.at(*corner);
+                (low.min(p), high.max(p))
+            })
+        };
+        let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
+        let faces = self.geometry.triangles.par_iter().with_min_len(GRAIN);
+        let counted = faces.filter(|t| counts(self.corners(t)));
+        let of_faces = counted.fold(|| nothing, |own, t| grow(own, t)).reduce(|| nothing, join);
+        let long = self.geometry.wires.iter().filter(|wire| self.is_long(wire));
+        let (low, high) = long.fold(of_faces, |own, wire| grow(own, wire));
+        (low.x <= high.x).then_some((low, high))
     }
 
-    fn left_out(&self, has_area: impl Fn([DVec3; 3]) -> bool) -> LeftOut {
+    fn left_out(&self, has_area: impl Fn([DVec3; 3]) -> bool + Sync) -> LeftOut {
         let Geometry { triangles, wires, .. } = self.geometry;
         let is_flat = |t: &&[u32; 3]| !has_area(self.corners(t));
         let is_short = |wire: &&[u32; 2]| !self.is_long(wire);
         let first = triangles.iter().find(is_flat).map(|t| self.at(t[0]));
         LeftOut {
-            faces: triangles.iter().filter(is_flat).count() as u64,
+            faces: triangles.par_iter().with_min_len(GRAIN).filter(is_flat).count() as u64,
             wires: wires.iter().filter(is_short).count() as u64,
             first: first.or_else(|| wires.iter().find(is_short).map(|wire| self.at(wire[0]))),
         }

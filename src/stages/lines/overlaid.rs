@@ -6,10 +6,10 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::trees::boxes::BoxTree;
 use crate::view::View;
 
 /// What is on top is asked so many times the reach of contact next to an edge.
@@ -26,9 +26,6 @@ pub(super) struct Overlaid {
     points: Vec<DVec3>,
 }
 
-/// A face of a plane with its corners, side by side with the others: each edge of the plane looks at all of them.
-type PlaneFace = (u32, [DVec3; 3]);
-
 /// Whether there are such edges: borders are then sought whatever kinds are.
 pub(super) fn is_asked(mesh: &Mesh) -> bool {
     !mesh.overlays.is_empty()
@@ -42,16 +39,15 @@ pub(super) fn settle(
     segments: &mut Vec<FeatureSegment>,
     options: &LineOptions,
 ) -> Overlaid {
-    let mut faces_of: FxHashMap<u32, Vec<PlaneFace>> = FxHashMap::default();
-    for (overlay, face) in mesh.overlays.iter().zip(0..).filter(|(overlay, _)| overlay.plane != 0) {
-        faces_of.entry(overlay.plane).or_default().push((face, mesh.corners(FaceId(face))));
-    }
+    let is_overlaid: Vec<bool> = mesh.overlays.iter().map(|overlay| overlay.plane != 0).collect();
+    let half = DVec3::splat(mesh.extents.diagonal / 2.0);
+    let (low, high) = (mesh.extents.middle - half, mesh.extents.middle + half);
+    let faces = &BoxTree::new(&mesh.positions, &mesh.triangles, &is_overlaid, low, high);
     let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
     let settled: Vec<Option<Vec<Piece>>> = segments
         .par_iter()
         .map(|segment| {
             let host = host_in_plane(mesh, view, segment)?;
-            let faces = faces_of.get(&mesh.overlay(host).plane)?;
             let pieces = Rim::new(mesh, segment, host)?.pieces(faces);
             // An edge that stays what it is stays where it is.
             let is_one =
@@ -183,15 +179,21 @@ impl<'a> Rim<'a> {
         Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, beside })
     }
 
-    /// The pieces that are lines, from end to end, given all faces of the plane.
-    fn pieces(&self, faces: &[PlaneFace]) -> Vec<Piece> {
+    /// The pieces that are lines, from end to end, given a tree of the faces that overlap others.
+    fn pieces(&self, faces: &BoxTree) -> Vec<Piece> {
         // What each face covers of the lines to both sides.
         let mut covers = [Vec::new(), Vec::new()];
-        for (face, corners) in faces {
-            for (covers, range) in covers.iter_mut().zip(self.covered(corners)) {
-                covers.extend(range.map(|range| (range, *face)));
+        let to = self.from + self.along * self.length;
+        let room = DVec3::splat(2.0 * self.beside);
+        faces.near_box(self.from.min(to) - room, self.from.max(to) + room, |face| {
+            if !self.mesh.share_plane(self.host, face) {
+                return;
             }
-        }
+            let corners = self.mesh.corners(FaceId(face));
+            for (covers, range) in covers.iter_mut().zip(self.covered(&corners)) {
+                covers.extend(range.map(|range| (range, face)));
+            }
+        });
         let mut cuts: Vec<f64> =
             covers.iter().flatten().flat_map(|((start, end), _)| [*start, *end]).collect();
         let least = SHORTEST * self.beside / self.length;

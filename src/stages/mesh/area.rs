@@ -35,7 +35,16 @@ pub(crate) fn has_own_area(corners: [DVec3; 3]) -> bool {
 pub(super) fn area_vector([a, b, c]: [DVec3; 3], scale: f64) -> Option<DVec3> {
     let (u, v, w) = (b - a, c - a, c - b);
     let cross = u.cross(v);
-    let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
+    let longest_squared = u.length_squared().max(v.length_squared()).max(w.length_squared());
+    // Most triangles are so high that neither a root nor their own scale, whose square is at most this, need be known.
+    let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
+    let own_squared = (3.0 * longest_squared).max(SCALE_OF_LARGEST * SCALE_OF_LARGEST * largest * largest);
+    let share = tolerance::DEGENERATE_HEIGHT_OF_PART * tolerance::DEGENERATE_HEIGHT_OF_PART;
+    let limit = (1.0 + 1e-9) * share * longest_squared * own_squared.max(scale * scale);
+    if limit > f64::MIN_POSITIVE && cross.length_squared() > limit {
+        return Some(cross);
+    }
+    let longest = longest_squared.sqrt();
     let scale = scale.max(scale_of(a.min(b).min(c), a.max(b).max(c)));
     (cross.length() > tolerance::DEGENERATE_HEIGHT_OF_PART * scale * longest).then_some(cross)
 }

@@ -8,7 +8,7 @@ use super::bodies::bodies;
 use super::carriers::{Faces, take_over};
 use super::clean::{one_of_doubles, retain_faces};
 use super::cuts::cut_faces;
-use super::face_normals::face_normals;
+use super::face_normals::normals_and_narrow;
 use super::orientation::{Surfaces, Triangles, TurnedFaces, turn_faces};
 use super::overlaps::overlays;
 use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, extents, order, seams, weld};
@@ -47,10 +47,12 @@ impl Mesh {
         // Closed surfaces come first, so that all that follows is as if the file had wound them right.
         let mut surfaces = surfaces(&soup, &edges);
         let mut is_final = !surfaces.has_open();
-        surfaces.turn_closed_only();
+        let turned_of_open = surfaces.turn_closed_only();
+        let mut is_as_found = true;
         if turn(&mut soup, &surfaces, &mut turned) {
             order::faces_by_place(&mut soup);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
+            is_as_found = false;
         }
 
         let of_bodies = |soup: &Soup, bodies: &[_]| {
@@ -63,7 +65,7 @@ impl Mesh {
             replace_vertices(&mut soup, &joined, &mut cleaning);
             drop_collapsed(&mut soup, &mut cleaning);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
-            is_final = false;
+            (is_final, is_as_found) = (false, false);
         }
         if let Some(keep) = one_of_doubles(&soup, &edges) {
             cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
@@ -72,7 +74,7 @@ impl Mesh {
             let of = |keep: &bool| if *keep { left.next() } else { None }.unwrap_or(u32::MAX);
             let renamed: Vec<u32> = keep.iter().map(of).collect();
             edges = edges.without(&renamed, &soup.triangles);
-            is_final = false;
+            (is_final, is_as_found) = (false, false);
         }
         let mut seams = seams::find(&soup, &edges, &extents, true);
         if !seams.joined.is_empty() {
@@ -80,6 +82,7 @@ impl Mesh {
             replace_vertices(&mut soup, &seams.joined, &mut cleaning);
             edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
             seams = seams::find(&soup, &edges, &extents, false);
+            is_as_found = false;
         }
         if !seams.cuts.is_empty() {
             let before = soup.triangles.len() as u32;
@@ -88,9 +91,14 @@ impl Mesh {
             changed.sort_unstable();
             changed.extend(before..soup.triangles.len() as u32);
             edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
+            is_as_found = false;
         }
         if !is_final {
-            let surfaces = self::surfaces(&soup, &edges);
+            if is_as_found {
+                surfaces.turned = turned_of_open;
+            } else {
+                surfaces = self::surfaces(&soup, &edges);
+            }
             if turn(&mut soup, &surfaces, &mut turned) {
                 edges.turn(&surfaces.turned);
             }
@@ -102,10 +110,14 @@ impl Mesh {
             extents = of_bodies(&soup, &found);
             joined_parts = found;
         }
-        let scale = |face: usize| extents.of(soup.triangle_part[face]).scale;
-        let mut face_normals = face_normals(&soup.positions, &soup.triangles, scale);
+        let measure = |face: usize| {
+            let part = extents.of(soup.triangle_part[face]);
+            (part.scale, part.rounding)
+        };
+        let (mut face_normals, narrow) = normals_and_narrow(&soup.positions, &soup.triangles, measure);
         let Soup { positions, triangles, triangle_part: parts, .. } = &soup;
-        let carriers = Faces { positions, triangles, parts, edges: &edges, extents: &extents }.carriers();
+        let carriers =
+            Faces { positions, triangles, parts, edges: &edges, extents: &extents }.carriers(&narrow);
         take_over(&carriers, &mut face_normals);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
         cleaning.borders = edges.border_count() as u64;

@@ -17,7 +17,6 @@ use rayon::prelude::*;
 
 use super::area::has_area;
 use super::{EdgeFaces, Edges, Extents, Mesh, PartId};
-use crate::math::grain::GRAIN;
 use crate::math::tolerance;
 
 /// The search for a carrier ends after this many faces.
@@ -52,11 +51,10 @@ impl<'a> Faces<'a> {
         height(&self.corners(face))
     }
 
-    /// Each unsure face with its carrier, ascending.
-    pub(super) fn carriers(&self) -> Vec<[u32; 2]> {
-        let faces = (0..self.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
-        let carrier = |face: u32| Some([face, self.is_unsure(face).then(|| self.carrier(face))??]);
-        faces.filter_map(carrier).collect()
+    /// Each of the unsure faces, ascending, with its carrier, where it has one.
+    pub(super) fn carriers(&self, unsure: &[u32]) -> Vec<[u32; 2]> {
+        let carrier = |face: &u32| Some([*face, self.carrier(*face)?]);
+        unsure.par_iter().with_min_len(64).filter_map(carrier).collect()
     }
 
     fn corners(&self, face: u32) -> [DVec3; 3] {
@@ -70,10 +68,10 @@ impl<'a> Faces<'a> {
     fn is_unsure(&self, face: u32) -> bool {
         let rounding = self.rounding(face);
         let corners = self.corners(face);
-        let height = height(&corners);
         // Faces without area are looked through.
-        let has_area = has_area(corners, self.extents.of(self.parts[face as usize]).scale);
-        rounding > 0.0 && has_area && height * tolerance::UNSURE_SINE < 2.0 * rounding
+        rounding > 0.0
+            && is_narrow(height(&corners), rounding)
+            && has_area(corners, self.extents.of(self.parts[face as usize]).scale)
     }
 
     /// The first face that is sure on the way over longest edges, through planes that hold the face.
@@ -134,6 +132,12 @@ pub fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool 
 pub fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
     let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
     if longest > 0.0 { (b - a).cross(c - a).length() / longest.sqrt() } else { 0.0 }
+}
+
+/// Whether rounding may turn the normal of a face of this height by more than [`UNSURE_SINE`](tolerance::UNSURE_SINE).
+#[inline]
+pub(super) fn is_narrow(height: f64, rounding: f64) -> bool {
+    height * tolerance::UNSURE_SINE < 2.0 * rounding
 }
 
 /// Gives each face the normal of its carrier.

@@ -81,9 +81,12 @@ impl Dihedral {
         if rounding == 0.0 {
             return least;
         }
-        let own = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
-        let face = own.map_or(face, |at| mesh.carriers[at][1]);
-        let height = carriers::height(&mesh.corners(FaceId(face)));
+        let mut height = carriers::height(&mesh.corners(FaceId(face)));
+        if carriers::is_narrow(height, rounding)
+            && let Ok(at) = mesh.carriers.binary_search_by_key(&face, |pair| pair[0])
+        {
+            height = carriers::height(&mesh.corners(FaceId(mesh.carriers[at][1])));
+        }
         // Doubts are small, and an arc is as long as its sine there.
         least + (2.0 * rounding / height).min(1.0).to_degrees()
     }

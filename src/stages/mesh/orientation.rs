@@ -85,13 +85,19 @@ impl Surfaces {
         self.is_closed.contains(&false)
     }
 
-    /// Leaves open surfaces unchanged.
-    pub fn turn_closed_only(&mut self) {
-        let is_closed = |surface: u32| self.is_closed[surface as usize];
-        self.turned.iter_mut().zip(&self.of_face.of_face).for_each(|(turned, of)| *turned &= is_closed(*of));
-        if !self.turned.contains(&true) {
-            self.turned.clear();
+    /// Leaves open surfaces unchanged, and gives which of their faces would be turned; empty if none would.
+    pub fn turn_closed_only(&mut self) -> Vec<bool> {
+        let is_open = |surface: &u32| !self.is_closed[*surface as usize];
+        let of_face = &self.of_face.of_face;
+        let mut of_open: Vec<bool> =
+            self.turned.iter().zip(of_face).map(|(turned, of)| *turned && is_open(of)).collect();
+        self.turned.iter_mut().zip(&of_open).for_each(|(turned, open)| *turned &= !*open);
+        for list in [&mut self.turned, &mut of_open] {
+            if !list.contains(&true) {
+                list.clear();
+            }
         }
+        of_open
     }
 
     /// Adds the faces that must be turned to the counts of their parts, which are in the order of parts.

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::common_area::common_area;
 use super::dihedral::{Dihedral, runs_up};
 use super::mixed_places::near_other_colours;
-use super::{EdgeFaces, FaceId, MaterialId, Mesh, PaintId, PartId};
+use super::{EdgeFaces, FaceId, Groups, MaterialId, Mesh, PaintId, PartId};
 use crate::math::grain::GRAIN;
 use crate::math::grouped::{Grouped, grouped_pairs};
 
@@ -151,50 +151,49 @@ struct Surfaces {
     all: Vec<FlatSurface>,
     /// For each face its surface; none without area, and where no other colour is near.
     of_face: Vec<u32>,
+    /// Of each surface the faces that come near another colour: no others can overlap one.
     faces: Grouped<u32>,
 }
 
 impl Surfaces {
     fn of(mesh: &Mesh) -> Self {
         let owner = |face: u32| (mesh.face_part[face as usize], colour(mesh, face));
-        let is_one = |faces: [u32; 2], edge: usize| {
-            let [a, b] = faces;
-            if owner(a) != owner(b) || faces.iter().any(|face| mesh.is_degenerate(FaceId(*face))) {
-                return false;
-            }
-            let same_way = runs_up(mesh, edge, a) == runs_up(mesh, edge, b);
-            let dihedral = Dihedral::of(mesh, faces, same_way);
-            dihedral.cosine > FLAT_COSINE && dihedral.is_flat(mesh, edge)
+        let is_one = |[a, b]: [u32; 2], same_way: bool, edge: usize| {
+            let dihedral = Dihedral::of(mesh, [a, b], same_way);
+            dihedral.cosine > FLAT_COSINE && owner(a) == owner(b) && dihedral.is_flat(mesh, edge)
         };
-        let joined_at = |edge: usize| -> Vec<[u32; 2]> {
-            match mesh.edges.faces(edge) {
-                EdgeFaces::One(_) => Vec::new(),
-                EdgeFaces::Two { faces, .. } => {
-                    Some(faces).filter(|f| is_one(*f, edge)).into_iter().collect()
+        let is_up = |edge: usize, face: u32| runs_up(mesh, edge, face);
+        let groups = Groups::new(mesh.triangles.len(), |join| {
+            (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).for_each(|edge| {
+                match mesh.edges.faces(edge) {
+                    EdgeFaces::One(_) => {}
+                    EdgeFaces::Two { faces: [a, b], same_way } => {
+                        if is_one([a, b], same_way, edge) {
+                            join(a, b);
+                        }
+                    }
+                    EdgeFaces::Many(faces) => {
+                        // Neighbours in the list are enough where all are one surface; else some of its patches stay apart.
+                        for (k, a) in faces.iter().enumerate() {
+                            for b in faces[..k].iter().rev().take(8) {
+                                if is_one([*b, *a], is_up(edge, *a) == is_up(edge, *b), edge) {
+                                    join(*a, *b);
+                                }
+                            }
+                        }
+                    }
                 }
-                EdgeFaces::Many(faces) => {
-                    // Neighbours in the list are enough where all are one surface; else some of its patches stay apart.
-                    let pairs = faces
-                        .iter()
-                        .enumerate()
-                        .flat_map(|(k, a)| faces[..k].iter().rev().take(8).map(|b| [*b, *a]));
-                    pairs.filter(|pair| is_one(*pair, edge)).collect()
-                }
-            }
-        };
-        let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
-        let pairs: Vec<[u32; 2]> = edges.flat_map_iter(joined_at).collect();
-        let mut joined = Joined::new(mesh.triangles.len());
-        pairs.into_iter().for_each(|[a, b]| joined.join(a, b));
+            });
+        });
         // Patches none of whose faces comes near another colour are passed over.
         let near = near_other_colours(mesh, |face| mesh.paint(FaceId(face)).0);
         let mut is_asked = vec![false; near.len()];
         for face in (0..near.len() as u32).filter(|face| near[*face as usize]) {
-            is_asked[joined.root(face) as usize] = true;
+            is_asked[groups.of(face) as usize] = true;
         }
         let (mut all, mut of_face): (Vec<FlatSurface>, Vec<u32>) = (Vec::new(), Vec::new());
         for face in 0..mesh.triangles.len() as u32 {
-            let root = joined.root(face);
+            let root = groups.of(face);
             if mesh.is_degenerate(FaceId(face)) || !is_asked[root as usize] {
                 of_face.push(u32::MAX);
                 continue;
@@ -216,7 +215,7 @@ impl Surfaces {
                 own.largest = (face, area);
             }
         }
-        let is_real = |(surface, _): &(usize, u32)| *surface < all.len();
+        let is_real = |(surface, face): &(usize, u32)| *surface < all.len() && near[*face as usize];
         let numbered = of_face.iter().map(|surface| *surface as usize).zip(0..).filter(is_real);
         let faces = grouped_pairs(all.len(), numbered);
         Self { all, of_face, faces }
@@ -260,6 +259,7 @@ impl Surfaces {
                         return related;
                     }
                     if self.all[*first as usize].colour != self.all[*other as usize].colour
+                        && planes.root(*first) != planes.root(*other)
                         && self.overlap(mesh, *first, *other, &mut tests)
                     {
                         planes.join(*first, *other);
@@ -313,24 +313,30 @@ impl Surfaces {
     fn overlap(&self, mesh: &Mesh, first: u32, other: u32, tests: &mut usize) -> bool {
         let (one, two) = (&self.all[first as usize], &self.all[other as usize]);
         let contact = one.contact.max(two.contact);
-        let meets = |low: DVec3, high: DVec3, own: &FlatSurface| {
-            low.cmple(own.high + contact).all() && high.cmpge(own.low - contact).all()
+        let meet = |a: (DVec3, DVec3), b: (DVec3, DVec3)| {
+            a.0.cmple(b.1 + contact).all() && a.1.cmpge(b.0 - contact).all()
         };
-        if !meets(one.low, one.high, two) {
+        let (one_box, two_box) = ((one.low, one.high), (two.low, two.high));
+        if !meet(one_box, two_box) {
             return false;
         }
-        let near = |surface: u32, to: &FlatSurface| -> Vec<[DVec3; 3]> {
+        // The triangles near the other surface, with their boxes.
+        let near = |surface: u32, other: (DVec3, DVec3)| -> Vec<([DVec3; 3], (DVec3, DVec3))> {
             let corners = self.faces.of(surface as usize).iter().map(|face| mesh.corners(FaceId(*face)));
-            corners.filter(|[a, b, c]| meets(a.min(*b).min(*c), a.max(*b).max(*c), to)).collect()
+            let boxed = corners.map(|own| {
+                let [a, b, c] = own;
+                (own, (a.min(b).min(c), a.max(b).max(c)))
+            });
+            boxed.filter(|(_, own)| meet(*own, other)).collect()
         };
         *tests += self.faces.of(first as usize).len() + self.faces.of(other as usize).len();
-        let (one, two) = (near(first, two), near(other, one));
-        for a in &one {
+        let (one, two) = (near(first, two_box), near(other, one_box));
+        for (a, a_box) in &one {
             *tests += two.len();
             if *tests > MAX_TESTS {
                 return false;
             }
-            if two.iter().any(|b| common_area(a, b, contact)) {
+            if two.iter().any(|(b, b_box)| meet(*a_box, *b_box) && common_area(a, b, contact)) {
                 return true;
             }
         }

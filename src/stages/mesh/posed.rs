@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::carriers::{Faces, take_over};
-use super::face_normals::face_normals;
+use super::face_normals::normals_and_narrow;
 use super::overlaps::overlays;
 use super::{Extents, Mesh, Soup};
 
@@ -86,11 +86,14 @@ impl Mesh {
         if vertices.par_iter().zip(&soup.positions).any(parted) {
             return None;
         }
-        let scale = |face: usize| extents.of(moved.triangle_part[face]).scale;
-        let mut face_normals = face_normals(&moved.positions, &moved.triangles, scale);
+        let measure = |face: usize| {
+            let part = extents.of(moved.triangle_part[face]);
+            (part.scale, part.rounding)
+        };
+        let (mut face_normals, narrow) = normals_and_narrow(&moved.positions, &moved.triangles, measure);
         let Soup { positions, triangles, triangle_part: parts, .. } = &moved;
         let carriers =
-            Faces { positions, triangles, parts, edges: &self.edges, extents: &extents }.carriers();
+            Faces { positions, triangles, parts, edges: &self.edges, extents: &extents }.carriers(&narrow);
         take_over(&carriers, &mut face_normals);
         let mut posed = Self {
             face_normals,

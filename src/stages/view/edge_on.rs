@@ -23,23 +23,29 @@ const MAX_UNSURE_SINE: f64 = 1e-2;
 
 /// Whether each face turns its outside to the eye, and the faces, ascending, for which this does not follow from their own angle.
 pub(super) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
-    let own = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
-        frame.faces_eye(a, b, c)
+    let is_rounded = mesh.extents.is_rounded();
+    let whole = mesh.first_piece.unwrap_or(mesh.triangles.len() as u32);
+    let mut facing = vec![false; mesh.triangles.len()];
+    let of_chunk = |(chunk, facing): (usize, &mut [bool])| {
+        let mut unsure = Vec::new();
+        for (face, facing) in ((chunk * GRAIN) as u32..).zip(facing) {
+            let corners = mesh.corners(FaceId(face));
+            *facing = frame.faces_eye(corners[0], corners[1], corners[2]);
+            if is_rounded && face < whole {
+                let rounding = mesh.extent(FaceId(face)).rounding;
+                unsure.extend((rounding > 0.0 && is_unsure(frame, &corners, rounding)).then_some(face));
+            }
+        }
+        unsure
     };
-    let mut facing: Vec<bool> = mesh.triangles.par_iter().with_min_len(GRAIN).map(own).collect();
+    let unsure: Vec<Vec<u32>> = facing.par_chunks_mut(GRAIN).enumerate().map(of_chunk).collect();
+    let unsure = unsure.concat();
     for [face, carrier] in &mesh.carriers {
         facing[*face as usize] = facing[*carrier as usize];
     }
-    if !mesh.extents.is_rounded() {
+    if !is_rounded {
         return (facing, Vec::new());
     }
-    let is_unsure = |face: &u32| {
-        let rounding = mesh.extent(FaceId(*face)).rounding;
-        rounding > 0.0 && is_unsure(frame, &mesh.corners(FaceId(*face)), rounding)
-    };
-    let whole = mesh.first_piece.unwrap_or(mesh.triangles.len() as u32);
-    let unsure: Vec<u32> = (0..whole).into_par_iter().with_min_len(GRAIN).filter(is_unsure).collect();
     decide(&Faces::of(mesh), &unsure, &mut facing);
     let mut others: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(unsure).collect();
     others.sort_unstable();

@@ -30,40 +30,55 @@ impl HostedLine {
     /// Whether its own faces cover the left side and the right side of it, farther than `beside` user units. Both count as
     /// covered if it has no own face.
     pub fn covered_sides(&self, across: DVec2, mesh: &Mesh, view: &View, beside: f64) -> [bool; 2] {
-        let mut cover = [false; 2];
         if self.hosts == [NO_FACE; 2] {
             return [true; 2];
         }
-        for face in self.faces(mesh) {
-            let corners = mesh.triangles[face as usize];
-            for corner in corners.into_iter().filter(|v| !self.ends.contains(v)) {
-                let height = (view.points[corner as usize] - self.line[0]).truncate().dot(across);
-                if height.is_finite() {
-                    cover[0] |= height < -beside;
-                    cover[1] |= height > beside;
-                } else {
-                    // The near plane cuts the face: its winding shows on which side of an edge of its own it lies.
-                    match winding_side(self.ends, corners, view.facing[face as usize]) {
-                        Some(side) => cover[side] = true,
-                        None => cover = [true; 2],
-                    }
-                }
+        let mut cover = [false; 2];
+        for face in self.hosts.into_iter().filter(|face| *face != NO_FACE) {
+            self.add_sides(face, across, mesh, view, beside, &mut cover);
+        }
+        if cover != [true; 2] {
+            for face in self.others(mesh) {
+                self.add_sides(*face, across, mesh, view, beside, &mut cover);
             }
         }
         cover
     }
-}
 
-impl HostedLine {
-    /// Its own faces, and all others that have it as an edge: which two of more are its own depends on the order of parts.
-    fn faces<'a>(&self, mesh: &'a Mesh) -> impl Iterator<Item = u32> + use<'a> {
+    /// Adds the sides that a face covers.
+    fn add_sides(
+        &self,
+        face: u32,
+        across: DVec2,
+        mesh: &Mesh,
+        view: &View,
+        beside: f64,
+        cover: &mut [bool; 2],
+    ) {
+        let corners = mesh.triangles[face as usize];
+        for corner in corners.into_iter().filter(|v| !self.ends.contains(v)) {
+            let height = (view.points[corner as usize] - self.line[0]).truncate().dot(across);
+            if height.is_finite() {
+                cover[0] |= height < -beside;
+                cover[1] |= height > beside;
+            } else {
+                // The near plane cuts the face: its winding shows on which side of an edge of its own it lies.
+                match winding_side(self.ends, corners, view.facing[face as usize]) {
+                    Some(side) => cover[side] = true,
+                    None => *cover = [true; 2],
+                }
+            }
+        }
+    }
+
+    /// All faces that have it as an edge, where they are more than two: which of these are its own depends on the order of parts.
+    fn others<'a>(&self, mesh: &'a Mesh) -> &'a [u32] {
         let [v, w] = self.ends;
         let found = mesh.edges.vertices.binary_search(&[v.min(w), v.max(w)]).ok();
-        let others = match found.map(|edge| mesh.edges.faces(edge)) {
+        match found.map(|edge| mesh.edges.faces(edge)) {
             Some(EdgeFaces::Many(faces)) => faces,
             _ => &[],
-        };
-        self.hosts.into_iter().filter(|face| *face != NO_FACE).chain(others.iter().copied())
+        }
     }
 }
 
