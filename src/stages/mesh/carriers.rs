@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 use super::area::has_area;
 use super::{EdgeFaces, Edges, Extents, Mesh, PartId};
+use crate::math::function::cos;
 use crate::math::tolerance;
 
 /// The search for a carrier ends after this many faces.
@@ -44,6 +45,17 @@ impl<'a> Faces<'a> {
         let is_in_plane =
             |other: &u32| self.holds(*other, &corners) || self.holds(face, &self.corners(*other));
         self.neighbours(face).filter(is_in_plane).collect()
+    }
+
+    /// Whether a face is one of those of a bent surface: whether it has neighbours on all sides, which turn by less than
+    /// [`MAX_FACET_DEG`](tolerance::MAX_FACET_DEG).
+    pub(crate) fn is_facet(&self, face: u32) -> bool {
+        let normal = |face: u32| {
+            let [a, b, c] = self.corners(face);
+            (b - a).cross(c - a).normalize_or_zero()
+        };
+        let (own, least) = (normal(face), cos(tolerance::MAX_FACET_DEG.to_radians()));
+        self.neighbours(face).filter(|other| normal(*other).dot(own) > least).count() == 3
     }
 
     /// The least height of a face.

@@ -5,7 +5,8 @@
 //! 2. Rounding turns a face by up to the rounding divided by its height. Where the angle is smaller than that, the face is *unsure*.
 //! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::carriers)) are decided together. They follow the widest sure face of
 //!    the plane next to them.
-//! 4. If there is none, they are edge-on.
+//! 4. If there is none, they are edge-on. But on a bent surface, which goes on all around them, each face keeps its own angle: the
+//!    contour runs on one side of them or the other, and both are as right.
 //!
 //! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact: nothing rounded their corners.
 
@@ -46,17 +47,18 @@ pub(super) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
     if !is_rounded {
         return (facing, Vec::new());
     }
-    decide(&Faces::of(mesh), &unsure, &mut facing);
-    let mut others: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(unsure).collect();
+    let decided = decide(&Faces::of(mesh), &unsure, &mut facing);
+    let mut others: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(decided).collect();
     others.sort_unstable();
     others.dedup();
     (facing, others)
 }
 
-/// Decides for each plane in which unsure faces, ascending, are connected.
-fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) {
+/// Decides for each plane in which unsure faces, ascending, are connected, and gives those that do not keep their own angle.
+fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) -> Vec<u32> {
     let near: Vec<Vec<u32>> = unsure.par_iter().map(|face| faces.neighbours_in_plane(*face)).collect();
     let mut is_seen = vec![false; unsure.len()];
+    let mut others = Vec::new();
     for first in 0..unsure.len() {
         let (mut plane, mut open) = (Vec::new(), vec![first]);
         let mut widest: Option<(f64, u32)> = None;
@@ -77,9 +79,14 @@ fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) {
                 }
             }
         }
+        if widest.is_none() && plane.iter().all(|face| faces.is_facet(*face)) {
+            continue;
+        }
         let decided = widest.is_some_and(|(_, sure)| facing[sure as usize]);
         plane.iter().for_each(|face| facing[*face as usize] = decided);
+        others.append(&mut plane);
     }
+    others
 }
 
 /// Whether rounding may have turned a triangle through the line of sight.
