@@ -22,6 +22,9 @@ const FLOATING: f64 = 6.0;
 /// A contour of a scan that comes out from under something at one of its ends must be this many times longer.
 const PARTLY_COVERED: f64 = 2.5;
 
+/// A line shorter than so many tidy lengths has no length in a file: 0.01 px, the last decimal that is written.
+const UNWRITTEN: f64 = 0.0025;
+
 /// A line inside must be this many times longer than a crumb where it is as strong as can be; the
 /// weaker, the longer.
 const INSIDE: f64 = 5.0;
@@ -94,6 +97,9 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
     }
     if length >= FLOATING * tidy {
         return false;
+    }
+    if length < UNWRITTEN * tidy {
+        return true;
     }
     if raw.is_ring() {
         // A loop of two strokes' width is a blot.

@@ -1,4 +1,4 @@
-//! [`common_area`]: whether two triangles overlap in one plane.
+//! [`common_area`]: by how much two triangles overlap in one plane.
 //!
 //! One is clipped by the sides of the other, after Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
 
@@ -7,15 +7,15 @@ use glam::{DVec2, DVec3};
 /// Planes whose normals lie at a smaller cosine are not compared.
 const MIN_COSINE: f64 = 0.999;
 
-/// Whether two triangles have a common area, seen along the normal of the first, that is wider than `contact`, and over all of which their
-/// planes are no farther apart.
-pub(super) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> bool {
+/// The common area of two triangles, seen along the normal of the first, if it is wider than `contact` and their planes are no farther
+/// apart all over it; else 0.
+pub(super) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> f64 {
     let [a, b, c] = *one;
     let normal = (b - a).cross(c - a).normalize_or_zero();
     let own = (two[1] - two[0]).cross(two[2] - two[0]);
     let lean = own.dot(normal);
     let Some(right) = (b - a).try_normalize().filter(|_| lean.abs() > MIN_COSINE * own.length()) else {
-        return false;
+        return 0.0;
     };
     let up = normal.cross(right);
     let flat = |p: DVec3| DVec2::new((p - a).dot(right), (p - a).dot(up));
@@ -30,7 +30,10 @@ pub(super) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> b
     let around: f64 = polygon.iter().zip(next()).map(|(p, q)| p.distance(*q)).sum();
     // How far the plane of the second lies over a point of the first.
     let height = |p: &DVec2| own.dot(two[0] - (a + right * p.x + up * p.y)) / lean;
-    polygon.len() > 2 && area.abs() > contact * around && polygon.iter().all(|p| height(p).abs() <= contact)
+    let is_common = polygon.len() > 2
+        && area.abs() > contact * around
+        && polygon.iter().all(|p| height(p).abs() <= contact);
+    if is_common { area.abs() / 2.0 } else { 0.0 }
 }
 
 /// The part of a convex polygon to the left of a line.

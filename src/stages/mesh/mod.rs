@@ -1,5 +1,6 @@
 //! [`Mesh`]: all that can be drawn, as one welded triangle mesh.
 
+mod arcs;
 pub(crate) mod area;
 pub(crate) mod bodies;
 pub mod build;

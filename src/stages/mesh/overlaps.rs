@@ -1,7 +1,8 @@
 //! [`Overlay`]: surfaces of unlike colours that overlap in one plane, as a label on a wall does, and which of them is on top.
 //!
 //! A surface is a connected flat patch of one part, material and paint. Two surfaces overlap if triangles of them have a common area,
-//! over all of which the planes lie within contact. What overlaps, directly or through others, is one plane. In it the smaller surface
+//! over all of which the planes lie within contact, and which is more than the slivers between two borders of facets along one curve
+//! (`arcs`). What overlaps, directly or through others, is one plane. In it the smaller surface
 //! is on top; of equal ones that whose part, then whose material, comes later in the file. The order is the same in every view and
 //! from both sides.
 //!
@@ -12,6 +13,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::arcs::{Arc, arcs};
 use super::common_area::common_area;
 use super::dihedral::{Dihedral, runs_up};
 use super::mixed_places::near_other_colours;
@@ -151,8 +153,9 @@ struct Surfaces {
     all: Vec<FlatSurface>,
     /// For each face its surface; none without area, and where no other colour is near.
     of_face: Vec<u32>,
-    /// Of each surface the faces that come near another colour: no others can overlap one.
     faces: Grouped<u32>,
+    /// Whether each face comes near another colour: no others can overlap one.
+    near: Vec<bool>,
 }
 
 impl Surfaces {
@@ -215,10 +218,10 @@ impl Surfaces {
                 own.largest = (face, area);
             }
         }
-        let is_real = |(surface, face): &(usize, u32)| *surface < all.len() && near[*face as usize];
+        let is_real = |(surface, _): &(usize, u32)| *surface < all.len();
         let numbered = of_face.iter().map(|surface| *surface as usize).zip(0..).filter(is_real);
         let faces = grouped_pairs(all.len(), numbered);
-        Self { all, of_face, faces }
+        Self { all, of_face, faces, near }
     }
 
     /// Orders surfaces of a plane from the lowest up.
@@ -241,6 +244,7 @@ impl Surfaces {
             cells.flat_map_iter(|surface| self.cells(mesh, surface)).collect();
         cells.par_sort_unstable();
         let (mut tests, mut related) = (0, false);
+        let mut arcs: Vec<Option<Vec<Arc>>> = vec![None; self.all.len()];
         for cell in cells.chunk_by(|a, b| a.0 == b.0) {
             let colour = |at: &([i64; 3], u32)| self.all[at.1 as usize].colour;
             if cell.iter().all(|at| colour(at) == colour(&cell[0])) {
@@ -260,7 +264,7 @@ impl Surfaces {
                     }
                     if self.all[*first as usize].colour != self.all[*other as usize].colour
                         && planes.root(*first) != planes.root(*other)
-                        && self.overlap(mesh, *first, *other, &mut tests)
+                        && self.overlap(mesh, *first, *other, &mut arcs, &mut tests)
                     {
                         planes.join(*first, *other);
                         related = true;
@@ -309,8 +313,16 @@ impl Surfaces {
         cells
     }
 
-    /// Whether triangles of two surfaces have a common area in one plane.
-    fn overlap(&self, mesh: &Mesh, first: u32, other: u32, tests: &mut usize) -> bool {
+    /// Whether triangles of two surfaces have a common area in one plane, and more than slivers; `arcs` keeps the curved borders of
+    /// surfaces.
+    fn overlap(
+        &self,
+        mesh: &Mesh,
+        first: u32,
+        other: u32,
+        arcs: &mut [Option<Vec<Arc>>],
+        tests: &mut usize,
+    ) -> bool {
         let (one, two) = (&self.all[first as usize], &self.all[other as usize]);
         let contact = one.contact.max(two.contact);
         let meet = |a: (DVec3, DVec3), b: (DVec3, DVec3)| {
@@ -322,7 +334,8 @@ impl Surfaces {
         }
         // The triangles near the other surface, with their boxes.
         let near = |surface: u32, other: (DVec3, DVec3)| -> Vec<([DVec3; 3], (DVec3, DVec3))> {
-            let corners = self.faces.of(surface as usize).iter().map(|face| mesh.corners(FaceId(*face)));
+            let faces = self.faces.of(surface as usize).iter().filter(|face| self.near[**face as usize]);
+            let corners = faces.map(|face| mesh.corners(FaceId(*face)));
             let boxed = corners.map(|own| {
                 let [a, b, c] = own;
                 (own, (a.min(b).min(c), a.max(b).max(c)))
@@ -331,82 +344,38 @@ impl Surfaces {
         };
         *tests += self.faces.of(first as usize).len() + self.faces.of(other as usize).len();
         let (one, two) = (near(first, two_box), near(other, one_box));
+        let (mut common, mut slivers) = (0.0, None);
         for (a, a_box) in &one {
             *tests += two.len();
             if *tests > MAX_TESTS {
                 return false;
             }
-            if two.iter().any(|(b, b_box)| meet(*a_box, *b_box) && common_area(a, b, contact)) {
-                return true;
+            for (b, _) in two.iter().filter(|(_, b_box)| meet(*a_box, *b_box)) {
+                common += common_area(a, b, contact);
+                if common == 0.0 {
+                    continue;
+                }
+                let slivers = slivers.get_or_insert_with(|| {
+                    let mut near = |surface: u32, other| -> f64 {
+                        let own = arcs[surface as usize].get_or_insert_with(|| self.arcs(mesh, surface));
+                        let boxed = |arc: &&Arc| (arc.ends[0].min(arc.ends[1]), arc.ends[0].max(arc.ends[1]));
+                        own.iter().filter(|arc| meet(boxed(arc), other)).map(|arc| arc.area).sum()
+                    };
+                    near(first, two_box) + near(other, one_box)
+                });
+                if common > *slivers {
+                    return true;
+                }
             }
         }
         false
     }
+
+    /// The curved borders of a surface.
+    fn arcs(&self, mesh: &Mesh, surface: u32) -> Vec<Arc> {
+        arcs(mesh, self.faces.of(surface as usize), |face| self.of_face[face as usize] == surface)
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::Soup;
-
-    /// Squares with a corner, a size and a material, each of its own part if it says so.
-    fn squares(some: &[([f64; 3], f64, u32, u32)]) -> Soup {
-        let mut soup = Soup::default();
-        for (corner, size, material, part) in some {
-            let first = soup.positions.len() as u32;
-            for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
-                soup.positions.push(DVec3::from(*corner) + DVec3::new(x, y, 0.0) * *size);
-            }
-            soup.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-            soup.triangle_material.extend([MaterialId(*material); 2]);
-            soup.triangle_part.extend([PartId(*part); 2]);
-        }
-        soup
-    }
-
-    /// Of each material the rank of its faces, 0 where it overlaps nothing and else one more.
-    fn ranks(mesh: &Mesh, materials: u32) -> Vec<u32> {
-        let rank = |material: u32| {
-            let own = (0..mesh.triangles.len() as u32)
-                .filter(|face| mesh.face_material[*face as usize] == MaterialId(material));
-            let ranks: Vec<u32> = own
-                .map(|face| mesh.overlay(face))
-                .map(|o| if o.plane == 0 { 0 } else { o.rank + 1 })
-                .collect();
-            assert!(ranks.iter().all(|rank| *rank == ranks[0]), "{ranks:?}");
-            ranks[0]
-        };
-        (0..materials).map(rank).collect()
-    }
-
-    #[test]
-    fn the_smaller_surface_is_on_top_and_of_equal_ones_the_later() {
-        let wall = ([0.0; 3], 10.0, 0, 0);
-        let label = |at: [f64; 3], size, material| (at, size, material, 0);
-        let of = |some: &[_], count| ranks(&Mesh::build(squares(some)), count);
-        assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1)], 2), [1, 2]);
-        assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1), label([3.0, 4.0, 0.0], 1.0, 2)], 3), [1, 2, 3]);
-        assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 10.0, 1)], 2), [1, 2]);
-        // Beside it, apart from it, and of its own colour.
-        assert_eq!(of(&[wall, label([10.0, 3.0, 0.0], 3.0, 1)], 2), [0, 0]);
-        assert_eq!(of(&[wall, label([2.0, 3.0, 0.01], 3.0, 1)], 2), [0, 0]);
-        assert_eq!(of(&[wall, (([2.0, 3.0, 0.0]), 3.0, 0, 1)], 1), [0]);
-    }
-
-    #[test]
-    fn turned_and_rounded_surfaces_overlap_as_they_did() {
-        let turn = glam::DMat3::from_axis_angle(DVec3::new(0.3, -0.5, 0.81).normalize(), 0.7);
-        for far in [0.0, 700.0] {
-            let mut soup = squares(&[
-                ([0.0; 3], 40.0, 0, 0),
-                ([12.0, 8.0, 0.0], 12.0, 1, 1),
-                ([30.0, 30.0, 0.5], 5.0, 2, 2),
-            ]);
-            for p in &mut soup.positions {
-                *p = (turn * *p + DVec3::splat(far)).as_vec3().as_dvec3();
-            }
-            soup.single_precision = true;
-            assert_eq!(ranks(&Mesh::build(soup), 3), [1, 2, 0], "{far}");
-        }
-    }
-}
+mod tests;
