@@ -198,11 +198,27 @@ impl<'a> Finder<'a> {
         if !self.smooth.is_empty() && !same_way && self.smooth.across(self.mesh, edge).is_some() {
             return self.on_rounded(edge, [first, second]);
         }
+        let dihedral = || Dihedral::of(self.mesh, [first, second], same_way);
+        let crease = self.is_crease(edge);
+        let found = self.classify_flat_pair(edge, [first, second], same_way, crease)?;
+        // Where materials meet on a flat face, corners of the line are corners of what is painted there.
+        let is_painted = found.kind == LineKind::Material && dihedral().is_flat(self.mesh, edge);
+        let smooth = !self.hard.is_hard(edge) && !self.wrinkles.contains(edge) && !is_painted;
+        Some(FeatureSegment { smooth, ..found })
+    }
+
+    /// The line between two faces of a surface that is not rounded there.
+    #[inline]
+    fn classify_flat_pair(
+        &self,
+        edge: usize,
+        [first, second]: [u32; 2],
+        same_way: bool,
+        crease: bool,
+    ) -> Option<FeatureSegment> {
         let facing = &self.view.facing;
         let contour = (facing[first as usize] != facing[second as usize]) != same_way;
-        let hard = self.hard.is_hard(edge);
         let other_material = self.other_material(edge, [first, second]);
-        let crease = self.is_crease(edge);
         if !contour && !crease && !other_material {
             return None;
         }
@@ -216,13 +232,9 @@ impl<'a> Finder<'a> {
             return None;
         };
         let nearer = if facing[first as usize] { first } else { second };
-        let dihedral = Dihedral::of(self.mesh, [first, second], same_way);
-        // Where materials meet on a flat face, corners of the line are corners of what is painted there.
-        let is_painted = kind == LineKind::Material && dihedral.is_flat(self.mesh, edge);
         Some(FeatureSegment {
             both_seen: !contour,
-            smooth: !hard && !self.wrinkles.contains(edge) && !is_painted,
-            strength: dihedral.turn(),
+            strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
             ..self.segment(edge, kind, nearer, [first, second])
         })
     }
@@ -257,12 +269,11 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Three faces or more. The line is a contour if all of them lie on one side of it in the
-    /// image. Else the eye looks into one of the corners between neighbouring faces, and that
-    /// corner decides about a crease, or any part's own corner does.
+    /// Three faces or more. Each body has the line that it would have alone, whether the bodies share the vertices of the edge or
+    /// merely touch there; of these lines the strongest is drawn, as of all that coincide, and of equal ones that of the smaller part.
     fn classify_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
         let mesh = self.mesh;
-        let real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
+        let mut real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
         match *real.as_slice() {
             [] => return None,
             [face] => return self.classify_single(edge, face),
@@ -272,27 +283,47 @@ impl<'a> Finder<'a> {
             }
             _ => {}
         }
+        real.sort_by_key(|face| mesh.body(*face));
+        let lines = real.chunk_by(|a, b| mesh.body(*a) == mesh.body(*b)).filter_map(|own| match *own {
+            [face] => self.classify_single(edge, face),
+            [first, second] => {
+                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
+                let dihedral = Dihedral::of(mesh, [first, second], same_way);
+                let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, [first, second]), dihedral.turn());
+                let crease =
+                    self.is_crease(edge) || !is_diagonal && dihedral.sure_turn(mesh) > self.crease_deg;
+                self.classify_flat_pair(edge, [first, second], same_way, crease)
+            }
+            _ => self.classify_own_fan(edge, own),
+        });
+        let extent = |line: &FeatureSegment| mesh.extents.of(line.part);
+        lines.min_by(|a, b| a.kind.cmp(&b.kind).then_with(|| extent(a).precedence(extent(b))))
+    }
+
+    /// Three faces or more of one body. The line is a contour if all of them lie on one side of it in the
+    /// image. Else the eye looks into one of the corners between neighbouring faces, and that
+    /// corner decides about a crease.
+    fn classify_own_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
+        let mesh = self.mesh;
         let side = |f: u32| self.view.facing[f as usize] == runs_up(mesh, edge, f);
-        let contour = real.iter().all(|f| side(*f)) || real.iter().all(|f| !side(*f));
-        let own_turn = self.own_turn(edge, &real);
-        let turn = self.corner_turn(edge, &real);
-        let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, real.iter().copied()), turn);
-        let turn = if is_diagonal { own_turn } else { turn.max(own_turn) };
-        let other_material = self.materials_change(edge, &real);
+        let contour = faces.iter().all(|f| side(*f)) || faces.iter().all(|f| !side(*f));
+        let turn = self.corner_turn(edge, faces);
+        let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, faces.iter().copied()), turn);
+        let other_material = self.materials_change(edge, faces);
         let kind = if contour && self.wants(LineKind::Contour) {
             LineKind::Contour
-        } else if turn > self.crease_deg && self.wants(LineKind::Crease) {
+        } else if !is_diagonal && turn > self.crease_deg && self.wants(LineKind::Crease) {
             LineKind::Crease
         } else if other_material && self.wants(LineKind::Material) {
             LineKind::Material
         } else {
             return None;
         };
-        let nearer = self.owner(&real);
+        let nearer = self.owner(faces);
         Some(FeatureSegment {
             both_seen: !contour,
             strength: turn,
-            ..self.segment(edge, kind, nearer, [real[0], real[1]])
+            ..self.segment(edge, kind, nearer, [faces[0], faces[1]])
         })
     }
 
@@ -358,28 +389,6 @@ impl<'a> Finder<'a> {
             (below.unwrap_or(angles[angles.len() - 1] - turn_round), above.unwrap_or(angles[0] + turn_round));
         let doubt = faces.iter().map(|f| Dihedral::doubt_of(mesh, *f)).fold(0.0, f64::max);
         ((std::f64::consts::PI - (high - low)).abs().to_degrees() - 2.0 * doubt) as f32
-    }
-
-    /// The largest turn between the two faces that one body has at the edge: where bodies touch,
-    /// each keeps its own creases.
-    fn own_turn(&self, edge: usize, faces: &[u32]) -> f32 {
-        let mesh = self.mesh;
-        let part = |f: &u32| mesh.body(*f);
-        if faces.iter().all(|f| part(f) == part(&faces[0])) {
-            return 0.0;
-        }
-        let mut most = 0.0f32;
-        for first in faces {
-            let own: Vec<u32> = faces.iter().copied().filter(|f| part(f) == part(first)).collect();
-            if let [a, b] = *own.as_slice() {
-                let same_way = runs_up(mesh, edge, a) == runs_up(mesh, edge, b);
-                let dihedral = Dihedral::of(mesh, [a, b], same_way);
-                if !is_unfolded_diagonal(mark(mesh, edge, [a, b]), dihedral.turn()) {
-                    most = most.max(dihedral.sure_turn(mesh));
-                }
-            }
-        }
-        most
     }
 
     fn segment(&self, edge: usize, kind: LineKind, nearer: u32, hosts: [u32; 2]) -> FeatureSegment {
