@@ -71,9 +71,13 @@ fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
         round.push((if angle > half - IN_PLANE { angle - 2.0 * half } else { angle }, *up, *face));
     }
     round.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // In one plane, what is closed comes before what begins.
+    // In one plane, what is closed comes before what begins. Of faces that lie on each other, that of the first part is the nearest to
+    // what it encloses, at every edge.
+    let part = |face: u32| soup.triangle_part.get(face as usize).map_or(0, |part| part.0);
     for own in round.chunk_by_mut(|a, b| b.0 - a.0 <= IN_PLANE) {
-        own.sort_by_key(|(_, up, face)| (!*up, *face));
+        own.sort_by_key(|(_, up, face)| {
+            (!*up, if *up { part(*face) } else { u32::MAX - part(*face) }, *face)
+        });
     }
     let mut begun: Vec<u32> = Vec::new();
     let mut pairs = Vec::new();
