@@ -110,6 +110,19 @@ impl Mesh {
     pub fn body(&self, face: u32) -> PartId {
         body_of(&self.bodies, self.face_part[face as usize])
     }
+
+    /// The body of each face; empty if all are of one.
+    #[must_use]
+    pub fn face_bodies(&self) -> Vec<PartId> {
+        let body = |part: &PartId| body_of(&self.bodies, *part);
+        let first = self.face_part.first().map(body);
+        let parts = self.face_part.par_iter().with_min_len(GRAIN);
+        if parts.clone().all(|part| Some(body(part)) == first) {
+            Vec::new()
+        } else {
+            parts.map(body).collect()
+        }
+    }
 }
 
 #[cfg(test)]

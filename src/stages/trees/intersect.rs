@@ -13,8 +13,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::boxes::BoxTree;
+use super::boxes::{BoxTree, Faces};
 use super::triangle_pair::{Along, Common, End, Feature, PairTolerance, Touch, Triangle, cross_beyond};
+use crate::mesh::PartId;
 
 /// The triangles to look at.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +26,8 @@ pub struct IntersectionInput<'a> {
     pub triangles: &'a [[u32; 3]],
     /// Whether each triangle may take part; empty: all do.
     pub active: &'a [bool],
+    /// The body of each triangle, or empty if there is only one: those of one body that have a vertex in common are never compared.
+    pub bodies: &'a [PartId],
 }
 
 /// Curves along which triangles pass through each other.
@@ -49,7 +52,7 @@ pub struct IntersectionSegment {
 
 /// Finds where triangles strictly pass through each other.
 ///
-/// Triangles with a common vertex are neighbours and never reported; nor are overlaps in one
+/// Triangles of one body with a common vertex are neighbours and never reported; nor are overlaps in one
 /// plane, triangles that touch from one side, and contacts shorter than
 /// [`OVERLAP_OF_PART`](crate::math::tolerance::OVERLAP_OF_PART) of the diagonal of the box
 /// around all triangles, which count as one part. A vertex in the other plane is no obstacle where the other
@@ -75,7 +78,7 @@ pub fn intersections_of_parts(
     join(&find_pairs(input, low, high, tolerance))
 }
 
-/// All pairs of triangles without common vertices that have something in common, sorted; `low`
+/// All pairs of triangles that are no neighbours and have something in common, sorted; `low`
 /// and `high` are the corners of a box around them.
 pub(super) fn find_pairs(
     input: &IntersectionInput,
@@ -83,7 +86,7 @@ pub(super) fn find_pairs(
     high: DVec3,
     tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> Vec<Pair> {
-    let IntersectionInput { positions, triangles, active } = *input;
+    let IntersectionInput { positions, triangles, active, .. } = *input;
     pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, tolerance)
 }
 
@@ -93,8 +96,9 @@ pub(super) fn pairs_in(
     input: &IntersectionInput,
     tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> Vec<Pair> {
-    let mut pairs = tree
-        .overlaps(input.triangles, |face, others, found| pairs_of(input, face, others, &tolerance, found));
+    let faces = Faces { triangles: input.triangles, bodies: input.bodies };
+    let mut pairs =
+        tree.overlaps(faces, |face, others, found| pairs_of(input, face, others, &tolerance, found));
     pairs.par_sort_unstable_by_key(|pair| pair.faces);
     pairs
 }
