@@ -217,7 +217,7 @@ impl<'a> Finder<'a> {
         crease: bool,
     ) -> Option<FeatureSegment> {
         let facing = &self.view.facing;
-        let contour = (facing[first as usize] != facing[second as usize]) != same_way;
+        let contour = self.turns_away([first, second], same_way);
         let other_material = self.other_material(edge, [first, second]);
         if !contour && !crease && !other_material {
             return None;
@@ -237,6 +237,26 @@ impl<'a> Finder<'a> {
             strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
             ..self.segment(edge, kind, nearer, [first, second])
         })
+    }
+
+    /// Whether the surface turns from one side to the other between two faces. A face that is seen edge-on has no side: the surface ends
+    /// in it for the eye, whichever way it is wound.
+    #[inline]
+    fn turns_away(&self, faces: [u32; 2], same_way: bool) -> bool {
+        let facing = &self.view.facing;
+        match faces.map(|face| !facing[face as usize] && self.is_edge_on(face)) {
+            [false, false] => (facing[faces[0] as usize] != facing[faces[1] as usize]) != same_way,
+            [first, second] => first != second,
+        }
+    }
+
+    /// Whether a face that is not seen from outside is not seen from inside either.
+    fn is_edge_on(&self, face: u32) -> bool {
+        let Self { mesh, view, .. } = self;
+        let carrier = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
+        let face = carrier.map_or(face, |at| mesh.carriers[at][1]);
+        let [a, b, c] = mesh.corners(FaceId(face));
+        view.unsure.binary_search(&face).is_ok() || !view.frame.faces_eye(a, c, b)
     }
 
     /// Whether the materials of two faces differ, and the file does not hide the edge.
