@@ -171,4 +171,23 @@ mod tests {
         add_box(&mut soup, DVec3::splat(3.0), |_| 1);
         assert!(Mesh::build(soup).bodies.is_empty());
     }
+
+    #[test]
+    fn of_sides_and_a_sheet_on_one_of_them_the_sides_are_one_body() {
+        // Corners of every side in another order, so that at each edge the sides come in another one, and the sheet before and after them.
+        for sheet in [0, 1, 7] {
+            for corner in 0..4 {
+                let mut soup = Soup::default();
+                add_box(&mut soup, DVec3::ZERO, |side| 1 + side + u32::from(side + 1 >= sheet && sheet > 0));
+                let [a, b, c, d] = [0, 1, 2, 3].map(|k| SIDES[2][(k + corner) % 4]);
+                soup.triangles.extend([[a, b, c], [a, c, d]]);
+                soup.triangle_part.extend([PartId(sheet); 2]);
+                let mesh = Mesh::build(soup);
+                let count =
+                    |body: PartId| (0..8).filter(|part| mesh.bodies.get(*part) == Some(&body)).count();
+                let largest = mesh.bodies.iter().map(|body| count(*body)).max();
+                assert_eq!(largest, Some(6), "{sheet} {corner} {:?}", mesh.bodies);
+            }
+        }
+    }
 }
