@@ -12,15 +12,16 @@ pub struct Known {
     pub why: &'static str,
 }
 
-const EDGE_ON: &str = "a face is seen nearer to edge-on than rounding may turn it: the exact file knows its side, the rounded one counts \
-    it as averted (view/edge_on.rs)";
+const EDGE_ON: &str = "a face is seen edge-on, or nearer to that than rounding may turn it: which side of it is seen, and which of its lines, \
+    which coincide in the image, is in front, is known of the exact file alone (view/edge_on.rs, viewmap/hosted_line.rs)";
 const ROUND_SHORT: &str = "on a rounded surface a stretch shorter than 12 px has the pen of its neighbours, and rounding moves the end of \
     one across that limit (chain/silhouette.rs)";
 const SHORT: &str = "a stretch with background beside it has the pen of its neighbours if it is shorter than 12 px on a rounded surface, or \
     than 4 px on a sharp edge: pens keep their width in a larger picture (chain/silhouette.rs)";
 const SHALLOW: &str = "a diagonal of one body lies along a crease of less than 40 degrees of another one, where creases are found at edges of \
     two faces only (shape/hard_edges.rs); or a stretch is shorter than 4 px";
-const FAR: &str = "at a million units coordinates keep ten decimals, and limits for coordinates in double precision are finer";
+const FAR: &str =
+    "at a million units the coordinates have seven digits, and the file counts as one in single precision";
 
 const fn known(relation: Relation, in_short_run: usize, share: f64, why: &'static str) -> Known {
     Known { relation, in_short_run, share, why }
