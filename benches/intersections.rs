@@ -39,7 +39,8 @@ fn scan(name: &str) -> Option<Solid> {
 }
 
 fn search(bencher: Bencher, solid: &Solid, active: &[bool]) {
-    let input = IntersectionInput { positions: &solid.positions, triangles: &solid.triangles, active };
+    let input =
+        IntersectionInput { positions: &solid.positions, triangles: &solid.triangles, active, bodies: &[] };
     bencher.counter(divan::counter::ItemsCount::new(solid.triangles.len())).bench(|| intersections(&input));
 }
 

@@ -4,6 +4,7 @@ use crate::support::dice::Dice;
 use crate::support::mesh_file;
 use crate::support::solids::{Solid, cuboid, sphere, tube};
 use glam::DVec3;
+use ligne::stages::mesh::PartId;
 use ligne::stages::trees::intersect::{IntersectionCurves, IntersectionInput, intersections};
 
 fn find(solid: &Solid) -> IntersectionCurves {
@@ -11,6 +12,7 @@ fn find(solid: &Solid) -> IntersectionCurves {
         positions: &solid.positions,
         triangles: &solid.triangles,
         active: &[],
+        bodies: &[],
     })
 }
 
@@ -317,6 +319,7 @@ fn inactive_faces_take_no_part() {
         positions: &both.positions,
         triangles: &both.triangles,
         active: &active,
+        bodies: &[],
     });
     let expected: Vec<[u32; 2]> =
         all.segments.iter().map(|s| s.faces).filter(|f| f.iter().all(|&face| face % 3 != 0)).collect();
@@ -409,5 +412,60 @@ fn surfaces_that_cross_along_a_diagonal_have_a_curve_there() {
         // Surfaces that only touch have none.
         assert!(find(&crossed_on_a_diagonal(&[1.0], turn)).segments.is_empty(), "{round}");
         assert!(find(&crossed_on_a_diagonal(&[1.0, 1.5], turn)).segments.is_empty(), "{round}");
+    }
+}
+
+/// Two faces that have a side along x and two walls that have a shorter one there, each given by where its third corner lies.
+fn along_each_other(faces: [[f64; 2]; 2], walls: [[f64; 2]; 2], turn: glam::DQuat) -> Solid {
+    let on_line = [-1.0, 2.0, 0.1, 0.9].map(|x| DVec3::new(x, 0.0, 0.0));
+    let mut solid = Solid { positions: on_line.to_vec(), triangles: Vec::new() };
+    for ([from, to], thirds) in [([0, 1], faces), ([2, 3], walls)] {
+        for [y, z] in thirds {
+            solid.positions.push(DVec3::new(0.4, y, z));
+            solid.triangles.push([from, to, solid.positions.len() as u32 - 1]);
+        }
+    }
+    solid.positions.iter_mut().for_each(|p| *p = turn * *p);
+    solid
+}
+
+#[test]
+fn surfaces_that_cross_along_an_edge_of_each_have_a_curve_there() {
+    let mut dice = Dice::new(13);
+    let flat = [[1.0, 0.0], [-1.5, 0.0]];
+    let ridge = [[1.0, -1.0], [-1.0, -1.0]];
+    for round in 0..200 {
+        let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
+        let crossing = [(flat, [[0.1, 0.8], [-0.1, -0.7]]), (ridge, [[0.9, -0.1], [0.1, -0.9]])];
+        for (faces, walls) in crossing {
+            let curves = find(&along_each_other(faces, walls, turn));
+            assert_eq!(curves.segments.len(), 1, "{round}");
+            assert!((length(&curves) - 0.8).abs() < 1e-9, "{round}");
+        }
+        // A roof upside down on the ridge of another one, and two in one plane with it.
+        let touching = [(flat, [[0.3, 0.8], [-0.3, 0.7]]), (ridge, [[0.9, -0.1], [-0.9, -0.1]])];
+        for (faces, walls) in touching.into_iter().chain([(flat, flat), (ridge, ridge)]) {
+            assert!(find(&along_each_other(faces, walls, turn)).segments.is_empty(), "{round}");
+        }
+    }
+}
+
+#[test]
+fn bodies_with_a_common_vertex_pass_through_each_other_from_there() {
+    let mut dice = Dice::new(14);
+    for round in 0..200 {
+        let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
+        // Two faces that cross along x from their common vertex, for one unit.
+        let corners = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, -1.0, 0.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0]];
+        let positions = corners.map(|corner| turn * DVec3::from(corner));
+        let found = |bodies: &[PartId]| {
+            let triangles = &[[0, 1, 2], [0, 3, 4]];
+            intersections(&IntersectionInput { positions: &positions, triangles, active: &[], bodies })
+        };
+        let curves = found(&[PartId(0), PartId(1)]);
+        assert_eq!(curves.segments.len(), 1, "{round}");
+        assert!((length(&curves) - 1.0).abs() < 1e-9, "{round}");
+        // Of one body they are neighbours.
+        assert!(found(&[]).segments.is_empty() && found(&[PartId(1); 2]).segments.is_empty(), "{round}");
     }
 }

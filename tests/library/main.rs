@@ -88,6 +88,7 @@ mod style_fills;
 mod testing;
 mod text;
 mod textures;
+mod touching_bodies;
 mod turning_strokes;
 mod visibility;
 mod visible_intersections;

@@ -1,4 +1,4 @@
-//! Cuts lines where silhouette turns into inner contour, but not where it only flickers.
+//! Cuts lines where silhouette turns into inner contour, but not where it only flickers, as the contours of rounded surfaces do.
 
 use super::class::Class;
 use super::line::Line;
@@ -12,11 +12,22 @@ struct Stretch {
     end: usize,
     length: f64,
     value: bool,
+    /// Whether all of it lies on edges that are meant to be sharp: it ends at computed places.
+    is_hard: bool,
+}
+
+/// How short stretches of a line may be, user units.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shortest {
+    /// On rounded surfaces, and where lines were found in images.
+    pub soft: f64,
+    /// On edges that are meant to be sharp.
+    pub hard: f64,
 }
 
 /// The parts of a line that are silhouette throughout or nowhere, none shorter than `shortest` unless the whole line is; `None` for
 /// a line that is one such part itself and then knows which.
-pub(super) fn cut(raw: &mut Raw, shortest: f64) -> Option<Vec<Raw>> {
+pub(super) fn cut(raw: &mut Raw, shortest: Shortest) -> Option<Vec<Raw>> {
     if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
         raw.class.silhouette = raw.line.silhouette[0];
         return None;
@@ -48,24 +59,25 @@ fn runs(line: &Line) -> Vec<Stretch> {
     let mut runs: Vec<Stretch> = Vec::new();
     for i in 0..line.len() - 1 {
         let (value, side) = (line.silhouette[i], length(line.points[i + 1] - line.points[i]));
+        let is_hard = !line.soft[i];
         match runs.last_mut() {
             Some(run) if run.value == value => {
                 run.end = i + 1;
                 run.length += side;
+                run.is_hard &= is_hard;
             }
-            _ => runs.push(Stretch { first: i, end: i + 1, length: side, value }),
+            _ => runs.push(Stretch { first: i, end: i + 1, length: side, value, is_hard }),
         }
     }
     runs
 }
 
-/// Joins the shortest run to its neighbours until all are long enough.
-fn even(mut runs: Vec<Stretch>, shortest: f64) -> Vec<Stretch> {
+/// Joins the shortest run that is too short to its neighbours until all are long enough.
+fn even(mut runs: Vec<Stretch>, shortest: Shortest) -> Vec<Stretch> {
     while runs.len() > 1 {
-        let least = (0..runs.len()).min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)).unwrap_or(0);
-        if runs[least].length >= shortest {
-            break;
-        }
+        let least = |run: &Stretch| if run.is_hard { shortest.hard } else { shortest.soft };
+        let too_short = (0..runs.len()).filter(|k| runs[*k].length < least(&runs[*k]));
+        let Some(least) = too_short.min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)) else { break };
         let low = least.saturating_sub(1);
         let high = (least + 1).min(runs.len() - 1);
         let value = if low == least { runs[high].value } else { runs[low].value };
@@ -74,8 +86,35 @@ fn even(mut runs: Vec<Stretch>, shortest: f64) -> Vec<Stretch> {
             end: runs[high].end,
             length: runs[low..=high].iter().map(|r| r.length).sum(),
             value,
+            is_hard: runs[low..=high].iter().all(|r| r.is_hard),
         };
         runs.splice(low..=high, [joined]);
     }
     runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lengths of what is left of stretches that are silhouette by turns.
+    fn left(lengths: &[f64], is_hard: bool) -> Vec<f64> {
+        let stretch = |(k, length): (usize, &f64)| Stretch {
+            first: k,
+            end: k + 1,
+            length: *length,
+            value: k % 2 == 0,
+            is_hard,
+        };
+        let stretches = lengths.iter().enumerate().map(stretch).collect();
+        even(stretches, Shortest { soft: 12.0, hard: 4.0 }).iter().map(|stretch| stretch.length).collect()
+    }
+
+    #[test]
+    fn stretches_of_sharp_edges_stay_that_would_be_noise_on_a_rounded_surface() {
+        assert_eq!(left(&[30.0, 9.0, 40.0], false), [79.0]);
+        assert_eq!(left(&[30.0, 9.0, 40.0], true), [30.0, 9.0, 40.0]);
+        assert_eq!(left(&[30.0, 3.0, 40.0], true), [73.0]);
+        assert_eq!(left(&[3.0, 30.0], true), [33.0]);
+    }
 }

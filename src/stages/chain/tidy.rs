@@ -13,7 +13,7 @@ use super::gaps::bridge;
 use super::link::routes;
 use super::raw::{Degrees, Raw};
 use super::removed::{Bin, Reason};
-use super::silhouette;
+use super::silhouette::{self, Shortest};
 use super::stitch::stitch;
 use crate::lines::{HiddenLines, LineKind};
 use crate::shape::Origin;
@@ -22,9 +22,12 @@ use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 /// Hidden gaps are bridged up to this part of the tidy length.
 const GAP: f64 = 0.6;
 
-/// A line changes between silhouette and inner contour no more often than every so many tidy
+/// The line on a rounded surface changes between silhouette and inner contour no more often than every so many tidy
 /// lengths.
 const SILHOUETTE: f64 = 3.0;
+
+/// The same on an edge that is meant to be sharp, where such stretches begin and end at computed places.
+const SILHOUETTE_OF_EDGE: f64 = 1.0;
 
 /// A line shorter than this many tidy lengths is less than a dot of the pen.
 const POINT: f64 = 0.1;
@@ -88,9 +91,10 @@ pub(super) fn tidied(
 
 /// Lines without dots, cut where silhouette begins and ends.
 fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
+    let shortest = Shortest { soft: SILHOUETTE * tidy, hard: SILHOUETTE_OF_EDGE * tidy };
     let parts = |raw: &mut Raw| {
         let is_dot = !raw.class.hidden && raw.length() < POINT * tidy;
-        if is_dot { Some(Vec::new()) } else { silhouette::cut(raw, SILHOUETTE * tidy) }
+        if is_dot { Some(Vec::new()) } else { silhouette::cut(raw, shortest) }
     };
     let parts: Vec<Option<Vec<Raw>>> = raws.par_iter_mut().with_max_len(16).map(parts).collect();
     // Most lines stay whole, and then nothing is moved.

@@ -9,10 +9,10 @@ use rayon::prelude::*;
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::math::grain::GRAIN;
 use crate::math::joined::joined;
-use crate::mesh::dihedral::{is_unfolded_diagonal, mark, runs_up};
+use crate::mesh::dihedral::mark;
 use crate::mesh::edge_set::EdgeSet;
 use crate::mesh::needle::{Beyond, seen_from};
-use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, MaterialId, Mesh};
+use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, Mesh};
 use crate::shape::{HardEdges, Origin, SmoothNormals};
 use crate::view::View;
 
@@ -36,15 +36,15 @@ pub fn find_among(
     finder.find(edges.len(), |k| edges[k] as usize)
 }
 
-struct Finder<'a> {
-    mesh: &'a Mesh,
+pub(super) struct Finder<'a> {
+    pub(super) mesh: &'a Mesh,
     hard: &'a HardEdges,
     wrinkles: &'a EdgeSet,
     roundings: &'a EdgeSet,
-    view: &'a View,
+    pub(super) view: &'a View,
     smooth: &'a SmoothNormals,
     wanted: u32,
-    crease_deg: f32,
+    pub(super) crease_deg: f32,
     /// Whether every face has an area.
     all_real: bool,
 }
@@ -79,7 +79,7 @@ impl<'a> Finder<'a> {
         joined(&found)
     }
 
-    fn wants(&self, kind: LineKind) -> bool {
+    pub(super) fn wants(&self, kind: LineKind) -> bool {
         self.wanted & (1 << kind as u32) != 0
     }
 
@@ -185,24 +185,46 @@ impl<'a> Finder<'a> {
 
     /// Whether an edge is drawn for its shape, from wherever it is seen.
     #[inline]
-    fn is_crease(&self, edge: usize) -> bool {
+    pub(super) fn is_crease(&self, edge: usize) -> bool {
         self.hard.is_hard(edge) || self.roundings.contains(edge)
     }
 
-    fn degenerate(&self, face: u32) -> bool {
+    pub(super) fn degenerate(&self, face: u32) -> bool {
         self.mesh.is_degenerate(FaceId(face))
     }
 
     #[inline]
-    fn classify_pair(&self, edge: usize, first: u32, second: u32, same_way: bool) -> Option<FeatureSegment> {
+    pub(super) fn classify_pair(
+        &self,
+        edge: usize,
+        first: u32,
+        second: u32,
+        same_way: bool,
+    ) -> Option<FeatureSegment> {
         if !self.smooth.is_empty() && !same_way && self.smooth.across(self.mesh, edge).is_some() {
             return self.on_rounded(edge, [first, second]);
         }
-        let facing = &self.view.facing;
-        let contour = (facing[first as usize] != facing[second as usize]) != same_way;
-        let hard = self.hard.is_hard(edge);
-        let other_material = self.other_material(edge, [first, second]);
+        let dihedral = || Dihedral::of(self.mesh, [first, second], same_way);
         let crease = self.is_crease(edge);
+        let found = self.classify_flat_pair(edge, [first, second], same_way, crease)?;
+        // Where materials meet on a flat face, corners of the line are corners of what is painted there.
+        let is_painted = found.kind == LineKind::Material && dihedral().is_flat(self.mesh, edge);
+        let smooth = !self.hard.is_hard(edge) && !self.wrinkles.contains(edge) && !is_painted;
+        Some(FeatureSegment { smooth, ..found })
+    }
+
+    /// The line between two faces of a surface that is not rounded there.
+    #[inline]
+    pub(super) fn classify_flat_pair(
+        &self,
+        edge: usize,
+        [first, second]: [u32; 2],
+        same_way: bool,
+        crease: bool,
+    ) -> Option<FeatureSegment> {
+        let facing = &self.view.facing;
+        let contour = self.turns_away([first, second], same_way);
+        let other_material = self.other_material(edge, [first, second]);
         if !contour && !crease && !other_material {
             return None;
         }
@@ -216,15 +238,31 @@ impl<'a> Finder<'a> {
             return None;
         };
         let nearer = if facing[first as usize] { first } else { second };
-        let dihedral = Dihedral::of(self.mesh, [first, second], same_way);
-        // Where materials meet on a flat face, corners of the line are corners of what is painted there.
-        let is_painted = kind == LineKind::Material && dihedral.is_flat(self.mesh, edge);
         Some(FeatureSegment {
             both_seen: !contour,
-            smooth: !hard && !self.wrinkles.contains(edge) && !is_painted,
-            strength: dihedral.turn(),
+            strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
             ..self.segment(edge, kind, nearer, [first, second])
         })
+    }
+
+    /// Whether the surface turns from one side to the other between two faces. A face that is seen edge-on has no side: the surface ends
+    /// in it for the eye, whichever way it is wound.
+    #[inline]
+    fn turns_away(&self, faces: [u32; 2], same_way: bool) -> bool {
+        let facing = &self.view.facing;
+        match faces.map(|face| !facing[face as usize] && self.is_edge_on(face)) {
+            [false, false] => (facing[faces[0] as usize] != facing[faces[1] as usize]) != same_way,
+            [first, second] => first != second,
+        }
+    }
+
+    /// Whether a face that is not seen from outside is not seen from inside either.
+    fn is_edge_on(&self, face: u32) -> bool {
+        let Self { mesh, view, .. } = self;
+        let carrier = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
+        let face = carrier.map_or(face, |at| mesh.carriers[at][1]);
+        let [a, b, c] = mesh.corners(FaceId(face));
+        view.unsure.binary_search(&face).is_ok() || !view.frame.faces_eye(a, c, b)
     }
 
     /// Whether the materials of two faces differ, and the file does not hide the edge.
@@ -233,7 +271,7 @@ impl<'a> Finder<'a> {
         first != second && mark(self.mesh, edge, faces) != EdgeMark::Hidden
     }
 
-    fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
+    pub(super) fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
         self.wants(LineKind::Border).then(|| FeatureSegment {
             both_seen: false,
             ..self.segment(edge, LineKind::Border, face, [face, NO_FACE])
@@ -257,132 +295,13 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Three faces or more. The line is a contour if all of them lie on one side of it in the
-    /// image. Else the eye looks into one of the corners between neighbouring faces, and that
-    /// corner decides about a crease, or any part's own corner does.
-    fn classify_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
-        let mesh = self.mesh;
-        let real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
-        match *real.as_slice() {
-            [] => return None,
-            [face] => return self.classify_single(edge, face),
-            [first, second] => {
-                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
-                return self.classify_pair(edge, first, second, same_way);
-            }
-            _ => {}
-        }
-        let side = |f: u32| self.view.facing[f as usize] == runs_up(mesh, edge, f);
-        let contour = real.iter().all(|f| side(*f)) || real.iter().all(|f| !side(*f));
-        let own_turn = self.own_turn(edge, &real);
-        let turn = self.corner_turn(edge, &real);
-        let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, real.iter().copied()), turn);
-        let turn = if is_diagonal { own_turn } else { turn.max(own_turn) };
-        let other_material = self.materials_change(edge, &real);
-        let kind = if contour && self.wants(LineKind::Contour) {
-            LineKind::Contour
-        } else if turn > self.crease_deg && self.wants(LineKind::Crease) {
-            LineKind::Crease
-        } else if other_material && self.wants(LineKind::Material) {
-            LineKind::Material
-        } else {
-            return None;
-        };
-        let nearer = self.owner(&real);
-        Some(FeatureSegment {
-            both_seen: !contour,
-            strength: turn,
-            ..self.segment(edge, kind, nearer, [real[0], real[1]])
-        })
-    }
-
-    /// Whether the materials of faces that meet in one edge change from one to the next. Parts that lie on each other
-    /// face on face are one surface: where each of its faces is of the same materials, none of them ends.
-    fn materials_change(&self, edge: usize, faces: &[u32]) -> bool {
-        let mesh = self.mesh;
-        let ends = mesh.edges.vertices[edge];
-        let third = |face: u32| mesh.triangles[face as usize].iter().find(|v| !ends.contains(v)).copied();
-        let mut found: Vec<(Option<u32>, MaterialId)> =
-            faces.iter().map(|f| (third(*f), mesh.face_material[*f as usize])).collect();
-        found.sort_unstable();
-        found.dedup();
-        let materials = |own: &[(Option<u32>, MaterialId)]| own.iter().map(|(_, m)| *m).collect::<Vec<_>>();
-        let mut surfaces = found.chunk_by(|a, b| a.0 == b.0).map(materials);
-        let first = surfaces.next();
-        surfaces.any(|other| Some(&other) != first.as_ref())
-    }
-
-    /// Of faces that meet in one edge the one to which the line belongs: one that turns its outside to the
-    /// eye, of the smallest part. The order of parts in the file does not matter.
-    fn owner(&self, faces: &[u32]) -> u32 {
-        let mesh = self.mesh;
-        let seen = faces.iter().copied().filter(|f| self.view.facing[*f as usize]);
-        let corners = |face: u32| {
-            let mut corners = mesh.triangles[face as usize];
-            corners.sort_unstable();
-            corners
-        };
-        let first = seen.min_by(|a, b| {
-            let of = |face: u32| mesh.extent(FaceId(face));
-            of(*a).precedence(of(*b)).then_with(|| corners(*a).cmp(&corners(*b)))
-        });
-        first.unwrap_or(faces[0])
-    }
-
-    /// Degrees by which the surface turns in the corner between two faces into which the eye
-    /// looks.
-    fn corner_turn(&self, edge: usize, faces: &[u32]) -> f32 {
-        let mesh = self.mesh;
-        let [lo, hi] = mesh.edges.vertices[edge];
-        let (a, b) = (mesh.positions[lo as usize], mesh.positions[hi as usize]);
-        let Some(axis) = (b - a).try_normalize() else { return 0.0 };
-        let away = |p: glam::DVec3| (p - a) - axis * (p - a).dot(axis);
-        let spoke = |f: u32| {
-            let opposite = mesh.triangles[f as usize].iter().find(|v| **v != lo && **v != hi);
-            away(opposite.map_or(a, |v| mesh.positions[*v as usize]))
-        };
-        let zero = spoke(faces[0]);
-        let quarter = axis.cross(zero);
-        let angle = |d: glam::DVec3| crate::math::function::atan2(d.dot(quarter), d.dot(zero));
-        let eye = if self.view.frame.perspective {
-            angle(self.view.frame.eye - (a + b) / 2.0)
-        } else {
-            angle(-self.view.frame.forward)
-        };
-        let mut angles: Vec<f64> = faces.iter().map(|f| angle(spoke(*f))).collect();
-        angles.sort_by(f64::total_cmp);
-        let turn_round = std::f64::consts::TAU;
-        let below = angles.iter().rev().find(|x| **x <= eye).copied();
-        let above = angles.iter().find(|x| **x > eye).copied();
-        let (low, high) =
-            (below.unwrap_or(angles[angles.len() - 1] - turn_round), above.unwrap_or(angles[0] + turn_round));
-        let doubt = faces.iter().map(|f| Dihedral::doubt_of(mesh, *f)).fold(0.0, f64::max);
-        ((std::f64::consts::PI - (high - low)).abs().to_degrees() - 2.0 * doubt) as f32
-    }
-
-    /// The largest turn between the two faces that one body has at the edge: where bodies touch,
-    /// each keeps its own creases.
-    fn own_turn(&self, edge: usize, faces: &[u32]) -> f32 {
-        let mesh = self.mesh;
-        let part = |f: &u32| mesh.body(*f);
-        if faces.iter().all(|f| part(f) == part(&faces[0])) {
-            return 0.0;
-        }
-        let mut most = 0.0f32;
-        for first in faces {
-            let own: Vec<u32> = faces.iter().copied().filter(|f| part(f) == part(first)).collect();
-            if let [a, b] = *own.as_slice() {
-                let same_way = runs_up(mesh, edge, a) == runs_up(mesh, edge, b);
-                let dihedral = Dihedral::of(mesh, [a, b], same_way);
-                if !is_unfolded_diagonal(mark(mesh, edge, [a, b]), dihedral.turn()) {
-                    most = most.max(dihedral.sure_turn(mesh));
-                }
-            }
-        }
-        most
-    }
-
-    fn segment(&self, edge: usize, kind: LineKind, nearer: u32, hosts: [u32; 2]) -> FeatureSegment {
+    pub(super) fn segment(
+        &self,
+        edge: usize,
+        kind: LineKind,
+        nearer: u32,
+        hosts: [u32; 2],
+    ) -> FeatureSegment {
         FeatureSegment {
             ends: self.mesh.edges.vertices[edge],
             hosts,

@@ -13,7 +13,7 @@ use super::contacts;
 use super::surface::Finer;
 use super::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::math::grain::GRAIN;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh, PartId};
 use crate::raster::{FaceBuffer, Screen, strangers};
 use crate::shape::Origin;
 use crate::trees::finer::{Hosts, PairSearch};
@@ -83,7 +83,7 @@ fn owner(view: &View, [a, b]: [u32; 2]) -> u32 {
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    contacts::without(intersections_of_parts(&input(mesh, &active), tolerance), mesh)
+    contacts::without(intersections_of_parts(&input(mesh, &active, &mesh.face_bodies()), tolerance), mesh)
 }
 
 /// The curves of a mesh between faces that are not `out_of_sight`: of [`all_curves`] every segment of which something shows.
@@ -94,14 +94,16 @@ pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Intersection
     });
     let active = out_of_sight;
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    contacts::without(intersections_of_parts(&input(mesh, &active), tolerance), mesh)
+    contacts::without(intersections_of_parts(&input(mesh, &active, &mesh.face_bodies()), tolerance), mesh)
 }
 
 /// All curves of a mesh, so that those of finer meshes made of it are found sooner: [`curves_of_finer`].
 #[must_use]
 pub fn search(mesh: &Mesh) -> PairSearch {
     let active = active(mesh);
-    PairSearch::new(&input(mesh, &active), |face| PairTolerance::of_part(mesh.extent(FaceId(face))))
+    PairSearch::new(&input(mesh, &active, &mesh.face_bodies()), |face| {
+        PairTolerance::of_part(mesh.extent(FaceId(face)))
+    })
 }
 
 /// All curves of a surface some of whose faces were cut, with the help of a [`search`] of the mesh it was made of:
@@ -112,7 +114,10 @@ pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves
     let active = active(mesh);
     let hosts = Hosts { faces: &finer.hosts, kept: finer.kept };
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    contacts::without(search.curves_of_finer(&input(mesh, &active), hosts, tolerance), mesh)
+    contacts::without(
+        search.curves_of_finer(&input(mesh, &active, &mesh.face_bodies()), hosts, tolerance),
+        mesh,
+    )
 }
 
 /// Which faces have area; empty if all have.
@@ -123,8 +128,8 @@ fn active(mesh: &Mesh) -> Vec<bool> {
     (0..mesh.triangles.len()).map(|f| !mesh.is_degenerate(FaceId::from(f))).collect()
 }
 
-fn input<'a>(mesh: &'a Mesh, active: &'a [bool]) -> IntersectionInput<'a> {
-    IntersectionInput { positions: &mesh.positions, triangles: &mesh.triangles, active }
+fn input<'a>(mesh: &'a Mesh, active: &'a [bool], bodies: &'a [PartId]) -> IntersectionInput<'a> {
+    IntersectionInput { positions: &mesh.positions, triangles: &mesh.triangles, active, bodies }
 }
 
 /// The curves of which something shows in a view, whole, and perhaps others.

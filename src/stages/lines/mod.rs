@@ -4,6 +4,7 @@ mod colour_cells;
 mod contacts;
 mod covered;
 mod drawn;
+mod edge_fans;
 pub mod edge_lines;
 pub mod edge_search;
 mod folds;

@@ -47,8 +47,12 @@ pub(super) fn settle(
     let settled: Vec<Option<Vec<Piece>>> = segments
         .par_iter()
         .map(|segment| {
-            let host = host_in_plane(mesh, view, segment)?;
-            let pieces = Rim::new(mesh, segment, host)?.pieces(faces);
+            let [host, other] = hosts_in_planes(mesh, view, segment);
+            let pieces_in = |host: u32| Some(Rim::new(mesh, segment, host)?.pieces(faces));
+            let mut pieces = pieces_in(host?)?;
+            if let Some(more) = other.and_then(pieces_in) {
+                pieces = of_both_planes(&pieces, &more);
+            }
             // An edge that stays what it is stays where it is.
             let is_one =
                 matches!(pieces.as_slice(), [piece] if piece.is_whole() && piece.kind == segment.kind);
@@ -65,30 +69,53 @@ pub(super) fn settle(
     overlaid
 }
 
-/// The face of an edge in whose plane surfaces overlap, if the edge has nothing on the eye's side of that plane: borders, edges
-/// between materials in it, and edges at which a body goes on behind it.
-fn host_in_plane(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> Option<u32> {
+/// The faces of an edge in whose planes surfaces overlap, if the edge has nothing on the eye's side of that plane: borders, edges
+/// between materials in it, and edges at which a body goes on behind it. Such a body may have a face in one plane and another in a second.
+fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Option<u32>; 2] {
     let [first, second] = segment.hosts;
     match segment.kind {
-        LineKind::Border => Some(first).filter(|face| second == NO_FACE && mesh.overlay(*face).plane != 0),
-        LineKind::Material if mesh.share_plane(first, second) => Some(first),
+        LineKind::Border => {
+            [Some(first).filter(|face| second == NO_FACE && mesh.overlay(*face).plane != 0), None]
+        }
+        LineKind::Material if mesh.share_plane(first, second) => [Some(first), None],
         LineKind::Contour | LineKind::Crease | LineKind::Material
             if segment.role == Role::Line && second != NO_FACE =>
         {
             let goes_behind = |own: u32, other: u32| {
                 let [a, b, c] = mesh.corners(FaceId(own));
                 let normal = (b - a).cross(c - a).normalize_or_zero();
-                let third = mesh.triangles[other as usize].into_iter().find(|v| !segment.ends.contains(v));
-                let height = third.map_or(0.0, |v| (mesh.positions[v as usize] - a).dot(normal));
+                let heights = mesh.corners(FaceId(other)).map(|corner| (corner - a).dot(normal));
+                let height =
+                    heights.into_iter().max_by(|p, q| p.abs().total_cmp(&q.abs())).unwrap_or_default();
                 height * view.frame.to_eye(a).dot(normal) < 0.0
             };
-            [[first, second], [second, first]].into_iter().find_map(|[own, other]| {
-                let is_alone = mesh.overlay(own).plane != 0 && !mesh.share_plane(own, other);
-                (is_alone && goes_behind(own, other)).then_some(own)
-            })
+            let mut hosts = [[first, second], [second, first]].into_iter().filter(|[own, other]| {
+                let is_alone = mesh.overlay(*own).plane != 0 && !mesh.share_plane(*own, *other);
+                is_alone && goes_behind(*own, *other)
+            });
+            [hosts.next().map(|[own, _]| own), hosts.next().map(|[own, _]| own)]
         }
-        _ => None,
+        _ => [None; 2],
     }
+}
+
+/// The pieces of an edge of a body that lies in two planes, given those that it has in each: it parts materials where it does so in one.
+fn of_both_planes(one: &[Piece], two: &[Piece]) -> Vec<Piece> {
+    let mut cuts: Vec<f64> = one.iter().chain(two).flat_map(|piece| [piece.start, piece.end]).collect();
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
+    let mut pieces: Vec<Piece> = Vec::new();
+    for pair in cuts.windows(2) {
+        let (start, end) = (pair[0], pair[1]);
+        let there = || one.iter().chain(two).filter(|piece| piece.start <= start && piece.end >= end);
+        let parted = there().find(|piece| piece.kind == LineKind::Material);
+        let Some(&Piece { kind, beyond, .. }) = parted.or_else(|| there().next()) else { continue };
+        match pieces.last_mut().filter(|last| last.end == start && last.kind == kind) {
+            Some(last) => last.end = end,
+            None => pieces.push(Piece { start, end, kind, beyond }),
+        }
+    }
+    pieces
 }
 
 impl Overlaid {
@@ -168,10 +195,11 @@ struct Rim<'a> {
 impl<'a> Rim<'a> {
     fn new(mesh: &'a Mesh, segment: &FeatureSegment, host: u32) -> Option<Self> {
         let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
-        let third = mesh.triangles[host as usize].into_iter().find(|v| !segment.ends.contains(v))?;
         let along = (b - a).try_normalize()?;
-        let over = mesh.positions[VertexId(third).index()] - a;
-        let inward = (over - along * over.dot(along)).try_normalize()?;
+        // Next to a face without area, corners of the host that are no ends of the edge may lie on its line as well.
+        let over = mesh.corners(FaceId(host)).map(|corner| (corner - a) - along * (corner - a).dot(along));
+        let inward = over.into_iter().max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?;
+        let inward = inward.try_normalize()?;
         let beside = BESIDE * mesh.extent(FaceId(host)).contact;
         let [first, second] = segment.hosts;
         let is_flat = second == NO_FACE || mesh.share_plane(first, second);

@@ -3,31 +3,97 @@
 //! Files may put each face of one surface in a group of its own. What its shape is for must not depend on that, so shapes and
 //! tolerances are decided for bodies. Two parts are of one body if an edge has exactly two faces, one of each: then neither part
 //! has another face there in which its surface goes on. Parts that merely touch have faces of their own on both sides of an
-//! edge, and stay apart.
+//! edge, and stay apart. Where other bodies touch the edge as well, of the parts with one face there those are of one body whose faces
+//! enclose material.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{EdgeFaces, Edges, Groups, Mesh, PartId};
+use super::{EdgeFaces, Edges, Groups, Mesh, PartId, Soup};
+use crate::math::function::atan2;
 use crate::math::grain::GRAIN;
 
+/// Faces at an edge at an angle of no more than this (radians) lie in one plane: what moving a model leaves of flat faces.
+const IN_PLANE: f64 = 1e-6;
+
 /// For each part the first part of its body; empty if each part is a body of its own.
-pub(super) fn bodies(parts: &[PartId], edges: &Edges) -> Vec<PartId> {
+pub(super) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {
+    let parts = &soup.triangle_part;
     let count = parts.par_iter().with_min_len(GRAIN).map(|part| part.index() + 1).max().unwrap_or(0);
-    let joint = |edge: usize| {
-        let EdgeFaces::Two { faces, .. } = edges.faces(edge) else { return None };
-        let [a, b] = faces.map(|face| parts.get(face as usize).copied().unwrap_or_default());
-        (a != b).then_some([a, b])
+    let part = |face: u32| parts.get(face as usize).copied().unwrap_or_default();
+    let joints = |edge: usize| {
+        let pairs = match edges.faces(edge) {
+            EdgeFaces::One(_) => Vec::new(),
+            EdgeFaces::Two { faces, .. } if part(faces[0]) == part(faces[1]) => Vec::new(),
+            EdgeFaces::Two { faces, .. } => vec![faces],
+            EdgeFaces::Many(faces) => {
+                let is_alone =
+                    |face: &u32| faces.iter().filter(|other| part(**other) == part(*face)).count() == 1;
+                let alone: Vec<u32> = faces.iter().copied().filter(is_alone).collect();
+                if alone.len() > 1 { wedges(soup, edges.vertices[edge], &alone) } else { Vec::new() }
+            }
+        };
+        pairs.into_iter().map(|pair| pair.map(part))
     };
     if count < 2 {
         return Vec::new();
     }
     let joints: Vec<[PartId; 2]> =
-        (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(joint).collect();
+        (0..edges.len()).into_par_iter().with_min_len(GRAIN).flat_map_iter(joints).collect();
     if joints.is_empty() {
         return Vec::new();
     }
     let groups = Groups::new(count, |join| joints.iter().for_each(|[a, b]| join(a.0, b.0)));
     (0..count as u32).map(|part| PartId(groups.of(part))).collect()
+}
+
+/// The pairs of faces round an edge that have material between them: a face that has it on the side to which angles grow, and the
+/// next one that has it on the other side.
+fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
+    let at = |v: u32| soup.positions[v as usize];
+    let Some(axis) = (at(to) - at(from)).try_normalize() else { return Vec::new() };
+    // Away from the edge, and whether the face runs from its first end to its second; nothing of faces without area.
+    let spoke = |face: u32| {
+        let corners = soup.triangles[face as usize];
+        let k = corners.iter().position(|v| *v != from && *v != to)?;
+        let over = at(corners[k]) - at(from);
+        let out = (over - axis * over.dot(axis)).try_normalize()?;
+        Some((out, corners[(k + 1) % 3] == from))
+    };
+    let spokes: Vec<(u32, DVec3, bool)> =
+        faces.iter().filter_map(|face| spoke(*face).map(|(out, up)| (*face, out, up))).collect();
+    let Some(zero) = spokes.first().map(|spoke| spoke.1) else { return Vec::new() };
+    let quarter = axis.cross(zero);
+    let half = std::f64::consts::PI;
+    let mut round: Vec<(f64, bool, u32)> = Vec::with_capacity(spokes.len());
+    for (face, out, up) in &spokes {
+        let angle = atan2(out.dot(quarter), out.dot(zero));
+        round.push((if angle > half - IN_PLANE { angle - 2.0 * half } else { angle }, *up, *face));
+    }
+    round.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // In one plane, what is closed comes before what begins. Of faces that lie on each other, that of the first part is the nearest to
+    // what it encloses, at every edge.
+    let part = |face: u32| soup.triangle_part.get(face as usize).map_or(0, |part| part.0);
+    for own in round.chunk_by_mut(|a, b| b.0 - a.0 <= IN_PLANE) {
+        own.sort_by_key(|(_, up, face)| {
+            (!*up, if *up { part(*face) } else { u32::MAX - part(*face) }, *face)
+        });
+    }
+    let mut begun: Vec<u32> = Vec::new();
+    let mut pairs = Vec::new();
+    let mut left: Vec<u32> = Vec::new();
+    for (_, up, face) in round {
+        match (up, begun.last()) {
+            (false, _) => begun.push(face),
+            (true, None) => left.push(face),
+            (true, Some(_)) => pairs.extend(begun.pop().map(|first| [first, face])),
+        }
+    }
+    // Once round.
+    for face in left {
+        pairs.extend(begun.pop().map(|first| [first, face]));
+    }
+    pairs
 }
 
 /// The body of a part, by what [`bodies`] found.
@@ -43,6 +109,19 @@ impl Mesh {
     #[must_use]
     pub fn body(&self, face: u32) -> PartId {
         body_of(&self.bodies, self.face_part[face as usize])
+    }
+
+    /// The body of each face; empty if all are of one.
+    #[must_use]
+    pub fn face_bodies(&self) -> Vec<PartId> {
+        let body = |part: &PartId| body_of(&self.bodies, *part);
+        let first = self.face_part.first().map(body);
+        let parts = self.face_part.par_iter().with_min_len(GRAIN);
+        if parts.clone().all(|part| Some(body(part)) == first) {
+            Vec::new()
+        } else {
+            parts.map(body).collect()
+        }
     }
 }
 
@@ -91,5 +170,24 @@ mod tests {
         add_box(&mut soup, DVec3::ZERO, |_| 0);
         add_box(&mut soup, DVec3::splat(3.0), |_| 1);
         assert!(Mesh::build(soup).bodies.is_empty());
+    }
+
+    #[test]
+    fn of_sides_and_a_sheet_on_one_of_them_the_sides_are_one_body() {
+        // Corners of every side in another order, so that at each edge the sides come in another one, and the sheet before and after them.
+        for sheet in [0, 1, 7] {
+            for corner in 0..4 {
+                let mut soup = Soup::default();
+                add_box(&mut soup, DVec3::ZERO, |side| 1 + side + u32::from(side + 1 >= sheet && sheet > 0));
+                let [a, b, c, d] = [0, 1, 2, 3].map(|k| SIDES[2][(k + corner) % 4]);
+                soup.triangles.extend([[a, b, c], [a, c, d]]);
+                soup.triangle_part.extend([PartId(sheet); 2]);
+                let mesh = Mesh::build(soup);
+                let count =
+                    |body: PartId| (0..8).filter(|part| mesh.bodies.get(*part) == Some(&body)).count();
+                let largest = mesh.bodies.iter().map(|body| count(*body)).max();
+                assert_eq!(largest, Some(6), "{sheet} {corner} {:?}", mesh.bodies);
+            }
+        }
     }
 }

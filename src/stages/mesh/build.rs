@@ -58,7 +58,7 @@ impl Mesh {
         let of_bodies = |soup: &Soup, bodies: &[_]| {
             Extents::new(soup, origin, has_flat_faces).united(bodies, origin, soup.single_precision)
         };
-        let mut joined_parts = bodies(&soup.triangle_part, &edges);
+        let mut joined_parts = bodies(&soup, &edges);
         let mut extents = of_bodies(&soup, &joined_parts);
         let (borders, reaches) = border_vertices(&soup, &edges, &extents);
         if let Some(joined) = weld::near(&soup.positions, &borders, &reaches) {
@@ -105,7 +105,7 @@ impl Mesh {
         }
 
         soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
-        let found = bodies(&soup.triangle_part, &edges);
+        let found = bodies(&soup, &edges);
         if found != joined_parts {
             extents = of_bodies(&soup, &found);
             joined_parts = found;

@@ -26,7 +26,9 @@ pub(super) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> f
         polygon = left_of(&polygon, from, to - from);
     }
     let next = || polygon.iter().cycle().skip(1);
-    let area: f64 = polygon.iter().zip(next()).map(|(p, q)| p.perp_dot(*q)).sum();
+    // From a corner of it: where triangles only touch, nothing is left but what rounding makes.
+    let corner = polygon.first().copied().unwrap_or_default();
+    let area: f64 = polygon.iter().zip(next()).map(|(p, q)| (*p - corner).perp_dot(*q - corner)).sum();
     let around: f64 = polygon.iter().zip(next()).map(|(p, q)| p.distance(*q)).sum();
     // How far the plane of the second lies over a point of the first.
     let height = |p: &DVec2| own.dot(two[0] - (a + right * p.x + up * p.y)) / lean;
@@ -50,4 +52,34 @@ fn left_of(polygon: &[DVec2], from: DVec2, way: DVec2) -> Vec<DVec2> {
         }
     }
     left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::dice::Dice;
+
+    #[test]
+    fn triangles_that_touch_at_a_corner_or_along_an_edge_have_no_area_in_common() {
+        let mut dice = Dice::new(5);
+        for _ in 0..500 {
+            // Parallelograms round one corner, turned and moved.
+            let axes = [dice.point(1.0), dice.point(1.0), dice.point(1.0)];
+            let [x, y] = [axes[0].normalize(), axes[0].cross(axes[1]).normalize()];
+            let at = |u: f64, v: f64| axes[2] * 5.0 + x * u + y * v;
+            let one = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 2.0)];
+            for two in
+                [[at(0.0, 0.0), at(-1.0, 0.0), at(0.0, -2.0)], [at(0.0, 0.0), at(1.0, 0.0), at(0.0, -2.0)]]
+            {
+                for k in 0..3 {
+                    let turned = [two[k], two[(k + 1) % 3], two[(k + 2) % 3]];
+                    assert_eq!(
+                        [common_area(&one, &turned, 1e-6), common_area(&turned, &one, 1e-6)],
+                        [0.0; 2]
+                    );
+                }
+            }
+            assert!(common_area(&one, &[at(0.1, 0.1), at(-1.0, 0.0), at(0.0, -2.0)], 1e-6) > 0.0);
+        }
+    }
 }

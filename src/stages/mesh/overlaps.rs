@@ -34,11 +34,11 @@ pub struct Overlay {
 const NORMAL_CELL: f64 = 1.0 / 16.0;
 
 /// Planes are told apart by their distance from the middle in so many steps of the model's diagonal.
-const DISTANCE_STEPS: f64 = 4096.0;
+const DISTANCE_STEPS: f64 = 512.0;
 
 /// Surfaces whose normal rounding may turn by more than this (radians), or whose plane lies in more cells than this, are passed over.
 const MAX_TURN: f64 = 1e-2;
-const MAX_CELLS: i64 = 64;
+const MAX_CELLS: i64 = 8;
 
 /// Faces are flat neighbours only if the cosine between their normals is greater.
 const FLAT_COSINE: f32 = 0.999;

@@ -40,12 +40,14 @@ const TWIST: f64 = 4.0;
 /// be seen apart.
 const PAINTED: f32 = 1e-3;
 
-/// A side of a face that no other face has.
+/// A side of a face that no other face of the part has.
 struct Open {
     /// Its corners, in the order of the face.
     ends: [u32; 2],
     face: u32,
     part: PartId,
+    /// Whether faces of other parts have it.
+    is_shared: bool,
     /// From the first to the second.
     along: DVec3,
     length: f64,
@@ -79,20 +81,32 @@ pub(super) fn find(soup: &Soup, edges: &Edges, extents: &Extents, corners: bool)
     Found { joined, cuts }
 }
 
+/// The sides of faces that no other face of the same part has. Other parts may touch there.
 fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
-    let open = |edge: usize| {
-        let EdgeFaces::One(face) = edges.faces(edge) else { return None };
+    let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
+    let open = |edge: usize, face: u32, is_shared: bool| {
         let [a, b, c] = soup.triangles[face as usize];
         let [lo, hi] = edges.vertices[edge];
         let ends = [[a, b], [b, c], [c, a]].into_iter().find(|[p, q]| [*p.min(q), *p.max(q)] == [lo, hi])?;
         let [p, q, r] = [a, b, c].map(|v| soup.positions[v as usize]);
         let side = soup.positions[ends[1] as usize] - soup.positions[ends[0] as usize];
-        let part = soup.triangle_part.get(face as usize).copied().unwrap_or_default();
         let (along, normal) = (side.normalize_or_zero(), (q - p).cross(r - p).normalize_or_zero());
         let paint = ends.map(|v| painted(soup, face, v));
-        Some(Open { ends, face, part, along, length: side.length(), normal, paint })
+        Some(Open { ends, face, part: part(face), is_shared, along, length: side.length(), normal, paint })
     };
-    (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(open).collect()
+    let sides = |edge: usize| {
+        let (one, more) = match edges.faces(edge) {
+            EdgeFaces::One(face) => ([Some(face), None], &[][..]),
+            EdgeFaces::Two { faces: [a, b], .. } if part(a) == part(b) => ([None; 2], &[][..]),
+            EdgeFaces::Two { faces, .. } => (faces.map(Some), &[][..]),
+            EdgeFaces::Many(faces) => ([None; 2], faces),
+        };
+        let is_shared = one[0].is_none() || one[1].is_some();
+        let is_alone = |face: &u32| more.iter().filter(|other| part(**other) == part(*face)).count() == 1;
+        let alone = more.iter().copied().filter(is_alone);
+        one.into_iter().flatten().chain(alone).filter_map(move |face| open(edge, face, is_shared))
+    };
+    (0..edges.len()).into_par_iter().with_min_len(GRAIN).flat_map_iter(sides).collect()
 }
 
 fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
@@ -217,14 +231,20 @@ impl<'a> Seams<'a> {
 
     /// The corner nearest to one, if it is no farther than the sides of seams are apart and both are corners of one.
     fn mate(&self, corner: u32, edges: &Edges, extents: &Extents) -> Option<u32> {
-        let own = self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]);
+        // Corners that parts share stay together.
+        let borders = |of: u32| {
+            let edges = self.at.of(of as usize).iter().map(|k| &self.open[*k as usize]);
+            edges.filter(|edge| !edge.is_shared)
+        };
+        let mut own = borders(corner).peekable();
+        own.peek()?;
         let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
         let (reach, place) = (tolerance::SEAM_OF_PART * scale, self.place(corner));
         let mut nearest: Option<(f64, u32)> = None;
         self.places.near(place, DVec3::ZERO, reach, |other, at| {
             let apart = at.distance(place);
             let is_nearer = nearest.is_none_or(|(least, at)| (apart, other) < (least, at));
-            if other != corner && apart <= reach && is_nearer {
+            if other != corner && apart <= reach && is_nearer && borders(other).next().is_some() {
                 nearest = Some((apart, other));
             }
         });
@@ -236,8 +256,7 @@ impl<'a> Seams<'a> {
             let end = usize::from(a.ends[1] == p);
             b.ends[1 - end] == q && a.faces_across(b) && a.goes_on(end as f64, b.paint[1 - end])
         };
-        let others = || self.at.of(other as usize).iter().map(|k| &self.open[*k as usize]);
-        (!is_strip && own.into_iter().any(|a| others().any(|b| meets(a, b)))).then_some(other)
+        (!is_strip && own.any(|a| borders(other).any(|b| meets(a, b)))).then_some(other)
     }
 
     /// The corners that cut an open edge, in order along it.
@@ -252,7 +271,8 @@ impl<'a> Seams<'a> {
             let [from, to, at] = [-opposite, own.along * own.length - opposite, way - opposite];
             from.cross(at).dot(own.normal) > 0.0 && at.cross(to).dot(own.normal) > 0.0
         };
-        let sagitta = self.sagitta(own);
+        // Where other parts touch there is a vertex wherever the surface of the part has one.
+        let sagitta = if own.is_shared { DVec3::ZERO } else { self.sagitta(own) };
         let reach = least.max(sagitta.length()).min(height / NEARER);
         let aside = least.max(sagitta.length() / TWIST);
         let mut cuts: Vec<Cut> = Vec::new();

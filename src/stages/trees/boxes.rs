@@ -15,6 +15,7 @@ use rayon::prelude::*;
 
 use super::eight_boxes::{EightBoxes, GridBox, Places, Probe, WIDTH};
 use super::fine_box::{FINE_FIELD, FineBox, LAST_FINE};
+use crate::mesh::PartId;
 
 /// Boxes of some triangles of a mesh, in an eight-fold tree.
 #[derive(Debug, Clone)]
@@ -84,12 +85,11 @@ impl BoxTree {
         Self { cells, faces, fine, levels }
     }
 
-    /// Calls `visit` for triangles with others whose boxes overlap theirs and that have no vertex
-    /// in common with them, every pair in one call, and returns what the calls pushed. `triangles` are those
-    /// that the tree was made of.
+    /// Calls `visit` for triangles with others whose boxes overlap theirs and that are no neighbours of theirs, every pair in one call,
+    /// and returns what the calls pushed. `faces` are those that the tree was made of.
     ///
     /// Works in parallel; the order of the result does not depend on the number of threads.
-    pub fn overlaps<T, F>(&self, triangles: &[[u32; 3]], visit: F) -> Vec<T>
+    pub fn overlaps<T, F>(&self, faces: Faces, visit: F) -> Vec<T>
     where
         T: Send,
         F: Fn(u32, &[u32], &mut Vec<T>) + Sync,
@@ -103,7 +103,7 @@ impl BoxTree {
                 let mut found = Vec::new();
                 let mut search = Search::default();
                 for group in task * GROUPS_PER_TASK..((task + 1) * GROUPS_PER_TASK).min(groups) {
-                    self.search_group(triangles, group, &mut search, &visit, &mut found);
+                    self.search_group(faces, group, &mut search, &visit, &mut found);
                 }
                 found
             })
@@ -179,7 +179,7 @@ impl BoxTree {
     /// Visits the triangles of one group with all that overlap them and come later on the curve.
     fn search_group<T>(
         &self,
-        all: &[[u32; 3]],
+        all: Faces,
         group: usize,
         search: &mut Search,
         visit: &impl Fn(u32, &[u32], &mut Vec<T>),
@@ -229,27 +229,46 @@ impl BoxTree {
         }
     }
 
-    /// Adds the faces at some places of a leaf that share no vertex with the triangle of a rank and overlap it
+    /// Adds the faces at some places of a leaf that are no neighbours of the triangle of a rank and overlap it
     /// on the fine grid as well.
     #[inline]
-    fn add_strangers(
-        &self,
-        triangles: &[[u32; 3]],
-        rank: usize,
-        leaf: usize,
-        places: Places,
-        near: &mut Vec<u32>,
-    ) {
+    fn add_strangers(&self, all: Faces, rank: usize, leaf: usize, places: Places, near: &mut Vec<u32>) {
         if places == Places(0) {
             return;
         }
-        let (own, own_box) = (triangles[self.faces[rank] as usize], self.fine[rank]);
+        let (own_face, own_box) = (self.faces[rank], self.fine[rank]);
+        let own = all.triangles[own_face as usize];
         for other in places.map(|place| leaf * WIDTH + place) {
             let face = self.faces[other];
-            if own_box.overlaps(self.fine[other]) && !share_a_vertex(own, triangles[face as usize]) {
+            if !own_box.overlaps(self.fine[other]) {
+                continue;
+            }
+            let shares = share_a_vertex(own, all.triangles[face as usize]);
+            if !(shares && all.are_joined(own_face, face)) {
                 near.push(face);
             }
         }
+    }
+}
+
+/// Triangles, and to which bodies they belong.
+#[derive(Debug, Clone, Copy)]
+pub struct Faces<'a> {
+    /// Vertices of each.
+    pub triangles: &'a [[u32; 3]],
+    /// The body of each, or empty if there is only one.
+    pub bodies: &'a [PartId],
+}
+
+impl Faces<'_> {
+    /// Whether two faces with a vertex in common are neighbours: of one body, or with an edge in common. Bodies may touch at a vertex
+    /// and pass through each other all the same.
+    #[inline]
+    pub(super) fn are_joined(&self, a: u32, b: u32) -> bool {
+        let (own, other) = (self.triangles[a as usize], self.triangles[b as usize]);
+        self.bodies.is_empty()
+            || self.bodies[a as usize] == self.bodies[b as usize]
+            || own.iter().filter(|v| other.contains(v)).count() > 1
     }
 }
 

@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::boxes::{BoxTree, share_a_vertex};
+use super::boxes::{BoxTree, Faces, share_a_vertex};
 use super::fine_box::FineBox;
 use super::intersect::{
     IntersectionCurves, IntersectionInput, Pair, bounds, intersections_of_parts, join, pairs_in, pairs_of,
@@ -186,13 +186,15 @@ impl<'a> Cut<'a> {
             }
         });
         near.retain(|other| around.overlaps(other.own_box));
+        let all = Faces { triangles: self.finer.triangles, bodies: self.finer.bodies };
         let first = near.len();
         near.extend(pieces.iter().map(|face| piece(*face)));
         for k in first..near.len() {
             let own = near[k];
-            let meets = |other: &&Near| {
-                own.own_box.overlaps(other.own_box) && !share_a_vertex(own.vertices, other.vertices)
+            let are_neighbours = |other: &Near| {
+                share_a_vertex(own.vertices, other.vertices) && all.are_joined(own.face, other.face)
             };
+            let meets = |other: &&Near| own.own_box.overlaps(other.own_box) && !are_neighbours(other);
             others.clear();
             others.extend(near[..first].iter().chain(&near[k + 1..]).filter(meets).map(|other| other.face));
             if !others.is_empty() {
@@ -229,8 +231,12 @@ mod tests {
             // A row of triangles, each of which meets the next few; two of three are cut into two to four pieces.
             let middles: Vec<DVec3> = (0..40).map(|k| DVec3::X * 0.3 * f64::from(k)).collect();
             let (positions, triangles_before) = triangles(seed, &middles);
-            let before =
-                IntersectionInput { positions: &positions, triangles: &triangles_before, active: &[] };
+            let before = IntersectionInput {
+                positions: &positions,
+                triangles: &triangles_before,
+                active: &[],
+                bodies: &[],
+            };
             let search = PairSearch::new(&before, |_| PairTolerance::of_exact(1.0));
 
             let is_whole = |face: &u32| (*face as u64 + seed).is_multiple_of(3);
@@ -244,7 +250,8 @@ mod tests {
             let positions: Vec<DVec3> = positions.iter().copied().chain(more).collect();
             let whole = hosts[..kept].iter().map(|host| triangles_before[*host as usize]);
             let after: Vec<[u32; 3]> = whole.chain(of_pieces.iter().map(|t| t.map(|v| v + first))).collect();
-            let finer = IntersectionInput { positions: &positions, triangles: &after, active: &[] };
+            let finer =
+                IntersectionInput { positions: &positions, triangles: &after, active: &[], bodies: &[] };
 
             let curves = search
                 .curves_of_finer(&finer, Hosts { faces: &hosts, kept }, |_| PairTolerance::of_exact(1.0));

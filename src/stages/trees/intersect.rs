@@ -13,8 +13,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::boxes::BoxTree;
-use super::triangle_pair::{Common, End, Feature, PairTolerance, Touch, Triangle, cross_beyond};
+use super::boxes::{BoxTree, Faces};
+use super::triangle_pair::{Along, Common, End, Feature, PairTolerance, Touch, Triangle, cross_beyond};
+use crate::mesh::PartId;
 
 /// The triangles to look at.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +26,8 @@ pub struct IntersectionInput<'a> {
     pub triangles: &'a [[u32; 3]],
     /// Whether each triangle may take part; empty: all do.
     pub active: &'a [bool],
+    /// The body of each triangle, or empty if there is only one: those of one body that have a vertex in common are never compared.
+    pub bodies: &'a [PartId],
 }
 
 /// Curves along which triangles pass through each other.
@@ -49,7 +52,7 @@ pub struct IntersectionSegment {
 
 /// Finds where triangles strictly pass through each other.
 ///
-/// Triangles with a common vertex are neighbours and never reported; nor are overlaps in one
+/// Triangles of one body with a common vertex are neighbours and never reported; nor are overlaps in one
 /// plane, triangles that touch from one side, and contacts shorter than
 /// [`OVERLAP_OF_PART`](crate::math::tolerance::OVERLAP_OF_PART) of the diagonal of the box
 /// around all triangles, which count as one part. A vertex in the other plane is no obstacle where the other
@@ -75,7 +78,7 @@ pub fn intersections_of_parts(
     join(&find_pairs(input, low, high, tolerance))
 }
 
-/// All pairs of triangles without common vertices that have something in common, sorted; `low`
+/// All pairs of triangles that are no neighbours and have something in common, sorted; `low`
 /// and `high` are the corners of a box around them.
 pub(super) fn find_pairs(
     input: &IntersectionInput,
@@ -83,7 +86,7 @@ pub(super) fn find_pairs(
     high: DVec3,
     tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> Vec<Pair> {
-    let IntersectionInput { positions, triangles, active } = *input;
+    let IntersectionInput { positions, triangles, active, .. } = *input;
     pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, tolerance)
 }
 
@@ -93,8 +96,9 @@ pub(super) fn pairs_in(
     input: &IntersectionInput,
     tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> Vec<Pair> {
-    let mut pairs = tree
-        .overlaps(input.triangles, |face, others, found| pairs_of(input, face, others, &tolerance, found));
+    let faces = Faces { triangles: input.triangles, bodies: input.bodies };
+    let mut pairs =
+        tree.overlaps(faces, |face, others, found| pairs_of(input, face, others, &tolerance, found));
     pairs.par_sort_unstable_by_key(|pair| pair.faces);
     pairs
 }
@@ -172,7 +176,7 @@ pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
     let mut namings = Vec::new();
     let mut end_count = 0;
     let mut segments = Vec::new();
-    let passing = passing_edges(pairs);
+    let (passing, crossed) = (passing_edges(pairs), crossed_edges(pairs));
     for &Pair { faces, common } in pairs {
         let (ends, step) = match common {
             Common::Segment(ends) => (ends, 1),
@@ -190,6 +194,18 @@ pub(super) fn join(pairs: &[Pair]) -> IntersectionCurves {
                 name_end(ends[0], other, end_count, &mut namings);
                 name_end(ends[1], other, end_count + 1, &mut namings);
                 (touch.ends, 1)
+            }
+            Common::Along(along) => {
+                let Some(all) = crossed.get(&sorted(&along)).filter(|all| all[0].faces == faces) else {
+                    continue;
+                };
+                for pair in &all[1..] {
+                    let ends = pair.common.ends();
+                    let is_turned = gap(&along.ends[0], &ends[1]) < gap(&along.ends[0], &ends[0]);
+                    name_end(ends[usize::from(is_turned)], pair.faces, end_count, &mut namings);
+                    name_end(ends[usize::from(!is_turned)], pair.faces, end_count + 1, &mut namings);
+                }
+                (along.ends, 1)
             }
         };
         if step == 1 {
@@ -264,6 +280,58 @@ fn passing_edges(pairs: &[Pair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
         Some((key, [below.min(above), below.max(above)]))
     };
     sides.into_iter().filter_map(both).collect()
+}
+
+/// The pairs of edges that lie along each other where two surfaces pass through each other, with the four pairs of faces at them in
+/// their order.
+fn crossed_edges(pairs: &[Pair]) -> FxHashMap<[Feature; 2], Vec<Pair>> {
+    let mut found: FxHashMap<[Feature; 2], Vec<Pair>> = FxHashMap::default();
+    for pair in pairs {
+        if let Common::Along(along) = &pair.common {
+            found.entry(sorted(along)).or_default().push(*pair);
+        }
+    }
+    found.retain(|_, own| come_by_turns(own));
+    found
+}
+
+/// The edges of two faces that lie along each other, the lesser first.
+fn sorted(along: &Along) -> [Feature; 2] {
+    let [a, b] = along.edges;
+    [a.min(b), a.max(b)]
+}
+
+/// Whether two faces have each of two edges, and those of the one come by turns with those of the other round the line. No two of them lie
+/// in one plane: such pairs have nothing in common.
+fn come_by_turns(pairs: &[Pair]) -> bool {
+    let mut sides: [Vec<(u32, DVec3)>; 2] = Default::default();
+    for Pair { faces, common } in pairs {
+        let Common::Along(along) = common else { continue };
+        for k in 0..2 {
+            let own = &mut sides[usize::from(along.edges[k] > along.edges[1 - k])];
+            if own.iter().all(|(face, _)| *face != faces[k]) {
+                own.push((faces[k], along.away[k]));
+            }
+        }
+    }
+    let (4, [[(_, first), (_, second)], others @ [_, _]]) =
+        (pairs.len(), sides.each_ref().map(Vec::as_slice))
+    else {
+        return false;
+    };
+    let quarter = first.cross(others[0].1).normalize_or_zero().cross(*first);
+    let angle = |way: &DVec3| {
+        let angle = crate::math::function::atan2(way.dot(quarter), way.dot(*first));
+        if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
+    };
+    let is_between = |way: &DVec3| angle(way) < angle(second);
+    is_between(&others[0].1) != is_between(&others[1].1)
+}
+
+/// How far two ends are apart.
+fn gap(one: &End, other: &End) -> f64 {
+    let place = |end: &End| end.iter().flatten().next().map(|piercing| piercing.point);
+    place(one).zip(place(other)).map_or(f64::INFINITY, |(a, b)| a.distance(b))
 }
 
 /// Adds all names of the end of the common part of two faces.

@@ -28,7 +28,8 @@ impl<'a> Tracer<'a> {
     pub fn pairs_among(&self, active: &[bool]) -> Vec<[u32; 2]> {
         let Mesh { positions, triangles, .. } = self.mesh;
         let (middle, radius) = self.mesh.extents.ball();
-        let input = IntersectionInput { positions, triangles, active };
+        let bodies = self.mesh.face_bodies();
+        let input = IntersectionInput { positions, triangles, active, bodies: &bodies };
         let tolerance = |face: u32| PairTolerance::of_part(self.mesh.extent(FaceId(face)));
         let pairs = find_pairs(&input, middle - radius, middle + radius, tolerance);
         pairs.iter().map(|pair| pair.faces).collect()
@@ -70,7 +71,8 @@ impl<'a> Tracer<'a> {
 
     fn are_neighbours(&self, a: u32, b: u32) -> bool {
         let corners = self.mesh.triangles[b as usize];
-        self.mesh.triangles[a as usize].iter().any(|v| corners.contains(v))
+        let common = self.mesh.triangles[a as usize].iter().filter(|v| corners.contains(v)).count();
+        common > 1 || common == 1 && self.mesh.body(a) == self.mesh.body(b)
     }
 
     /// The face itself and those in which its surface goes on at one end of a segment.

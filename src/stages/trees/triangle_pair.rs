@@ -186,6 +186,9 @@ pub enum Common {
     Point([End; 2]),
     /// An edge of one triangle that lies in the other. The surfaces cross there if the next triangle at the edge lies on the other side.
     Touch(Touch),
+    /// An edge of one triangle that lies along one of the other. The surfaces cross there if their triangles at these edges come by turns
+    /// round the line.
+    Along(Along),
 }
 
 impl Common {
@@ -195,6 +198,7 @@ impl Common {
         match self {
             Self::Segment(ends) | Self::Point(ends) => *ends,
             Self::Touch(touch) => touch.ends,
+            Self::Along(along) => along.ends,
         }
     }
 }
@@ -210,6 +214,17 @@ pub struct Touch {
     pub is_of_second: bool,
     /// Whether the triangle with the edge lies on the side of the other one's normal.
     pub is_above: bool,
+}
+
+/// The common part of an edge of each of two triangles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along {
+    /// From its first to its last end along the cross product of the normals.
+    pub ends: [End; 2],
+    /// The edges of both, lesser vertex first.
+    pub edges: [Feature; 2],
+    /// Which way each triangle lies from the line, square to it: unit vectors.
+    pub away: [DVec3; 2],
 }
 
 /// Where two triangles without common vertices strictly pass through each other, if they do.
@@ -235,10 +250,6 @@ pub(super) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
     let a_distances = b.distances(&a.corners, b_length, tolerance)?;
     let a_edge = edge_in_plane(a_distances);
     let a_crossings = crossings(a, a_distances, a_edge)?;
-    if a_edge.is_some() && b_edge.is_some() {
-        return None;
-    }
-
     let along = (a.normal / a_length).cross(b.normal / b_length);
     let sine = along.length();
     if sine <= PARALLEL_SINE {
@@ -258,15 +269,25 @@ pub(super) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
         [(meet || a_is_inner).then_some(a.1), (meet || !a_is_inner).then_some(b.1)]
     };
     let ends = [end(a_first, b_first, a_first.0 >= b_first.0), end(a_last, b_last, a_last.0 <= b_last.0)];
+    let edge = |own: &Triangle, third: usize| {
+        let [v, w] = [own.vertices[(third + 1) % 3], own.vertices[(third + 2) % 3]];
+        [v.min(w), v.max(w)]
+    };
+    if let (Some(a_third), Some(b_third)) = (a_edge, b_edge) {
+        let away = |own: &Triangle, third: usize| {
+            let way = own.corners[third] - own.corners[(third + 1) % 3];
+            (way - direction * way.dot(direction)).normalize_or_zero()
+        };
+        let (edges, away) = ([edge(a, a_third), edge(b, b_third)], [away(a, a_third), away(b, b_third)]);
+        return (length > tolerance.overlap).then_some(Common::Along(Along { ends, edges, away }));
+    }
     let touch = match (a_edge, b_edge) {
         (Some(side), _) => Some((a, a_distances, side, false)),
         (_, Some(side)) => Some((b, b_distances, side, true)),
         _ => None,
     };
     if let Some((own, distances, third, is_of_second)) = touch {
-        let [v, w] = [own.vertices[(third + 1) % 3], own.vertices[(third + 2) % 3]];
-        let touch =
-            Touch { ends, edge: [v.min(w), v.max(w)], is_of_second, is_above: distances[third] > 0.0 };
+        let touch = Touch { ends, edge: edge(own, third), is_of_second, is_above: distances[third] > 0.0 };
         return (length > tolerance.overlap).then_some(Common::Touch(touch));
     }
     if length > tolerance.overlap {

@@ -12,37 +12,32 @@ pub struct Known {
     pub why: &'static str,
 }
 
-const JUDGED_ALONE: &str = "bodies touch along an edge: where both have its vertices it is judged by all its faces, else by those of \
-    each body, so that contour, crease, border and material change places";
-const TANGENT: &str = "a face touches a round body along an edge, at an angle that rounding puts on either side of the limit for contact";
-const EDGE_ON: &str = "round bodies are flush in a plane that is seen nearly edge-on, and rounding decides which has the outline";
-const NEEDLE: &str = "a face without area lies along the edge that a decal and its wall share";
-const SHORT: &str = "the pen of a stretch shorter than about 40 px depends on the size of the picture";
+const EDGE_ON: &str = "a face is seen edge-on, or nearer to that than rounding may turn it: which side of it is seen, and which of its lines, \
+    which coincide in the image, is in front, is known of the exact file alone (view/edge_on.rs, viewmap/hosted_line.rs)";
+const ROUND_SHORT: &str = "on a rounded surface a stretch shorter than 12 px has the pen of its neighbours, and rounding moves the end of \
+    one across that limit (chain/silhouette.rs)";
+const SHORT: &str = "a stretch with background beside it has the pen of its neighbours if it is shorter than 12 px on a rounded surface, or \
+    than 4 px on a sharp edge: pens keep their width in a larger picture (chain/silhouette.rs)";
+const SHALLOW: &str = "a diagonal of one body lies along a crease of less than 40 degrees of another one, where creases are found at edges of \
+    two faces only (shape/hard_edges.rs); or a stretch is shorter than 4 px";
+const FAR: &str =
+    "at a million units the coordinates have seven digits, and the file counts as one in single precision";
 
 const fn known(relation: Relation, in_short_run: usize, share: f64, why: &'static str) -> Known {
     Known { relation, in_short_run, share, why }
 }
 
-pub const KNOWN: [Known; 19] = [
-    known(Relation::AllReversed, 0, 0.05, JUDGED_ALONE),
-    known(Relation::SomeReversed, 0, 0.05, JUDGED_ALONE),
-    known(Relation::ObjSixDecimals, 0, 0.1, TANGENT),
-    known(Relation::ObjSinglePrecision, 0, 0.1, TANGENT),
-    known(Relation::Stl, 2, 0.15, EDGE_ON),
-    known(Relation::PlySinglePrecision, 0, 0.1, TANGENT),
-    known(Relation::GlbNested, 2, 0.2, EDGE_ON),
-    known(Relation::GlbSinglePrecision, 1, 0.1, TANGENT),
-    known(Relation::Turned, 1, 0.05, JUDGED_ALONE),
-    known(Relation::Scaled, 0, 0.05, JUDGED_ALONE),
-    known(Relation::MovedFar, 0, 0.15, JUDGED_ALONE),
-    known(Relation::Mirrored, 0, 0.05, JUDGED_ALONE),
-    known(Relation::FacesSplit, 0, 0.1, JUDGED_ALONE),
-    known(Relation::VertexInEdge, 3, 0.4, JUDGED_ALONE),
-    known(Relation::VertexInEdgeOneSided, 5, 0.3, JUDGED_ALONE),
-    known(Relation::OtherDiagonals, 0, 0.06, JUDGED_ALONE),
-    known(Relation::FacesWithoutArea, 2, 0.1, NEEDLE),
-    known(Relation::OtherOrder, 0, 0.06, JUDGED_ALONE),
-    known(Relation::PictureSize, 2, 0.15, SHORT),
+pub const KNOWN: [Known; 10] = [
+    known(Relation::ObjSixDecimals, 0, 0.04, EDGE_ON),
+    known(Relation::ObjSinglePrecision, 0, 0.04, EDGE_ON),
+    known(Relation::Stl, 2, 0.04, EDGE_ON),
+    known(Relation::PlySinglePrecision, 0, 0.03, EDGE_ON),
+    known(Relation::GlbNested, 1, 0.02, ROUND_SHORT),
+    known(Relation::GlbSinglePrecision, 0, 0.03, EDGE_ON),
+    known(Relation::MovedFar, 0, 0.04, FAR),
+    known(Relation::VertexInEdge, 0, 0.04, SHALLOW),
+    known(Relation::VertexInEdgeOneSided, 0, 0.04, SHALLOW),
+    known(Relation::PictureSize, 1, 0.15, SHORT),
 ];
 
 /// What is known of a relation.

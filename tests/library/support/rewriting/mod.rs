@@ -13,7 +13,7 @@ pub mod known;
 pub mod model;
 pub mod pens;
 pub mod relations;
-mod shapes;
+pub mod shapes;
 pub mod table;
 mod text_files;
 pub mod trial;

@@ -1,0 +1,132 @@
+//! Bodies that touch along an edge, or lie in one plane, have the same lines however their files cut them: whether they share the vertices
+//! of the edge, which of their faces come first, and where faces without area lie.
+
+use glam::{DAffine3, DVec3};
+use ligne::scene::Camera;
+
+use crate::support::rewriting::body::{Body, Face};
+use crate::support::rewriting::model::{Model, Sight};
+use crate::support::rewriting::relations::Relation;
+use crate::support::rewriting::shapes::cuboid;
+use crate::support::rewriting::trial::Trial;
+
+/// Views in which faces are seen from above, from below, edge-on, and in perspective.
+fn sights() -> [Sight; 6] {
+    [
+        Sight::Angles(30.0, 35.0),
+        Sight::Angles(200.0, -25.0),
+        Sight::AlongAxis(DVec3::X),
+        Sight::AlongAxis(DVec3::Y),
+        Sight::AlongAxis(DVec3::NEG_Z),
+        Sight::Direction { to_eye: DVec3::new(-0.5, 0.3, -0.8), is_parallel: false },
+    ]
+}
+
+/// A box with its least corner at a place.
+fn box_at(low: [f64; 3], size: [f64; 3], colour: u8) -> Body {
+    cuboid(DVec3::from(size)).moved(|p| p + DVec3::from(low)).coloured(colour)
+}
+
+/// A flat polygon.
+fn sheet(corners: &[[f64; 3]], colour: u8) -> Body {
+    let points = corners.iter().map(|corner| DVec3::from(*corner)).collect();
+    let face = Face { corners: (0..corners.len() as u32).collect(), colour };
+    Body { points, faces: vec![face], ..Body::default() }
+}
+
+/// Draws the bodies from all sides and compares each drawing with that of the same bodies written in other ways.
+fn assert_alike(bodies: &[Body], relations: &[Relation], seeds: std::ops::Range<u64>) {
+    let (mut made, mut faults) = (0, Vec::new());
+    for sight in sights() {
+        for seed in seeds.clone() {
+            let bodies =
+                bodies.iter().zip(0..).map(|(body, k)| Body { part: format!("part{k}"), ..body.clone() });
+            let mut model = Model {
+                kind: "bodies that touch".into(),
+                seed,
+                bodies: bodies.collect(),
+                world_from_model: DAffine3::IDENTITY,
+                sight,
+                camera: Camera::three_quarter(),
+            };
+            model.frame();
+            let trials = Trial::run_all(&model, relations);
+            made += trials.len();
+            let found = trials.iter().filter(|trial| trial.outcome.is_fault());
+            faults.extend(found.map(|fault| format!("{sight:?}, {}", fault.words())));
+        }
+    }
+    assert!(faults.is_empty(), "{} of {made} differ\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Ways to write edges that change which bodies share their vertices, and which of their faces come first.
+const OF_EDGES: [Relation; 5] = [
+    Relation::VertexInEdge,
+    Relation::VertexInEdgeOneSided,
+    Relation::Turned,
+    Relation::OtherOrder,
+    Relation::GroupPerFace,
+];
+
+#[test]
+fn boxes_that_touch_along_an_edge_are_drawn_alike_with_and_without_common_vertices() {
+    let ground = box_at([0.0; 3], [4.0, 1.0, 2.0], 0);
+    // On its whole top, on half of it so that a corner lies in the middle of its edge, beside it, and on an edge alone.
+    for (low, size, colour) in [
+        ([0.0, 1.0, 0.0], [4.0, 2.0, 2.0], 0),
+        ([0.0, 1.0, 0.0], [2.0, 2.0, 2.0], 1),
+        ([4.0, 0.0, 0.0], [1.0, 1.0, 2.0], 1),
+        ([4.0, 1.0, 0.0], [2.0, 1.0, 2.0], 0),
+    ] {
+        assert_alike(&[ground.clone(), box_at(low, size, colour)], &OF_EDGES, 0..2);
+    }
+}
+
+#[test]
+fn a_sheet_along_the_edge_of_a_box_is_drawn_alike_with_and_without_common_vertices() {
+    let ground = box_at([0.0; 3], [4.0, 1.0, 2.0], 0);
+    let side = [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0], [0.0, 1.0, 2.0], [0.0, 1.0, 0.0]];
+    let flap = [[0.0, 1.0, 0.0], [4.0, 1.0, 0.0], [4.0, 2.5, -1.0], [0.0, 2.5, -1.0]];
+    let level = [[0.0, 1.0, 0.0], [0.0, 1.0, 2.0], [-3.0, 1.0, 2.0], [-3.0, 1.0, 0.0]];
+    for corners in [side, flap, level] {
+        assert_alike(&[ground.clone(), sheet(&corners, 1)], &OF_EDGES, 0..3);
+    }
+}
+
+#[test]
+fn an_edge_in_two_planes_in_which_surfaces_overlap_parts_materials_in_either() {
+    // Blocks of other colours are let into the top and into a side, and jut out beyond the edge between these.
+    let bodies = [
+        box_at([0.0; 3], [2.0, 2.0, 2.0], 0),
+        box_at([1.0, 1.0, 0.5], [2.0, 1.0, 0.5], 1),
+        box_at([0.5, 1.0, 1.25], [1.5, 2.0, 0.5], 2),
+    ];
+    let relations =
+        [Relation::Turned, Relation::OtherOrder, Relation::OtherDiagonals, Relation::VertexInEdgeOneSided];
+    assert_alike(&bodies, &relations, 0..4);
+}
+
+#[test]
+fn faces_without_area_along_a_decal_change_no_line() {
+    let wall = box_at([0.0; 3], [4.0, 3.0, 1.0], 0);
+    let decal = sheet(&[[0.5, 0.5, 1.0], [1.5, 0.5, 1.0], [1.5, 2.5, 1.0], [0.5, 2.5, 1.0]], 1);
+    assert_alike(&[wall, decal], &[Relation::FacesWithoutArea], 0..24);
+}
+
+#[test]
+fn a_bent_sheet_has_the_same_lines_seen_along_one_half_whichever_way_it_is_wound() {
+    let corners = [
+        [0.0, 0.0, 0.0],
+        [3.0, 0.0, 0.0],
+        [3.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [3.0, 2.0, 1.5],
+        [0.0, 2.0, 1.5],
+    ];
+    let mut bent = sheet(&corners, 0);
+    bent.faces =
+        [[0, 1, 2, 3], [3, 2, 4, 5]].map(|corners| Face { corners: corners.to_vec(), colour: 0 }).to_vec();
+    let relations =
+        [Relation::AllReversed, Relation::ObjSinglePrecision, Relation::GlbSinglePrecision, Relation::Turned];
+    assert_alike(&[bent], &relations, 0..3);
+}
