@@ -56,6 +56,7 @@ mod paint_words;
 mod pair;
 mod path_data;
 mod picture;
+mod pictures;
 mod pixels;
 mod plain;
 mod read;

@@ -6,6 +6,7 @@ use kurbo::BezPath;
 
 use super::ink::Ink;
 use super::label::Label;
+use super::pictures::Drawn;
 use crate::drawing::Unit;
 
 /// What a shape is.
@@ -55,6 +56,10 @@ pub struct Picture {
     pub shapes: Arc<[Shape]>,
     /// The file's text.
     pub svg: Arc<str>,
+    /// What the renderer paints.
+    pub(super) drawn: Arc<Drawn>,
+    /// What the file holds that is not read.
+    pub(super) unread: Arc<[&'static str]>,
 }
 
 impl Picture {
