@@ -12,6 +12,8 @@ const PIXELS_OF_TOLERANCE: f64 = 4.0;
 /// A spot has at least this many pixels to a px, so that thin lines are seen, and at most this many in all on a side.
 const MIN_FINE_SCALE: f64 = 4.0;
 const MAX_CORE: f64 = 256.0;
+/// Extremes within this are sought pixel by pixel.
+const MAX_SMALL: usize = 2;
 /// Pixels within more than this are sought by their extremes, not one by one.
 const MAX_DISC: usize = 6;
 /// How much more of a pixel an edge covers that went by one pixel: both sides of a thin line, along a diagonal.
@@ -44,7 +46,8 @@ impl Coarse {
 
 /// Compares two pictures; `reach`: the tolerance in pixels.
 pub(super) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coarse {
-    let differences: Vec<u8> = a.iter().zip(b).map(|(a, b)| difference(*a, *b)).collect();
+    let of = |(a, b): (&Pixel, &Pixel)| if a == b { 0 } else { difference(*a, *b) };
+    let differences: Vec<u8> = a.iter().zip(b).map(of).collect();
     let mut excess = vec![0u8; differences.len()];
     if differences.iter().all(|difference| *difference <= ALIKE) {
         return Coarse { difference: differences, excess };
@@ -52,34 +55,63 @@ pub(super) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
     // A whole pixel or more: any colour between those that are near is like.
     let radius = (reach.ceil() as usize).max(1);
     let share = if EDGE * reach < 1.0 { EDGE * reach } else { 1.0 };
-    for channel in 0..4 {
-        let [a, b] = [a, b].map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
-        for (own, other) in [(&a, &b), (&b, &a)] {
-            let least = squares(other, columns, radius, u8::min);
-            let most = squares(other, columns, radius, u8::max);
-            for (index, excess) in excess.iter_mut().enumerate() {
-                let (value, there) = (own[index], other[index]);
-                if value.abs_diff(there) <= ALIKE {
-                    continue;
+    let beyond = |value: u8, there: u8, least: u8, most: u8| {
+        if value.abs_diff(there) <= ALIKE {
+            return 0;
+        }
+        let beyond = match share < 1.0 {
+            true => f64::from(value.abs_diff(there)) - share * f64::from(most - least),
+            false => f64::from(value.saturating_sub(most).max(least.saturating_sub(value))),
+        };
+        (beyond - f64::from(ALIKE)).clamp(0.0, 255.0).ceil() as u8
+    };
+    if radius <= MAX_SMALL {
+        // Few pixels differ.
+        let rows = differences.len() / columns.max(1);
+        for index in (0..differences.len()).filter(|index| differences[*index] > ALIKE) {
+            let (column, row) = (index % columns, index / columns);
+            let xs = column.saturating_sub(radius)..=(column + radius).min(columns - 1);
+            let ys = row.saturating_sub(radius)..=(row + radius).min(rows - 1);
+            for (own, other) in [(a, b), (b, a)] {
+                let (mut least, mut most) = ([255u8; 4], [0u8; 4]);
+                for y in ys.clone() {
+                    for pixel in &other[y * columns + xs.start()..=y * columns + xs.end()] {
+                        for (k, value) in channels(*pixel).into_iter().enumerate() {
+                            least[k] = least[k].min(value);
+                            most[k] = most[k].max(value);
+                        }
+                    }
                 }
-                let contrast = f64::from(most[index] - least[index]);
-                let allowed = f64::from(ALIKE) + share * contrast;
-                let beyond = match share < 1.0 {
-                    true => f64::from(value.abs_diff(there)) - allowed,
-                    false => f64::from(
-                        value.saturating_sub(most[index]).max(least[index].saturating_sub(value)),
-                    ) - f64::from(ALIKE),
-                };
-                *excess = (*excess).max(beyond.clamp(0.0, 255.0).ceil() as u8);
+                let (values, there) = (channels(own[index]), channels(other[index]));
+                let own = (0..4).map(|k| beyond(values[k], there[k], least[k], most[k])).max();
+                excess[index] = excess[index].max(own.unwrap_or(0));
+            }
+        }
+    } else {
+        for channel in 0..4 {
+            let [a, b] =
+                [a, b].map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
+            for (own, other) in [(&a, &b), (&b, &a)] {
+                let least = squares(other, columns, radius, u8::min);
+                let most = squares(other, columns, radius, u8::max);
+                for (index, excess) in excess.iter_mut().enumerate() {
+                    *excess = (*excess).max(beyond(own[index], other[index], least[index], most[index]));
+                }
             }
         }
     }
     // A gap or an overlap narrower than the tolerance, where two fills meet, is a thin line: around it nothing differs.
     let gap = (255.0 * std::f64::consts::SQRT_2 * reach.min(1.0)).min(255.0) as u8;
-    let rest = squares(&differences, columns, 1, u8::min);
-    for ((excess, difference), rest) in excess.iter_mut().zip(&differences).zip(rest) {
-        if rest <= ALIKE && *difference <= gap {
-            *excess = 0;
+    let is_alone = |index: usize| {
+        let row = |at: usize| differences.get(at.saturating_sub(1)..=at + 1).unwrap_or_default();
+        [index.checked_sub(columns), Some(index), Some(index + columns)]
+            .into_iter()
+            .flatten()
+            .any(|at| row(at).iter().any(|difference| *difference <= ALIKE))
+    };
+    for index in 0..excess.len() {
+        if excess[index] > 0 && differences[index] <= gap && is_alone(index) {
+            excess[index] = 0;
         }
     }
     Coarse { difference: differences, excess }
