@@ -96,8 +96,15 @@ impl Groups {
 }
 
 /// An ink as a key: its numbers by their bits.
-type InkKey =
-    (super::ink::Paint, u64, Vec<u64>, [u8; 4], Option<u16>, u16, Option<Arc<super::pictures::stand_in::Details>>);
+type InkKey = (
+    super::ink::Paint,
+    u64,
+    Vec<u64>,
+    [u8; 4],
+    Option<u16>,
+    u16,
+    Option<Arc<super::pictures::stand_in::Details>>,
+);
 
 fn key(ink: &Ink) -> InkKey {
     let dash = ink.dash.iter().map(|length| length.to_bits()).collect();

@@ -153,7 +153,8 @@ impl Ink {
             if ink.is_crisp { "sharp" } else { "smooth" }.to_owned()
         });
         note("hidden by", self.invisibility != other.invisibility, &|ink| ink.invisibility.to_string());
-        let detail = |ink: &Self, name: &str| ink.details.as_ref().and_then(|details| details.get(name).cloned());
+        let detail =
+            |ink: &Self, name: &str| ink.details.as_ref().and_then(|details| details.get(name).cloned());
         let names = [self, other].into_iter().filter_map(|ink| ink.details.as_ref());
         let names: BTreeSet<&String> = names.flat_map(|details| details.keys()).collect();
         for name in names {

@@ -97,7 +97,8 @@ pub(super) fn rewrite(document: &Document) -> Result<Markup, Error> {
     if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
         markup.unit = Unit::Mm;
     }
-    markup.has_stand_ins = document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
+    markup.has_stand_ins =
+        document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
     let mut cascade = Cascade::of(document);
     markup.has_more = cascade.has_more;
     markup.element(root, &Around::default(), &mut cascade)?;

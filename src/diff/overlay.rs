@@ -97,9 +97,8 @@ impl Diff {
     fn legend(&self, view: View) -> Vec<(&'static str, Colour)> {
         let has = |is: &dyn Fn(&Finding) -> bool| self.findings.iter().any(is);
         let ink = |path: &BezPath| !path.elements().is_empty();
-        let same_place = |f: &Finding| {
-            matches!(f.verdict, Verdict::Restyled | Verdict::Restacked | Verdict::Picture)
-        };
+        let same_place =
+            |f: &Finding| matches!(f.verdict, Verdict::Restyled | Verdict::Restacked | Verdict::Picture);
         let elsewhere =
             |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
         let rows: [(&str, Colour, bool); 5] = [

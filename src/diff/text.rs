@@ -21,7 +21,9 @@ impl Diff {
         let same = match self.same_at {
             Some(Stage::Bytes) => Some("the same bytes".to_owned()),
             Some(Stage::Structure) => Some("the same marks".to_owned()),
-            Some(Stage::Picture) => Some(format!("the same picture within {}", unit.length(self.tolerance_px))),
+            Some(Stage::Picture) => {
+                Some(format!("the same picture within {}", unit.length(self.tolerance_px)))
+            }
             Some(Stage::Geometry) => Some(format!("the same within {}", unit.length(self.tolerance_px))),
             None if self.findings.is_empty() => {
                 Some(format!("the same marks within {}", unit.length(self.tolerance_px)))
@@ -103,7 +105,11 @@ impl Diff {
             // Whole parts come and go with all that they have.
             let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
             let kind = !alone && finding.kind == ShapeKind::Line;
-            let changes: &[Change] = if matches!(finding.verdict, Verdict::Moved | Verdict::Picture) { &[] } else { &finding.changes };
+            let changes: &[Change] = if matches!(finding.verdict, Verdict::Moved | Verdict::Picture) {
+                &[]
+            } else {
+                &finding.changes
+            };
             groups
                 .entry((finding.verdict, finding.label.part.as_deref(), changes, kind))
                 .or_default()

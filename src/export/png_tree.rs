@@ -41,6 +41,8 @@ pub(crate) struct Painter<'a> {
     pub look: Option<&'a dyn Fn(&usvg::Path) -> Look>,
     /// Whether groups have no opacity, mask or filter.
     pub plain: bool,
+    /// Whether lines are outlined more precisely than a person sees.
+    pub precise: bool,
 }
 
 impl Painter<'_> {
@@ -192,7 +194,8 @@ impl Painter<'_> {
         };
         let stroked = |pixmap: &mut PixmapMut| {
             let Some((ink, stroke)) = &stroke else { return };
-            let scale = tiny_skia::PathStroker::compute_resolution_scale(&to);
+            let precision = if self.precise { 8.0 } else { 1.0 };
+            let scale = tiny_skia::PathStroker::compute_resolution_scale(&to) * precision;
             let near = self.near(path, stroke);
             let dashed = stroke.dash.as_ref().map(|dash| path.data().dash(dash, scale));
             let line = match &dashed {

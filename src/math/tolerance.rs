@@ -251,7 +251,11 @@ pub const FLAT_OF_CURVE: f64 = 1e-7;
 pub const JOIN_OF_TOLERANCE: f64 = 1.0;
 
 /// Marks that were written in two ways may lie this far apart (px) in one picture, if the tolerance is not narrower.
-pub const FINEST_VETO_PX: f64 = 0.25;
+pub const COARSEST_VETO_PX: f64 = 0.25;
+
+/// Differences that geometry has not found are sought in pictures where they are wider than this (px): twice the second decimal, as
+/// most drawings are written. Renderers are not more precise.
+pub const FINEST_SEEN_PX: f64 = 0.02;
 
 /// Distances of two lines are found within this part of themselves.
 pub const DISTANCE_SHARE: f64 = 2e-3;

@@ -33,7 +33,12 @@ impl<'a> Canvas<'a> {
     pub fn coarse(&self, columns: usize, rows: usize, scale: f64) -> Option<Vec<PremultipliedColorU8>> {
         let mut pixmap = Pixmap::new(u32::try_from(columns).ok()?, u32::try_from(rows).ok()?)?;
         let to = Transform::from_scale(scale as f32, scale as f32);
-        self.paint(Painter::default(), self.picture.drawn.smooth(), to, &mut pixmap);
+        self.paint(
+            Painter { precise: true, ..Painter::default() },
+            self.picture.drawn.smooth(),
+            to,
+            &mut pixmap,
+        );
         Some(pixmap.pixels().to_vec())
     }
 

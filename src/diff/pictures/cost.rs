@@ -7,8 +7,8 @@ use usvg::{Group, Node, Paint};
 use crate::diff::picture::Picture;
 
 /// Pixels to a px, and pixels of the longer side of small drawings.
-const SCALE: f64 = 2.0;
-const MIN_SIDE: f64 = 400.0;
+const SCALE: f64 = 1.0;
+const MIN_SIDE: f64 = 600.0;
 /// Pixels of a picture, and of one of its sides.
 const MAX_PIXELS: f64 = 1.5e6;
 const MAX_SIDE: f64 = 16_000.0;
@@ -95,8 +95,10 @@ impl Cost {
 
     /// The part of a box that lies on the page, px².
     fn area(&self, bounds: Rect) -> f64 {
-        let within = |from: f32, to: f32, size: f64| (f64::from(to).min(size) - f64::from(from).max(0.0)).max(0.0);
-        within(bounds.left(), bounds.right(), self.page[0]) * within(bounds.top(), bounds.bottom(), self.page[1])
+        let within =
+            |from: f32, to: f32, size: f64| (f64::from(to).min(size) - f64::from(from).max(0.0)).max(0.0);
+        within(bounds.left(), bounds.right(), self.page[0])
+            * within(bounds.top(), bounds.bottom(), self.page[1])
     }
 }
 

@@ -30,10 +30,10 @@ use super::finding::Finding;
 use super::groups::Groups;
 use super::ignore::Ignore;
 use super::picture::Picture;
-use crate::math::tolerance::FINEST_VETO_PX;
+use crate::math::tolerance::{COARSEST_VETO_PX, FINEST_SEEN_PX};
 
 /// Pixels that are rasterised anew to look closely, at most, for each of both questions.
-const MAX_CLOSE_PIXELS: usize = 96_000_000;
+const MAX_CLOSE_PIXELS: usize = 64_000_000;
 /// Spots that were found to differ before the other candidates are believed.
 const MAX_PROOFS: usize = 48;
 
@@ -48,11 +48,14 @@ pub(super) enum Decision {
 }
 
 /// Compares the pictures of two drawings, given what geometry found.
-pub(super) fn decide(pictures: [&Picture; 2], findings: &[Finding], groups: &Groups, ignore: Ignore) -> Decision {
-    let [width, height] = [
-        pictures[0].width.min(pictures[1].width),
-        pictures[0].height.min(pictures[1].height),
-    ];
+pub(super) fn decide(
+    pictures: [&Picture; 2],
+    findings: &[Finding],
+    groups: &Groups,
+    ignore: Ignore,
+) -> Decision {
+    let [width, height] =
+        [pictures[0].width.min(pictures[1].width), pictures[0].height.min(pictures[1].height)];
     let outlined = pictures.iter().any(|picture| picture.shapes.iter().any(|shape| shape.ink.outlined));
     if ignore.widths && outlined {
         // Lines of varying width have no other picture than with their width.
@@ -61,15 +64,13 @@ pub(super) fn decide(pictures: [&Picture; 2], findings: &[Finding], groups: &Gro
     let Some(scale) = cost::scale(pictures, [width, height]) else { return Decision::Unknown };
     let canvases = pictures.map(|picture| Canvas::new(picture, ignore));
     let (columns, rows) = ((width * scale).ceil() as usize, (height * scale).ceil() as usize);
-    let (a, b) = rayon::join(
-        || canvases[0].coarse(columns, rows, scale),
-        || canvases[1].coarse(columns, rows, scale),
-    );
+    let (a, b) =
+        rayon::join(|| canvases[0].coarse(columns, rows, scale), || canvases[1].coarse(columns, rows, scale));
     let (Some(a), Some(b)) = (a, b) else { return Decision::Unknown };
     // Marks with tolerances of their own may have gone as far as the widest of these.
     let tolerances = || groups.groups.iter().map(|group| group.tolerance);
-    let widest = tolerances().fold(0.0, f64::max);
-    let finest = tolerances().fold(FINEST_VETO_PX, f64::min);
+    let widest = tolerances().fold(FINEST_SEEN_PX, f64::max);
+    let finest = tolerances().fold(COARSEST_VETO_PX, f64::min);
     let coarse = likeness::coarse([&a, &b], columns, widest * scale);
     if !coarse.has_any() {
         return Decision::Same;

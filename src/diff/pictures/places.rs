@@ -14,7 +14,7 @@ use crate::math::colour::Colour;
 /// Pixels of a side of a tile.
 const TILE: usize = 16;
 /// Pixels of a tile that are looked at closely, at most: the most different ones.
-const MAX_PIXELS: usize = 8;
+const MAX_PIXELS: usize = 4;
 /// What lies this near to a mark that differs is explained by it, px: borders are smooth, and drawn at whole pixels.
 const NEAR_PX: f64 = 2.0;
 /// Long segments are taken in pieces of this length, px, of which there are at most so many.
@@ -52,8 +52,7 @@ impl Places {
         rows: usize,
         scale: f64,
     ) -> Self {
-        let mut places =
-            Self { columns, rows, scale, explained: vec![false; columns * rows], claims: false };
+        let mut places = Self { columns, rows, scale, explained: vec![false; columns * rows], claims: false };
         let mut widths: FxHashMap<&Label, f64> = FxHashMap::default();
         for shape in pictures.iter().flat_map(|picture| picture.shapes.iter()) {
             let width = widths.entry(&*shape.label).or_default();
@@ -100,7 +99,9 @@ impl Places {
         let to = |value: f64, count: usize| (value * self.scale).clamp(0.0, count as f64) as usize;
         let (left, right) = (to(rect.x0, self.columns), to(rect.x1 + 1.0 / self.scale, self.columns));
         for row in to(rect.y0, self.rows)..to(rect.y1 + 1.0 / self.scale, self.rows) {
-            if let Some(pixels) = self.explained.get_mut(row * self.columns + left..row * self.columns + right) {
+            if let Some(pixels) =
+                self.explained.get_mut(row * self.columns + left..row * self.columns + right)
+            {
                 pixels.fill(true);
             }
         }

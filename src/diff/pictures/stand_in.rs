@@ -241,7 +241,9 @@ impl Text {
             let mut inner = props.clone();
             // Where the letters of one piece stand is said for that piece.
             inner.retain(|name, _| !matches!(*name, "x" | "y" | "dx" | "dy" | "rotate"));
-            for (name, value) in said(child, &declared, &INHERITED).into_iter().chain(said(child, &declared, &OWN)) {
+            for (name, value) in
+                said(child, &declared, &INHERITED).into_iter().chain(said(child, &declared, &OWN))
+            {
                 // Lines under and through a text go on through all of it.
                 match inner.get_mut(name) {
                     Some(outer) if name.starts_with("text-decoration") => {
@@ -252,7 +254,8 @@ impl Text {
                     _ => drop(inner.insert(name, value)),
                 }
             }
-            let href = child.attributes().find(|a| a.name() == "href").filter(|_| child.has_tag_name("textPath"));
+            let href =
+                child.attributes().find(|a| a.name() == "href").filter(|_| child.has_tag_name("textPath"));
             if let Some(href) = href {
                 inner.insert("href", referred(child, href.value().trim_start_matches('#')));
             }
@@ -267,11 +270,14 @@ impl Text {
 
 /// Without what has its initial value, or shows nothing.
 fn details(props: &Props) -> Details {
-    let initial = |name: &str| INHERITED.iter().chain(&OWN).find(|(known, _)| *known == name).map(|(_, value)| *value);
+    let initial =
+        |name: &str| INHERITED.iter().chain(&OWN).find(|(known, _)| *known == name).map(|(_, value)| *value);
     let stroked = props.get("stroke").is_some_and(|stroke| stroke != "none");
     let shown = |(name, value): &(&&str, &String)| {
         let counts = stroked || !name.starts_with("stroke");
-        counts && initial(name) != Some(value.as_str()) && !matches!(**name, "visibility" | "image-rendering" | "color")
+        counts
+            && initial(name) != Some(value.as_str())
+            && !matches!(**name, "visibility" | "image-rendering" | "color")
     };
     let mut details: Details =
         props.iter().filter(shown).map(|(name, value)| ((*name).to_owned(), value.clone())).collect();

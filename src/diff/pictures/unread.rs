@@ -110,12 +110,22 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
         let (name, value) = (attribute.name(), attribute.value());
         if name == "href" {
             let elsewhere = !value.trim().starts_with('#') && !value.trim().is_empty();
-            if elsewhere && matches!(node.tag_name().name(), "use" | "feImage" | "linearGradient" | "radialGradient" | "pattern" | "textPath") {
+            if elsewhere
+                && matches!(
+                    node.tag_name().name(),
+                    "use" | "feImage" | "linearGradient" | "radialGradient" | "pattern" | "textPath"
+                )
+            {
                 found.insert("elements of other files");
             }
             continue;
         }
-        if value.contains("url(") && value.split("url(").skip(1).any(|rest| !rest.trim_start_matches(['"', '\'', ' ']).starts_with('#')) {
+        if value.contains("url(")
+            && value
+                .split("url(")
+                .skip(1)
+                .any(|rest| !rest.trim_start_matches(['"', '\'', ' ']).starts_with('#'))
+        {
             found.insert("elements of other files");
         }
         // Numbers are most of a file.
@@ -139,6 +149,8 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
 
 /// Whether a function is in a value: `lab(` is not in `oklab(`.
 fn is_in(value: &str, word: &str) -> bool {
-    let start = |at: usize| value.get(..at).is_none_or(|before| !before.ends_with(|c: char| c.is_ascii_alphanumeric()));
+    let start = |at: usize| {
+        value.get(..at).is_none_or(|before| !before.ends_with(|c: char| c.is_ascii_alphanumeric()))
+    };
     value.match_indices(word).any(|(at, _)| start(at))
 }
