@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
-use super::pictures::stand_in::Details;
+use super::pictures::stand_in::{Details, LINKED};
 use crate::drawing::{Cap, Join};
 use crate::math::colour::Colour;
 use crate::math::tolerance::{DASH_PX, WIDTH_PX};
@@ -29,9 +29,6 @@ impl Paint {
         }
     }
 }
-
-/// What stands for a picture in a file of its own begins so; its target follows between backticks.
-pub(super) const LINKED: &str = "the picture linked as `";
 
 impl Paint {
     /// The target, of a picture that is linked.

@@ -13,6 +13,7 @@ mod default_drawings;
 mod default_properties;
 mod diff;
 mod diff_hostile;
+mod diff_pictures;
 mod diff_properties;
 mod dry_brush;
 mod dual_tree;

@@ -9,10 +9,12 @@ use rustc_hash::FxHasher;
 use usvg::roxmltree::Node;
 
 use crate::diff::cascade::Cascade;
-use crate::diff::ink::LINKED;
 use crate::diff::sheet::{self, Declaration};
 use crate::error::Error;
 use crate::math::colour::Colour;
+
+/// What stands for a picture in a file of its own begins so; its target follows between backticks.
+pub(in crate::diff) const LINKED: &str = "the picture linked as `";
 
 /// Properties and their values, without those that have their initial value.
 pub(in crate::diff) type Details = BTreeMap<String, String>;
