@@ -21,6 +21,7 @@ use super::motion::Motion;
 use super::movers;
 use super::outlines;
 use super::pair::Side;
+use super::parts::{self, Renamed};
 use super::picture::{Picture, ShapeKind};
 use super::pictures::{self, Decision};
 use super::pixels;
@@ -90,6 +91,15 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     ignore.labels |= lost.is_some();
     let page = page(before, after);
     let mut compared = one(pictures, &options.tolerances, ignore);
+    let renamed = (!ignore.labels).then(|| parts::renamed(pictures, &compared.findings)).flatten();
+    let (pictures, names) = match &renamed {
+        Some(Renamed { before, findings }) => ([before, pictures[1]], findings.clone()),
+        None => (pictures, Vec::new()),
+    };
+    let [before, after] = pictures;
+    if renamed.is_some() {
+        compared = one(pictures, &options.tolerances, ignore);
+    }
     let looked = look(pictures, &compared, options, ignore);
     diff.pictures_unknown = matches!(looked, Decision::Unknown);
     let seen = match looked {
@@ -110,7 +120,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let together = whole::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
     if let Some(motion) = together {
         let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
-        return settle(diff, pictures, [page.into_iter().collect(), seen], compared, vec![cause], lost);
+        return settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, vec![cause], lost);
     }
     let whole = (compared.findings.len() > 2)
         .then(|| whole::whole(pictures, &compared.rest, default_px(before, after)))
@@ -123,7 +133,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         compared.movers.clear();
         causes.push(cause);
     }
-    settle(diff, pictures, [page.into_iter().collect(), seen], compared, causes, lost);
+    settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
 }
 
 /// What the pictures say. The renderer follows references of references: it has room for them, and may give up.

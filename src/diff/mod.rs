@@ -54,6 +54,7 @@ mod outlines;
 mod overlay;
 mod paint_words;
 mod pair;
+mod parts;
 mod path_data;
 mod picture;
 mod pictures;
