@@ -40,8 +40,13 @@ pub(super) struct Mover {
 pub(super) fn causes(diff: &Diff, movers: &[Mover]) -> Vec<Cause> {
     let mut free: Vec<bool> = vec![true; diff.findings.len()];
     let mut causes = Vec::new();
-    causes.extend(gone(diff, &mut free));
-    causes.extend(moved(diff, movers, &mut free));
+    match from_another_side(diff, movers, &mut free) {
+        Some(eye) => causes.push(eye),
+        None => {
+            causes.extend(gone(diff, &mut free));
+            causes.extend(moved(diff, movers, &mut free));
+        }
+    }
     causes.extend(recoloured(diff, &mut free));
     causes.extend(pens(diff, &mut free));
     causes
@@ -152,6 +157,23 @@ fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
     lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
 }
 
+/// The sentence that the eye moved, where parts go more ways than parts go by themselves: all that is elsewhere follows from that.
+fn from_another_side(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Option<Cause> {
+    let mut ways: Vec<Vec<&Mover>> = Vec::new();
+    for mover in movers {
+        match ways.iter_mut().find(|others| others.iter().all(|other| same_way(other, mover))) {
+            Some(others) => others.push(mover),
+            None => ways.push(vec![mover]),
+        }
+    }
+    if ways.len() <= MOST_WAYS {
+        return None;
+    }
+    let findings = take(diff, free, |f| !matches!(f.verdict, Verdict::Page | Verdict::Relabelled));
+    let sentence = format!("the drawing is seen from another side: {}", whose(diff, &findings));
+    Some(Cause { verdict: Verdict::Moved, sentence, findings })
+}
+
 /// Parts that moved, those that went the same way together, with what changed where they were and are.
 fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     let unit = diff.unit();
@@ -172,14 +194,6 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
             }
             None => causes.push((vec![mover], findings.clone())),
         }
-    }
-    // Where everything goes its own way, the eye moved: all that is elsewhere follows from that.
-    if causes.len() > MOST_WAYS {
-        let mut findings: Vec<usize> = own.iter().flat_map(|(_, findings)| findings.iter().copied()).collect();
-        findings.extend(take(diff, free, |f| !matches!(f.verdict, Verdict::Page | Verdict::Picture)));
-        findings.sort_unstable();
-        let sentence = format!("the drawing is seen from another side: {}", whose(diff, &findings));
-        return vec![Cause { verdict: Verdict::Moved, sentence, findings }];
     }
     let tell = |(movers, mut findings): (Vec<&Mover>, Vec<usize>)| {
         let places: Vec<Rect> = movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
@@ -279,8 +293,9 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
 fn pens(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     let mut groups: BTreeMap<&[Change], Vec<usize>> = BTreeMap::new();
     for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| free[*index]) {
-        let is_pen =
-            |change: &Change| matches!(change.what.as_str(), "width" | "dash" | "ends" | "corners" | "colour");
+        let is_pen = |change: &Change| {
+            matches!(change.what.as_str(), "width" | "dash" | "ends" | "corners" | "colour")
+        };
         if finding.verdict == Verdict::Restyled
             && finding.kind == ShapeKind::Line
             && !finding.changes.is_empty()

@@ -99,6 +99,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let [before, after] = pictures;
     if renamed.is_some() {
         compared = one(pictures, &options.tolerances, ignore);
+        diff.totals = Totals::of(before, after);
     }
     let looked = look(pictures, &compared, options, ignore);
     diff.pictures_unknown = matches!(looked, Decision::Unknown);
@@ -120,7 +121,14 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let together = whole::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
     if let Some(motion) = together {
         let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
-        return settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, vec![cause], lost);
+        return settle(
+            diff,
+            pictures,
+            [page.into_iter().chain(names).collect(), seen],
+            compared,
+            vec![cause],
+            lost,
+        );
     }
     let whole = (compared.findings.len() > 2)
         .then(|| whole::whole(pictures, &compared.rest, default_px(before, after)))

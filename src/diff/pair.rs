@@ -123,14 +123,17 @@ fn congruent(
         left.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         left
     });
-    let tolerance = |index: usize| groups.groups.get(sides[0].chains[index].group).map_or(0.0, |g| g.tolerance);
+    let tolerance =
+        |index: usize| groups.groups.get(sides[0].chains[index].group).map_or(0.0, |g| g.tolerance);
     let mut of: [BTreeMap<usize, Vec<usize>>; 2] = Default::default();
     let mut pairs = Vec::new();
     for (length, old) in &left[0] {
         // Where each of many points goes by the tolerance, the length changes little.
         let off = 4.0 * tolerance(*old) + 1e-3 * length;
         let from = left[1].partition_point(|(other, _)| *other < length - off);
-        for (_, new) in left[1].iter().skip(from).take(MAX_CONGRUENT).take_while(|(other, _)| *other <= length + off) {
+        for (_, new) in
+            left[1].iter().skip(from).take(MAX_CONGRUENT).take_while(|(other, _)| *other <= length + off)
+        {
             let (a, b) = (&sides[0].chains[*old], &sides[1].chains[*new]);
             if groups.likeness(a.group, b.group) != Some(Likeness::Same) {
                 continue;
