@@ -15,6 +15,7 @@ mod diff;
 mod diff_hostile;
 mod diff_pictures;
 mod diff_properties;
+mod diff_sentences;
 mod dry_brush;
 mod dual_tree;
 mod dxf;
