@@ -250,7 +250,7 @@ fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Or
 fn details(origin: &Origin, to_page: Affine) -> Option<Arc<Details>> {
     let mut details = origin.details.clone();
     let [a, b, ..] = to_page.as_coeffs();
-    let turn = b.atan2(a).to_degrees();
+    let turn = crate::math::function::atan2(b, a).to_degrees();
     if turn.abs() > 0.01 {
         details.insert("turned".to_owned(), format!("{}°", ink::trimmed((turn * 100.0).round() / 100.0)));
     }

@@ -42,7 +42,7 @@ pub(in crate::diff) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) ->
     if names.is_empty() {
         return None;
     }
-    let of_part = |shape: &Shape| Some(names.get_key_value(shape.label.part.as_ref()?)?);
+    let of_part = |shape: &Shape| names.get_key_value(shape.label.part.as_ref()?);
     let mut places: BTreeMap<&Arc<str>, (Rect, f64, usize)> = BTreeMap::new();
     let mut shapes = pictures[0].shapes.to_vec();
     for shape in &mut shapes {

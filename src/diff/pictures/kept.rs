@@ -69,11 +69,14 @@ pub(in crate::diff) fn without_picture(
     left
 }
 
+/// The paints of the marks of one place, label and kind.
+type Inks<'a> = FxHashMap<(PlaceKey, &'a Label, ShapeKind), Vec<Counted<'a>>>;
+
 /// What both pictures have, found when it is asked for.
 #[derive(Default)]
 struct Kept<'a> {
     parts: Option<[FxHashSet<&'a str>; 2]>,
-    inks: Option<FxHashMap<(PlaceKey, &'a Label, ShapeKind), Vec<Counted<'a>>>>,
+    inks: Option<Inks<'a>>,
 }
 
 /// How many marks of either picture have one paint.
@@ -101,7 +104,7 @@ impl<'a> Kept<'a> {
             return false;
         }
         let inks = self.inks.get_or_insert_with(|| {
-            let mut inks: FxHashMap<_, Vec<Counted>> = FxHashMap::default();
+            let mut inks: Inks = FxHashMap::default();
             for (side, picture) in pictures.into_iter().enumerate() {
                 for shape in picture.shapes.iter() {
                     let Shape { path, label, kind, ink, .. } = shape;

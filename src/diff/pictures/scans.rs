@@ -13,7 +13,7 @@ fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
             forth[index] = pick(forth[index - 1], values[index]);
         }
         let mirrored = count - 1 - index;
-        if (mirrored + 1) % window != 0 {
+        if !(mirrored + 1).is_multiple_of(window) {
             back[mirrored] = pick(back[mirrored + 1], values[mirrored]);
         }
     }
