@@ -96,6 +96,9 @@ kinds! {
     a_blot_at_a_drawn_line: differs,
         r##"<path data-axis="M20 50H120" data-width="2" fill="#333" d="M20 49H120V51H20z"/>"##,
         r##"<path data-axis="M20 50H120" data-width="2" fill="#333" d="M20 49H120V51H20zM60 20H90V50H60z"/>"##;
+    a_colour_of_the_next_number: differs,
+        r##"<circle cx="60" cy="50" r="30" fill="#336699"/>"##,
+        r##"<circle cx="60" cy="50" r="30" fill="#346699"/>"##;
     a_straight_line_that_is_filled: same,
         r##"<line x1="20" y1="30" x2="120" y2="90" stroke="#333" fill="#333"/>"##,
         r##"<line x1="20" y1="30" x2="120" y2="90" stroke="#333" fill="none"/>"##;

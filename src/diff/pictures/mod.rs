@@ -72,8 +72,10 @@ pub(super) fn decide(
     let widest = tolerances().fold(FINEST_SEEN_PX, f64::max);
     let finest = tolerances().fold(COARSEST_VETO_PX, f64::min);
     let coarse = likeness::coarse([&a, &b], columns, widest * scale);
+    // A colour of another number is another colour, however little it differs.
+    let faint = places::is_recoloured(findings, &coarse, columns, scale);
     if !coarse.has_any() {
-        return Decision::Same;
+        return if faint { Decision::Differs(Vec::new()) } else { Decision::Same };
     }
     let places = Places::new(findings, pictures, columns, rows, scale);
     let mut unexplained = Vec::new();
@@ -86,6 +88,9 @@ pub(super) fn decide(
     }
     if !unexplained.is_empty() {
         return Decision::Differs(places.findings(&unexplained, [&a, &b]));
+    }
+    if faint {
+        return Decision::Differs(Vec::new());
     }
     if !places.has_claims() {
         return Decision::Same;

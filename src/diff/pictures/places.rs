@@ -20,6 +20,8 @@ const NEAR_PX: f64 = 2.0;
 /// Long segments are taken in pieces of this length, px, of which there are at most so many.
 const PIECE_PX: f64 = 12.0;
 const MAX_PIECES: usize = 400_000;
+/// Marks of another colour that are looked at, at most: the first one that is seen ends the search.
+const MAX_RECOLOURED: usize = 1000;
 
 /// A square of pixels that has candidates.
 #[derive(Debug)]
@@ -196,6 +198,25 @@ impl Places {
             )
         }
     }
+}
+
+/// Whether a mark that has another flat colour is seen: some pixel of its place differs at all.
+pub(super) fn is_recoloured(findings: &[Finding], coarse: &Coarse, columns: usize, scale: f64) -> bool {
+    let is_flat = |colour: &str| colour.starts_with('#') && !colour.contains(' ');
+    let recoloured = findings.iter().filter(|finding| {
+        let flat = |change: &Change| change.what == "colour" && is_flat(&change.old) && is_flat(&change.new);
+        finding.verdict == Verdict::Restyled && finding.changes.iter().any(flat)
+    });
+    let rows = coarse.difference.len() / columns.max(1);
+    let pixel = |value: f64, count: usize| (value * scale).clamp(0.0, count as f64) as usize;
+    recoloured.take(MAX_RECOLOURED).any(|finding| {
+        let Place { x, y, width, height } = finding.place;
+        let [left, right] = [x, x + width + 1.0 / scale].map(|value| pixel(value, columns));
+        (pixel(y, rows)..pixel(y + height + 1.0 / scale, rows)).any(|row| {
+            let line = coarse.difference.get(row * columns + left..row * columns + right);
+            line.is_some_and(|line| line.iter().any(|difference| *difference > 0))
+        })
+    })
 }
 
 /// A colour of a picture: `#cc3333`, `#cc3333 at 40 %`, `nothing`.
