@@ -1,15 +1,17 @@
 //! [`Cause`]: what many findings follow from, in one sentence: a part that moved, a material in another colour, a part
 //! that is gone with what came to light behind it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use kurbo::{Rect, Vec2};
 
-use super::finding::{Cause, Diff, Finding, Place, Verdict};
+use super::finding::{Cause, Change, Diff, Finding, Place, Verdict};
 use super::motion::Motion;
 use super::picture::ShapeKind;
+use super::text::changed;
 use super::words::Written;
+use crate::drawing::LayerKind;
 
 /// What lies behind a part is seen this far (px), and this part of its size, round it: lines have widths, fills are cut there.
 const ROUND_PART_PX: f64 = 4.0;
@@ -38,9 +40,15 @@ pub(super) struct Mover {
 pub(super) fn causes(diff: &Diff, movers: &[Mover]) -> Vec<Cause> {
     let mut free: Vec<bool> = vec![true; diff.findings.len()];
     let mut causes = Vec::new();
-    causes.extend(gone(diff, &mut free));
-    causes.extend(moved(diff, movers, &mut free));
+    match from_another_side(diff, movers, &mut free) {
+        Some(eye) => causes.push(eye),
+        None => {
+            causes.extend(gone(diff, &mut free));
+            causes.extend(moved(diff, movers, &mut free));
+        }
+    }
     causes.extend(recoloured(diff, &mut free));
+    causes.extend(pens(diff, &mut free));
     causes
 }
 
@@ -67,11 +75,25 @@ fn holds(outer: &Rect, inner: Rect) -> bool {
 
 /// Whether a finding may follow from what comes, goes or moves near: another form, or another light.
 fn may_follow(finding: &Finding) -> bool {
+    if is_of_hidden_lines(finding) {
+        return true;
+    }
     match finding.verdict {
         Verdict::Page | Verdict::Relabelled => false,
         Verdict::Restyled => finding.changes.iter().any(|change| change.what == "tone"),
         _ => true,
     }
+}
+
+/// Whether it tells of a hidden line, whose dashes are fitted anew, or of one that came to light or was hidden.
+fn is_of_hidden_lines(finding: &Finding) -> bool {
+    let hidden = LayerKind::HiddenLines.id();
+    let is_hiding = |change: &Change| match change.what.as_str() {
+        "hidden by" => true,
+        "layer" => change.old == hidden || change.new == hidden,
+        _ => false,
+    };
+    finding.label.layer.as_ref() == hidden || finding.changes.iter().any(is_hiding)
 }
 
 /// Which parts the findings are of, in words: `3 marks of `base` and 1 of `lid``.
@@ -135,6 +157,23 @@ fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
     lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
 }
 
+/// The sentence that the eye moved, where parts go more ways than parts go by themselves: all that is elsewhere follows from that.
+fn from_another_side(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Option<Cause> {
+    let mut ways: Vec<Vec<&Mover>> = Vec::new();
+    for mover in movers {
+        match ways.iter_mut().find(|others| others.iter().all(|other| same_way(other, mover))) {
+            Some(others) => others.push(mover),
+            None => ways.push(vec![mover]),
+        }
+    }
+    if ways.len() <= MOST_WAYS {
+        return None;
+    }
+    let findings = take(diff, free, |f| !matches!(f.verdict, Verdict::Page | Verdict::Relabelled));
+    let sentence = format!("the drawing is seen from another side: {}", whose(diff, &findings));
+    Some(Cause { verdict: Verdict::Moved, sentence, findings })
+}
+
 /// Parts that moved, those that went the same way together, with what changed where they were and are.
 fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     let unit = diff.unit();
@@ -156,14 +195,9 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
             None => causes.push((vec![mover], findings.clone())),
         }
     }
-    // Where everything goes its own way, the eye moved: nothing follows from a single part then.
-    let many = causes.len() > MOST_WAYS;
-    if many {
-        causes = own.into_iter().map(|(mover, findings)| (vec![mover], findings)).collect();
-    }
     let tell = |(movers, mut findings): (Vec<&Mover>, Vec<usize>)| {
         let places: Vec<Rect> = movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
-        let is_round = |f: &Finding| !many && places.iter().any(|place| holds(place, rect(f)));
+        let is_round = |f: &Finding| places.iter().any(|place| holds(place, rect(f)));
         let behind = take(diff, free, |f| may_follow(f) && is_round(f));
         let names: Vec<String> = movers.iter().take(NAMED).map(|mover| format!("`{}`", mover.part)).collect();
         let more = movers.len().saturating_sub(NAMED);
@@ -250,6 +284,34 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
         findings.iter().for_each(|index| free[*index] = false);
         let whose = whose(diff, &findings);
         let sentence = format!("{name}: colour {}{more} ({whose})", told.join(", "));
+        causes.push(Cause { verdict: Verdict::Restyled, sentence, findings });
+    }
+    causes
+}
+
+/// Lines of more than one part that have another width, dash, end or corner: one sentence for each such change.
+fn pens(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
+    let mut groups: BTreeMap<&[Change], Vec<usize>> = BTreeMap::new();
+    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| free[*index]) {
+        let is_pen = |change: &Change| {
+            matches!(change.what.as_str(), "width" | "dash" | "ends" | "corners" | "colour")
+        };
+        if finding.verdict == Verdict::Restyled
+            && finding.kind == ShapeKind::Line
+            && !finding.changes.is_empty()
+            && finding.changes.iter().all(is_pen)
+        {
+            groups.entry(&finding.changes).or_default().push(index);
+        }
+    }
+    let mut causes = Vec::new();
+    for (changes, findings) in groups {
+        let parts: BTreeSet<_> = findings.iter().map(|index| &diff.findings[*index].label.part).collect();
+        if findings.len() <= FEW || parts.len() < 2 {
+            continue;
+        }
+        findings.iter().for_each(|index| free[*index] = false);
+        let sentence = format!("the pen: {} ({})", changed(changes), whose(diff, &findings));
         causes.push(Cause { verdict: Verdict::Restyled, sentence, findings });
     }
     causes

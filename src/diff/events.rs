@@ -1,15 +1,18 @@
 //! [`Event`]: what became of one chain.
 
+use std::collections::BTreeMap;
+
 use kurbo::BezPath;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
+use super::align::align;
 use super::chain::{Chain, flatten};
 use super::cover::{Cover, Stretch};
 use super::distance::{Near, apart};
 use super::finding::Verdict;
 use super::groups::{Groups, Likeness};
-use super::pair::{Pair, Side, pairs};
+use super::pair::{Pair, Side, bounds, pairs};
 
 /// A chain of which less than this is left lies elsewhere or is gone.
 const LEFT: f64 = 0.1;
@@ -51,7 +54,50 @@ pub(super) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event
             }
         }
     }
-    events
+    recoloured(events, sides, groups)
+}
+
+/// Joins what is gone with what is new where both lie on each other and belong to one part: the mark was painted otherwise. Covers
+/// miss it where other marks lie there too.
+fn recoloured(events: Vec<Event>, sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
+    let chain = |side: usize, event: &Event| match (side, event.verdict, event.old, event.new) {
+        (0, Verdict::Removed, Some(index), _) | (1, Verdict::Added, _, Some(index)) => Some(index),
+        _ => None,
+    };
+    let key = |side: usize, index: usize| {
+        let place = bounds(&sides[side].chains[index].points);
+        [place.x0, place.y0, place.x1, place.y1].map(|value| value.round() as i64)
+    };
+    let mut waiting: BTreeMap<[i64; 4], Vec<usize>> = BTreeMap::new();
+    for (event, index) in events.iter().enumerate().filter_map(|(at, event)| Some((at, chain(0, event)?))) {
+        waiting.entry(key(0, index)).or_default().push(event);
+    }
+    let mut joined: BTreeMap<usize, usize> = BTreeMap::new();
+    for (at, new) in events.iter().enumerate().filter_map(|(at, event)| Some((at, chain(1, event)?))) {
+        let b = &sides[1].chains[new];
+        let is_one = |other: &usize| {
+            let Some(a) = chain(0, &events[*other]).map(|old| &sides[0].chains[old]) else { return false };
+            let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
+            groups.likeness(a.group, b.group) == Some(Likeness::Ink)
+                && (a.length() - b.length()).abs() <= 4.0 * tolerance
+                && align(a, b).largest <= tolerance
+        };
+        let list = waiting.get_mut(&key(1, new));
+        if let Some(other) =
+            list.and_then(|list| list.iter().position(is_one).map(|place| list.remove(place)))
+        {
+            joined.insert(at, other);
+        }
+    }
+    let gone: FxHashSet<usize> = joined.values().copied().collect();
+    let old_of: BTreeMap<usize, Option<usize>> =
+        joined.iter().map(|(at, other)| (*at, events[*other].old)).collect();
+    let all = events.into_iter().enumerate().filter(|(at, _)| !gone.contains(at));
+    all.map(|(at, event)| match old_of.get(&at) {
+        Some(old) => Event { verdict: Verdict::Restyled, old: *old, ..event },
+        None => event,
+    })
+    .collect()
 }
 
 /// A mark that has another form or another place.

@@ -30,11 +30,13 @@ pub enum Verdict {
     Relabelled,
     /// The page itself has another size.
     Page,
+    /// It looks different, though all marks were found as they were.
+    Picture,
 }
 
 impl Verdict {
     /// All verdicts, the gravest first.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Page,
         Self::Removed,
         Self::Added,
@@ -42,6 +44,7 @@ impl Verdict {
         Self::Moved,
         Self::Restyled,
         Self::Restacked,
+        Self::Picture,
         Self::Relabelled,
     ];
 
@@ -57,6 +60,7 @@ impl Verdict {
             Self::Restacked => "restacked",
             Self::Relabelled => "relabelled",
             Self::Page => "page",
+            Self::Picture => "picture",
         }
     }
 }
@@ -71,6 +75,8 @@ pub enum Stage {
     Structure,
     /// Ink lies on the same places in both, within tolerance.
     Geometry,
+    /// The marks are others, and nobody sees it: one picture, drawn in two ways.
+    Picture,
 }
 
 /// One thing that is different about a mark beside its geometry.
@@ -212,6 +218,8 @@ pub struct Diff {
     pub tolerance_px: f64,
     /// Tolerances that were given for what neither drawing has.
     pub unused_tolerances: Vec<String>,
+    /// Whether the pictures could not be compared, because one takes too long to rasterise: geometry alone was.
+    pub pictures_unknown: bool,
     /// The comparison of pixels, where it was asked for.
     pub pixels: Option<PixelDiff>,
     pub(super) before: Picture,

@@ -96,10 +96,18 @@ impl Groups {
 }
 
 /// An ink as a key: its numbers by their bits.
-type InkKey = (super::ink::Paint, u64, Vec<u64>, [u8; 3], Option<u16>, u16);
+type InkKey = (
+    super::ink::Paint,
+    u64,
+    Vec<u64>,
+    [u8; 4],
+    Option<u16>,
+    u16,
+    Option<Arc<super::pictures::stand_in::Details>>,
+);
 
 fn key(ink: &Ink) -> InkKey {
     let dash = ink.dash.iter().map(|length| length.to_bits()).collect();
-    let forms = [ink.cap as u8, ink.join as u8, u8::from(ink.outlined)];
-    (ink.paint.clone(), ink.width.to_bits(), dash, forms, ink.tone, ink.invisibility)
+    let forms = [ink.cap as u8, ink.join as u8, u8::from(ink.outlined), u8::from(ink.is_crisp)];
+    (ink.paint.clone(), ink.width.to_bits(), dash, forms, ink.tone, ink.invisibility, ink.details.clone())
 }

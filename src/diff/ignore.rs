@@ -1,11 +1,16 @@
 //! [`Ignore`]: what does not count where drawings are compared.
 
+use std::sync::Arc;
+
 use super::ink::{Ink, Paint};
 use super::label::Label;
 use super::picture::Shape;
 use crate::drawing::{Cap, Join};
 use crate::error::Error;
 use crate::math::colour::Colour;
+
+/// Properties of texts that are colours.
+const COLOURS: [&str; 6] = ["fill", "stroke", "color", "opacity", "fill-opacity", "stroke-opacity"];
 
 /// What does not count.
 ///
@@ -77,6 +82,12 @@ impl Ignore {
         if self.colours && !ink.is_stand_in() {
             ink.paint = Paint::Colour(Colour::BLACK);
         }
+        if let Some(details) = ink.details.as_mut().filter(|_| self.colours) {
+            let is_colour = |name: &String| COLOURS.contains(&name.as_str());
+            if details.keys().any(is_colour) {
+                Arc::make_mut(details).retain(|name, _| !is_colour(name));
+            }
+        }
         if self.widths {
             ink.width = ink.width.min(1.0);
             if ink.width > 0.0 {
@@ -93,6 +104,7 @@ impl Ignore {
         !match what {
             "part" | "class" | "layer" | "tone" | "hidden by" => self.labels,
             "colour" => self.colours,
+            _ if COLOURS.contains(&what) => self.colours,
             "width" | "dash" | "ends" | "corners" => self.widths,
             _ => false,
         }

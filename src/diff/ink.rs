@@ -1,8 +1,10 @@
 //! [`Ink`]: how a shape is painted, in a form that can be compared.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
+use super::pictures::stand_in::{Details, LINKED};
 use crate::drawing::{Cap, Join};
 use crate::math::colour::Colour;
 use crate::math::tolerance::{DASH_PX, WIDTH_PX};
@@ -27,9 +29,6 @@ impl Paint {
         }
     }
 }
-
-/// What stands for a picture in a file of its own begins so; its target follows between backticks.
-pub(super) const LINKED: &str = "the picture linked as `";
 
 impl Paint {
     /// The target, of a picture that is linked.
@@ -73,6 +72,15 @@ pub struct Ink {
     pub tone: Option<u16>,
     /// How many surfaces hide the line.
     pub invisibility: u16,
+    /// Whether its edges are sharp on pixels (`shape-rendering`).
+    pub(super) is_crisp: bool,
+    /// Properties of a text or a picture that change its look.
+    pub(super) details: Option<Arc<Details>>,
+}
+
+/// Whether words stand for a text.
+pub(super) fn is_text(words: &str) -> bool {
+    words.starts_with("the text ")
 }
 
 impl Ink {
@@ -88,12 +96,14 @@ impl Ink {
             outlined: false,
             tone,
             invisibility: 0,
+            is_crisp: false,
+            details: None,
         }
     }
 
     /// Whether it stands for a text.
     pub(super) fn is_text(&self) -> bool {
-        matches!(&self.paint, Paint::Other(words) if words.starts_with("the text "))
+        matches!(&self.paint, Paint::Other(words) if is_text(words))
     }
 
     /// Whether it stands for a text or a picture.
@@ -107,15 +117,17 @@ impl Ink {
             && (self.width - other.width).abs() <= WIDTH_PX
             && same_dash(&self.dash, &other.dash)
             && (self.cap, self.join, self.outlined) == (other.cap, other.join, other.outlined)
-            && (self.tone, self.invisibility) == (other.tone, other.invisibility)
+            && (self.tone, self.invisibility, self.is_crisp)
+                == (other.tone, other.invisibility, other.is_crisp)
+            && self.details == other.details
     }
 
     /// What is different, each as what it is, what it was and what it became.
-    pub(super) fn changes(&self, other: &Self) -> Vec<(&'static str, String, String)> {
+    pub(super) fn changes(&self, other: &Self) -> Vec<(String, String, String)> {
         let mut changes = Vec::new();
-        let mut note = |what, differs: bool, word: &dyn Fn(&Self) -> String| {
+        let mut note = |what: &str, differs: bool, word: &dyn Fn(&Self) -> String| {
             if differs {
-                changes.push((what, word(self), word(other)));
+                changes.push((what.to_owned(), word(self), word(other)));
             }
         };
         note("colour", !self.paint.is_like(&other.paint), &|ink| ink.paint.to_string());
@@ -134,7 +146,21 @@ impl Ink {
         note("drawn as", self.outlined != other.outlined, &|ink| {
             if ink.outlined { "outline" } else { "stroke" }.to_owned()
         });
+        note("edges", self.is_crisp != other.is_crisp, &|ink| {
+            if ink.is_crisp { "sharp" } else { "smooth" }.to_owned()
+        });
         note("hidden by", self.invisibility != other.invisibility, &|ink| ink.invisibility.to_string());
+        let detail =
+            |ink: &Self, name: &str| ink.details.as_ref().and_then(|details| details.get(name).cloned());
+        let names = [self, other].into_iter().filter_map(|ink| ink.details.as_ref());
+        let names: BTreeSet<&String> = names.flat_map(|details| details.keys()).collect();
+        for name in names {
+            let [was, is] = [self, other].map(|ink| detail(ink, name));
+            if was != is {
+                let word = |value: Option<String>| value.unwrap_or_else(|| "not set".to_owned());
+                changes.push((name.clone(), word(was), word(is)));
+            }
+        }
         changes
     }
 }

@@ -26,6 +26,8 @@ struct Document<'a> {
     pixels: &'a Option<PixelDiff>,
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     unused_tolerances: &'a [String],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    not_read: Vec<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -63,6 +65,7 @@ impl Diff {
             totals: &self.totals,
             pixels: &self.pixels,
             unused_tolerances: &self.unused_tolerances,
+            not_read: if self.same_at == Some(Stage::Bytes) { Vec::new() } else { self.unread() },
         };
         // Plain numbers, texts and lists cannot fail to be written.
         serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"

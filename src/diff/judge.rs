@@ -1,5 +1,7 @@
 //! From two pictures to a [`Diff`].
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use kurbo::{Point, Rect};
 
 use super::DiffOptions;
@@ -19,7 +21,9 @@ use super::motion::Motion;
 use super::movers;
 use super::outlines;
 use super::pair::Side;
+use super::parts::{self, Renamed};
 use super::picture::{Picture, ShapeKind};
+use super::pictures::{self, Decision};
 use super::pixels;
 use super::regions;
 use super::stacking;
@@ -30,6 +34,9 @@ use super::totals::Totals;
 use super::unlabelled;
 use super::whole;
 use crate::drawing::{Length, Unit};
+
+/// Room for the recursion of the renderer over nested elements.
+const STACK_BYTES: usize = 64 << 20;
 
 /// Compares two pictures, see [`super::compare`].
 pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
@@ -43,6 +50,7 @@ pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
             .all
             .map_or_else(|| default_px(before, after), |length| length.in_unit(crate::drawing::Unit::Px)),
         unused_tolerances: options.tolerances.unused([before, after]),
+        pictures_unknown: false,
         pixels: None,
         before: before.clone(),
         after: after.clone(),
@@ -83,11 +91,44 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     ignore.labels |= lost.is_some();
     let page = page(before, after);
     let mut compared = one(pictures, &options.tolerances, ignore);
+    let renamed = (!ignore.labels).then(|| parts::renamed(pictures, &compared.findings)).flatten();
+    let (pictures, names) = match &renamed {
+        Some(Renamed { before, findings }) => ([before, pictures[1]], findings.clone()),
+        None => (pictures, Vec::new()),
+    };
+    let [before, after] = pictures;
+    if renamed.is_some() {
+        compared = one(pictures, &options.tolerances, ignore);
+        diff.totals = Totals::of(before, after);
+    }
+    let looked = look(pictures, &compared, options, ignore);
+    diff.pictures_unknown = matches!(looked, Decision::Unknown);
+    let seen = match looked {
+        Decision::Same => {
+            let found = std::mem::take(&mut compared.findings);
+            let before = found.len();
+            compared.findings = pictures::without_picture(found, pictures, ignore);
+            compared.is_one_picture = compared.findings.len() < before;
+            if compared.is_one_picture {
+                compared.movers.clear();
+            }
+            Vec::new()
+        }
+        Decision::Differs(more) => more,
+        Decision::Unknown => Vec::new(),
+    };
     // Where each mark was found to go the same way, that is what happened.
     let together = whole::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
     if let Some(motion) = together {
         let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
-        return settle(diff, pictures, page, compared, vec![cause], lost);
+        return settle(
+            diff,
+            pictures,
+            [page.into_iter().chain(names).collect(), seen],
+            compared,
+            vec![cause],
+            lost,
+        );
     }
     let whole = (compared.findings.len() > 2)
         .then(|| whole::whole(pictures, &compared.rest, default_px(before, after)))
@@ -100,20 +141,29 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         compared.movers.clear();
         causes.push(cause);
     }
-    settle(diff, pictures, page, compared, causes, lost);
+    settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
+}
+
+/// What the pictures say. The renderer follows references of references: it has room for them, and may give up.
+fn look(pictures: [&Picture; 2], compared: &Compared, options: &DiffOptions, ignore: Ignore) -> Decision {
+    let groups = Groups::new(pictures, &options.tolerances, ignore);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
+    let decide = || pictures::decide(pictures, &compared.findings, &groups, ignore);
+    let decided = pool.map(|pool| pool.install(|| catch_unwind(AssertUnwindSafe(decide))));
+    decided.ok().and_then(Result::ok).unwrap_or(Decision::Unknown)
 }
 
 /// Puts together what was found.
 fn settle(
     diff: &mut Diff,
     pictures: [&Picture; 2],
-    page: Option<Finding>,
+    more: [Vec<Finding>; 2],
     mut compared: Compared,
     mut causes: Vec<Cause>,
     lost: Option<usize>,
 ) {
     let structure = compared.rest.iter().all(Vec::is_empty) && lost.is_none();
-    diff.findings.extend(page);
+    diff.findings.extend(more.into_iter().flatten());
     diff.findings.append(&mut compared.findings);
     if let Some(side) = lost {
         let findings = unlabelled::findings(pictures[side], &diff.findings, side);
@@ -134,7 +184,11 @@ fn settle(
     let more = causes::causes(diff, &compared.movers);
     diff.causes.extend(more);
     if diff.findings.is_empty() {
-        diff.same_at = Some(if structure { Stage::Structure } else { Stage::Geometry });
+        diff.same_at = Some(match (compared.is_one_picture, structure) {
+            (true, _) => Stage::Picture,
+            (_, true) => Stage::Structure,
+            _ => Stage::Geometry,
+        });
     }
 }
 
@@ -204,6 +258,8 @@ struct Compared {
     rest: [Vec<usize>; 2],
     /// Parts that moved as a whole.
     movers: Vec<Mover>,
+    /// Whether findings were left out because both drawings look the same.
+    is_one_picture: bool,
 }
 
 fn one(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Compared {
@@ -216,7 +272,7 @@ fn one(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Comp
         (findings, movers) = unequal(pictures, &rest, &groups, ignore, &mut stayed);
     }
     findings.extend(stacking::findings(before, after, stayed));
-    Compared { findings, rest, movers }
+    Compared { findings, rest, movers, is_one_picture: false }
 }
 
 /// What became of the shapes that have no equal; those that lie where they lay are added to what stayed.

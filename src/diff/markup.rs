@@ -4,14 +4,13 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use rustc_hash::{FxHashMap, FxHasher};
-use std::hash::{Hash, Hasher};
+use rustc_hash::FxHashMap;
 use usvg::roxmltree::{Document, Node};
 
 use super::cascade::Cascade;
-use super::ink::LINKED;
 use super::label::Label;
 use super::numbers;
+use super::pictures::stand_in::{self, Details, Props};
 use super::said::said;
 use super::sheet::{self, Declaration};
 use crate::drawing::{LayerKind, Unit};
@@ -40,6 +39,10 @@ const PLACES: [&str; 16] = [
 ];
 /// Attributes whose numbers may not be too large either.
 const MEASURES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
+/// What the rectangle that stands for a text or a picture has of it: its place, and how it is seen.
+const BOX: [&str; 6] = ["id", "x", "y", "width", "height", "transform"];
+const OF_BOX: [&str; 8] =
+    ["display", "visibility", "opacity", "clip-path", "mask", "filter", "mix-blend-mode", "isolation"];
 /// The layers that drawings of this program have.
 const LAYERS: [LayerKind; 9] = [
     LayerKind::Paper,
@@ -63,6 +66,8 @@ pub(super) struct Origin {
     pub axis: Option<(String, f64)>,
     /// Words that stand for a text or a picture.
     pub words: Option<Arc<str>>,
+    /// The properties that change the look of a text or a picture.
+    pub details: Details,
     /// The material of the model.
     pub material: Option<Arc<str>>,
 }
@@ -77,6 +82,12 @@ pub(super) struct Markup {
     /// Whether some path has arcs.
     pub arcs: bool,
     pub unit: Unit,
+    /// Whether style sheets have rules that are not applied.
+    pub has_more: bool,
+    /// Gradients of what stands for texts and pictures.
+    gradients: String,
+    /// Whether the file has texts or pictures.
+    has_stand_ins: bool,
 }
 
 /// Writes a document anew.
@@ -86,7 +97,11 @@ pub(super) fn rewrite(document: &Document) -> Result<Markup, Error> {
     if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
         markup.unit = Unit::Mm;
     }
-    markup.element(root, &Around::default(), &mut Cascade::of(document))?;
+    markup.has_stand_ins =
+        document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
+    let mut cascade = Cascade::of(document);
+    markup.has_more = cascade.has_more;
+    markup.element(root, &Around::default(), &mut cascade)?;
     Ok(markup)
 }
 
@@ -96,6 +111,8 @@ struct Around {
     layer: Arc<str>,
     drawing: Option<Arc<str>>,
     part: Option<Arc<str>>,
+    /// Properties of texts and pictures.
+    props: Arc<Props>,
 }
 
 impl Markup {
@@ -106,7 +123,7 @@ impl Markup {
         match name {
             // What it says is written at the elements that it speaks of.
             "style" => {}
-            "text" | "image" if is_svg => self.stand_in(node, around, &declared)?,
+            "text" | "image" if is_svg => self.stand_in(node, around, &declared, cascade)?,
             _ if is_svg => self.plain(node, around, &declared, cascade)?,
             _ => {}
         }
@@ -123,7 +140,10 @@ impl Markup {
         cascade: &mut Cascade,
     ) -> Result<(), Error> {
         let name = node.tag_name().name();
-        let around = inside(node, around);
+        let mut around = inside(node, around);
+        if self.has_stand_ins {
+            around.props = stand_in::inherit(&around.props, node, declared);
+        }
         self.svg.push('<');
         self.svg.push_str(name);
         if node.parent_element().is_none() {
@@ -162,6 +182,9 @@ impl Markup {
                 escape(&mut self.svg, text);
             }
         }
+        if node.parent_element().is_none() {
+            let _ = write!(self.svg, "<defs>{}</defs>", self.gradients);
+        }
         let _ = write!(self.svg, "</{name}>");
         Ok(())
     }
@@ -187,7 +210,7 @@ impl Markup {
             }
         }
         classes.sort_unstable();
-        let Around { layer, drawing, part } = around.clone();
+        let Around { layer, drawing, part, .. } = around.clone();
         let label = Label { layer, drawing, classes, part };
         let number = |name| node.attribute(name).and_then(|text| text.parse().ok());
         let axis = node.attribute("data-axis").zip(number("data-width"));
@@ -197,6 +220,7 @@ impl Markup {
             invisibility: node.attribute("data-invisibility").and_then(|text| text.parse().ok()).unwrap_or(0),
             axis: axis.map(|(axis, width)| (axis.to_owned(), width)),
             words: None,
+            details: Details::new(),
             material: node.attribute("data-material").map(Arc::from),
         };
         self.remember(node, origin);
@@ -215,36 +239,44 @@ impl Markup {
         self.origins.insert(id, origin);
     }
 
-    /// A rectangle in place of a text or a picture: texts are compared by their words, pictures by their bytes.
-    fn stand_in(&mut self, node: Node, around: &Around, declared: &[Declaration]) -> Result<(), Error> {
+    /// A rectangle in place of a text or a picture, of colours that stand for its words and its look.
+    fn stand_in(
+        &mut self,
+        node: Node,
+        around: &Around,
+        declared: &[Declaration],
+        cascade: &mut Cascade,
+    ) -> Result<(), Error> {
         let around = inside(node, around);
-        self.svg.push_str("<rect");
-        let words = if node.tag_name().name() == "text" {
-            let words: Vec<&str> =
-                node.descendants().filter(Node::is_text).filter_map(|node| node.text()).collect();
-            format!("the text `{}`", words.join("").split_whitespace().collect::<Vec<_>>().join(" "))
-        } else {
-            let href = node.attributes().find(|a| a.name() == "href").map_or("", |a| a.value().trim());
-            if href.starts_with("data:") || href.contains('`') {
-                let mut hasher = FxHasher::default();
-                href.hash(&mut hasher);
-                format!("the picture {:016x}", hasher.finish())
-            } else {
-                format!("{LINKED}{href}`")
-            }
+        let is_text = node.tag_name().name() == "text";
+        let said = match is_text {
+            true => Some(stand_in::text(node, &around.props, declared, cascade)?),
+            false => stand_in::picture(node, &around.props, declared),
         };
-        let Around { layer, drawing, part } = around;
+        // A picture without a target draws nothing.
+        let Some(said) = said else { return Ok(()) };
+        self.svg.push_str("<rect");
+        let [first, last] = said.colours();
+        let number = self.origins.len();
+        let _ = write!(
+            self.gradients,
+            "<linearGradient id=\"ligne.stand-in.{number}\" x2=\"1\" y2=\"1\"><stop stop-color=\"{first}\"/>\
+             <stop offset=\"1\" stop-color=\"{last}\"/></linearGradient>"
+        );
+        let Around { layer, drawing, part, .. } = around;
         let label = Label { layer, drawing, classes: Vec::new(), part };
-        let origin = Origin { label: Arc::new(label), words: Some(Arc::from(words)), ..Origin::default() };
+        let origin = Origin {
+            label: Arc::new(label),
+            words: Some(Arc::from(said.words)),
+            details: said.details,
+            ..Origin::default()
+        };
         self.remember(node, origin);
         let mut sized = false;
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             let (name, value) = (attribute.name(), attribute.value());
             self.check(node, name, value)?;
-            if matches!(
-                name,
-                "id" | "x" | "y" | "width" | "height" | "transform" | "display" | "visibility" | "opacity"
-            ) {
+            if BOX.contains(&name) || OF_BOX.contains(&name) {
                 // A text may have a place for every letter.
                 let first =
                     if name.len() == 1 { value.split([' ', ',']).next().unwrap_or("0") } else { value };
@@ -255,21 +287,21 @@ impl Markup {
             }
         }
         // Whether it is seen at all may be said by a style.
-        let seen = |name: &str| matches!(name, "display" | "visibility" | "opacity");
         let own = sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
-        let style = declared.iter().chain(&own).filter(|declaration| seen(declaration.name));
+        let style = declared.iter().chain(&own).filter(|declaration| OF_BOX.contains(&declaration.name));
         self.svg.push_str(" style=\"");
         for Declaration { name, value, .. } in style {
             let _ = write!(self.svg, "{name}:");
             escape(&mut self.svg, value);
             self.svg.push(';');
         }
-        self.svg.push('"');
-        self.svg.push_str(if sized {
-            " fill=\"#000\"/>"
-        } else {
-            " width=\"1\" height=\"1\" fill=\"#000\"/>"
-        });
+        let size = match (sized, is_text) {
+            (true, _) => "",
+            // As large as a letter or two.
+            (_, true) => " width=\"24\" height=\"12\"",
+            (_, false) => " width=\"1\" height=\"1\"",
+        };
+        let _ = write!(self.svg, "\"{size} stroke=\"none\" fill=\"url(#ligne.stand-in.{number})\"/>");
         Ok(())
     }
 

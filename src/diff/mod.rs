@@ -1,7 +1,7 @@
-//! [`Diff`]: what differs between two drawings, told by geometry instead of bytes or pixels.
+//! [`Diff`]: what differs between two drawings. Their pictures decide whether they are the same, their geometry says what differs.
 //!
-//! Any SVG can be compared. Two drawings are the same if the same ink lies on the same places: how paths are ordered,
-//! grouped, directed, split or joined, whether curves are written as curves, and how numbers look makes no difference.
+//! Any SVG can be compared. Two drawings are the same if they look the same within the tolerance, and say the same of their marks: how
+//! paths are ordered, grouped, split or joined, whether curves are written as curves, and how numbers look makes no difference.
 //!
 //! ```
 //! use ligne::diff::{self, DiffOptions, Picture};
@@ -21,6 +21,8 @@
 //! 4. Of each chain of the one drawing, the pieces within tolerance of the other drawing's are found exactly, as
 //!    intervals (`cover`): the directed Hausdorff distance, cut off at the tolerance, with an index (`grid`).
 //! 5. Chains left with uncovered pieces are paired by their nearest likes (`pair`), and each pair is judged (`judge`).
+//! 6. Both drawings are rasterised (`pictures`). Where they look the same, findings about the picture are left out; where they
+//!    look different and nothing was found, that is a finding too.
 
 mod align;
 mod area;
@@ -54,8 +56,10 @@ mod outlines;
 mod overlay;
 mod paint_words;
 mod pair;
+mod parts;
 mod path_data;
 mod picture;
+mod pictures;
 mod pixels;
 mod plain;
 mod read;
@@ -91,7 +95,7 @@ pub use totals::{Measure, Totals};
 pub struct DiffOptions {
     /// How far ink may lie from where it lay. Default: twice the written precision.
     pub tolerances: Tolerances,
-    /// Whether the drawings are rasterised and compared pixel by pixel as well. Default: no.
+    /// Whether the pixels that differ are counted as well, at one pixel to a px. Default: no.
     pub pixels: bool,
     /// What does not count. Default: everything counts.
     pub ignore: Ignore,

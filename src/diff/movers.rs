@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use kurbo::Shape as _;
+
 use super::causes::Mover;
 use super::finding::{Finding, Verdict};
 use super::motion;
@@ -42,8 +44,11 @@ fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Op
     });
     // Where most of it stayed, it did not move.
     for side in 0..2 {
-        let all = pictures[side].shapes.iter().filter(is_own).count();
-        if shapes[side].len() * 2 < all || shapes[side].is_empty() {
+        let all: Vec<&Shape> = pictures[side].shapes.iter().filter(is_own).collect();
+        let length = |shapes: &[&Shape]| shapes.iter().map(|shape| shape.path.perimeter(1e-2)).sum::<f64>();
+        let few = shapes[side].len() * 2 < all.len() || shapes[side].is_empty();
+        // A part whose longer lines stay has a hole that moved, or a boss.
+        if few || length(&shapes[side]) * 2.0 < length(&all) {
             return None;
         }
     }

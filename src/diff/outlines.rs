@@ -39,9 +39,39 @@ pub(super) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
     }
     let lines = teller.sides[0].chains.iter().zip(&teller.sides[0].covers);
     let lines = lines.filter(|(chain, cover)| chain.shapes.len() == 1 && cover.is_same());
+    let perimeters = [0, 1].map(|side: usize| {
+        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+        for ring in &rings[side] {
+            *sums.entry(ring.shapes.first().copied().unwrap_or_default()).or_default() += ring.length();
+        }
+        sums
+    });
     let told = lines.filter_map(|(chain, cover)| {
         let wider = differ.get(chain.shapes.first()?)?;
         let shape = teller.shape(0, chain)?;
+        if trimmed(*wider) == "0" {
+            return None;
+        }
+        if *wider > shape.ink.width {
+            // It is cut shorter, or goes on: both sides of an outline are as long as the line.
+            let new = cover.partners.first().and_then(|(new, ..)| {
+                teller.sides[1].chains.get(*new as usize).and_then(|new| new.shapes.first())
+            });
+            let long = |side: usize, shape: Option<&usize>| {
+                shape.and_then(|shape| perimeters[side].get(shape)).copied().unwrap_or_default() / 2.0
+            };
+            let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
+            let place = Place::of(bounds(&chain.points));
+            return Some(Finding {
+                size: cover.length,
+                growth: long(1, new) - long(0, chain.shapes.first()),
+                largest: *wider,
+                p95: *wider,
+                new: shape.path.clone(),
+                material: shape.material.clone(),
+                ..Finding::in_place(Verdict::Reshaped, kind, label, Vec::new(), place)
+            });
+        }
         let change = Change {
             what: "width along the line".to_owned(),
             old: format!("{} px on average", trimmed(shape.ink.width)),

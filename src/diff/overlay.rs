@@ -97,7 +97,8 @@ impl Diff {
     fn legend(&self, view: View) -> Vec<(&'static str, Colour)> {
         let has = |is: &dyn Fn(&Finding) -> bool| self.findings.iter().any(is);
         let ink = |path: &BezPath| !path.elements().is_empty();
-        let same_place = |f: &Finding| matches!(f.verdict, Verdict::Restyled | Verdict::Restacked);
+        let same_place =
+            |f: &Finding| matches!(f.verdict, Verdict::Restyled | Verdict::Restacked | Verdict::Picture);
         let elsewhere =
             |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
         let rows: [(&str, Colour, bool); 5] = [
@@ -161,7 +162,11 @@ impl Layers {
     /// What a finding takes away.
     fn taken(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         match finding.verdict {
-            Verdict::Page | Verdict::Restyled | Verdict::Restacked | Verdict::Relabelled => {}
+            Verdict::Page
+            | Verdict::Restyled
+            | Verdict::Restacked
+            | Verdict::Relabelled
+            | Verdict::Picture => {}
             // What is new lies over it: where the way is short, red is seen on both sides of green.
             _ => {
                 let hidden = finding.largest > 0.0 && finding.largest < 2.0 * width;
@@ -175,7 +180,7 @@ impl Layers {
     fn brought(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         let colour = match finding.verdict {
             Verdict::Page => return,
-            Verdict::Restyled | Verdict::Restacked => RESTYLED,
+            Verdict::Restyled | Verdict::Restacked | Verdict::Picture => RESTYLED,
             Verdict::Relabelled => RELABELLED,
             _ => NEW,
         };

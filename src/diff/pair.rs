@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 use kurbo::{Point, Rect};
 use rayon::prelude::*;
@@ -28,6 +29,8 @@ const COMMON: f64 = 0.2;
 const PLACES: usize = 5;
 const WANTED: usize = 4;
 const CLOSELY: usize = 6;
+/// Closed chains of about one length that each is compared with.
+const MAX_CONGRUENT: usize = 64;
 /// Segments that each place looks at: where thousands lie on each other, any of them will do.
 const MOST_SEEN: usize = 512;
 
@@ -89,6 +92,7 @@ pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
         }
         both
     });
+    found.extend(congruent(sides, groups, &bare, &mut free));
     let copies = |pair: &Pair| {
         let is_copy = |side: usize, of: usize, copy: usize| sides[side].firsts.get(copy) == Some(&of);
         let (old, new, pair) = (pair.old, pair.new, *pair);
@@ -99,6 +103,55 @@ pub(super) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
     let more: Vec<Pair> = found.iter().flat_map(copies).collect();
     found.extend(more);
     found
+}
+
+/// Closed chains that are left, each with the only one of the other side that has its form: they moved, however far.
+fn congruent(
+    sides: &[Side; 2],
+    groups: &Groups,
+    bare: &[Vec<usize>; 2],
+    free: &mut [Vec<bool>; 2],
+) -> Vec<Pair> {
+    let left = [0, 1].map(|side: usize| -> Vec<(f64, usize)> {
+        let chains = &sides[side].chains;
+        let whole = |index: &&usize| {
+            let closed = chains[**index].points.first() == chains[**index].points.last();
+            closed && free[side][**index] && sides[side].covers[**index].partners.is_empty()
+        };
+        let mut left: Vec<(f64, usize)> =
+            bare[side].iter().filter(whole).map(|index| (chains[*index].length(), *index)).collect();
+        left.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        left
+    });
+    let tolerance =
+        |index: usize| groups.groups.get(sides[0].chains[index].group).map_or(0.0, |g| g.tolerance);
+    let mut of: [BTreeMap<usize, Vec<usize>>; 2] = Default::default();
+    let mut pairs = Vec::new();
+    for (length, old) in &left[0] {
+        // Where each of many points goes by the tolerance, the length changes little.
+        let off = 4.0 * tolerance(*old) + 1e-3 * length;
+        let from = left[1].partition_point(|(other, _)| *other < length - off);
+        for (_, new) in
+            left[1].iter().skip(from).take(MAX_CONGRUENT).take_while(|(other, _)| *other <= length + off)
+        {
+            let (a, b) = (&sides[0].chains[*old], &sides[1].chains[*new]);
+            if groups.likeness(a.group, b.group) != Some(Likeness::Same) {
+                continue;
+            }
+            let alignment = align(a, b);
+            if alignment.after_shift <= 2.0 * tolerance(*old) + 1e-3 * length {
+                of[0].entry(*old).or_default().push(*new);
+                of[1].entry(*new).or_default().push(*old);
+                pairs.push(Pair { old: *old, new: *new, alignment, cost: alignment.largest });
+            }
+        }
+    }
+    let only = |side: usize, index: usize| of[side].get(&index).is_some_and(|list| list.len() == 1);
+    pairs.retain(|pair| only(0, pair.old) && only(1, pair.new));
+    for pair in &pairs {
+        (free[0][pair.old], free[1][pair.new]) = (false, false);
+    }
+    pairs
 }
 
 /// Among equals, the same order whichever drawing comes first: by the lesser start, then by the greater one.

@@ -6,6 +6,7 @@ use kurbo::BezPath;
 
 use super::ink::Ink;
 use super::label::Label;
+use super::pictures::Drawn;
 use crate::drawing::Unit;
 
 /// What a shape is.
@@ -55,9 +56,28 @@ pub struct Picture {
     pub shapes: Arc<[Shape]>,
     /// The file's text.
     pub svg: Arc<str>,
+    /// What the renderer paints.
+    pub(super) drawn: Arc<Drawn>,
+    /// What the file holds that is not read.
+    pub(super) unread: Arc<[&'static str]>,
 }
 
 impl Picture {
+    /// The same, with another name for one of its parts.
+    #[cfg(feature = "cli")]
+    #[must_use]
+    pub(crate) fn with_part_renamed(mut self, old: &str, new: &str) -> Self {
+        let is_old = |shape: &Shape| shape.label.part.as_deref() == Some(old);
+        if self.shapes.iter().any(is_old) {
+            let mut shapes = self.shapes.to_vec();
+            for shape in shapes.iter_mut().filter(|shape| is_old(shape)) {
+                shape.label = Arc::new(Label { part: Some(Arc::from(new)), ..(*shape.label).clone() });
+            }
+            self.shapes = Arc::from(shapes);
+        }
+        self
+    }
+
     /// Px in a user unit of the drawing.
     #[must_use]
     pub fn px_per_unit(&self) -> f64 {

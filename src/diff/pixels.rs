@@ -1,5 +1,4 @@
-//! [`PixelDiff`]: two drawings rasterised and compared pixel by pixel, for what geometry does not tell: order of
-//! painting, filters, pictures.
+//! [`PixelDiff`]: how many pixels of two drawings differ, on white, as `--pixels` counts them.
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use serde::Serialize;

@@ -7,10 +7,12 @@ use kurbo::{Affine, BezPath, Point};
 use usvg::tiny_skia_path::PathSegment;
 
 use super::guard;
-use super::ink::{Ink, Paint};
+use super::ink::{self, Ink, Paint};
 use super::markup::{self, Markup, Origin};
 use super::paint_words;
 use super::picture::{Picture, Shape, ShapeKind};
+use super::pictures::stand_in::Details;
+use super::pictures::{Drawn, unread};
 use crate::drawing::{Cap, Drawing, Join};
 use crate::error::Error;
 use crate::export::SvgOptions;
@@ -49,17 +51,18 @@ fn picture(svg: &str) -> Result<Picture, Error> {
 }
 
 fn read(svg: &str) -> Result<Picture, Error> {
-    let markup = markup::rewrite(&guard::parse(svg)?)?;
-    let options = usvg::Options {
-        image_href_resolver: usvg::ImageHrefResolver {
-            resolve_data: Box::new(|_, _, _| None),
-            resolve_string: Box::new(|_, _| None),
-        },
-        ..usvg::Options::default()
-    };
-    let tree = usvg::Tree::from_str(&markup.svg, &options).map_err(|error| {
+    let document = guard::parse(svg)?;
+    let mut markup = markup::rewrite(&document)?;
+    let unread: Arc<[&'static str]> = unread(&document, markup.has_more).into_iter().collect();
+    drop(document);
+    let stand_ins = markup.origins.iter().filter_map(|(id, origin)| {
+        Some((id.clone(), origin.words.as_ref().map(|words| ink::is_text(words))?))
+    });
+    let stand_ins = stand_ins.collect();
+    let drawn = Drawn::new(std::mem::take(&mut markup.svg), stand_ins).map_err(|error| {
         Error::new(format!("is not a drawing: {error}")).remedy("give an SVG file with a width and a height")
     })?;
+    let tree = drawn.smooth();
     let size = tree.size();
     let mut reader = Reader { markup: &markup, shapes: Vec::new() };
     reader.group(tree.root(), &Inherited::default());
@@ -72,15 +75,18 @@ fn read(svg: &str) -> Result<Picture, Error> {
         return Err(Error::new(format!("a {} lies more than {FARTHEST_PX} px from the page", shape.label))
             .remedy("take it out of the drawing"));
     }
-    let scale = tree.root().children().first().map_or(1.0, |_| root_scale(svg_root(&tree)));
+    let scale = tree.root().children().first().map_or(1.0, |_| root_scale(svg_root(tree)));
+    let shapes = Arc::from(reader.shapes);
     Ok(Picture {
         width: f64::from(size.width()),
         height: f64::from(size.height()),
         unit: markup.unit,
         step_px: scale * 0.1f64.powi(i32::from(markup.decimals)),
         has_arcs: markup.arcs,
-        shapes: Arc::from(reader.shapes),
+        shapes,
         svg: Arc::from(svg),
+        drawn: Arc::new(drawn),
+        unread,
     })
 }
 
@@ -153,6 +159,8 @@ impl<'a> Reader<'a> {
         let to_page = affine(path.abs_transform());
         let scale = to_page.determinant().abs().sqrt();
         let geometry = to_page * bez_path(path.data());
+        let is_crisp = !path.rendering_mode().use_shape_antialiasing();
+        let details = origin.words.as_ref().and_then(|_| details(origin, to_page));
         let kind = |kind| if inherited.clip { ShapeKind::Clip } else { kind };
         let fill = path.fill().and_then(|fill| {
             let paint = painted(fill.paint(), fill.opacity().get(), inherited, origin)?;
@@ -182,7 +190,7 @@ impl<'a> Reader<'a> {
                     outline: None,
                     kind: kind(ShapeKind::Region),
                     even_odd,
-                    ink: Ink::region(paint, origin.tone),
+                    ink: Ink { is_crisp, details: details.clone(), ..Ink::region(paint, origin.tone) },
                     label: Arc::clone(&origin.label),
                     material: origin.material.clone(),
                 },
@@ -203,6 +211,7 @@ impl<'a> Reader<'a> {
                     join: join(stroke.linejoin()),
                     tone: origin.tone,
                     invisibility: origin.invisibility,
+                    is_crisp,
                     ..Ink::region(paint, None)
                 },
                 label: Arc::clone(&origin.label),
@@ -224,7 +233,8 @@ fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Or
         return None;
     }
     let paint = match (paint, &origin.words) {
-        (_, Some(words)) => Paint::Other(Arc::clone(words)),
+        (_, Some(words)) if alpha == 255 => Paint::Other(Arc::clone(words)),
+        (_, Some(words)) => Paint::Other(Arc::from(format!("{words} at {:.0} %", opacity * 100.0))),
         (usvg::Paint::Color(colour), None) => {
             Paint::Colour(Colour { r: colour.red, g: colour.green, b: colour.blue, a: alpha })
         }
@@ -234,6 +244,20 @@ fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Or
         return Some(paint);
     }
     Some(Paint::Other(Arc::from(format!("{paint} through {}", inherited.effects.join(", ")))))
+}
+
+/// The details of a text or a picture, and how it is turned: its rectangle looks the same from its other end.
+fn details(origin: &Origin, to_page: Affine) -> Option<Arc<Details>> {
+    let mut details = origin.details.clone();
+    let [a, b, ..] = to_page.as_coeffs();
+    let turn = crate::math::function::atan2(b, a).to_degrees();
+    if turn.abs() > 0.01 {
+        details.insert("turned".to_owned(), format!("{}°", ink::trimmed((turn * 100.0).round() / 100.0)));
+    }
+    if to_page.determinant() < 0.0 {
+        details.insert("mirrored".to_owned(), "yes".to_owned());
+    }
+    (!details.is_empty()).then(|| Arc::new(details))
 }
 
 fn affine(t: usvg::Transform) -> Affine {

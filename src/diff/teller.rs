@@ -39,7 +39,7 @@ fn changes(shapes: [Option<&Shape>; 2]) -> Vec<Change> {
     let [Some(old), Some(new)] = shapes else { return Vec::new() };
     let mut changes: Vec<Change> = Vec::new();
     for (what, was, is) in old.ink.changes(&new.ink) {
-        changes.push(Change { what: what.to_owned(), old: was, new: is });
+        changes.push(Change { what, old: was, new: is });
     }
     // One of the two may be grouped by part, and have no layers at all.
     let layered = !old.label.layer.is_empty() && !new.label.layer.is_empty();

@@ -21,6 +21,9 @@ impl Diff {
         let same = match self.same_at {
             Some(Stage::Bytes) => Some("the same bytes".to_owned()),
             Some(Stage::Structure) => Some("the same marks".to_owned()),
+            Some(Stage::Picture) => {
+                Some(format!("the same picture within {}", unit.length(self.tolerance_px)))
+            }
             Some(Stage::Geometry) => Some(format!("the same within {}", unit.length(self.tolerance_px))),
             None if self.findings.is_empty() => {
                 Some(format!("the same marks within {}", unit.length(self.tolerance_px)))
@@ -39,6 +42,8 @@ impl Diff {
             let largest = self.of(verdict).map(|finding| finding.largest).fold(0.0, f64::max);
             words.push(match verdict {
                 Verdict::Page => "another page size".to_owned(),
+                Verdict::Picture if count == 1 => "1 place looks different".to_owned(),
+                Verdict::Picture => format!("{count} places look different"),
                 Verdict::Moved => format!("{count} moved (up to {})", unit.length(largest)),
                 _ => format!("{count} {}", verdict.name()),
             });
@@ -55,7 +60,13 @@ impl Diff {
         let linked = self.linked().map(|target| {
             format!("note       the picture `{target}` is linked: compared by its target and its box, not by what is in it")
         });
-        lines.chain(unused).chain(linked).collect()
+        let unread = if self.same_at == Some(Stage::Bytes) { Vec::new() } else { self.unread() };
+        let unread = (!unread.is_empty())
+            .then(|| format!("note       not read, and not compared: {}", unread.join(", ")));
+        let unknown = self.pictures_unknown.then(|| {
+            "note       the pictures were not compared: they would take too long to rasterise".to_owned()
+        });
+        lines.chain(unused).chain(linked).chain(unread).chain(unknown).collect()
     }
 
     /// The targets of pictures that lie in files of their own.
@@ -63,6 +74,13 @@ impl Diff {
         let shapes = self.before.shapes.iter().chain(self.after.shapes.iter());
         let targets: BTreeSet<&str> = shapes.filter_map(|shape| shape.ink.paint.link()).collect();
         targets.into_iter()
+    }
+
+    /// What either file holds that is not read.
+    pub(super) fn unread(&self) -> Vec<&'static str> {
+        let all = self.before.unread.iter().chain(self.after.unread.iter());
+        let all: BTreeSet<&'static str> = all.copied().collect();
+        all.into_iter().collect()
     }
 
     /// A line for each finding.
@@ -87,7 +105,11 @@ impl Diff {
             // Whole parts come and go with all that they have.
             let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
             let kind = !alone && finding.kind == ShapeKind::Line;
-            let changes: &[Change] = if finding.verdict == Verdict::Moved { &[] } else { &finding.changes };
+            let changes: &[Change] = if matches!(finding.verdict, Verdict::Moved | Verdict::Picture) {
+                &[]
+            } else {
+                &finding.changes
+            };
             groups
                 .entry((finding.verdict, finding.label.part.as_deref(), changes, kind))
                 .or_default()
@@ -105,7 +127,9 @@ impl Diff {
                 continue;
             }
             let count = findings.len();
-            let noun = if whole {
+            let noun = if verdict == Verdict::Picture {
+                format!("{count} places look different")
+            } else if whole {
                 format!("part `{}`: all its {count} marks", part.unwrap_or_default())
             } else {
                 match part {
@@ -187,6 +211,7 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
         Verdict::Removed | Verdict::Added => size(),
         Verdict::Restyled | Verdict::Relabelled if finding.changes.is_empty() => size(),
         Verdict::Restyled | Verdict::Relabelled => format!("{}, {}", changed(&finding.changes), size()),
+        Verdict::Picture => format!("{}, {}", changed(&finding.changes), size()),
         Verdict::Moved => match finding.shift {
             Some(shift) => format!("by {}", way(shift, unit)),
             None => {
@@ -209,6 +234,7 @@ pub(super) fn line(finding: &Finding, unit: Written) -> String {
     };
     let noun = match (finding.verdict, finding.kind) {
         (Verdict::Page, _) => "of the drawing".to_owned(),
+        (Verdict::Picture, _) => "looks different".to_owned(),
         (_, ShapeKind::Region) => format!("fill {}", finding.label).replace("fill fills", "fill"),
         (_, ShapeKind::Clip) => format!("clip {}", finding.label),
         (_, ShapeKind::Line) => finding.label.to_string(),

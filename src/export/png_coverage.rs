@@ -233,17 +233,29 @@ pub(super) struct Ink {
     rgb: [f64; 3],
     /// Opacity, 0 to 1.
     opacity: f64,
+    /// Whether pixels are covered in whole or not at all.
+    is_crisp: bool,
 }
 
 impl Ink {
     /// Channels from 0 to 255, and an opacity from 0 to 1.
     pub fn new(rgb: [u8; 3], opacity: f64) -> Self {
-        Self { rgb: rgb.map(f64::from), opacity: opacity.clamp(0.0, 1.0) }
+        Self { rgb: rgb.map(f64::from), opacity: opacity.clamp(0.0, 1.0), is_crisp: false }
+    }
+
+    /// The same, for pixels that are covered in whole or not at all.
+    pub fn crisp(self) -> Self {
+        Self { is_crisp: true, ..self }
     }
 
     /// Paints pixels of one coverage.
     fn run(self, pixels: Option<&mut [PremultipliedColorU8]>, coverage: f64) {
         let Some(pixels) = pixels.filter(|pixels| !pixels.is_empty()) else { return };
+        let coverage = match self.is_crisp {
+            true if coverage >= 0.5 => 1.0,
+            true => 0.0,
+            false => coverage,
+        };
         let alpha = coverage * self.opacity;
         // Less than half a step of alpha is no ink.
         if alpha * 510.0 < 1.0 {

@@ -250,5 +250,12 @@ pub const FLAT_OF_CURVE: f64 = 1e-7;
 /// Ends this near to each other, as a part of the tolerance, were one point before a line was split.
 pub const JOIN_OF_TOLERANCE: f64 = 1.0;
 
+/// Marks that were written in two ways may lie this far apart (px) in one picture, if the tolerance is not narrower.
+pub const COARSEST_VETO_PX: f64 = 0.25;
+
+/// Differences that geometry has not found are sought in pictures where they are wider than this (px): twice the second decimal, as
+/// most drawings are written. Renderers are not more precise.
+pub const FINEST_SEEN_PX: f64 = 0.02;
+
 /// Distances of two lines are found within this part of themselves.
 pub const DISTANCE_SHARE: f64 = 2e-3;

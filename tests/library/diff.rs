@@ -214,7 +214,7 @@ fn what_differs_is_told_as_a_person_would() {
         ("a fill moved", edited("M120 30h30v30h-30z", "M121 30h30v30h-30z"), "moved fills of bolt", "moved fills of bolt"),
         ("a fill larger", edited("M120 30h30v30h-30z", "M120 30h34v30h-34z"), "reshaped fills of bolt", "reshaped fills of bolt"),
         ("a fill removed", edited(r##"<path class="tone-0" data-part="bolt" data-material="zinc" data-tone="0" fill="#9ea3a8" d="M120 30h30v30h-30z"/>"##, ""), "removed fills of bolt", "added fills of bolt"),
-        ("a part renamed", BASE.replace("data-part=\"bolt\"", "data-part=\"screw\""), "relabelled contour of bolt, relabelled crease of bolt, relabelled fills of bolt", "relabelled contour of screw, relabelled crease of screw, relabelled fills of screw"),
+        ("a part renamed", BASE.replace("data-part=\"bolt\"", "data-part=\"screw\""), "relabelled mark of bolt", "relabelled mark of screw"),
         ("another class", edited(line, &line.replace("crease", "intersection")), "relabelled crease of plate", "relabelled intersection of plate"),
         ("another layer", edited(bolt, "").replace("</svg>", &format!("<g id=\"hidden-lines\" inkscape:groupmode=\"layer\" inkscape:label=\"hidden-lines\" fill=\"none\" stroke=\"#1a1a1a\" stroke-linecap=\"round\" stroke-linejoin=\"round\">{bolt}</g></svg>")), "relabelled contour of bolt", "relabelled contour of bolt"),
         ("hidden by one more", edited(line, &line.replace(" d=", " data-invisibility=\"1\" d=")), "restyled crease of plate", "restyled crease of plate"),

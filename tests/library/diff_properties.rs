@@ -51,7 +51,7 @@ fn random_lines(dice: &mut Dice, count: usize) -> Vec<Line> {
 
 fn svg(lines: &[Line], decimals: usize) -> String {
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{PAGE}\" height=\"{PAGE}\"><g fill=\"none\" stroke=\"#000\">\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{PAGE}\" height=\"{PAGE}\"><g fill=\"none\" stroke=\"#000\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
     );
     for Line { part, width, path } in lines {
         let mut data = String::new();

@@ -71,7 +71,10 @@ pub(super) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Pi
             return Ok([first, picture(after, &text(after)?)?]);
         }
         let request = DrawRequest { view: seen, ..request(after)? };
-        return Ok([first, picture(after, &String::from_utf8_lossy(&draw::encoded(&request)?))?]);
+        let second = picture(after, &String::from_utf8_lossy(&draw::encoded(&request)?))?;
+        // A model that names no part has the name of its file.
+        let stems = [before, after].map(|path| path.file_stem().unwrap_or_default().to_string_lossy());
+        return Ok([first, second.with_part_renamed(&stems[1], &stems[0])]);
     }
     let second = || match is_model(after) {
         true => picture(after, &String::from_utf8_lossy(&draw::encoded(&request(after)?)?)),

@@ -48,7 +48,7 @@ fn paint(line: &str) -> String {
         Some(Verdict::Removed) => "31",
         Some(Verdict::Added) => "32",
         Some(Verdict::Moved | Verdict::Reshaped) => "34",
-        Some(Verdict::Restyled | Verdict::Restacked | Verdict::Page) => "33",
+        Some(Verdict::Restyled | Verdict::Restacked | Verdict::Page | Verdict::Picture) => "33",
         Some(Verdict::Relabelled) => "35",
         None => return line.to_owned(),
     };

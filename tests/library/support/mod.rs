@@ -36,6 +36,7 @@ pub mod sheets;
 pub mod solids;
 pub mod strokes;
 pub mod styled;
+pub mod svg_scenes;
 pub mod torus_truth;
 pub mod truth;
 pub mod turning;
