@@ -1,6 +1,6 @@
 //! The legend of the picture of a difference: words of single strokes, so that it needs no font.
 
-use kurbo::{Affine, BezPath};
+use kurbo::{Affine, BezPath, Size};
 
 use crate::math::colour::Colour;
 
@@ -13,11 +13,16 @@ pub(super) fn height(width: f64) -> f64 {
     width * HEIGHT
 }
 
-/// The lines of a legend under a picture of this height: a sample and a word for each colour, with widths.
-pub(super) fn marks(rows: &[(&'static str, Colour)], top: f64, width: f64) -> Vec<(BezPath, Colour, f64)> {
+/// The lines of a legend under a picture: a sample and a word for each colour, with widths. It is made smaller where it would be wider than the
+/// picture.
+pub(super) fn marks(
+    rows: &[(&'static str, Colour)],
+    picture: Size,
+    width: f64,
+) -> Vec<(BezPath, Colour, f64)> {
     let mut found = Vec::new();
     let size = width * LETTER;
-    let base = top + height(width) * 0.62;
+    let base = picture.height + height(width) * 0.62;
     let mut x = size * 1.5;
     for (word, colour) in rows {
         let mut sample = BezPath::new();
@@ -32,6 +37,14 @@ pub(super) fn marks(rows: &[(&'static str, Colour)], top: f64, width: f64) -> Ve
             x += (wide + 1.6) * size / 4.0;
         }
         x += size * 2.0;
+    }
+    let share = (picture.width / x).min(1.0);
+    if share < 1.0 {
+        let smaller = Affine::translate((0.0, base * (1.0 - share))) * Affine::scale(share);
+        for (path, _, width) in &mut found {
+            path.apply_affine(smaller);
+            *width *= share;
+        }
     }
     found
 }
@@ -71,6 +84,18 @@ mod tests {
             assert!(glyph(letter).0.elements().len() > 1, "{letter}");
         }
         let rows = [("gone", Colour::BLACK), ("relabelled", Colour::BLACK)];
-        assert_eq!(marks(&rows, 100.0, 1.0).len(), 2 + 4 + 10);
+        assert_eq!(marks(&rows, Size::new(500.0, 100.0), 1.0).len(), 2 + 4 + 10);
+    }
+    #[test]
+    fn a_legend_is_no_wider_than_its_picture() {
+        use kurbo::Shape as _;
+        let rows = ["gone", "new", "moved", "repainted", "relabelled"].map(|word| (word, Colour::BLACK));
+        for width in [40.0, 200.0, 1000.0] {
+            let right = marks(&rows, Size::new(width, 100.0), 1.0)
+                .iter()
+                .map(|(path, _, line)| path.bounding_box().x1 + line / 2.0)
+                .fold(0.0, f64::max);
+            assert!(right < width, "{right} of {width}");
+        }
     }
 }

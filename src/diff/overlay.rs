@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape as _};
+use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape as _, Size};
 
 use super::chain;
 use super::finding::{Diff, Finding, Verdict};
@@ -84,7 +84,7 @@ impl Diff {
         let marks = self.legend(view);
         page.height += legend::height(width_of_line);
         layers.findings.extend(
-            legend::marks(&marks, height, width_of_line)
+            legend::marks(&marks, Size::new(page.width, height), width_of_line)
                 .into_iter()
                 .map(|(path, colour, width)| mark(path, stroke(colour, width, Vec::new()), None)),
         );
