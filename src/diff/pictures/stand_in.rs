@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
+use kurbo::BezPath;
 use rustc_hash::FxHasher;
 use usvg::roxmltree::Node;
 
@@ -151,12 +152,22 @@ fn normal(node: Node, name: &str, value: &str) -> String {
     }
 }
 
-/// What a reference leads to, as a number that is equal where the text is.
+/// What a reference leads to, as a number that is equal where the text is, or for a path where its course is.
 fn referred(node: Node, id: &str) -> String {
     let document = node.document();
     let target = document.descendants().find(|node| node.attribute("id") == Some(id));
-    let text = target.and_then(|target| document.input_text().get(target.range())).unwrap_or_default();
-    format!("element {:08x}", hash(text) as u32)
+    let text = || target.and_then(|target| document.input_text().get(target.range())).unwrap_or_default();
+    let number = target.and_then(course).map_or_else(|| hash(text()), hash);
+    format!("element {:08x}", number as u32)
+}
+
+/// The course of a path without children, and its other attributes.
+fn course(path: Node) -> Option<String> {
+    let data = path.attribute("d").filter(|_| !path.has_children())?;
+    let course = BezPath::from_svg(data).ok()?.to_svg();
+    let others =
+        path.attributes().filter(|a| a.name() != "d").map(|a| format!(" {}={}", a.name(), a.value()));
+    Some(format!("{}{} {course}", path.tag_name().name(), others.collect::<String>()))
 }
 
 fn hash(text: impl Hash) -> u64 {

@@ -11,8 +11,7 @@
 //!   coplanar and touching faces are seen.
 //! - A triangle that shares one end of the segment may come as near as rounding allows.
 //! - A line that lies in the plane of a triangle, within the rounding of the file, is not hidden by it. Distances from the
-//!   plane count, which are much shorter than differences of depth where the triangle is seen at a grazing angle. Witnesses of
-//!   smooth contours are no such lines: the faces that the surface turns away with lie near their planes, and hide them.
+//!   plane count, which are much shorter than differences of depth where the triangle is seen at a grazing angle.
 //! - A triangle seen edge-on covers nothing.
 
 use glam::{DVec2, DVec3};
@@ -21,7 +20,6 @@ use super::graph::ViewVertexKind;
 use super::limits::Limits;
 use super::occluders::Occluder;
 use super::project::ImageSegment;
-use crate::lines::Role;
 use crate::view::Frame;
 
 /// Part of a segment's parameter range, with the reason for each end.
@@ -137,7 +135,7 @@ pub fn hidden_interval(
         let depth = triangle.slack.in_plane * frame.steepness(DVec3::new(p.x, p.y, plane), slope);
         (plane - p.z).abs() <= frame.nearness_step(p.z, depth)
     };
-    if !matches!(segment.role, Role::Witness { .. }) && is_in_plane(start) && is_in_plane(end) {
+    if is_in_plane(start) && is_in_plane(end) {
         return None;
     }
     let span = end - start;
