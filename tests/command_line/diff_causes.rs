@@ -65,7 +65,7 @@ fn an_edit_of_a_model_is_one_sentence() {
     let folder = Folder::new("diff-causes-models");
     type Edit = Box<dyn Fn(&mut Value)>;
     let edits: [(&str, Edit, &str); 6] = [
-        ("pump", Box::new(gone("filler-plug")), "removed    part `filler-plug`: all its 21 marks"),
+        ("pump", Box::new(gone("filler-plug")), "removed    part `filler-plug`: all its 22 marks"),
         ("pump", Box::new(recoloured("brass", [0.1, 0.2, 0.8])), "restyled   material `brass`: colour #"),
         (
             "pump",
