@@ -85,7 +85,7 @@ fn may_follow(finding: &Finding) -> bool {
     }
 }
 
-/// Whether it tells of a hidden line, whose dashes are fitted anew, or of one that came to light or was hidden.
+/// Whether a finding is about a hidden line (its dashes are fitted anew), or about a line that became visible or hidden.
 fn is_of_hidden_lines(finding: &Finding) -> bool {
     let hidden = LayerKind::HiddenLines.id();
     let is_hiding = |change: &Change| match change.what.as_str() {
@@ -157,7 +157,7 @@ fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
     lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
 }
 
-/// The sentence that the eye moved, where parts go more ways than parts go by themselves: all that is elsewhere follows from that.
+/// The sentence that the eye moved: parts move in more directions than an edit of the model explains. All other moves follow from it.
 fn from_another_side(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Option<Cause> {
     let mut ways: Vec<Vec<&Mover>> = Vec::new();
     for mover in movers {

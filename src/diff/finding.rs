@@ -75,7 +75,7 @@ pub enum Stage {
     Structure,
     /// Ink lies on the same places in both, within tolerance.
     Geometry,
-    /// The marks are others, and nobody sees it: one picture, drawn in two ways.
+    /// The marks differ but look the same: one picture, drawn in two ways.
     Picture,
 }
 

@@ -144,7 +144,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
 }
 
-/// What the pictures say. The renderer follows references of references: it has room for them, and may give up.
+/// Compares the pictures. The renderer follows nested references on a large stack, and may give up.
 fn look(pictures: [&Picture; 2], compared: &Compared, options: &DiffOptions, ignore: Ignore) -> Decision {
     let groups = Groups::new(pictures, &options.tolerances, ignore);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();

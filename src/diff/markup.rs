@@ -39,7 +39,7 @@ const PLACES: [&str; 16] = [
 ];
 /// Attributes whose numbers may not be too large either.
 const MEASURES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
-/// What the rectangle that stands for a text or a picture has of it: its place, and how it is seen.
+/// The attributes that the rectangle in place of a text or a picture takes over: its place and its visibility.
 const BOX: [&str; 6] = ["id", "x", "y", "width", "height", "transform"];
 const OF_BOX: [&str; 8] =
     ["display", "visibility", "opacity", "clip-path", "mask", "filter", "mix-blend-mode", "isolation"];
