@@ -78,17 +78,15 @@ impl Placed<'_> {
         self.at(*a) != self.at(*b)
     }
 
-    /// Whether some face of it may have no area, or some wire no length; `scale` is at least that of the part.
-    fn may_leave_out(&self, scale: f64) -> bool {
-        let faces = self.geometry.triangles.par_iter().with_min_len(GRAIN);
-        faces.any(|t| !has_area(self.corners(t), scale))
-            || !self.geometry.wires.iter().all(|w| self.is_long(w))
+    /// The faces that may have no area, ascending; `scale` is at least that of the part.
+    fn suspects(&self, scale: f64) -> Vec<u32> {
+        let faces = self.geometry.triangles.par_iter().with_min_len(GRAIN).enumerate();
+        let suspects = faces.filter(|(_, t)| !has_area(self.corners(t), scale));
+        suspects.map(|(face, _)| face as u32).collect()
     }
 
-    /// The vertices of faces for which `counts` holds and of wires with a length.
-    fn counted(&self, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Cow<'_, [DVec3]> {
-        let faces = |t: &[u32; 3]| counts(self.corners(t));
-        points_of(self.geometry, faces, |wire| self.is_long(wire))
+    fn has_short_wires(&self) -> bool {
+        !self.geometry.wires.iter().all(|wire| self.is_long(wire))
     }
 
     /// Adds points of the geometry to those of the world.
@@ -149,28 +147,34 @@ impl DrawnPoints {
     fn without_flat(&self, placed: &[Placed]) -> Option<Self> {
         let (low, high) = bounds(&self.points)?;
         let largest = largest_scale(low, high);
-        let suspect: Vec<bool> = placed.iter().map(|own| own.may_leave_out(largest)).collect();
-        if !suspect.contains(&true) {
+        let doubtful = |own: &Placed| {
+            let suspects = own.suspects(largest);
+            let is_whole = suspects.is_empty() && !own.has_short_wires();
+            (!is_whole).then(|| Doubtful::of(own, suspects))
+        };
+        let doubtful: Vec<Option<Doubtful>> = placed.iter().map(doubtful).collect();
+        if doubtful.iter().all(Option::is_none) {
             return None;
         }
         let whole = |part: &DrawnPart| bounds(self.points.get(part.points.clone()).unwrap_or_default());
-        let boxed = |((own, part), suspect): ((&Placed, &DrawnPart), &bool)| {
-            if *suspect { own.bounds(has_own_area) } else { whole(part) }
-        };
-        let boxes = placed.iter().zip(&self.parts).zip(&suspect).filter_map(boxed);
+        let parts = || placed.iter().zip(&self.parts).zip(&doubtful);
+        let boxes = parts().filter_map(|((own, part), doubtful)| match doubtful {
+            Some(doubtful) => doubtful.bounds(own, has_own_area),
+            None => whole(part),
+        });
         let (low, high) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((low, high));
         // From here on as the mesh measures: relative to its origin.
         let origin = origin(low, high);
         let mut all = Self::default();
-        for ((own, part), suspect) in placed.iter().zip(&self.parts).zip(suspect) {
+        for ((own, part), doubtful) in parts() {
             let first = all.points.len();
             let mut left_out = LeftOut::default();
-            if suspect {
-                let counted = own.bounds(|corners| has_own_area(corners.map(|p| p - origin)));
+            if let Some(doubtful) = doubtful {
+                let counted = doubtful.bounds(own, |corners| has_own_area(corners.map(|p| p - origin)));
                 let scale = counted.or(whole(part)).map_or(0.0, |(l, h)| scale_of(l - origin, h - origin));
                 let has_area = |corners: [DVec3; 3]| has_area(corners.map(|p| p - origin), scale);
-                own.add(&own.counted(has_area), &mut all.points);
-                left_out = own.left_out(has_area);
+                own.add(&doubtful.counted(own, has_area), &mut all.points);
+                left_out = doubtful.left_out(own, has_area);
             } else {
                 all.points.extend_from_slice(self.points.get(part.points.clone()).unwrap_or_default());
             }
@@ -187,64 +191,105 @@ impl DrawnPoints {
     }
 }
 
-impl Placed<'_> {
-    /// The box around what `counted` gives, world.
-    fn bounds(&self, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DVec3, DVec3)> {
+/// A part with faces that may have no area, or with wires of no length.
+struct Doubtful {
+    /// The faces that may have no area, ascending.
+    suspects: Vec<u32>,
+    /// For each vertex whether another face or a wire with a length uses it.
+    used: Vec<bool>,
+    /// The box around these vertices, world; empty without any.
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Doubtful {
+    fn of(own: &Placed, suspects: Vec<u32>) -> Self {
+        let mut is_suspect = vec![false; own.geometry.triangles.len()];
+        suspects.iter().for_each(|face| is_suspect[*face as usize] = true);
+        let used = used(own.geometry, |face| !is_suspect[face], |wire| own.is_long(wire));
+        let vertices = used.par_iter().enumerate().with_min_len(GRAIN).filter(|(_, used)| **used);
         let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let count = self.geometry.positions.len();
-        let grow = |own: (DVec3, DVec3), corners: &[u32]| {
-            let real = corners.iter().filter(|corner| (**corner as usize) < count);
-            real.fold(own, |(low, high), corner| {
-                let p = self.at(*corner);
-                (low.min(p), high.max(p))
-            })
+        let grow = |(low, high): (DVec3, DVec3), (vertex, _): (usize, &bool)| {
+            let p = own.at(vertex as u32);
+            (low.min(p), high.max(p))
         };
         let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
-        let faces = self.geometry.triangles.par_iter().with_min_len(GRAIN);
-        let counted = faces.filter(|t| counts(self.corners(t)));
-        let of_faces = counted.fold(|| nothing, |own, t| grow(own, t)).reduce(|| nothing, join);
-        let long = self.geometry.wires.iter().filter(|wire| self.is_long(wire));
-        let (low, high) = long.fold(of_faces, |own, wire| grow(own, wire));
+        let (low, high) = vertices.fold(|| nothing, grow).reduce(|| nothing, join);
+        Self { suspects, used, low, high }
+    }
+
+    /// The suspects for which `counts` holds, or does not.
+    fn those<'a>(
+        &'a self,
+        own: &'a Placed,
+        counts: impl Fn([DVec3; 3]) -> bool + 'a,
+        wanted: bool,
+    ) -> impl Iterator<Item = &'a [u32; 3]> {
+        let faces = self.suspects.iter().map(|face| &own.geometry.triangles[*face as usize]);
+        faces.filter(move |t| counts(own.corners(t)) == wanted)
+    }
+
+    /// The box around all but the suspects for which `counts` does not hold, world.
+    fn bounds(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
+        let real = self.those(own, counts, true).flatten();
+        let real = real.filter(|corner| (**corner as usize) < self.used.len());
+        let (low, high) = real.fold((self.low, self.high), |(low, high), corner| {
+            let p = own.at(*corner);
+            (low.min(p), high.max(p))
+        });
         (low.x <= high.x).then_some((low, high))
     }
 
-    fn left_out(&self, has_area: impl Fn([DVec3; 3]) -> bool + Sync) -> LeftOut {
-        let Geometry { triangles, wires, .. } = self.geometry;
-        let is_flat = |t: &&[u32; 3]| !has_area(self.corners(t));
-        let is_short = |wire: &&[u32; 2]| !self.is_long(wire);
-        let first = triangles.iter().find(is_flat).map(|t| self.at(t[0]));
+    /// The vertices of all but the suspects for which `counts` does not hold, in the space of the part.
+    fn counted(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Vec<DVec3> {
+        let mut used = self.used.clone();
+        for corner in self.those(own, counts, true).flatten() {
+            if let Some(used) = used.get_mut(*corner as usize) {
+                *used = true;
+            }
+        }
+        let kept = own.geometry.positions.iter().zip(used).filter(|(_, used)| *used);
+        kept.map(|(p, _)| *p).collect()
+    }
+
+    fn left_out(&self, own: &Placed, has_area: impl Fn([DVec3; 3]) -> bool) -> LeftOut {
+        let is_short = |wire: &&[u32; 2]| !own.is_long(wire);
+        let wires = || own.geometry.wires.iter().filter(is_short);
+        let first_face = self.those(own, &has_area, false).next().map(|t| own.at(t[0]));
         LeftOut {
-            faces: triangles.par_iter().with_min_len(GRAIN).filter(is_flat).count() as u64,
-            wires: wires.iter().filter(is_short).count() as u64,
-            first: first.or_else(|| wires.iter().find(is_short).map(|wire| self.at(wire[0]))),
+            faces: self.those(own, &has_area, false).count() as u64,
+            wires: wires().count() as u64,
+            first: first_face.or_else(|| wires().next().map(|wire| own.at(wire[0]))),
         }
     }
 }
 
 /// The positions that triangles or wires use, each once; usually all.
 pub(crate) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
-    points_of(geometry, |_| true, |_| true)
+    let used = used(geometry, |_| true, |_| true);
+    if used.iter().all(|used| *used) {
+        return Cow::Borrowed(&geometry.positions);
+    }
+    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.then_some(p)).collect()
 }
 
-/// The positions that some triangles and wires use.
-fn points_of(
+/// For each position whether some of the triangles, by number, or of the wires use it.
+fn used(
     geometry: &Geometry,
-    faces: impl Fn(&[u32; 3]) -> bool + Sync,
+    faces: impl Fn(usize) -> bool + Sync,
     wires: impl Fn(&[u32; 2]) -> bool,
-) -> Cow<'_, [DVec3]> {
+) -> Vec<bool> {
     let used: Vec<AtomicBool> = geometry.positions.iter().map(|_| AtomicBool::new(false)).collect();
     let mark = |corner: &u32| {
         if let Some(used) = used.get(*corner as usize) {
             used.store(true, Relaxed);
         }
     };
-    let counted = geometry.triangles.par_iter().with_min_len(GRAIN).filter(|corners| faces(corners));
-    counted.for_each(|corners| corners.iter().for_each(mark));
+    let counted =
+        geometry.triangles.par_iter().with_min_len(GRAIN).enumerate().filter(|(face, _)| faces(*face));
+    counted.for_each(|(_, corners)| corners.iter().for_each(mark));
     geometry.wires.iter().filter(|ends| wires(ends)).for_each(|ends| ends.iter().for_each(mark));
-    if used.iter().all(|used| used.load(Relaxed)) {
-        return Cow::Borrowed(&geometry.positions);
-    }
-    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.into_inner().then_some(p)).collect()
+    used.into_iter().map(AtomicBool::into_inner).collect()
 }
 
 #[cfg(test)]

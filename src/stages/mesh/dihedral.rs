@@ -102,12 +102,14 @@ impl Dihedral {
             let corner = mesh.triangles[face as usize].iter().find(|v| !ends.contains(v));
             corner.map_or(a, |v| mesh.positions[*v as usize])
         };
+        // Twice the areas of both faces are their heights over the edge, and the volume is how far the second corner lies from the plane of
+        // the first face, times the area of that: each times the length of the edge.
         let (across, over) = ((b - a).cross(third(first) - a), third(second) - a);
-        // Heights over the edge, and how far the second corner lies from the plane of the first face.
-        let [own, other] = [across, (b - a).cross(over)].map(|area| area.length() / a.distance(b));
-        let away = across.normalize_or_zero().dot(over).abs();
         let contact = [first, second].map(|face| mesh.extent(FaceId(face)).contact);
-        self.cosine > 0.0 && away * own <= contact[0].max(contact[1]) * (own + other)
+        let contact = contact[0].max(contact[1]);
+        let (volume, area) = (across.dot(over).abs(), across.length());
+        let is_near = volume <= contact * area || volume <= contact * (area + (b - a).cross(over).length());
+        self.cosine > 0.0 && is_near
     }
 
     /// The normals of the two faces, both on the side that the first one calls outside.

@@ -13,6 +13,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use self::candidate::{Candidate, PlaneKey, widest_axis};
 use super::arcs::{Arc, arcs};
 use super::common_area::common_area;
 use super::dihedral::{Dihedral, runs_up};
@@ -20,6 +21,8 @@ use super::mixed_places::near_other_colours;
 use super::{EdgeFaces, FaceId, Groups, MaterialId, Mesh, PaintId, PartId};
 use crate::math::grain::GRAIN;
 use crate::math::grouped::{Grouped, grouped_pairs};
+
+mod candidate;
 
 /// The place of a face among surfaces that overlap in one plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,16 +32,6 @@ pub struct Overlay {
     /// The number of its surface, from the lowest up.
     pub rank: u32,
 }
-
-/// Normals cells are this wide, squares of coordinates.
-const NORMAL_CELL: f64 = 1.0 / 16.0;
-
-/// Planes are told apart by their distance from the middle in so many steps of the model's diagonal.
-const DISTANCE_STEPS: f64 = 512.0;
-
-/// Surfaces whose normal rounding may turn by more than this (radians), or whose plane lies in more cells than this, are passed over.
-const MAX_TURN: f64 = 1e-2;
-const MAX_CELLS: i64 = 8;
 
 /// Faces are flat neighbours only if the cosine between their normals is greater.
 const FLAT_COSINE: f32 = 0.999;
@@ -163,7 +156,7 @@ impl Surfaces {
         let owner = |face: u32| (mesh.face_part[face as usize], colour(mesh, face));
         let is_one = |[a, b]: [u32; 2], same_way: bool, edge: usize| {
             let dihedral = Dihedral::of(mesh, [a, b], same_way);
-            dihedral.cosine > FLAT_COSINE && owner(a) == owner(b) && dihedral.is_flat(mesh, edge)
+            owner(a) == owner(b) && dihedral.cosine > FLAT_COSINE && dihedral.is_flat(mesh, edge)
         };
         let is_up = |edge: usize, face: u32| runs_up(mesh, edge, face);
         let groups = Groups::new(mesh.triangles.len(), |join| {
@@ -239,34 +232,43 @@ impl Surfaces {
 
     /// Joins the surfaces of unlike colours that overlap; whether any do.
     fn related(&self, mesh: &Mesh, planes: &mut Joined) -> bool {
-        let cells = (0..self.all.len() as u32).into_par_iter().with_min_len(GRAIN);
-        let mut cells: Vec<([i64; 3], u32)> =
-            cells.flat_map_iter(|surface| self.cells(mesh, surface)).collect();
+        let surfaces = (0..self.all.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let keys: Vec<PlaneKey> = surfaces.clone().map(|surface| self.key(mesh, surface)).collect();
+        let of_surface = |surface: u32| keys[surface as usize].cells().map(move |cell| (cell, surface));
+        let mut cells: Vec<([i64; 3], u32)> = surfaces.flat_map_iter(of_surface).collect();
         cells.par_sort_unstable();
         let (mut tests, mut related) = (0, false);
         let mut arcs: Vec<Option<Vec<Arc>>> = vec![None; self.all.len()];
+        let mut own: Vec<Candidate> = Vec::new();
         for cell in cells.chunk_by(|a, b| a.0 == b.0) {
             let colour = |at: &([i64; 3], u32)| self.all[at.1 as usize].colour;
             if cell.iter().all(|at| colour(at) == colour(&cell[0])) {
                 continue;
             }
-            let mut own: Vec<u32> = cell.iter().map(|(_, surface)| *surface).collect();
-            let axis = self.widest_axis(&own);
-            let (low, high) =
-                (|s: u32| self.all[s as usize].low[axis], |s: u32| self.all[s as usize].high[axis]);
-            own.sort_by(|a, b| low(*a).total_cmp(&low(*b)).then(a.cmp(b)));
+            own.clear();
+            own.extend(cell.iter().map(|(_, surface)| {
+                let FlatSurface { low, high, colour, contact, .. } = self.all[*surface as usize];
+                Candidate {
+                    low: low - contact,
+                    high: high + contact,
+                    key: keys[*surface as usize],
+                    colour,
+                    surface: *surface,
+                }
+            }));
+            let axis = widest_axis(&own);
+            own.sort_by(|a, b| a.low[axis].total_cmp(&b.low[axis]).then(a.surface.cmp(&b.surface)));
             for (k, first) in own.iter().enumerate() {
-                let reach = high(*first) + self.all[*first as usize].contact;
-                for other in own[k + 1..].iter().take_while(|other| low(**other) <= reach) {
+                for other in own[k + 1..].iter().take_while(|other| other.low[axis] <= first.high[axis]) {
                     tests += 1;
                     if tests > MAX_TESTS {
                         return related;
                     }
-                    if self.all[*first as usize].colour != self.all[*other as usize].colour
-                        && planes.root(*first) != planes.root(*other)
-                        && self.overlap(mesh, *first, *other, &mut arcs, &mut tests)
+                    if first.may_overlap(other)
+                        && planes.root(first.surface) != planes.root(other.surface)
+                        && self.overlap(mesh, first.surface, other.surface, &mut arcs, &mut tests)
                     {
-                        planes.join(*first, *other);
+                        planes.join(first.surface, other.surface);
                         related = true;
                     }
                 }
@@ -275,42 +277,10 @@ impl Surfaces {
         related
     }
 
-    /// The axis along which some surfaces lie farthest apart.
-    fn widest_axis(&self, own: &[u32]) -> usize {
-        let boxes = || own.iter().map(|surface| &self.all[*surface as usize]);
-        let low = boxes().fold(DVec3::INFINITY, |low, own| low.min(own.low));
-        let high = boxes().fold(DVec3::NEG_INFINITY, |high, own| high.max(own.low));
-        let size = high - low;
-        (1..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest })
-    }
-
-    /// The cells that the plane of a surface may lie in, with the surface.
-    fn cells(&self, mesh: &Mesh, surface: u32) -> Vec<([i64; 3], u32)> {
+    /// The key of the plane of a surface, by its largest face.
+    fn key(&self, mesh: &Mesh, surface: u32) -> PlaneKey {
         let own = &self.all[surface as usize];
-        let [a, b, c] = mesh.corners(FaceId(own.largest.0));
-        let across = (b - a).cross(c - a);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        // Each corner is known within half of contact.
-        let turn = 2.0 * own.contact * longest / across.length();
-        let (normal, way) = (across.normalize_or_zero(), a - mesh.extents.middle);
-        let distance = normal.dot(way).abs();
-        let reach = turn * (way.length() + longest) + 2.0 * own.contact;
-        let range =
-            |value: f64, reach: f64| (((value - reach).floor() as i64), ((value + reach).floor() as i64));
-        let squares = normal * normal / NORMAL_CELL;
-        let step = (mesh.extents.diagonal / DISTANCE_STEPS).max(f64::MIN_POSITIVE);
-        let (d0, d1) = range(distance / step, reach / step);
-        if turn.is_nan() || turn > MAX_TURN || d1 - d0 >= MAX_CELLS {
-            return Vec::new();
-        }
-        let [(x0, x1), (y0, y1)] = [squares.x, squares.y].map(|s| range(s, 2.0 * turn / NORMAL_CELL));
-        let mut cells = Vec::with_capacity(1);
-        for x in x0..=x1 {
-            for y in y0..=y1 {
-                cells.extend((d0..=d1).map(|d| ([x, y, d], surface)));
-            }
-        }
-        cells
+        PlaneKey::of(mesh, own.largest.0)
     }
 
     /// Whether triangles of two surfaces have a common area in one plane, and more than slivers; `arcs` keeps the curved borders of
