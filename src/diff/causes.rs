@@ -23,7 +23,7 @@ const COLOURS: usize = 2;
 /// Parts that are named.
 const NAMED: usize = 3;
 /// Parts go at most so many ways for each to be a cause.
-const MOST_WAYS: usize = 6;
+pub(super) const MOST_WAYS: usize = 6;
 /// As few findings as this are told each.
 const FEW: usize = 2;
 

@@ -220,6 +220,9 @@ pub struct Diff {
     pub unused_tolerances: Vec<String>,
     /// Whether the pictures could not be compared, because one takes too long to rasterise: geometry alone was.
     pub pictures_unknown: bool,
+    /// Whether one finding stands for all marks, because the drawing is seen from another side and
+    /// [`DiffOptions::brief`](super::DiffOptions::brief) allows it.
+    pub is_brief: bool,
     /// The comparison of pixels, where it was asked for.
     pub pixels: Option<PixelDiff>,
     pub(super) before: Picture,

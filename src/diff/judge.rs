@@ -5,6 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use kurbo::{Point, Rect};
 
 use super::DiffOptions;
+use super::another_side;
 use super::causes::{self, Mover};
 use super::chain;
 use super::cover::cover;
@@ -51,6 +52,7 @@ pub(super) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
             .map_or_else(|| default_px(before, after), |length| length.in_unit(crate::drawing::Unit::Px)),
         unused_tolerances: options.tolerances.unused([before, after]),
         pictures_unknown: false,
+        is_brief: false,
         pixels: None,
         before: before.clone(),
         after: after.clone(),
@@ -89,6 +91,9 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let lost = unlabelled::lost(pictures).filter(|_| !options.ignore.labels);
     let mut ignore = options.ignore;
     ignore.labels |= lost.is_some();
+    if options.brief && lost.is_none() && settled_in_brief(diff, pictures, options) {
+        return;
+    }
     let page = page(before, after);
     let mut compared = one(pictures, &options.tolerances, ignore);
     let renamed = (!ignore.labels).then(|| parts::renamed(pictures, &compared.findings)).flatten();
@@ -101,7 +106,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         compared = one(pictures, &options.tolerances, ignore);
         diff.totals = Totals::of(before, after);
     }
-    let looked = look(pictures, &compared, options, ignore);
+    let looked = look(pictures, &compared.findings, options, ignore);
     diff.pictures_unknown = matches!(looked, Decision::Unknown);
     let seen = match looked {
         Decision::Same => {
@@ -144,11 +149,27 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
 }
 
+/// Settles drawings of one size that are seen from two sides; false for all others.
+fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) -> bool {
+    let groups = Groups::new(pictures, &options.tolerances, options.ignore);
+    let parted = exact::part(pictures[0], pictures[1], &groups);
+    let Some((finding, cause)) = another_side::find(pictures, &parted, diff.tolerance_px) else {
+        return false;
+    };
+    if page(pictures[0], pictures[1]).is_some()
+        || !matches!(look(pictures, &[], options, options.ignore), Decision::Differs(_))
+    {
+        return false;
+    }
+    (diff.findings, diff.causes, diff.is_brief) = (vec![finding], vec![cause], true);
+    true
+}
+
 /// Compares the pictures. The renderer follows nested references on a large stack, and may give up.
-fn look(pictures: [&Picture; 2], compared: &Compared, options: &DiffOptions, ignore: Ignore) -> Decision {
+fn look(pictures: [&Picture; 2], findings: &[Finding], options: &DiffOptions, ignore: Ignore) -> Decision {
     let groups = Groups::new(pictures, &options.tolerances, ignore);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
-    let decide = || pictures::decide(pictures, &compared.findings, &groups, ignore);
+    let decide = || pictures::decide(pictures, findings, &groups, ignore);
     let decided = pool.map(|pool| pool.install(|| catch_unwind(AssertUnwindSafe(decide))));
     decided.ok().and_then(Result::ok).unwrap_or(Decision::Unknown)
 }

@@ -145,7 +145,7 @@ fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
 }
 
 /// The points that a path is written with.
-fn points(path: &BezPath) -> Vec<Point> {
+pub(super) fn points(path: &BezPath) -> Vec<Point> {
     let mut points = Vec::new();
     for element in path.elements() {
         match *element {

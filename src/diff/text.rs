@@ -33,6 +33,9 @@ impl Diff {
         if let Some(same) = same {
             return same + &pixels;
         }
+        if self.is_brief {
+            return "the marks were not compared one by one".to_owned() + &pixels;
+        }
         let mut words = Vec::new();
         for verdict in Verdict::ALL {
             let count = self.of(verdict).count();

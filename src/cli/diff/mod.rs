@@ -92,6 +92,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
         tolerances: args.tolerance.clone().unwrap_or_default(),
         pixels: args.pixels,
         ignore: args.ignore.iter().fold(Ignore::default(), |all, more| all.and(*more)),
+        brief: !(args.all || args.json || args.markdown || args.image.is_some()),
     };
     let told = pipeline::in_threads(args.how.threads, || told(args, &pairing, &options))??;
     if let Some(images) = images {
