@@ -1,5 +1,8 @@
 //! Drawings compared by their pictures: kinds of change that geometry does not see, kinds of writing that no picture shows, and
-//! random pairs of both, judged by resvg at four times the size.
+//! random pairs of both, judged by resvg and by librsvg at four times the size.
+
+use std::io::Write as _;
+use std::process::{Command, Stdio};
 
 use crate::support::dice::Dice;
 use crate::support::svg_scenes::{Scene, same_pair, seen_pair};
@@ -212,15 +215,23 @@ fn picture(svg: &str) -> tiny_skia::Pixmap {
     pixmap
 }
 
+/// A picture by librsvg, four pixels to a px; none if it is not installed.
+fn picture_by_librsvg(svg: &str) -> Option<tiny_skia::Pixmap> {
+    let (input, output) = (Stdio::piped(), Stdio::piped());
+    let mut child =
+        Command::new("rsvg-convert").args(["--zoom", "4"]).stdin(input).stdout(output).spawn().ok()?;
+    child.stdin.take()?.write_all(svg.as_bytes()).ok()?;
+    tiny_skia::Pixmap::decode_png(&child.wait_with_output().ok()?.stdout).ok()
+}
+
 /// How many pixels differ by more than a quarter of the way from black to white.
-fn pixels_that_differ(before: &str, after: &str) -> usize {
-    let (a, b) = (picture(before), picture(after));
+fn pixels_that_differ([a, b]: [tiny_skia::Pixmap; 2]) -> usize {
     let pairs = a.data().chunks_exact(4).zip(b.data().chunks_exact(4));
     pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 64)).count()
 }
 
-/// Random pairs from these seeds, half of them changed: verdicts are as the pictures of resvg say.
-fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>) {
+/// Random pairs from these seeds, half of them changed: verdicts are as the pictures say.
+fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>, picture: impl Fn(&str) -> tiny_skia::Pixmap) {
     let (mut changed, mut unchanged, mut loudest, mut faintest) = (0, 0, 0u8, 255u8);
     for seed in seeds {
         let mut dice = Dice::new(seed);
@@ -234,7 +245,7 @@ fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>) {
         } else {
             let (before, after, way) = seen_pair(&scene, &mut dice);
             // A spot of one px² of the page.
-            if pixels_that_differ(&before, &after) < 16 {
+            if pixels_that_differ([&before, &after].map(|svg| picture(svg))) < 16 {
                 continue;
             }
             let diff = compare(&before, &after);
@@ -250,11 +261,27 @@ fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn random_pairs_are_judged_as_seen() {
-    pairs_are_judged_as_seen(0..200);
+    pairs_are_judged_as_seen(0..200, picture);
 }
 
 #[test]
 #[ignore = "takes minutes: .ci/nightly"]
 fn ten_thousand_random_pairs_are_judged_as_seen() {
-    pairs_are_judged_as_seen(1000..11_000);
+    pairs_are_judged_as_seen(1000..1000 + pairs(), picture);
+}
+
+/// Pairs of the long runs: ten thousand, or `LIGNE_PAIRS`.
+fn pairs() -> u64 {
+    std::env::var("LIGNE_PAIRS").map_or(10_000, |count| count.parse().expect("a number of pairs"))
+}
+
+#[test]
+#[ignore = "takes minutes: .ci/nightly"]
+fn ten_thousand_random_pairs_are_judged_as_librsvg_sees_them() {
+    if picture_by_librsvg(&page("")).is_none() {
+        eprintln!("skipped: rsvg-convert is not installed");
+        return;
+    }
+    let picture = |svg: &str| picture_by_librsvg(svg).expect("a picture by rsvg-convert");
+    pairs_are_judged_as_seen(20_000..20_000 + pairs(), picture);
 }
