@@ -115,10 +115,11 @@ fn affine(pairs: &[[Point; 2]]) -> Option<impl Fn(Point) -> Point + use<>> {
 mod tests {
     use super::*;
     use crate::diff::{DiffOptions, compare};
+    use crate::math::function::{cos, sin};
 
     /// Boxes of lines in space, drawn in parallel from a side turned by `degrees`; each moved along x by `apart` times its place.
     fn picture(degrees: f64, apart: f64, scale: f64) -> Picture {
-        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (sin, cos) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
         let mut paths = String::new();
         for part in 0..300 {
             let of = |step: usize, count: usize| (part / step % count) as f64;
