@@ -178,7 +178,14 @@ impl Painter<'_> {
                     true => {
                         let t = path.abs_transform();
                         let scale = (t.sx * t.sy - t.kx * t.ky).abs().sqrt().max(f32::MIN_POSITIVE);
-                        tiny_skia::Stroke { width: 1.0 / scale, ..tiny_skia::Stroke::default() }
+                        // Round, so that a line looks the same in one piece and in several.
+                        let (line_cap, line_join) = (tiny_skia::LineCap::Round, tiny_skia::LineJoin::Round);
+                        tiny_skia::Stroke {
+                            width: 1.0 / scale,
+                            line_cap,
+                            line_join,
+                            ..tiny_skia::Stroke::default()
+                        }
                     }
                 };
                 Some((ink(stroke.paint(), stroke.opacity())?, pen))

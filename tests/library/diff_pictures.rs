@@ -207,6 +207,19 @@ fn a_place_that_looks_different_is_told() {
     assert!(diff.lines().iter().any(|line| line.contains("at (40, 40)")), "{:#?}", diff.lines());
 }
 
+/// Pens of other programs have other ends: a corner that they cut in two is the same line where widths do not count.
+#[test]
+fn a_corner_in_two_lines_is_one_where_widths_do_not_count() {
+    let pen = r##"<g fill="none" stroke="#000" stroke-width="3">"##;
+    let whole = page(&format!(r#"{pen}<path d="M20 20H90.5L40 97"/></g>"#));
+    let cut = page(&format!(r#"{pen}<path d="M20 20H90.5"/><path d="M90.5 20L40 97"/></g>"#));
+    assert!(!compare(&whole, &cut).is_same());
+    let read = |svg: &str| Picture::from_svg(svg).unwrap();
+    let options = DiffOptions::default().ignoring(Ignore::parse("widths").unwrap());
+    let diff = diff::compare(&read(&whole), &read(&cut), &options);
+    assert!(diff.is_same(), "{:#?}", diff.lines());
+}
+
 /// A picture by resvg itself, four pixels to a px.
 fn picture(svg: &str) -> tiny_skia::Pixmap {
     let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).unwrap();
