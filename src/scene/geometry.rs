@@ -52,6 +52,18 @@ impl Geometry {
         self.lattice_step.max(F32_STEP * self.largest())
     }
 
+    /// The step of the coordinates as [`Self::step`], but of single precision the distance of the largest coordinate from the next
+    /// number, not its upper bound.
+    #[cfg(feature = "page")]
+    #[must_use]
+    pub(crate) fn finest_step(&self) -> f64 {
+        if !self.single_precision {
+            return self.lattice_step;
+        }
+        let largest = self.largest() as f32;
+        self.lattice_step.max(f64::from(largest.next_up()) - f64::from(largest))
+    }
+
     /// The largest coordinate, local units, of faces with an area and wires with a length; of all where there are none.
     fn largest(&self) -> f64 {
         let at = |vertex: u32| self.positions.get(vertex as usize).copied().unwrap_or_default();
