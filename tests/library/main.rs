@@ -16,6 +16,7 @@ mod diff_hostile;
 mod diff_pictures;
 mod diff_properties;
 mod diff_sentences;
+mod dimension_values;
 mod dry_brush;
 mod dual_tree;
 mod dxf;

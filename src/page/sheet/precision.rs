@@ -11,7 +11,6 @@
 
 use glam::DVec3;
 
-use super::values::power_of_ten;
 use crate::math::tolerance::{FITTED_OF_COORDINATE, ROUNDED_OF_COORDINATE};
 use crate::scene::drawn_points::DrawnPoints;
 use crate::scene::flatten::longest_axis;
@@ -114,6 +113,11 @@ fn power_above(number: f64) -> i32 {
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let is_power = mantissa.bytes().skip(1).all(|byte| matches!(byte, b'.' | b'0')) && mantissa.starts_with('1');
     if is_power { exponent } else { exponent + 1 }
+}
+
+/// A power of ten: exact up to the 22nd, infinite from the 309th on.
+pub(super) fn power_of_ten(exponent: usize) -> f64 {
+    (0..exponent).fold(1.0, |power, _| power * 10.0)
 }
 
 #[cfg(test)]

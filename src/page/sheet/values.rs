@@ -9,7 +9,7 @@
 use toml::Spanned;
 
 use super::keys::SheetPage;
-use super::precision::Precision;
+use super::precision::{Precision, power_of_ten};
 use crate::error::Error;
 use crate::page::source::Source;
 
@@ -123,11 +123,6 @@ fn decimal(value: f64, decimals: usize) -> String {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
     }
-}
-
-/// A power of ten: exact up to the 22nd, infinite from the 309th on.
-pub(super) fn power_of_ten(exponent: usize) -> f64 {
-    (0..exponent).fold(1.0, |power, _| power * 10.0)
 }
 
 #[cfg(test)]
