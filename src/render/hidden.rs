@@ -1,24 +1,28 @@
 //! The chains of a view, hidden ones without what lies in the ink of others.
 
-use crate::chain::{self, Chain};
+use crate::chain::{self, Chain, Rounding};
 use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
-use crate::mesh::Extents;
+use crate::math::tolerance;
+use crate::mesh::extents::{Extent, Extents};
 use crate::stroke::InkWidths;
 use crate::style::Style;
+use crate::view::Frame;
 use crate::viewmap::precedence::{self, Ink};
 use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 
-/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts, and `perspective` whether depth
-/// runs along a line as in perspective.
+/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts.
 pub(super) fn chains(
     ahead: &Ahead,
     map: &ViewMap,
     (style, widths): (&Style, &InkWidths),
     unit: Unit,
-    (extents, perspective): (&Extents, bool),
+    (extents, frame): (&Extents, &Frame),
 ) -> Vec<Chain> {
-    let link = |map| chain::link_behind(ahead, map, &style.chain, unit, style.lines.hidden);
+    let perspective = frame.perspective;
+    let rounding = (style.chain.circles && !perspective).then(|| corner_rounding(extents, frame.scale));
+    let chained = (&style.chain, Rounding(rounding.as_deref()));
+    let link = |map| chain::link_behind(ahead, map, chained, unit, style.lines.hidden);
     let mut chains = link(map);
     if style.lines.hidden == HiddenLines::None {
         return chains;
@@ -33,6 +37,12 @@ pub(super) fn chains(
         chains.extend(link(&cut).into_iter().filter(stays));
     }
     chains
+}
+
+/// How far the rounding of the file moves the corners of each part, at `scale` user units to a unit of the world.
+fn corner_rounding(extents: &Extents, scale: f64) -> Vec<f64> {
+    let own = |extent: &Extent| (tolerance::CORNER_OFF_CIRCLE * extent.step).max(tolerance::WELD_OF_PART * extent.scale);
+    extents.all().iter().map(|extent| own(extent) * scale).collect()
 }
 
 /// What is left of a hidden line is drawn if it is this long, px: curves that coincide but for rounding leave crumbs.

@@ -10,6 +10,7 @@ mod entities;
 mod layers;
 mod objects;
 mod sheet;
+mod steps;
 mod tables;
 mod tags;
 

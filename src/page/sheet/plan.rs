@@ -75,7 +75,7 @@ impl Plan {
     /// Points to the key that is wrong.
     pub fn new(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
         let name = sheet.style.clone().unwrap_or_else(|| Spanned::new(0..0, "technical".to_owned()));
-        let mut style = figure::style(&name, &sheet.set, source)?;
+        let mut style = figure::style(&name, &sheet.set, source)?.to_scale();
         style.lines.hidden = if sheet.hidden { HiddenLines::Dashed } else { HiddenLines::None };
         if sheet.model.0.is_empty() {
             return Err(Error::new("this sheet shows no model")
