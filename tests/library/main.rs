@@ -5,6 +5,7 @@ mod support;
 mod animate;
 mod architecture;
 mod chains;
+mod circles_to_scale;
 mod closed_forms;
 mod contour_validity;
 mod cutouts;

@@ -62,7 +62,7 @@ impl DxfOptions {
 /// How far lines and arcs may be from the curves that they stand for, mm: what the curves themselves leave of 0.02 mm ([`Style::to_scale`]).
 ///
 /// [`Style::to_scale`]: crate::Style::to_scale
-const TOLERANCE_MM: f64 = 0.006;
+const TOLERANCE_MM: f64 = 0.008;
 
 const MM_PER_PX: f64 = 25.4 / 96.0;
 

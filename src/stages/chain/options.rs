@@ -23,11 +23,10 @@ pub struct ChainOptions {
     pub circles: bool,
 }
 
-/// How far smoothing, leaving out points, and fitting may move a point on a page to scale, mm. With the lines and arcs of DXF these are less than
-/// 0.02 mm together.
-const SMOOTH_MM: f64 = 0.006;
+/// How far leaving out points and fitting may move a point on a page to scale, mm. With the lines and arcs of DXF these are less than 0.02 mm
+/// together.
 const SIMPLIFY_MM: f64 = 0.002;
-const FIT_MM: f64 = 0.005;
+const FIT_MM: f64 = 0.008;
 
 impl ChainOptions {
     /// The same for a page to scale or a DXF file, on which no point of the model is to move by more than 0.02 mm, and corners on one circle become
@@ -38,7 +37,8 @@ impl ChainOptions {
             if length.in_unit(Unit::Mm) > most { Length { value: most, unit: Unit::Mm } } else { length }
         };
         Self {
-            smooth: within(self.smooth, SMOOTH_MM),
+            // Smoothing cuts corners by more than it is asked to move points.
+            smooth: within(self.smooth, 0.0),
             simplify: within(self.simplify, SIMPLIFY_MM),
             fit_tolerance: within(self.fit_tolerance, FIT_MM),
             circles: true,
