@@ -41,7 +41,9 @@ pub(super) fn chains(
 
 /// How far the rounding of the file moves the corners of each part, at `scale` user units to a unit of the world.
 fn corner_rounding(extents: &Extents, scale: f64) -> Vec<f64> {
-    let own = |extent: &Extent| (tolerance::CORNER_OFF_CIRCLE * extent.step).max(tolerance::WELD_OF_PART * extent.scale);
+    let own = |extent: &Extent| {
+        (tolerance::CORNER_OFF_CIRCLE * extent.step).max(tolerance::WELD_OF_PART * extent.scale)
+    };
     extents.all().iter().map(|extent| own(extent) * scale).collect()
 }
 

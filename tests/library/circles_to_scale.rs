@@ -207,7 +207,11 @@ fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, pa
             let apart = (other[0] - centre[0]).hypot(other[1] - centre[1]);
             apart < near && (length - radius).abs() < near && whole == is_circle
         };
-        assert_eq!(found.iter().filter(|own| is_it(own)).count(), 1, "{name}: {centre:?} {radius} in {found:?}");
+        assert_eq!(
+            found.iter().filter(|own| is_it(own)).count(),
+            1,
+            "{name}: {centre:?} {radius} in {found:?}"
+        );
     }
 }
 
@@ -243,7 +247,8 @@ fn slots_and_rounded_corners_have_arcs() {
         let place = [dice.between(-200.0, 200.0), dice.between(-200.0, 200.0)];
         let chords = [4, 5, 6, 8, 12, 24][dice.below(6)];
         let radius = dice.between(1.0, 9.0) / scale;
-        let height = if dice.below(2) == 0 { 2.0 * radius } else { 2.0 * radius + dice.between(2.0, 20.0) / scale };
+        let height =
+            if dice.below(2) == 0 { 2.0 * radius } else { 2.0 * radius + dice.between(2.0, 20.0) / scale };
         let width = 2.0 * radius + dice.between(3.0, 90.0) / scale;
         let outline = rounded([width, height], place, radius, chords);
         let way = (dice.below(4), scale, PAGES[dice.below(3)]);
@@ -266,7 +271,8 @@ fn polygons_and_ellipses_are_no_circles() {
             let mut oval = circle([0.0, 0.0], 40.0, count, 0.0);
             oval.corners.iter_mut().for_each(|p| p[1] *= 0.7);
             let drawing = view(&scene(&[prism(&oval)], written), 1.0, PAGES[0], [0.0; 2]).0;
-            let cubics = drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.path.segments().count());
+            let cubics =
+                drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.path.segments().count());
             assert!(cubics.sum::<usize>() < 80, "{written}: {count}");
             for [x, y] in &oval.corners {
                 let off = off(&drawing, Point::new(105.0 + x, 148.5 - y));
@@ -285,7 +291,8 @@ fn files_in_lengths_of_the_model_register() {
     for (scale, page, middle) in [(1.0, PAGES[0], [60.0, 20.0]), (0.5, PAGES[1], [-20.0, 3.7])] {
         let (drawing, camera) = view(&both, scale, page, middle);
         let [right, up, _] = camera.axes();
-        let origin = [page[0] / 2.0 - camera.eye.dot(right) * scale, page[1] / 2.0 + camera.eye.dot(up) * scale];
+        let origin =
+            [page[0] / 2.0 - camera.eye.dot(right) * scale, page[1] / 2.0 + camera.eye.dot(up) * scale];
         let options = DxfOptions::default().with_length(DxfLength::Model(scale)).with_origin(origin);
         let found = round_entities(&entities(&pairs(&drawing.to_dxf(&options))));
         let hole = found.iter().find(|(_, _, is_circle)| *is_circle).expect("a circle");

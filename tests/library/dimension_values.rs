@@ -24,12 +24,12 @@ const CORNERS: u32 = 48;
 impl Plate {
     /// A random plate at a random place, along two of the axes.
     fn random(dice: &mut Dice) -> Self {
-        let thousandths = |low: f64, high: f64, dice: &mut Dice| (dice.between(low, high) * 1000.0).round() / 1000.0;
+        let thousandths =
+            |low: f64, high: f64, dice: &mut Dice| (dice.between(low, high) * 1000.0).round() / 1000.0;
         let side = thousandths(8.0, 60.0, dice);
         let thick = thousandths(0.5, 25.0, dice);
-        let radii: Vec<f64> = (0..=dice.below(3))
-            .map(|_| (dice.between(0.1, 0.45) * side * 2000.0).round() / 2000.0)
-            .collect();
+        let radii: Vec<f64> =
+            (0..=dice.below(3)).map(|_| (dice.between(0.1, 0.45) * side * 2000.0).round() / 2000.0).collect();
         let place = DVec3::from_array([(); 3].map(|()| thousandths(-300.0, 300.0, dice)));
         let axes = [[0, 1, 2], [1, 2, 0], [2, 0, 1]][dice.below(3)];
         let mut solid = Solid::default();
@@ -78,9 +78,9 @@ fn add_walls(solid: &mut Solid, [length, height, thick]: [f64; 3]) {
     for k in 0..4 {
         let ([a, b], [c, d]) = (ring[k], ring[(k + 1) % 4]);
         let first = solid.positions.len() as u32;
-        solid.positions.extend(
-            [[a, b, 0.0], [c, d, 0.0], [c, d, thick], [a, b, thick]].map(DVec3::from_array),
-        );
+        solid
+            .positions
+            .extend([[a, b, 0.0], [c, d, 0.0], [c, d, thick], [a, b, thick]].map(DVec3::from_array));
         solid.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
     }
 }
@@ -134,10 +134,10 @@ fn file(name: &str, solid: &Solid, scale: f64) -> Vec<u8> {
             let mut bytes: Vec<u8> = single().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes).collect();
             let points = bytes.len();
             bytes.extend(corners().flat_map(|corner| corner.to_le_bytes()));
-            let (low, high) = single().fold(
-                (glam::Vec3::INFINITY, glam::Vec3::NEG_INFINITY),
-                |(low, high), p| (low.min(p), high.max(p)),
-            );
+            let (low, high) = single()
+                .fold((glam::Vec3::INFINITY, glam::Vec3::NEG_INFINITY), |(low, high), p| {
+                    (low.min(p), high.max(p))
+                });
             let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
             format!(
                 r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
@@ -216,8 +216,12 @@ fn check(round: u64) {
         }
     }
     for view in ["back", "left", "right", "bottom"] {
-        text += &format!("[[page.dimension]]\nof = '{view}'\nfrom = 'left'\nto = 'right'\nmeasure = 'horizontal'\n");
-        text += &format!("[[page.dimension]]\nof = '{view}'\nfrom = 'bottom'\nto = 'top'\nmeasure = 'vertical'\n");
+        text += &format!(
+            "[[page.dimension]]\nof = '{view}'\nfrom = 'left'\nto = 'right'\nmeasure = 'horizontal'\n"
+        );
+        text += &format!(
+            "[[page.dimension]]\nof = '{view}'\nfrom = 'bottom'\nto = 'top'\nmeasure = 'vertical'\n"
+        );
         let [right, up] = if matches!(view, "left" | "right") { [1, 2] } else { [0, 1] };
         let up = if view == "back" { 2 } else { up };
         asked.extend([high[right] - low[right], high[up] - low[up]]);
@@ -225,7 +229,8 @@ fn check(round: u64) {
     asked.extend(plate.sizes());
     asked.extend(plate.radii.iter().map(|radius| 2.0 * radius));
     let sheet = PageFile::from_text(&text, folder.join("sheet.toml")).expect("a page");
-    let composed = sheet.compose().unwrap_or_else(|error| panic!("{round}: {error}")).into_iter().next().expect("one");
+    let composed =
+        sheet.compose().unwrap_or_else(|error| panic!("{round}: {error}")).into_iter().next().expect("one");
     fs::remove_dir_all(&folder).expect("removed");
     let unit = unit_of(&composed);
     let mut known = asked.clone();
@@ -235,7 +240,9 @@ fn check(round: u64) {
     let told: Vec<(f64, f64)> = words(item(&composed, "notes"))
         .iter()
         .filter_map(|word| value(word, decimals, has_comma))
-        .map(|(value, half)| [value, half].map(|x| x * unit / model_mm * if scale < 1.0 { 1000.0 } else { 1.0 }))
+        .map(|(value, half)| {
+            [value, half].map(|x| x * unit / model_mm * if scale < 1.0 { 1000.0 } else { 1.0 })
+        })
         .map(|[value, half]| (value, half * (1.0 + 1e-9)))
         .collect();
     let is = |wanted: f64, (value, half): (f64, f64)| (wanted - value).abs() <= half && value > 0.0;

@@ -174,7 +174,7 @@ fn curves_are_arcs_and_not_chopped() {
     // A gear seen along its axis: its holes are circles.
     let scene = Scene::open("examples/models/gear.obj").expect("a gear");
     let camera = Camera::named(ligne::scene::NamedView::Top, scene.up).fit(&scene);
-    let drawing = render(&scene, &camera, &Style::default()).expect("a drawing");
+    let drawing = render(&scene, &camera, &Style::default().to_scale()).expect("a drawing");
     let dxf = drawing.to_dxf(&DxfOptions::default());
     let entities = entities(&pairs(&dxf));
     let vertices = entities.iter().filter(|entity| entity.kind == "VERTEX").count();

@@ -13,9 +13,9 @@ mod video;
 use std::borrow::Cow;
 use std::path::Path;
 
+use crate::cli::output::Format;
 pub(super) use args::AnimateArgs;
 use destination::Destination;
-use crate::cli::output::Format;
 use detail::Faces;
 use plan::Plan;
 use stage::Stage;

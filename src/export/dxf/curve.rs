@@ -45,7 +45,12 @@ pub(super) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<Curve
     let within = tolerance * (1.0 - FLAT_SHARE);
     let moved = place * path;
     let subpaths = Steps::of(moved.elements(), tolerance * FLAT_SHARE);
-    subpaths.iter().filter_map(|own| if own.has_arcs() { with_arcs(own, within) } else { curve(own.points(), own.closed, within) }).collect()
+    subpaths
+        .iter()
+        .filter_map(|own| {
+            if own.has_arcs() { with_arcs(own, within) } else { curve(own.points(), own.closed, within) }
+        })
+        .collect()
 }
 
 /// The curve of a subpath that has arcs.

@@ -97,7 +97,8 @@ impl<'a> Sheet<'a> {
             DxfLength::Model(per_unit) if per_unit.is_finite() && per_unit > 0.0 => (1.0 / per_unit, false),
             DxfLength::Model(_) => (mm_per_unit, true),
         };
-        let [left, bottom] = options.origin.filter(|at| at.iter().all(|x| x.is_finite())).unwrap_or([0.0, page.height]);
+        let [left, bottom] =
+            options.origin.filter(|at| at.iter().all(|x| x.is_finite())).unwrap_or([0.0, page.height]);
         let place = Affine::new([scale, 0.0, 0.0, -scale, -left * scale, bottom * scale]);
         let drawn = drawing.layers.iter().filter(|layer| is_drawn(layer.kind));
         let marks = drawn.flat_map(|layer| layer.marks.iter().map(|mark| (layer.kind, mark)));

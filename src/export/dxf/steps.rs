@@ -103,7 +103,8 @@ impl Steps {
         if self.closed {
             self.line(self.start);
             let is_end = |k: usize| {
-                let (here, before) = (self.steps[k], self.steps[(k + self.steps.len() - 1) % self.steps.len()]);
+                let (here, before) =
+                    (self.steps[k], self.steps[(k + self.steps.len() - 1) % self.steps.len()]);
                 here.arc.is_some() && !is_one_circle(before, here)
             };
             if let Some(first) = (0..self.steps.len()).find(|k| is_end(*k)) {

@@ -135,9 +135,7 @@ impl Measures {
                 .iter()
                 .filter(|round| round.hollow && round.pitch.is_none())
                 .flat_map(|round| round.centres.iter().map(|at| (*at, round.precision)))
-                .filter(|(at, _)| {
-                    outer.iter().all(|other| (*other - sight.page(*at)).hypot2() > SAME * SAME)
-                })
+                .filter(|(at, _)| outer.iter().all(|other| (*other - sight.page(*at)).hypot2() > SAME * SAME))
                 .collect();
             let [right, up, _] = sight.axes();
             let corner = plan.middle + right * sight.low.x + up * sight.low.y;

@@ -64,8 +64,7 @@ pub(super) fn add_told(
         }
         let (from, to) = (place(&keys.from, "from")?, place(&keys.to, "to")?);
         let length = true_length([from, to], measure, sight, plan.foreshortening(view));
-        let (length, precision) =
-            length.map_err(|[message, advice]| source.fault(&span, message, advice))?;
+        let (length, precision) = length.map_err(|[message, advice]| source.fault(&span, message, advice))?;
         let text = keys.text.clone().unwrap_or_else(|| plan.values.written(length, precision));
         let ends = [from, to].map(|p| sight.page(p.at));
         add_length(ends, (measure, text), keys, view, measures, ink)?;
@@ -106,9 +105,8 @@ fn point(
         return Err(source.fault(&told.span(), &message, "`ligne info MODEL` lists them; * is any text"));
     }
     let [right, up, _] = sight.axes();
-    let outermost = |way: DVec3| {
-        points.iter().copied().max_by(|a, b| a.at.dot(way).total_cmp(&b.at.dot(way)))
-    };
+    let outermost =
+        |way: DVec3| points.iter().copied().max_by(|a, b| a.at.dot(way).total_cmp(&b.at.dot(way)));
     let found = match end {
         "left" => outermost(-right),
         "right" => outermost(right),
@@ -145,9 +143,10 @@ fn of_cylinder(
     let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
     let is_radius = measure == Measure::Radius;
     let (sign, length) = if is_radius { ("R", nearest.radius) } else { ("⌀", 2.0 * nearest.radius) };
-    let text = keys.text.clone().unwrap_or_else(|| {
-        format!("{sign}{}", plan.values.written(length, Precision::of_cylinder(nearest)))
-    });
+    let text = keys
+        .text
+        .clone()
+        .unwrap_or_else(|| format!("{sign}{}", plan.values.written(length, Precision::of_cylinder(nearest))));
     let (centre, radius) = (sight.page(nearest.point), nearest.radius * sight.unit);
     Some(Led { centre, radius, text, pitch: None })
 }

@@ -111,7 +111,8 @@ fn power_above(number: f64) -> i32 {
     let text = format!("{number:.9e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or(("1", "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
-    let is_power = mantissa.bytes().skip(1).all(|byte| matches!(byte, b'.' | b'0')) && mantissa.starts_with('1');
+    let is_power =
+        mantissa.bytes().skip(1).all(|byte| matches!(byte, b'.' | b'0')) && mantissa.starts_with('1');
     if is_power { exponent } else { exponent + 1 }
 }
 
@@ -159,7 +160,9 @@ mod tests {
 
     #[test]
     fn powers_of_ten_are_found() {
-        for (number, wanted) in [(1e-6, -6), (1.1e-6, -5), (0.1 + 0.2 - 0.2, -1), (1.0, 0), (9.0, 1), (5e-324, -323)] {
+        for (number, wanted) in
+            [(1e-6, -6), (1.1e-6, -5), (0.1 + 0.2 - 0.2, -1), (1.0, 0), (9.0, 1), (5e-324, -323)]
+        {
             assert_eq!(power_above(number), wanted, "{number}");
         }
     }

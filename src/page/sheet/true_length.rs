@@ -24,8 +24,10 @@ pub(super) enum Foreshortening {
 /// Why a dimension is refused, and what to do.
 pub(super) type Refusal = [&'static str; 2];
 
-pub(super) const IN_EXPLODED: Refusal =
-    ["an exploded view has no dimensions: its parts are not where they are in the model", "name another view with `of`"];
+pub(super) const IN_EXPLODED: Refusal = [
+    "an exploded view has no dimensions: its parts are not where they are in the model",
+    "name another view with `of`",
+];
 
 const NOT_ALONG_AXIS: Refusal = [
     "a pictorial view shows true lengths only along the axes of the model",

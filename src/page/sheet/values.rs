@@ -85,10 +85,12 @@ impl Values {
         };
         let decimals = match &sheet.decimals {
             None => DECIMALS[usize::from(unit != mm)],
-            Some(told) => u8::try_from(*told.get_ref()).ok().filter(|n| *n <= MAX_DECIMALS).ok_or_else(|| {
-                let advice = format!("write a whole number from 0 to {MAX_DECIMALS}");
-                source.fault(&told.span(), "this is no number of decimals", &advice)
-            })?,
+            Some(told) => {
+                u8::try_from(*told.get_ref()).ok().filter(|n| *n <= MAX_DECIMALS).ok_or_else(|| {
+                    let advice = format!("write a whole number from 0 to {MAX_DECIMALS}");
+                    source.fault(&told.span(), "this is no number of decimals", &advice)
+                })?
+            }
         };
         Ok(Self { model, unit, decimals, has_comma: sheet.decimal_comma })
     }

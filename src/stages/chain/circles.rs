@@ -88,7 +88,8 @@ pub(super) fn arcs(points: &[Point], closed: bool, near: Nearness) -> Vec<Arc> {
     }
     // Twice round: the first stretch that ends before the second round ends where one does.
     let twice: Vec<Point> = points.iter().chain(points).copied().collect();
-    let Some(begin) = longest_from(&twice, near).map(|arc| arc.last).find(|last| last + 1 < twice.len()) else {
+    let Some(begin) = longest_from(&twice, near).map(|arc| arc.last).find(|last| last + 1 < twice.len())
+    else {
         return Vec::new();
     };
     let begin = begin % n;

@@ -58,7 +58,8 @@ pub(super) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
         }
         [first, ..] if raw.closed => {
             let begun = raw.opened_at(first.first % raw.len());
-            let moved = |arc: &Arc| Arc { first: arc.first - first.first, last: arc.last - first.first, ..*arc };
+            let moved =
+                |arc: &Arc| Arc { first: arc.first - first.first, last: arc.last - first.first, ..*arc };
             let (mut line, mut path) = with_arcs(&begun, &found.iter().map(moved).collect::<Vec<_>>(), t);
             close(&mut line);
             path.close_path();
