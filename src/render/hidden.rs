@@ -5,22 +5,25 @@ use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
 use crate::math::tolerance;
 use crate::mesh::extents::{Extent, Extents};
+use crate::scene::flatten::longest_axis;
+use crate::scene::{Geometry, Part, Scene};
 use crate::stroke::InkWidths;
 use crate::style::Style;
 use crate::view::Frame;
 use crate::viewmap::precedence::{self, Ink};
 use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 
-/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts.
+/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts of the scene.
 pub(super) fn chains(
     ahead: &Ahead,
     map: &ViewMap,
     (style, widths): (&Style, &InkWidths),
     unit: Unit,
-    (extents, frame): (&Extents, &Frame),
+    (scene, extents, frame): (&Scene, &Extents, &Frame),
 ) -> Vec<Chain> {
     let perspective = frame.perspective;
-    let rounding = (style.chain.circles && !perspective).then(|| corner_rounding(extents, frame.scale));
+    let rounding =
+        (style.chain.circles && !perspective).then(|| corner_rounding(scene, extents, frame.scale));
     let chained = (&style.chain, Rounding(rounding.as_deref()));
     let link = |map| chain::link_behind(ahead, map, chained, unit, style.lines.hidden);
     let mut chains = link(map);
@@ -39,12 +42,15 @@ pub(super) fn chains(
     chains
 }
 
-/// How far the rounding of the file moves the corners of each part, at `scale` user units to a unit of the world.
-fn corner_rounding(extents: &Extents, scale: f64) -> Vec<f64> {
-    let own = |extent: &Extent| {
-        (tolerance::CORNER_OFF_CIRCLE * extent.step).max(tolerance::WELD_OF_PART * extent.scale)
+/// How far the rounding of the file moves the corners of each part, at `scale` user units to a unit of the world. Numbers of few decimals may be
+/// rounded to these, also where they could be exact or in single precision.
+fn corner_rounding(scene: &Scene, extents: &Extents, scale: f64) -> Vec<f64> {
+    let own = |(extent, part): (&Extent, &Part)| {
+        let decimals = |geometry: &Geometry| geometry.decimal_step() * longest_axis(&part.world_from_part);
+        let step = scene.geometry_of(part).map_or(0.0, decimals).max(extent.step);
+        (tolerance::CORNER_OFF_CIRCLE * step).max(tolerance::WELD_OF_PART * extent.scale)
     };
-    extents.all().iter().map(|extent| own(extent) * scale).collect()
+    extents.all().iter().zip(&scene.parts).map(|both| own(both) * scale).collect()
 }
 
 /// What is left of a hidden line is drawn if it is this long, px: curves that coincide but for rounding leave crumbs.

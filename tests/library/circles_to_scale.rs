@@ -97,13 +97,14 @@ fn ring(outer: &Outline, inner: &Outline) -> Solid {
     solid
 }
 
-/// A scene of solids as a file holds them: in single precision, with some decimals, or in double precision.
+/// A scene of solids as a file holds them: in single precision, with six, four or three decimals, or in double precision.
 fn scene(solids: &[Solid], written: usize) -> Scene {
     let decimals = |x: f64, count: i32| (x * 10_f64.powi(count)).round() / 10_f64.powi(count);
     let round = |x: f64| match written {
         0 => f64::from(x as f32),
         1 => decimals(x, 6),
         2 => decimals(x, 4),
+        3 => decimals(x, 3),
         _ => x,
     };
     let parts: Vec<(String, Solid)> = solids
@@ -201,7 +202,8 @@ fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, pa
         .flat_map(|own| own.arcs.iter().map(|(centre, radius)| (*centre, *radius, own.is_circle)))
         .collect();
     assert_eq!(found.len(), wanted.len(), "{name}: {found:?} of {wanted:?}");
-    let near = 0.002 / scale;
+    // Of three decimals radii of short arcs are less certain.
+    let near = 0.002 / scale + if written == 3 { 0.004 } else { 0.0 };
     for (centre, radius, is_circle) in &wanted {
         let is_it = |(other, length, whole): &([f64; 2], f64, bool)| {
             let apart = (other[0] - centre[0]).hypot(other[1] - centre[1]);
@@ -220,8 +222,8 @@ const PAGES: [[f64; 2]; 3] = [[210.0, 297.0], [420.0, 297.0], [841.0, 594.0]];
 #[test]
 fn circles_of_16_corners_and_more_are_circles() {
     let mut dice = Dice::new(31);
-    for round in 0..60 {
-        let scale = [1.0, 0.5, 2.0, 0.1, 0.2][dice.below(5)];
+    for round in 0..100 {
+        let scale = [1.0, 0.5, 2.0, 0.1, 0.2, 5.0][dice.below(6)];
         let place = [dice.between(-200.0, 200.0), dice.between(-200.0, 200.0)];
         let (mut outlines, mut solids) = (Vec::new(), Vec::new());
         for k in 0..3 {
@@ -234,7 +236,7 @@ fn circles_of_16_corners_and_more_are_circles() {
             solids.push(ring(&outer, &inner));
             outlines.extend([outer, inner]);
         }
-        let way = (dice.below(4), scale, PAGES[dice.below(3)]);
+        let way = (dice.below(5), scale, PAGES[dice.below(3)]);
         check(&format!("{round}: {way:?}"), &outlines, &solids, way);
     }
 }
@@ -242,8 +244,8 @@ fn circles_of_16_corners_and_more_are_circles() {
 #[test]
 fn slots_and_rounded_corners_have_arcs() {
     let mut dice = Dice::new(32);
-    for round in 0..60 {
-        let scale = [1.0, 0.5, 2.0, 0.1][dice.below(4)];
+    for round in 0..100 {
+        let scale = [1.0, 0.5, 2.0, 0.1, 5.0][dice.below(5)];
         let place = [dice.between(-200.0, 200.0), dice.between(-200.0, 200.0)];
         let chords = [4, 5, 6, 8, 12, 24][dice.below(6)];
         let radius = dice.between(1.0, 9.0) / scale;
@@ -251,7 +253,7 @@ fn slots_and_rounded_corners_have_arcs() {
             if dice.below(2) == 0 { 2.0 * radius } else { 2.0 * radius + dice.between(2.0, 20.0) / scale };
         let width = 2.0 * radius + dice.between(3.0, 90.0) / scale;
         let outline = rounded([width, height], place, radius, chords);
-        let way = (dice.below(4), scale, PAGES[dice.below(3)]);
+        let way = (dice.below(5), scale, PAGES[dice.below(3)]);
         let solid = prism(&outline);
         check(&format!("{round}: {chords} {way:?}"), &[outline], &[solid], way);
     }
@@ -262,11 +264,11 @@ fn polygons_and_ellipses_are_no_circles() {
     let mut dice = Dice::new(33);
     for count in [6, 8, 12, 15] {
         let nut = circle([dice.between(-50.0, 50.0), 7.0], 12.0, count, 0.1);
-        let drawing = view(&scene(&[prism(&nut)], 3), 1.0, PAGES[0], nut.arcs[0].0).0;
+        let drawing = view(&scene(&[prism(&nut)], 4), 1.0, PAGES[0], nut.arcs[0].0).0;
         let found = round_entities(&entities(&pairs(&drawing.to_dxf(&DxfOptions::default()))));
         assert!(found.is_empty(), "{count}: {found:?}");
     }
-    for written in 0..4 {
+    for written in 0..5 {
         for count in [48, 200, 720] {
             let mut oval = circle([0.0, 0.0], 40.0, count, 0.0);
             oval.corners.iter_mut().for_each(|p| p[1] *= 0.7);
@@ -287,7 +289,7 @@ fn polygons_and_ellipses_are_no_circles() {
 fn files_in_lengths_of_the_model_register() {
     let whole = circle([31.5, -12.25], 6.0, 32, 0.0);
     let other = rounded([50.0, 30.0], [140.0, 60.0], 4.0, 6);
-    let both = scene(&[prism(&whole), prism(&other)], 3);
+    let both = scene(&[prism(&whole), prism(&other)], 4);
     for (scale, page, middle) in [(1.0, PAGES[0], [60.0, 20.0]), (0.5, PAGES[1], [-20.0, 3.7])] {
         let (drawing, camera) = view(&both, scale, page, middle);
         let [right, up, _] = camera.axes();

@@ -108,7 +108,7 @@ pub(super) fn draw(
         ink.word(below, Point::new(cell.x0 + 1.0, cell.y0 + 15.0), 2.5, Stand::Left, most)?;
     }
     ink.word("Number", Point::new(x(131.0), row(1.0) + 2.7), 1.8, Stand::Left, 30.0)?;
-    symbol(Point::new(x(165.0), place.y0 + STRIP / 2.0), method, ink);
+    symbol(Point::new(x(170.0), place.y0 + STRIP / 2.0), method, ink);
     Ok(())
 }
 

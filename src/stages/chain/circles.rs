@@ -20,12 +20,18 @@ use crate::math::plane::length;
 const MIN_CORNERS: usize = 5;
 const MIN_OF_CIRCLE: usize = 16;
 
-/// The largest turn from chord to chord, radians: of a polygon of 16 sides, and its rounding.
-const MAX_STEP: f64 = TAU / 16.0 * 1.001;
+/// The largest turn from chord to chord, radians: that of a polygon of 16 sides, and by how much rounding may widen it. One of 15 sides turns by
+/// 0.026 more.
+const MAX_STEP: f64 = TAU / 16.0;
+const MAX_WIDER: f64 = 0.02;
 
 /// The radius of an arc is uncertain by so many times the rounding, divided by the square of the angle: the height of an arc over its chord is
 /// an eighth of its radius times that square.
 const UNCERTAIN: f64 = 8.0;
+
+/// An arc that turns by this much is one whatever the rounding, radians: over an eighth of a turn an ellipse that is a tenth longer than wide is off
+/// each circle by a thousandth of its length. A little less for rounding.
+const CERTAIN_TURN: f64 = FRAC_PI_4 * 0.999;
 
 /// How near corners are to circles, user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,7 +118,10 @@ fn whole(points: &[Point], near: Nearness) -> Option<Arc> {
 
 /// The arcs among the longest stretches of an open line, one after the other.
 fn stretches(points: &[Point], near: Nearness) -> Vec<Arc> {
-    let is_certain = |arc: &Arc| UNCERTAIN * near.rounding <= near.radius * arc.turn * arc.turn;
+    let is_certain = |arc: &Arc| {
+        let turn = arc.turn.abs();
+        turn >= CERTAIN_TURN || UNCERTAIN * near.rounding <= near.radius * turn * turn
+    };
     longest_from(points, near).filter(is_certain).map(|arc| through_ends(arc, points)).collect()
 }
 
@@ -164,11 +173,12 @@ fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
     if points.iter().any(|p| (length(*p - centre) - radius).abs() > rounding) {
         return None;
     }
+    let most = MAX_STEP + 1e-6 + (2.0 * rounding / radius).min(MAX_WIDER);
     let mut turn = 0.0;
     for pair in points.windows(2) {
         let (a, b) = (pair[0] - centre, pair[1] - centre);
         let step = atan2(a.cross(b), a.dot(b));
-        if step == 0.0 || step.abs() > MAX_STEP || step * turn < 0.0 {
+        if step == 0.0 || step.abs() > most || step * turn < 0.0 {
             return None;
         }
         turn += step;
