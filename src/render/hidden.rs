@@ -25,7 +25,7 @@ pub(super) fn chains(
     let rounding =
         (style.chain.circles && !perspective).then(|| corner_rounding(scene, extents, frame.scale));
     let chained = (&style.chain, Rounding(rounding.as_deref()));
-    let link = |map| chain::link_behind(ahead, map, chained, unit, style.lines.hidden);
+    let link = |map| chain::link_rounded(ahead, map, chained, unit, style.lines.hidden);
     let mut chains = link(map);
     if style.lines.hidden == HiddenLines::None {
         return chains;

@@ -25,6 +25,10 @@ struct Outline {
     is_circle: bool,
 }
 
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    Point::new(a[0], a[1]).distance(Point::new(b[0], b[1]))
+}
+
 /// A circle of `count` corners.
 fn circle(centre: [f64; 2], radius: f64, count: u32, begin: f64) -> Outline {
     let corner = |k: u32| {
@@ -46,7 +50,7 @@ fn rounded([width, height]: [f64; 2], centre: [f64; 2], radius: f64, chords: u32
         for k in 0..=chords {
             let turn = FRAC_PI_2 * (quarter as f64 + f64::from(k) / f64::from(chords));
             let corner = [middle[0] + radius * cos(turn), middle[1] + radius * sin(turn)];
-            let apart = |known: &[f64; 2]| (known[0] - corner[0]).hypot(known[1] - corner[1]);
+            let apart = |known: &[f64; 2]| distance(*known, corner);
             if own.corners.last().is_none_or(|last| apart(last) > 1e-9) {
                 own.corners.push(corner);
             }
@@ -206,7 +210,7 @@ fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, pa
     let near = 0.002 / scale + if written == 3 { 0.004 } else { 0.0 };
     for (centre, radius, is_circle) in &wanted {
         let is_it = |(other, length, whole): &([f64; 2], f64, bool)| {
-            let apart = (other[0] - centre[0]).hypot(other[1] - centre[1]);
+            let apart = distance(*other, *centre);
             apart < near && (length - radius).abs() < near && whole == is_circle
         };
         assert_eq!(

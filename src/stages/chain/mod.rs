@@ -124,9 +124,21 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLin
 }
 
 /// Chains as [`link`] makes them, but that tidying draws no line across what hides it, however thin, if
-/// that is another surface than the line's own; with circles, where the options ask for them and the rounding is known.
+/// that is another surface than the line's own.
 #[must_use]
 pub fn link_behind(
+    ahead: &Ahead,
+    map: &ViewMap,
+    options: &ChainOptions,
+    unit: Unit,
+    hidden: HiddenLines,
+) -> Vec<Chain> {
+    link_rounded(ahead, map, (options, Rounding::default()), unit, hidden)
+}
+
+/// Chains as [`link_behind`] makes them, with circles where the options ask for them and the rounding of corners is known.
+#[must_use]
+pub fn link_rounded(
     ahead: &Ahead,
     map: &ViewMap,
     (options, rounding): (&ChainOptions, Rounding),
