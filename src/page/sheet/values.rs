@@ -28,7 +28,7 @@ const DECIMALS: [u8; 2] = [2, 3];
 /// Most decimals that a page file may ask for.
 const MAX_DECIMALS: u8 = 9;
 
-/// Decimals of the smallest numbers: none has more.
+/// Decimals that the smallest numbers have a digit in.
 const ALL_DECIMALS: usize = 330;
 
 /// A product of few factors in double precision is off by no more than this share. A value so near below a tie is one.
@@ -117,8 +117,11 @@ fn decimal(value: f64, decimals: usize) -> String {
         if scaled < WHOLE { (scaled + 0.5).floor() / power } else { value }
     };
     let mut decimals = decimals;
-    while value > 0.0 && rounded(decimals) == 0.0 && decimals < ALL_DECIMALS {
+    while value > 0.0 && rounded(decimals) == 0.0 {
         decimals += 1;
+    }
+    if power_of_ten(decimals).is_infinite() {
+        decimals = ALL_DECIMALS;
     }
     let text = format!("{:.decimals$}", rounded(decimals));
     match text.contains('.') {
