@@ -288,6 +288,27 @@ fn polygons_and_ellipses_are_no_circles() {
     }
 }
 
+/// What is left to see of a circle behind something is one arc.
+#[test]
+fn hidden_circles_leave_arcs() {
+    let mut dice = Dice::new(34);
+    for round in 0..30 {
+        let count = [32, 48, 64, 90][dice.below(4)];
+        let radius = dice.between(1.0, 4.0);
+        let disc = circle([3.0, -8.0], radius, count, dice.between(0.0, 1.0));
+        // A block above it that covers the side beyond a line.
+        let from = 3.0 + radius * dice.between(-0.7, 0.7);
+        let block = crate::support::sheets::block([from, -30.0, 6.0], [40.0, 30.0, 8.0]);
+        let scene = scene(&[prism(&disc), block], dice.below(5));
+        let (drawing, _) = view(&scene, 1.0, PAGES[0], [0.0; 2]);
+        let own = entities(&pairs(&drawing.to_dxf(&DxfOptions::default())));
+        let arcs: Vec<f64> =
+            own.iter().filter(|entity| entity.kind == "ARC").map(|entity| entity.number(40)).collect();
+        let visible = arcs.iter().filter(|length| (*length - radius).abs() < 0.005).count();
+        assert!(visible >= 1, "{round}: {count} {radius}: {arcs:?}");
+    }
+}
+
 /// Views of parts of one model register, whatever is in the frame.
 #[test]
 fn files_in_lengths_of_the_model_register() {

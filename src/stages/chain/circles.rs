@@ -7,7 +7,8 @@
 //!    corners by least squares (Kåsa) and measures them. Every part of a stretch that fits, fits: so the search finds the longest.
 //! 2. A closed line is one circle, or is begun anew where a stretch ends, so that no arc is cut.
 //! 3. An arc that turns too little has an uncertain radius, and may be a piece of an ellipse: it is left alone.
-//! 4. An arc goes exactly through its first and last corner. It is written as cubics of up to 45 degrees.
+//! 4. Where a line ends inside a chord of an arc, because something hides the rest, the arc goes on to its end.
+//! 5. An arc goes exactly through its first and last corner. It is written as cubics of up to 45 degrees.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -104,6 +105,36 @@ pub(super) fn arcs(points: &[Point], closed: bool, near: Nearness) -> Vec<Arc> {
     found.into_iter().map(|arc| Arc { first: arc.first + begin, last: arc.last + begin, ..arc }).collect()
 }
 
+/// Takes the ends of an open line into the arcs next to them, if they lie inside a chord of these: such an end is moved onto the arc.
+pub(super) fn extend_to_ends(points: &mut [Point], arcs: &mut [Arc], near: Nearness) {
+    let n = points.len();
+    if let Some(arc) = arcs.last_mut().filter(|arc| arc.last + 2 == n)
+        && let Some((end, step)) = onto_arc(arc, [points[n - 2], points[n - 1]], arc.turn, near)
+    {
+        points[n - 1] = end;
+        (arc.last, arc.turn) = (n - 1, arc.turn + step);
+    }
+    if let Some(arc) = arcs.first_mut().filter(|arc| arc.first == 1)
+        && let Some((end, step)) = onto_arc(arc, [points[1], points[0]], -arc.turn, near)
+    {
+        points[0] = end;
+        (arc.first, arc.turn) = (0, arc.turn - step);
+    }
+}
+
+/// Where the end of a line is on an arc that goes on so from its corner, and the angle from there.
+fn onto_arc(arc: &Arc, [corner, end]: [Point; 2], turn: f64, near: Nearness) -> Option<(Point, f64)> {
+    let (a, b) = (corner - arc.centre, end - arc.centre);
+    let step = atan2(a.cross(b), a.dot(b));
+    let inside = arc.radius - length(b);
+    let is_on = step * turn > 0.0
+        && step.abs() <= MAX_STEP
+        && (turn + step).abs() < TAU
+        && inside >= -near.rounding
+        && inside <= near.radius;
+    is_on.then(|| (arc.centre + b * (arc.radius / length(b)), step))
+}
+
 /// The whole circle that closed points are on.
 fn whole(points: &[Point], near: Nearness) -> Option<Arc> {
     if points.len() < MIN_OF_CIRCLE {
@@ -131,6 +162,9 @@ fn longest_from(points: &[Point], near: Nearness) -> impl Iterator<Item = Arc> {
     std::iter::from_fn(move || {
         while from + MIN_CORNERS <= points.len() {
             if let Some(arc) = longest(points, from, near) {
+                // A point next to an arc that is nearly on it, such as an end inside a chord, is none of it.
+                let next = longest(points, from + 1, near).filter(|next| next.last > arc.last);
+                let arc = next.unwrap_or(arc);
                 from = arc.last;
                 return Some(arc);
             }
@@ -146,7 +180,7 @@ fn longest(points: &[Point], first: usize, near: Nearness) -> Option<Arc> {
         let (centre, radius, turn) = circle(points.get(first..=last)?, near.rounding)?;
         (turn.abs() < TAU).then_some(Arc { first, last, centre, radius, turn })
     };
-    let end = points.len() - 1;
+    let end = points.len().checked_sub(1)?;
     let mut best = attempt(first + MIN_CORNERS - 1)?;
     let mut bad = end + 1;
     while bad > end && best.last < end {

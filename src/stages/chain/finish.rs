@@ -2,7 +2,7 @@
 
 use kurbo::{BezPath, Point};
 
-use super::circles::{Arc, Nearness, arcs, circle_path};
+use super::circles::{Arc, Nearness, arcs, circle_path, extend_to_ends};
 use super::corners::corners;
 use super::curve::{add_exact, add_smooth, closed_exact, closed_smooth, polyline};
 use super::line::Line;
@@ -48,8 +48,11 @@ const SHARP_COSINE: f64 = 0.82;
 /// A finished line and its path, with the arcs that its corners lie on; the line has no points where a curve is fitted and they are not asked for.
 pub(super) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
     let Some(near) = t.circle else { return finish_between(raw, t) };
-    let raw = straighten(raw);
-    let found = arcs(&raw.points, raw.closed, near);
+    let mut raw = straighten(raw);
+    let mut found = arcs(&raw.points, raw.closed, near);
+    if !raw.closed {
+        extend_to_ends(&mut raw.points, &mut found, near);
+    }
     match found.as_slice() {
         [] => finish_between(raw, t),
         [circle] if circle.is_circle() => {
