@@ -96,6 +96,9 @@ pub(super) fn draw_views(
 ) -> Result<(), Error> {
     let Some(request) = requests.first() else { return Ok(()) };
     let mut style = pipeline::load_style(&request.style, &request.sets, request.background)?;
+    if request.is_to_scale() {
+        style = style.to_scale();
+    }
     progress.step("reading");
     let Opened { mut scene, mut framed, mut notes } = open(request, &style)?;
     if let Some(up) = request.up {

@@ -18,7 +18,7 @@ pub(super) struct DxfArgs {
             .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 }))]
     dxf: DxfVersion,
 
-    /// Lengths in DXF: millimetres of the page (a px is 1/96 inch), or units of the model, in parallel views
+    /// Lengths in DXF: millimetres of the page (a px is 1/96 inch), or units of the model from its origin, in parallel views
     #[arg(long, value_name = "WHOSE", help_heading = "Output", default_value = "page",
         value_parser = PossibleValuesParser::new(["page", "model"])
             .map(|name| if name == "model" { Lengths::Model } else { Lengths::Page }))]
@@ -47,16 +47,25 @@ pub(super) fn encode(
     camera: &Camera,
     args: &DxfArgs,
 ) -> Result<(Vec<u8>, Option<String>), Error> {
-    let length = match (args.dxf_length, camera.projection) {
-        (Lengths::Page, _) => DxfLength::Page,
-        (Lengths::Model, Projection::Orthographic { height }) => DxfLength::Model(camera.height / height),
+    let mut options = DxfOptions::default().with_version(args.dxf);
+    match (args.dxf_length, camera.projection) {
+        (Lengths::Page, _) => {}
+        (Lengths::Model, Projection::Orthographic { height }) => {
+            let per_unit = camera.height / height;
+            // The frame lies in the middle of the page, and the eye looks at its middle.
+            let [right, up, _] = camera.axes();
+            let at = [
+                drawing.page.width / 2.0 - camera.eye.dot(right) * per_unit,
+                drawing.page.height / 2.0 + camera.eye.dot(up) * per_unit,
+            ];
+            options = options.with_length(DxfLength::Model(per_unit)).with_origin(at);
+        }
         (Lengths::Model, Projection::Perspective { .. }) => {
             return Err(Error::new("in perspective nothing has the lengths of the model")
                 .at("--dxf-length")
                 .remedy("give --ortho or a named view, or leave --dxf-length out"));
         }
-    };
-    let options = DxfOptions::default().with_version(args.dxf).with_length(length);
+    }
     let told = match (drawing.left_out_of_dxf(&options), args.dxf) {
         (0, _) => None,
         (left, DxfVersion::R12) => {

@@ -74,6 +74,11 @@ pub(super) struct SvgChoices {
 }
 
 impl DrawRequest {
+    /// Whether lengths in the drawing are those of the model: on a page with a scale, and in DXF.
+    pub(super) fn is_to_scale(&self) -> bool {
+        self.sheet.scale.is_some() || self.outputs.iter().any(|output| output.format == Format::Dxf)
+    }
+
     /// Whether the model is drawn as its file stores it.
     pub(super) fn stands(&self) -> bool {
         self.animation.is_empty() && self.time.is_none()

@@ -6,15 +6,15 @@ use clap::builder::PossibleValuesParser;
 /// What a web page needs of a drawing.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct WebArgs {
-    /// Lay an area over each part that is not painted, but answers the pointer in web pages and says the part's name, in SVG
+    /// Lay an area over each part that is not painted, but answers the pointer in web pages and has the part's name, in SVG; with --title or --desc it is a button
     #[arg(long, help_heading = "Output")]
     pub(super) hotspots: bool,
 
-    /// Title of the drawing, also for readers of screens [default: the model's name]
+    /// Title of the drawing, also for screen readers [default: the model's name]
     #[arg(long, value_name = "TEXT", help_heading = "Output")]
     pub(super) title: Option<String>,
 
-    /// What is seen in the drawing, for readers of screens, in SVG
+    /// What is seen in the drawing, for screen readers, in SVG
     #[arg(long, value_name = "TEXT", help_heading = "Output")]
     pub(super) desc: Option<String>,
 

@@ -1,4 +1,5 @@
-//! The topmost layer of SVG: areas of parts that are not painted, but answer the pointer.
+//! The topmost layer of SVG: areas of parts that are not painted, but answer the pointer. In a drawing with a title for screen readers they
+//! are buttons in the tab order, by the names of their parts.
 
 use super::canonical::{Canonical, Form};
 use super::number::Decimals;
@@ -8,9 +9,9 @@ use crate::drawing::Hotspot;
 /// The id and the label of the layer.
 pub(super) const LAYER: &str = "hotspots";
 
-/// Writes the rest of the layer's start tag, the areas and the end tag.
-pub(super) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals) {
-    out.extend_from_slice(b" fill=\"none\" pointer-events=\"all\">\n");
+/// Writes the rest of the layer's start tag, the areas and the end tag. The class of the layer is its name without any prefix of ids.
+pub(super) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals, read_aloud: bool) {
+    out.extend_from_slice(format!(" class=\"{LAYER}\" fill=\"none\" pointer-events=\"all\">\n").as_bytes());
     let mut canonical = Canonical::new(decimals);
     // None covers another one: they stand in the order of the canonical form.
     let mut spots: Vec<&Hotspot> = spots.iter().collect();
@@ -18,6 +19,10 @@ pub(super) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals) {
     for Hotspot { part, outline } in spots {
         out.extend_from_slice(b"<path data-part=\"");
         escape(out, part);
+        if read_aloud {
+            out.extend_from_slice(b"\" role=\"button\" tabindex=\"0\" aria-label=\"");
+            escape(out, part);
+        }
         out.extend_from_slice(b"\" d=\"");
         canonical.write(out, outline, Form::Filled);
         out.extend_from_slice(b"\"><title>");

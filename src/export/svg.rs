@@ -32,7 +32,8 @@ impl Drawing {
         let mut ids = Ids::new(&options.id_prefix);
         let named = &Named::of(self, &mut ids);
         let mut out = Vec::new();
-        open(&mut out, (&self.title, &self.page), !named.is_empty(), options, &mut ids);
+        let has_buttons = !self.hotspots.is_empty();
+        open(&mut out, (&self.title, &self.page), (!named.is_empty(), has_buttons), options, &mut ids);
         self.write_content(&mut out, named, options, &mut ids);
         finished(out)
     }
@@ -71,6 +72,10 @@ impl Drawing {
                             out.extend_from_slice(b"<g id=\"");
                             out.extend_from_slice(ids.take(&format!("part-{name}")).as_bytes());
                             out.push(b'"');
+                            // Hot-spots say the names of parts already.
+                            if options.read_aloud && !self.hotspots.is_empty() {
+                                out.extend_from_slice(b" aria-hidden=\"true\"");
+                            }
                             let mut title = b"<title>".to_vec();
                             escape(&mut title, &name);
                             title.extend_from_slice(b"</title>\n");
@@ -86,7 +91,7 @@ impl Drawing {
         }
         if !self.hotspots.is_empty() {
             open_layer(out, ids, hotspots::LAYER, hotspots::LAYER);
-            hotspots::write(out, &self.hotspots, decimals);
+            hotspots::write(out, &self.hotspots, decimals, options.read_aloud);
         }
     }
 
@@ -124,11 +129,12 @@ impl Drawing {
     }
 }
 
-/// The root element and the title; what is used needs a namespace of its own.
+/// The root element and the title; what is used needs a namespace of its own. For screen readers it is one picture, or a group if there are
+/// buttons in it: the contents of a picture have neither roles nor names.
 pub(super) fn open(
     out: &mut Vec<u8>,
     (title, page): (&String, &Page),
-    uses: bool,
+    (uses, has_buttons): (bool, bool),
     options: &SvgOptions,
     ids: &mut Ids,
 ) {
@@ -151,7 +157,8 @@ pub(super) fn open(
         Some((tag, text, options.read_aloud.then(|| ids.take(tag))))
     });
     if options.read_aloud {
-        out.extend_from_slice(b" role=\"img\"");
+        let role = if has_buttons { "group" } else { "img" };
+        out.extend_from_slice(format!(" role=\"{role}\"").as_bytes());
         let known: Vec<&str> = texts.iter().flatten().filter_map(|(_, _, id)| id.as_deref()).collect();
         if !known.is_empty() {
             out.extend_from_slice(format!(" aria-labelledby=\"{}\"", known.join(" ")).as_bytes());

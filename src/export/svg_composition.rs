@@ -42,7 +42,7 @@ impl Composition {
         let uses = pictures.iter().any(|named| !named.is_empty());
         ids.within("");
         let mut out = Vec::new();
-        open(&mut out, (&self.title, &self.page), uses, options, &mut ids);
+        open(&mut out, (&self.title, &self.page), (uses, false), options, &mut ids);
         Drawing::new("", self.page, Vec::new()).paper(&mut out, &mut ids);
         for ((item, (id, clip)), named) in self.items.iter().zip(&ids_of).zip(&pictures) {
             ids.within("");

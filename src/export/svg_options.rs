@@ -64,7 +64,7 @@ impl SvgOptions {
         Self { ink: Some(ink), ..self }
     }
 
-    /// As one picture for readers of screens, with what is seen in it, which may be empty.
+    /// As one picture for screen readers, with a description, which may be empty. With hot-spots it is a group of buttons.
     #[must_use]
     pub fn read_aloud(self, desc: impl Into<String>) -> Self {
         Self { desc: Some(desc.into()), read_aloud: true, ..self }

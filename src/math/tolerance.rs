@@ -15,6 +15,16 @@ pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 /// The distance between neighbouring numbers in single precision, as a fraction of the number, at most.
 pub const F32_STEP: f64 = 1.0 / 8_388_608.0;
 
+/// A coordinate that is placed in the world in double precision is off by no more than this fraction of itself.
+pub const ROUNDED_OF_COORDINATE: f64 = 8.0 * f64::EPSILON;
+
+/// The place and the radius of a circle that is fitted to exact corners are off by no more than this fraction of the largest coordinate.
+pub const FITTED_OF_COORDINATE: f64 = 1e-12;
+
+/// How far the corners of a tessellated circle are off it, in steps of the file: half the diagonal of a cell, and as much again, for the program
+/// has computed the corners with numbers that were rounded as well.
+pub const CORNER_OFF_CIRCLE: f64 = 1.5;
+
 /// A file whose coordinates have a coarser step than this, as a fraction of its size, did not round them but wrote short numbers: such a
 /// step would show, a tenth of a pixel where the model is a thousand wide.
 pub const VISIBLE_STEP: f64 = 1e-4;

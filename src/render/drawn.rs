@@ -109,8 +109,8 @@ impl Prepared<'_> {
             let joining = watch.lap_ms();
             centre_on_page(&mut map, &view.frame, &page);
             let ahead = Ahead::new(whole, view, &lines, &map.seen_contours, margin);
-            let depths = (&surface.mesh.extents, view.frame.perspective);
-            let chains = hidden::chains(&ahead, &map, (style, &widths), page.unit, depths);
+            let of_view = (scene.as_ref(), &surface.mesh.extents, &view.frame);
+            let chains = hidden::chains(&ahead, &map, (style, &widths), page.unit, of_view);
             (lines, chains, [joining, watch.lap_ms()])
         };
         let (painted, (lines, mut chains, [joining, linking])) = rayon::join(paint, link);

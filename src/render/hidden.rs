@@ -1,24 +1,31 @@
 //! The chains of a view, hidden ones without what lies in the ink of others.
 
-use crate::chain::{self, Chain};
+use crate::chain::{self, Chain, Rounding};
 use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
-use crate::mesh::Extents;
+use crate::math::tolerance;
+use crate::mesh::extents::{Extent, Extents};
+use crate::scene::flatten::longest_axis;
+use crate::scene::{Geometry, Part, Scene};
 use crate::stroke::InkWidths;
 use crate::style::Style;
+use crate::view::Frame;
 use crate::viewmap::precedence::{self, Ink};
 use crate::viewmap::{Ahead, ViewEdge, ViewMap};
 
-/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts, and `perspective` whether depth
-/// runs along a line as in perspective.
+/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts of the scene.
 pub(super) fn chains(
     ahead: &Ahead,
     map: &ViewMap,
     (style, widths): (&Style, &InkWidths),
     unit: Unit,
-    (extents, perspective): (&Extents, bool),
+    (scene, extents, frame): (&Scene, &Extents, &Frame),
 ) -> Vec<Chain> {
-    let link = |map| chain::link_behind(ahead, map, &style.chain, unit, style.lines.hidden);
+    let perspective = frame.perspective;
+    let rounding =
+        (style.chain.circles && !perspective).then(|| corner_rounding(scene, extents, frame.scale));
+    let chained = (&style.chain, Rounding(rounding.as_deref()));
+    let link = |map| chain::link_rounded(ahead, map, chained, unit, style.lines.hidden);
     let mut chains = link(map);
     if style.lines.hidden == HiddenLines::None {
         return chains;
@@ -33,6 +40,17 @@ pub(super) fn chains(
         chains.extend(link(&cut).into_iter().filter(stays));
     }
     chains
+}
+
+/// How far the rounding of the file moves the corners of each part, at `scale` user units to a unit of the world. Numbers of few decimals may be
+/// rounded to these, also where they could be exact or in single precision.
+fn corner_rounding(scene: &Scene, extents: &Extents, scale: f64) -> Vec<f64> {
+    let own = |(extent, part): (&Extent, &Part)| {
+        let decimals = |geometry: &Geometry| geometry.decimal_step() * longest_axis(&part.world_from_part);
+        let step = scene.geometry_of(part).map_or(0.0, decimals).max(extent.step);
+        (tolerance::CORNER_OFF_CIRCLE * step).max(tolerance::WELD_OF_PART * extent.scale)
+    };
+    extents.all().iter().zip(&scene.parts).map(|both| own(both) * scale).collect()
 }
 
 /// What is left of a hidden line is drawn if it is this long, px: curves that coincide but for rounding leave crumbs.

@@ -52,6 +52,29 @@ impl Geometry {
         self.lattice_step.max(F32_STEP * self.largest())
     }
 
+    /// The step of the coordinates as [`Self::step`], but of single precision the distance of the largest coordinate from the next
+    /// number, not its upper bound.
+    #[cfg(feature = "page")]
+    #[must_use]
+    pub(crate) fn finest_step(&self) -> f64 {
+        if !self.single_precision {
+            return self.lattice_step;
+        }
+        let largest = self.largest() as f32;
+        self.lattice_step.max(f64::from(largest.next_up()) - f64::from(largest))
+    }
+
+    /// The coarsest of 1, 0.1, 0.01 and so on to 0.000001 that all coordinates are multiples of, local units; 0 if none is. A file of few decimals
+    /// may have been rounded to it.
+    #[must_use]
+    pub(crate) fn decimal_step(&self) -> f64 {
+        let numbers = || self.positions.iter().flat_map(|p| p.to_array());
+        let is_whole = |number: f64| (number - number.round()).abs() <= 4.0 * f64::EPSILON * number.abs();
+        let powers = [1.0, 10.0, 100.0, 1000.0, 10_000.0, 100_000.0, 1_000_000.0];
+        let found = powers.into_iter().find(|power| numbers().all(|number| is_whole(number * power)));
+        found.map_or(0.0, |power| 1.0 / power)
+    }
+
     /// The largest coordinate, local units, of faces with an area and wires with a length; of all where there are none.
     fn largest(&self) -> f64 {
         let at = |vertex: u32| self.positions.get(vertex as usize).copied().unwrap_or_default();

@@ -140,6 +140,12 @@ impl Style {
     pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
         load::load(name_or_path, sets)
     }
+    /// The same for a page to scale or a DXF file: no point of the model moves by more than 0.02 mm, and corners on one circle become it.
+    #[must_use]
+    pub fn to_scale(self) -> Self {
+        Self { chain: self.chain.to_scale(), ..self }
+    }
+
     /// Reads the text of a style sheet; paths that it extends are relative to the working folder.
     ///
     /// ```

@@ -152,6 +152,17 @@ fn films_are_written_whole() {
 }
 
 #[test]
+fn gif_leaves_out_frames_that_it_has_no_time_for() {
+    let folder = Folder::with_cubes("gif-rate");
+    let run = folder.ligne("animate cubes.obj a.gif --turntable 30 --fps 60 --size 40");
+    assert!(run.done().err.contains("10 of 30 frames are left out"), "{run:?}");
+    folder.ligne("animate cubes.obj b.gif --turntable 30 --fps 60 --size 40 --strict").refused("left out");
+    assert_eq!(folder.names(), ["a.gif", "cubes.obj"]);
+    let run = folder.ligne("animate cubes.obj c.gif --turntable 30 --fps 50 --size 40 --strict");
+    assert!(!run.done().err.contains("warning"), "{run:?}");
+}
+
+#[test]
 fn levels_that_a_budget_chose_are_repeated() {
     let folder = Folder::new("levels");
     let horn = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/horn.obj");

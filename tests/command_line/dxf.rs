@@ -22,6 +22,31 @@ fn releases_and_lengths_are_as_asked() {
     assert!(!folder.path("d.dxf").exists());
 }
 
+/// Drawings of one part and of all, in lengths of the model, lie over each other.
+#[test]
+fn lengths_of_the_model_are_from_its_origin() {
+    let folder = Folder::with_cubes("dxf-origin");
+    let corners = |line: &str| -> Vec<[i64; 2]> {
+        folder.ligne(&format!("draw cubes.obj a.dxf --style technical --dxf-length model {line}")).done();
+        let text = folder.text("a.dxf");
+        let lines: Vec<&str> = text.split("\r\n").skip_while(|line| *line != "ENTITIES").skip(1).collect();
+        let pairs: Vec<(&str, &str)> = lines.chunks_exact(2).map(|pair| (pair[0].trim(), pair[1])).collect();
+        let near = |value: &str| (value.parse::<f64>().expect("a number") * 1e4).round() as i64;
+        let points = pairs.windows(2).filter(|two| two[0].0 == "10" && two[1].0 == "20");
+        points.map(|two| [near(two[0].1), near(two[1].1)]).filter(|at| *at != [0, 0]).collect()
+    };
+    for view in ["top", "front", "right"] {
+        let whole = corners(&format!("--view {view}"));
+        for more in ["--only base", "--only knob --page A4 --scale 3:1", "--only base --page A3 --scale 1:2"]
+        {
+            let own = corners(&format!("--view {view} {more}"));
+            assert!(!own.is_empty());
+            let known = own.iter().filter(|at| whole.contains(at)).count();
+            assert!(2 * known >= own.len(), "{view} {more}: {own:?} of {whole:?}");
+        }
+    }
+}
+
 #[test]
 fn what_is_left_out_is_told() {
     let folder = Folder::with_cubes("dxf-fills");

@@ -69,6 +69,73 @@ fn the_browser_finds_the_part_under_each_point() {
 }
 
 #[test]
+fn hotspots_of_a_drawing_with_a_title_are_buttons() {
+    let folder = Folder::with_cubes("hotspots-titled");
+    let drawn = |more: &str| {
+        folder.ligne(&format!("draw cubes.obj a.svg --style toon --hotspots {more}")).done();
+        let svg = folder.text("a.svg");
+        assert_eq!(canonical_svg(&svg, None).as_deref(), Ok(svg.as_str()), "{more}");
+        svg
+    };
+    let plain = drawn("--id-prefix x-");
+    assert!(plain.contains("<g id=\"x-hotspots\"") && plain.contains(" class=\"hotspots\""), "{plain}");
+    assert!(!plain.contains("role=") && !plain.contains("tabindex="));
+    for more in ["--title Cubes", "--desc Cubes --id-prefix x-", "--title Cubes --group part"] {
+        let svg = drawn(more);
+        // What is in a picture has no role: the drawing is a group.
+        assert!(
+            svg.contains(" role=\"group\" aria-labelledby=\"") && !svg.contains("role=\"img\""),
+            "{more}"
+        );
+        for part in ["base", "knob"] {
+            let button = format!("data-part=\"{part}\" role=\"button\" tabindex=\"0\" aria-label=\"{part}\"");
+            assert_eq!(svg.matches(&button).count(), 1, "{more}");
+        }
+        assert_eq!(svg.matches("tabindex=").count(), 2, "{more}");
+        let groups = svg.matches("<g id=\"part-").count();
+        assert_eq!(svg.matches("aria-hidden=\"true\"").count(), groups, "{more}");
+    }
+}
+
+/// The script of the documentation answers clicks and keys in drawings whose ids have a prefix.
+#[test]
+fn the_recipe_of_the_documentation_works_with_prefixes() {
+    let folder = Folder::with_cubes("hotspots-recipe");
+    let documentation = include_str!("../../docs/web.md");
+    let begin = documentation.find("```html\n").expect("a recipe") + 8;
+    let recipe = &documentation[begin..begin + documentation[begin..].find("```").expect("an end")];
+    let mut drawings = String::new();
+    for prefix in ["a-", "b-"] {
+        let call = format!(
+            "draw cubes.obj a.svg --hotspots --title Cubes --view front --size 400 --id-prefix {prefix}"
+        );
+        folder.ligne(&call).done();
+        drawings += &folder.text("a.svg");
+    }
+    let page = format!(
+        "<!DOCTYPE html><body style=\"margin:0\">{drawings}{recipe}<p id=found></p><script>\
+         const spots = [...document.querySelectorAll('.hotspots [data-part]')];\
+         const after = (spot, event) => {{ location.hash = ''; spot.dispatchEvent(event); return location.hash; }};\
+         const key = (key) => new KeyboardEvent('keydown', {{ key, bubbles: true }});\
+         const found = [after(spots[0], new MouseEvent('click', {{ bubbles: true }})),\
+             after(spots[1], key('Enter')), after(spots[2], key(' ')), after(spots[3], key('x')) || 'none',\
+             spots.every((spot) => {{ spot.focus(); return document.activeElement === spot; }})];\
+         document.getElementById('found').textContent = found.join(' ');</script>"
+    );
+    folder.write("page.html", &page);
+    let url = format!("file://{}", folder.path("page.html").display());
+    let run = Command::new("chromium")
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--window-size=800,1200", "--dump-dom", &url])
+        .output();
+    let Ok(output) = run else {
+        eprintln!("skipped: there is no chromium");
+        return;
+    };
+    let page = String::from_utf8_lossy(&output.stdout);
+    assert!(page.contains(">#base #knob #base none true</p>"), "{}", &page[page.len().saturating_sub(600)..]);
+}
+
+#[test]
 fn a_model_without_names_has_a_warning_in_place_of_hotspots() {
     let folder = Folder::with_cubes("hotspots-none");
     folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

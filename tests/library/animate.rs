@@ -281,8 +281,8 @@ fn what_does_not_move_is_written_once() {
 
 /// Frames as pixels, with few colours and with clear paper.
 fn pixels(style: &str, background: bool) -> Vec<Pixels> {
-    let set = if background { vec!["page.background=#fdf6e3".to_owned()] } else { Vec::new() };
-    let (crane, style) = (crane(), Style::load(style, &set).unwrap());
+    let set = format!("page.background={}", if background { "#fdf6e3" } else { "none" });
+    let (crane, style) = (crane(), Style::load(style, &[set]).unwrap());
     let moments: Vec<Moment> = moments(&crane, 2.0)
         .into_iter()
         .map(|moment| Moment { page: Page { background: style.background, ..moment.page }, ..moment })
@@ -291,39 +291,95 @@ fn pixels(style: &str, background: bool) -> Vec<Pixels> {
     drawings.iter().map(|drawing| drawing.to_pixels(&PngOptions::default()).unwrap()).collect()
 }
 
+/// What a player shows of a GIF: each picture with its delay in hundredths of a second.
+fn played(bytes: Vec<u8>) -> Vec<(Vec<u8>, u32)> {
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(Cursor::new(bytes)).unwrap();
+    let (width, height) = (usize::from(decoder.width()), usize::from(decoder.height()));
+    let mut screen = vec![0_u8; width * height * 4];
+    let mut shown = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        let to =
+            |x: usize, y: usize| ((y + usize::from(frame.top)) * width + x + usize::from(frame.left)) * 4;
+        let places = || {
+            let (wide, high) = (usize::from(frame.width), usize::from(frame.height));
+            (0..high).flat_map(move |y| (0..wide).map(move |x| (x, y)))
+        };
+        for (x, y) in places() {
+            let from = (y * usize::from(frame.width) + x) * 4;
+            if frame.buffer[from + 3] > 0 {
+                screen[to(x, y)..to(x, y) + 4].copy_from_slice(&frame.buffer[from..from + 4]);
+            }
+        }
+        shown.push((screen.clone(), u32::from(frame.delay)));
+        if frame.dispose == gif::DisposalMethod::Background {
+            places().for_each(|(x, y)| screen[to(x, y)..to(x, y) + 4].fill(0));
+        }
+    }
+    shown
+}
+
 #[test]
 fn gif_is_read_back_with_its_times() {
     for background in [true, false] {
         let frames = pixels("ink", background);
         let mut film = GifFilm::new(Vec::new(), 24.0);
         frames.iter().for_each(|frame| film.push(frame, 5).unwrap());
-        let bytes = film.finish().unwrap();
-        let mut options = gif::DecodeOptions::new();
-        options.set_color_output(gif::ColorOutput::RGBA);
-        let mut decoder = options.read_info(Cursor::new(bytes)).unwrap();
-        let mut screen = vec![0_u8; (SIDE * SIDE) as usize * 4];
-        let (mut count, mut delays, mut worst) = (0, 0_u32, 0);
-        while let Some(frame) = decoder.read_next_frame().unwrap() {
-            delays += u32::from(frame.delay);
-            for y in 0..usize::from(frame.height) {
-                for x in 0..usize::from(frame.width) {
-                    let from = (y * usize::from(frame.width) + x) * 4;
-                    let to = ((y + usize::from(frame.top)) * SIDE as usize + x + usize::from(frame.left)) * 4;
-                    if frame.buffer[from + 3] > 0 {
-                        screen[to..to + 4].copy_from_slice(&frame.buffer[from..from + 4]);
-                    }
-                }
+        assert_eq!(film.left_out(), 0);
+        let shown = played(film.finish().unwrap());
+        assert_eq!(shown.len(), frames.len());
+        let mut clear = 0;
+        for ((screen, _), wanted) in shown.iter().zip(&frames) {
+            for (own, wanted) in screen.chunks_exact(4).zip(wanted.rgba.chunks_exact(4)) {
+                assert_eq!(own[3], if wanted[3] < 128 { 0 } else { 255 });
+                let apart = own.iter().zip(wanted).take(3).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+                assert!(own[3] == 0 || apart <= 16, "{own:?} {wanted:?}");
+                clear += usize::from(own[3] == 0);
             }
-            let wanted = frames[count].on_white();
-            let apart = screen.iter().zip(&wanted.rgba).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
-            worst = worst.max(apart);
-            count += 1;
         }
-        assert_eq!(count, frames.len());
+        assert_eq!(clear > 0, !background);
+        let delays: u32 = shown.iter().map(|(_, delay)| delay).sum();
         assert_eq!(delays, (frames.len() as f64 * 500.0 / 24.0).round() as u32);
-        assert!(worst <= 16, "{worst}");
     }
     assert!(GifFilm::new(Vec::new(), 24.0).finish().is_err());
+}
+
+/// Each picture stands for its time, however short frames are: those without the time are left out.
+#[test]
+fn gif_lasts_as_long_as_its_frames() {
+    let picture = |k: u32| {
+        let rgba = (0..16_u32).flat_map(|pixel| [(k * 7 + pixel) as u8, (k / 8) as u8, 9, 255]).collect();
+        Pixels { width: 4, height: 4, rgba, dpi: 96.0 }
+    };
+    for (fps, frames) in [
+        (60.0, 60),
+        (50.0, 7),
+        (51.0, 51),
+        (75.0, 40),
+        (100.0, 101),
+        (120.0, 7),
+        (240.0, 240),
+        (60.0, 1),
+        (23.976, 48),
+    ] {
+        let mut film = GifFilm::new(Vec::new(), fps);
+        (0..frames).for_each(|k| film.push(&picture(k), 1).unwrap());
+        let left_out = film.left_out();
+        let shown = played(film.finish().unwrap());
+        assert_eq!(shown.len() as u64 + left_out, u64::from(frames), "{fps}");
+        assert_eq!(left_out > 0, fps > 50.0 && frames > 1, "{fps}");
+        assert!(shown.iter().all(|(_, delay)| *delay >= 2), "{fps}");
+        let whole: u32 = shown.iter().map(|(_, delay)| delay).sum();
+        assert_eq!(whole, ((f64::from(frames) / fps * 100.0).round() as u32).max(2), "{fps}");
+        // Each begins when its own frame does.
+        let mut at = 0;
+        for (screen, delay) in shown {
+            let k = (0..frames).find(|k| picture(*k).rgba == screen).expect("a frame");
+            assert_eq!(at, (f64::from(k) / fps * 100.0).round() as u32, "{fps}: {k}");
+            at += delay;
+        }
+    }
 }
 
 #[test]

@@ -7,49 +7,7 @@ use ligne::drawing::{Drawing, LayerKind, Paint};
 use ligne::export::{DxfLength, DxfOptions, DxfVersion};
 use ligne::{Camera, Scene, Style, render};
 
-/// Pairs of a code and a value.
-fn pairs(bytes: &[u8]) -> Vec<(u16, String)> {
-    let text = std::str::from_utf8(bytes).expect("text");
-    assert!(text.is_ascii());
-    let lines: Vec<&str> = text.split_terminator("\r\n").collect();
-    assert_eq!(lines.len() % 2, 0);
-    lines.chunks(2).map(|pair| (pair[0].parse().expect("a code"), pair[1].to_owned())).collect()
-}
-
-/// One entity with all its pairs; vertices of polylines are entities of their own.
-struct Entity {
-    kind: String,
-    pairs: Vec<(u16, String)>,
-}
-
-impl Entity {
-    fn text(&self, code: u16) -> Option<&str> {
-        self.pairs.iter().find(|pair| pair.0 == code).map(|pair| pair.1.as_str())
-    }
-
-    fn number(&self, code: u16) -> f64 {
-        self.text(code).and_then(|text| text.parse().ok()).unwrap_or(0.0)
-    }
-}
-
-fn entities(pairs: &[(u16, String)]) -> Vec<Entity> {
-    let at = |wanted: (u16, &str), from: usize| {
-        from + pairs[from..]
-            .iter()
-            .position(|(code, value)| (*code, value.as_str()) == wanted)
-            .expect("a section")
-    };
-    let begin = at((2, "ENTITIES"), 0) + 1;
-    let mut entities: Vec<Entity> = Vec::new();
-    for (code, value) in &pairs[begin..at((0, "ENDSEC"), begin)] {
-        if *code == 0 {
-            entities.push(Entity { kind: value.clone(), pairs: Vec::new() });
-        } else {
-            entities.last_mut().expect("an entity").pairs.push((*code, value.clone()));
-        }
-    }
-    entities
-}
+use crate::support::dxf::{entities, pairs};
 
 /// What a pen draws: points so close that chords are the curve.
 struct Inked {
@@ -216,7 +174,7 @@ fn curves_are_arcs_and_not_chopped() {
     // A gear seen along its axis: its holes are circles.
     let scene = Scene::open("examples/models/gear.obj").expect("a gear");
     let camera = Camera::named(ligne::scene::NamedView::Top, scene.up).fit(&scene);
-    let drawing = render(&scene, &camera, &Style::default()).expect("a drawing");
+    let drawing = render(&scene, &camera, &Style::default().to_scale()).expect("a drawing");
     let dxf = drawing.to_dxf(&DxfOptions::default());
     let entities = entities(&pairs(&dxf));
     let vertices = entities.iter().filter(|entity| entity.kind == "VERTEX").count();

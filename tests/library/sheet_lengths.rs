@@ -7,7 +7,7 @@ use ligne::page::sheet::rows::{Side, Told, rows};
 use ligne::page::{Composed, PageFile};
 
 use crate::support::dice::Dice;
-use crate::support::sheets::{bounds, folder, item, marks, obj, words};
+use crate::support::sheets::{block, bounds, folder, item, marks, obj, words};
 use crate::support::solids::Solid;
 
 /// A plate of 80 x 50 x 10 with two holes of 8 mm and one of 20 mm, as OBJ, z up.
@@ -130,6 +130,119 @@ fn lengths_go_between_named_places_and_diameters_are_those_of_cylinders() {
     }
     let error = sheet_of_plate("set-wrong", "dimensions = 'all'\n").expect_err("wrong");
     assert!(error.to_string().contains("no set of dimensions `all`"), "{error}");
+}
+
+/// A sheet of a box of three lengths at the origin, as OBJ or as STL in single precision.
+fn sheet_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> Result<Composed, ligne::Error> {
+    let folder = folder(name);
+    let solid = block([0.0; 3], size);
+    let model = if format == "obj" {
+        obj(&[("box".into(), solid)]).into_bytes()
+    } else {
+        let mut bytes = vec![0; 80];
+        bytes.extend((solid.triangles.len() as u32).to_le_bytes());
+        for triangle in &solid.triangles {
+            bytes.extend([0; 12]);
+            for corner in triangle {
+                let p = solid.positions[*corner as usize].as_vec3().to_array();
+                bytes.extend(p.into_iter().flat_map(f32::to_le_bytes));
+            }
+            bytes.extend([0; 2]);
+        }
+        bytes
+    };
+    fs::write(folder.join(format!("box.{format}")), model).expect("written");
+    let text = format!("[page]\nkind = 'sheet'\nmodel = {{ file = 'box.{format}', up = 'z' }}\n{keys}");
+    let composed = PageFile::from_text(&text, folder.join("sheet.toml"))?.compose();
+    fs::remove_dir_all(&folder).expect("removed");
+    Ok(composed?.into_iter().next().expect("a page"))
+}
+
+/// The values and the unit of such a sheet.
+fn values_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> (Vec<String>, String) {
+    let composed = sheet_of_box(name, size, format, keys).expect("a sheet");
+    let mut values = words(item(&composed, "notes"));
+    values.sort();
+    let block = words(item(&composed, "title-block"));
+    let at = block.iter().position(|word| word == "Dimensions in").expect("the unit is named");
+    (values, block[at + 1].clone())
+}
+
+#[test]
+fn values_are_rounded_alike_in_all_formats() {
+    let views = "views = ['front', 'top', 'left']\n";
+    for format in ["obj", "stl"] {
+        let of = |name: &str, size, keys: &str| {
+            values_of_box(&format!("{name}-{format}"), size, format, &format!("{views}{keys}"))
+        };
+        let told = |values: &[&str], unit: &str| {
+            let values: Vec<String> = values.iter().map(|value| (*value).to_owned()).collect();
+            (values, unit.to_owned())
+        };
+        let size = [31.435, 8.725, 12.625];
+        assert_eq!(of("ties", size, ""), told(&["12.63", "31.44", "8.73"], "mm"), "{format}");
+        assert_eq!(of("comma", size, "decimal_comma = true\n"), told(&["12,63", "31,44", "8,73"], "mm"));
+        assert_eq!(of("none", size, "decimals = 0\n"), told(&["13", "31", "9"], "mm"));
+        assert_eq!(of("more", size, "decimals = 6\n"), told(&["12.625", "31.435", "8.725"], "mm"));
+        let inch = "size = 'A0'\nunit = 'in'\n";
+        assert_eq!(of("inch", size, inch), told(&["12.625", "31.435", "8.725"], "in"));
+        let millimetres = format!("{inch}dimension_unit = 'mm'\n");
+        assert_eq!(of("mm", size, &millimetres), told(&["221.62", "320.68", "798.45"], "mm"));
+        assert_eq!(of("cm", size, "dimension_unit = 'cm'\n"), told(&["0.873", "1.263", "3.144"], "cm"));
+        assert_eq!(of("m", size, "dimension_unit = 'm'\n"), told(&["0.009", "0.013", "0.031"], "m"));
+        let thin = [31.5, 0.003, 0.000_47];
+        assert_eq!(of("thin", thin, ""), told(&["0.0005", "0.003", "31.5"], "mm"), "{format}");
+    }
+    for (keys, wanted) in [
+        ("decimals = 10\n", "no number of decimals"),
+        ("decimals = -1\n", "no number of decimals"),
+        ("dimension_unit = 'inch'\n", "no unit `inch`"),
+    ] {
+        let error = sheet_of_box("wrong-values", [1.0; 3], "obj", keys).expect_err(keys);
+        assert!(error.to_string().contains(wanted), "{error}");
+    }
+}
+
+#[test]
+fn pictorial_views_show_true_lengths_or_refuse() {
+    let size = [70.0, 25.0, 40.0];
+    let sheet = |name: &str, keys: &str| {
+        let head = "size = 'A4'\ndimensions = 'none'\nviews = ['front', 'iso', 'dimetric', 'trimetric']\n";
+        sheet_of_box(name, size, "obj", &format!("{head}{keys}"))
+    };
+    let detail = "[[page.detail]]\nof = 'iso'\nat = [35, 12, 20]\nradius = 45\n";
+    for view in ["iso", "dimetric", "trimetric", "detail-A"] {
+        for (to, value) in [("[70, 0, 0]", "70"), ("[0, 25, 0]", "25"), ("[0, 0, 40]", "40")] {
+            let keys = format!("{detail}[[page.dimension]]\nof = '{view}'\nfrom = [0, 0, 0]\nto = {to}\n");
+            let composed = sheet(&format!("true-{view}-{value}"), &keys).expect("a sheet");
+            assert!(words(item(&composed, "notes")).contains(&value.to_owned()), "{view} {to}");
+        }
+    }
+    // Upright lengths stand upright in them.
+    let upright = "[[page.dimension]]\nof = 'iso'\nfrom = [0, 0, 0]\nto = [0, 0, 40]\nmeasure = 'vertical'\n";
+    assert!(words(item(&sheet("upright", upright).expect("a sheet"), "notes")).contains(&"40".to_owned()));
+    let exploded = "[page.exploded]\n";
+    for (keys, wanted) in [
+        ("of = 'iso'\nfrom = [0, 0, 0]\nto = [70, 25, 0]", "along the axes of the model"),
+        (
+            "of = 'trimetric'\nfrom = [0, 0, 0]\nto = [70, 0, 0]\nmeasure = 'horizontal'",
+            "along the axes of the model",
+        ),
+        ("of = 'dimetric'\nfrom = 'left'\nto = 'right'", "along the axes of the model"),
+        ("of = 'detail-A'\nfrom = [0, 0, 0]\nto = [0, 25, 40]", "along the axes of the model"),
+        ("of = 'exploded'\nfrom = [0, 0, 0]\nto = [70, 0, 0]", "an exploded view has no dimensions"),
+        ("of = 'exploded'\nat = [0, 0, 0]\nmeasure = 'diameter'", "an exploded view has no dimensions"),
+        ("of = 'front'\nfrom = [0, 0, 0]\nto = [0, 25, 0]", "lie behind each other"),
+        ("of = 'front'\nfrom = [0, 0, 0]\nto = [inf, 25, 0]", "this is no point"),
+    ] {
+        let error =
+            sheet("refused", &format!("{detail}{exploded}[[page.dimension]]\n{keys}\n")).expect_err(keys);
+        let text = error.to_string();
+        assert!(
+            text.contains(wanted) && text.contains("sheet.toml") && text.contains("line "),
+            "{keys}: {text}"
+        );
+    }
 }
 
 #[test]

@@ -28,7 +28,7 @@ fn with(contours: Contours) -> LineOptions {
 
 fn plain_chains() -> ChainOptions {
     let off = Length::px(0.0);
-    ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, fit_tolerance: off }
+    ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, fit_tolerance: off, circles: false }
 }
 
 fn chains(drawn: &Stages, options: &ChainOptions) -> Vec<Chain> {

@@ -92,6 +92,11 @@ impl Film {
         Ok(())
     }
 
+    /// How many frames the film has no time for.
+    pub(super) fn left_out(&self) -> u64 {
+        if let Writer::Gif(film) = &self.writer { film.left_out() } else { 0 }
+    }
+
     /// Ends the film and puts it in its place; gives its bytes' number.
     ///
     /// # Errors

@@ -13,6 +13,7 @@ mod video;
 use std::borrow::Cow;
 use std::path::Path;
 
+use crate::cli::output::Format;
 pub(super) use args::AnimateArgs;
 use destination::Destination;
 use detail::Faces;
@@ -102,6 +103,10 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let sets: Vec<String> =
         hurried.then(|| HURRIED.to_owned()).into_iter().chain(request.sets.iter().cloned()).collect();
     let mut style = pipeline::load_style(&request.style, &sets, request.background)?;
+    let is_dxf = matches!(destination, Destination::Numbered(numbered) if numbered.format == Format::Dxf);
+    if is_dxf || request.is_to_scale() {
+        style = style.to_scale();
+    }
     if hurried && style.motion.fade > 0 {
         return Err(Error::new("strokes fade by what the frames around have, and these have other faces")
             .at("motion.fade")

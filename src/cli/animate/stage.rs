@@ -115,6 +115,16 @@ impl Stage<'_> {
             Ok(watch.lap_ms())
         };
         self.in_order(&frames, one, put, total)?;
+        if film.left_out() > 0 {
+            let warning = format!(
+                "GIF shows a frame for two hundredths of a second at least: {} of {} frames are left out; .webp and .png have more \
+                 than 50 a second",
+                film.left_out(),
+                frames.len()
+            );
+            refuse_warnings(self.request, [&warning].into_iter())?;
+            total.warned.insert(warning, 0);
+        }
         let mut watch = Stopwatch::start();
         total.counts.bytes_out = film.finish().map_err(in_file)?;
         total.stages_ms.write += watch.lap_ms();

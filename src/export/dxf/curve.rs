@@ -1,11 +1,12 @@
 //! The straight lines and arcs that a path is made of: as long as they can be within a tolerance.
 //!
-//! Curves are flattened finely, and from each place on the longest line or arc is taken that all points, and all chords between them,
+//! Cubics that stand for arcs are these arcs ([`Steps`]). Other curves are flattened finely, and from each place on the longest line or arc is taken that all points, and all chords between them,
 //! keep within the tolerance of. Arcs have the *bulge* of DXF: the tangent of a quarter of the angle that they turn, positive
 //! anticlockwise with y up.
 
-use kurbo::{Affine, BezPath, PathEl, Point, Vec2};
+use kurbo::{Affine, BezPath, Point, Vec2};
 
+use super::steps::Steps;
 use crate::math::function::{atan2, tan};
 
 /// A part of a path that is drawn without lifting the pen.
@@ -41,30 +42,40 @@ const LEAST_OF_CIRCLE: usize = 8;
 
 /// The curves of a path, moved by `place`, within `tolerance` of it, in lengths after the move.
 pub(super) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<Curve> {
-    let mut curves = Vec::new();
-    let mut points: Vec<Point> = Vec::new();
-    let mut end = |points: &mut Vec<Point>, closed: bool| {
-        curves.extend(curve(std::mem::take(points), closed, tolerance * (1.0 - FLAT_SHARE)));
-    };
-    kurbo::flatten(place * path, tolerance * FLAT_SHARE, |element| match element {
-        PathEl::MoveTo(point) => {
-            end(&mut points, false);
-            points.push(point);
-        }
-        PathEl::LineTo(point) => {
-            if points.last() != Some(&point) {
-                points.push(point);
-            }
-        }
-        PathEl::ClosePath => {
-            let start = points.first().copied();
-            end(&mut points, true);
-            points.extend(start);
-        }
-        PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
-    });
-    end(&mut points, false);
-    curves
+    let within = tolerance * (1.0 - FLAT_SHARE);
+    let moved = place * path;
+    let subpaths = Steps::of(moved.elements(), tolerance * FLAT_SHARE);
+    subpaths
+        .iter()
+        .filter_map(|own| {
+            if own.has_arcs() { with_arcs(own, within) } else { curve(own.points(), own.closed, within) }
+        })
+        .collect()
+}
+
+/// The curve of a subpath that has arcs.
+fn with_arcs(own: &Steps, tolerance: f64) -> Option<Curve> {
+    if !own.points().iter().all(|point| point.is_finite()) {
+        return None;
+    }
+    if let Some((centre, radius)) = own.circle() {
+        return Some(Curve::Circle { centre, radius });
+    }
+    let mut found: Vec<Piece> = Vec::new();
+    let mut between = vec![own.start];
+    for step in &own.steps {
+        let Some(arc) = step.arc else {
+            between.push(step.end);
+            continue;
+        };
+        found.extend(pieces(&between, tolerance));
+        let start = between.last().copied().unwrap_or(own.start);
+        let ends = Steps::bulges(start, step.end, arc).into_iter();
+        found.extend(ends.map(|(end, bulge)| Piece { end, bulge }));
+        between = vec![step.end];
+    }
+    found.extend(pieces(&between, tolerance));
+    Some(Curve::Run { start: own.start, pieces: found, closed: own.closed })
 }
 
 /// The curve through points, of which no two neighbours are the same; closed ones come back to the first.
@@ -269,7 +280,7 @@ pub(super) fn circle_of(start: Point, piece: Piece) -> (Point, f64) {
 
 #[cfg(test)]
 mod tests {
-    use kurbo::Shape;
+    use kurbo::{PathEl, Shape};
 
     use super::*;
     use crate::math::function::{cos, sin};

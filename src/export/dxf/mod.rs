@@ -10,6 +10,7 @@ mod entities;
 mod layers;
 mod objects;
 mod sheet;
+mod steps;
 mod tables;
 mod tags;
 
@@ -23,14 +24,15 @@ use tags::Tags;
 
 impl Drawing {
     /// The drawing as a DXF file. Lines of varying width are told by their middle, gradients by the colour in theirs; pictures and
-    /// paper are left out, and in release 12 fills ([`Self::left_out_of_dxf`]). The same drawing gives the same bytes.
+    /// paper are left out, and in release 12 fills ([`Self::left_out_of_dxf`]). Circles of the model are circles if the style is
+    /// [to scale](crate::Style::to_scale). The same drawing gives the same bytes.
     ///
     /// ```
     /// use ligne::export::{DxfOptions, DxfVersion};
     /// use ligne::{Camera, Scene, Style, render};
     ///
     /// let scene = Scene::open("examples/models/gear.obj")?;
-    /// let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default())?;
+    /// let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &Style::default().to_scale())?;
     /// let dxf = drawing.to_dxf(&DxfOptions::default().with_version(DxfVersion::R2000));
     /// assert!(dxf.starts_with(b"0\r\nSECTION"));
     /// # Ok::<(), ligne::Error>(())

@@ -1,6 +1,6 @@
 //! [`Sheet`]: what of a drawing DXF is made of, and in which lengths.
 
-use kurbo::Affine;
+use kurbo::{Affine, Point};
 
 use crate::drawing::{Drawing, LayerKind, Mark, Paint, Unit};
 
@@ -32,6 +32,8 @@ pub struct DxfOptions {
     pub version: DxfVersion,
     /// Default: millimetres of the page.
     pub length: DxfLength,
+    /// The point of the page that is (0, 0) in the file, user units, y down. Default: the lower left corner.
+    pub origin: Option<[f64; 2]>,
 }
 
 impl DxfOptions {
@@ -48,12 +50,19 @@ impl DxfOptions {
         self.length = length;
         self
     }
+
+    /// With another point of the page at (0, 0), in user units, y down.
+    #[must_use]
+    pub const fn with_origin(mut self, origin: [f64; 2]) -> Self {
+        self.origin = Some(origin);
+        self
+    }
 }
 
-/// How far lines and arcs may be from the curves that they stand for, in user units: less than chains are from their lines where curves are
-/// fitted to them, so that a hole is a circle.
-const TOLERANCE_PX: f64 = 0.1;
-const TOLERANCE_MM: f64 = 0.02;
+/// How far lines and arcs may be from the curves that they stand for, mm: what the curves themselves leave of 0.02 mm ([`Style::to_scale`]).
+///
+/// [`Style::to_scale`]: crate::Style::to_scale
+const TOLERANCE_MM: f64 = 0.008;
 
 const MM_PER_PX: f64 = 25.4 / 96.0;
 
@@ -66,8 +75,8 @@ pub(super) struct Sheet<'a> {
     pub(super) scale: f64,
     /// How far a curve may be from its own, in lengths of the file.
     pub(super) tolerance: f64,
-    /// Width and height in lengths of the file.
-    pub(super) size: [f64; 2],
+    /// The lower left and the upper right corner of the page in the file.
+    pub(super) corners: [[f64; 2]; 2],
     /// Millimetres in a user unit, for widths of pens.
     pub(super) mm_per_unit: f64,
     /// Whether a length of the file is a millimetre.
@@ -78,22 +87,28 @@ pub(super) struct Sheet<'a> {
 impl<'a> Sheet<'a> {
     pub(super) fn new(drawing: &'a Drawing, options: &DxfOptions) -> Self {
         let page = &drawing.page;
-        let (mm_per_unit, tolerance) = match page.unit {
-            Unit::Px => (MM_PER_PX, TOLERANCE_PX),
-            Unit::Mm => (1.0, TOLERANCE_MM),
+        let mm_per_unit = match page.unit {
+            Unit::Px => MM_PER_PX,
+            Unit::Mm => 1.0,
         };
+        let tolerance = TOLERANCE_MM / mm_per_unit;
         let (scale, in_mm) = match options.length {
             DxfLength::Page => (mm_per_unit, true),
             DxfLength::Model(per_unit) if per_unit.is_finite() && per_unit > 0.0 => (1.0 / per_unit, false),
             DxfLength::Model(_) => (mm_per_unit, true),
         };
-        let place = Affine::new([scale, 0.0, 0.0, -scale, 0.0, page.height * scale]);
+        let [left, bottom] =
+            options.origin.filter(|at| at.iter().all(|x| x.is_finite())).unwrap_or([0.0, page.height]);
+        let place = Affine::new([scale, 0.0, 0.0, -scale, -left * scale, bottom * scale]);
         let drawn = drawing.layers.iter().filter(|layer| is_drawn(layer.kind));
         let marks = drawn.flat_map(|layer| layer.marks.iter().map(|mark| (layer.kind, mark)));
         let marks = marks.filter(|(_, mark)| is_told(mark, options.version)).collect();
-        let size = [page.width * scale, page.height * scale];
+        let corners = [[0.0, page.height], [page.width, 0.0]].map(|[x, y]| {
+            let corner = place * Point::new(x, y);
+            [corner.x, corner.y]
+        });
         let version = options.version;
-        Self { version, place, scale, tolerance: tolerance * scale, size, mm_per_unit, in_mm, marks }
+        Self { version, place, scale, tolerance: tolerance * scale, corners, mm_per_unit, in_mm, marks }
     }
 }
 

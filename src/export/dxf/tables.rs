@@ -30,11 +30,11 @@ pub(super) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
     variable(tags, "$MEASUREMENT", 70, 1);
     tags.text(9, "$LTSCALE");
     tags.number(40, 1.0);
-    for (name, at) in [("$EXTMIN", [0.0; 2]), ("$EXTMAX", sheet.size)] {
+    for (name, at) in [("$EXTMIN", sheet.corners[0]), ("$EXTMAX", sheet.corners[1])] {
         tags.text(9, name);
         tags.point_in_space(10, at);
     }
-    for (name, at) in [("$LIMMIN", [0.0; 2]), ("$LIMMAX", sheet.size)] {
+    for (name, at) in [("$LIMMIN", sheet.corners[0]), ("$LIMMAX", sheet.corners[1])] {
         tags.text(9, name);
         tags.point(10, at);
     }
@@ -97,7 +97,7 @@ pub(super) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
     let modern = sheet.version == DxfVersion::R2000;
     tags.section("TABLES");
     let mut tables = Tables { tags, modern, handle: objects::FIRST_OF_TABLES };
-    tables.table("VPORT", 1, |tables, owner| active_view(tables, owner, sheet.size));
+    tables.table("VPORT", 1, |tables, owner| active_view(tables, owner, sheet.corners));
     let patterns = patterns(layers);
     let extra = if modern { 3 } else { 1 };
     tables.table("LTYPE", patterns.len() + extra, |tables, owner| {
@@ -154,14 +154,15 @@ fn patterns(layers: &Layers) -> Vec<(String, Vec<f64>)> {
     dashed.map(|entry| (entry.line_type(), entry.pen.dash.clone())).collect()
 }
 
-fn active_view(tables: &mut Tables, owner: u32, [width, height]: [f64; 2]) {
+fn active_view(tables: &mut Tables, owner: u32, [low, high]: [[f64; 2]; 2]) {
+    let [width, height] = [high[0] - low[0], high[1] - low[1]];
     tables.entry("VPORT", "AcDbViewportTableRecord", owner, "*ACTIVE");
     let tags = &mut *tables.tags;
     tags.whole(70, 0);
     for (code, point) in [
         (10, [0.0, 0.0]),
         (11, [1.0, 1.0]),
-        (12, [width / 2.0, height / 2.0]),
+        (12, [low[0] + width / 2.0, low[1] + height / 2.0]),
         (13, [0.0, 0.0]),
         (14, [1.0, 1.0]),
         (15, [1.0, 1.0]),

@@ -38,6 +38,14 @@ impl Changed {
         Self { left, top, width: right - left, height: bottom - top }
     }
 
+    /// The least rectangle around two.
+    pub fn around(self, other: Self) -> Self {
+        let (left, top) = (self.left.min(other.left), self.top.min(other.top));
+        let right = (self.left + self.width).max(other.left + other.width);
+        let bottom = (self.top + self.height).max(other.top + other.height);
+        Self { left, top, width: right - left, height: bottom - top }
+    }
+
     /// With its left and its upper side at even pixels.
     pub fn even(self) -> Self {
         let (left, top) = (self.left & !1, self.top & !1);

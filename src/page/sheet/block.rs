@@ -66,7 +66,7 @@ pub fn place(space: Rect) -> Rect {
 pub(super) fn draw(
     place: Rect,
     keys: &TitleKeys,
-    (scale, method, size): (&str, Method, &str),
+    (scale, method, size, unit): (&str, Method, &str, &str),
     ink: &mut Ink,
 ) -> Result<(), Error> {
     ink.rect(place, WIDE);
@@ -77,7 +77,8 @@ pub(super) fn draw(
         ("General tolerances", &*keys.tolerances, cell(0.0, place.y0, 80.0, row(0.0))),
         ("Scale", scale, cell(80.0, place.y0, 110.0, row(0.0))),
         ("Size", size, cell(110.0, place.y0, 130.0, row(0.0))),
-        ("Projection", "", cell(130.0, place.y0, 180.0, row(0.0))),
+        ("Dimensions in", unit, cell(130.0, place.y0, 150.0, row(0.0))),
+        ("Projection", "", cell(150.0, place.y0, 180.0, row(0.0))),
         ("Responsible department", &keys.department, cell(0.0, row(0.0), 40.0, row(1.0))),
         ("Technical reference", &keys.reference, cell(40.0, row(0.0), 80.0, row(1.0))),
         ("Document type", &keys.document, cell(80.0, row(0.0), 130.0, row(1.0))),
@@ -107,7 +108,7 @@ pub(super) fn draw(
         ink.word(below, Point::new(cell.x0 + 1.0, cell.y0 + 15.0), 2.5, Stand::Left, most)?;
     }
     ink.word("Number", Point::new(x(131.0), row(1.0) + 2.7), 1.8, Stand::Left, 30.0)?;
-    symbol(Point::new(x(161.0), place.y0 + STRIP / 2.0), method, ink);
+    symbol(Point::new(x(170.0), place.y0 + STRIP / 2.0), method, ink);
     Ok(())
 }
 

@@ -54,9 +54,3 @@ pub(super) fn dimension(
     let beside = if inside && wide < length - 2.0 * ARROW { 0.0 } else { length / 2.0 + reach + wide / 2.0 };
     ink.turned_word(text, from.midpoint(to) + way * beside + up * 1.0, HIGH, reading)
 }
-
-/// A length as it is written: whole, or with one or two decimals.
-pub(super) fn value(mm: f64) -> String {
-    let rounded = (mm * 100.0).round() / 100.0;
-    format!("{}", rounded + 0.0)
-}

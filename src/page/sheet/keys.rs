@@ -22,6 +22,12 @@ pub struct SheetPage {
     pub model: Models,
     /// What a unit of the model is: `mm`, `cm`, `m`, `in` or `ft`. Default: m in glTF, mm elsewhere.
     pub unit: Option<Spanned<String>>,
+    /// The unit of the dimensions: `mm`, `cm`, `m`, `in` or `ft`. Default: in or ft if the model is in that unit, else mm.
+    pub dimension_unit: Option<Spanned<String>>,
+    /// How many decimals dimensions have at most, 0 to 9. Default: 2 in mm, 3 in other units.
+    pub decimals: Option<Spanned<i64>>,
+    /// Whether dimensions have a decimal comma. Default: a point.
+    pub decimal_comma: bool,
     /// The style of the views. Default: technical.
     pub style: Option<Spanned<String>>,
     /// Changes to the style: `KEY=VALUE` each.
@@ -172,7 +178,7 @@ pub enum Measure {
     Horizontal,
     /// Down the page.
     Vertical,
-    /// From point to point, as it is in the view.
+    /// From point to point: in the plane of the view, or along an axis of the model in a pictorial view.
     #[default]
     Aligned,
     /// How thick a cylinder is.

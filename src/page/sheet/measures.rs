@@ -5,14 +5,14 @@ use kurbo::{Point, Rect, Vec2};
 
 use super::arrange::{BETWEEN, Stands, TITLE};
 use super::balloons::cross;
-use super::dimension::{HIGH, dimension, value};
+use super::dimension::{HIGH, dimension};
 use super::ink::{CHAIN, Ink, NARROW, Stand, way};
 use super::notes::crossed;
 use super::plan::Plan;
+use super::precision::{Measured, Precision};
 use super::rounds::Round;
 use super::rows::{FIRST, STEP, Side, Told, rows};
 use crate::error::Error;
-use crate::scene::framing::world_points;
 
 /// Room of a cutting plane's letters, mm.
 const LETTERS: f64 = 10.0;
@@ -21,7 +21,7 @@ const LETTERS: f64 = 10.0;
 const OUT: f64 = 5.0;
 const AROUND: f64 = 1.0;
 
-/// Positions nearer than this on paper are one, mm; more of them are told on no side.
+/// Positions nearer than this to the side, on paper, have no dimension, mm. No side has more dimensions of positions.
 const SAME: f64 = 0.05;
 const MOST: usize = 6;
 
@@ -60,7 +60,7 @@ impl Measures {
 
     /// Adds the length, the height and the depth of the whole: below and on the left of the first view, and at one from another side.
     pub fn add_overall(&mut self, plan: &Plan, ink: &Ink) -> Result<(), Error> {
-        let points = world_points(&plan.sets[0].scene);
+        let points = Measured::of_parts(&plan.sets[0].scene, |_| true);
         let mut told: Vec<DVec3> = Vec::new();
         let is_side = |k: &usize| matches!(plan.views[*k].stands, Stands::Beside(_));
         let mut sides: Vec<usize> = (0..plan.views.len()).filter(is_side).collect();
@@ -75,22 +75,23 @@ impl Measures {
                 }
                 told.push(axis);
                 // From the outermost points that are nearest to the line.
-                let key = |p: &DVec3| {
-                    let page = sight.page(*p);
+                let key = |p: &Measured| {
+                    let page = sight.page(p.at);
                     if side.is_across() { (page.x, -page.y) } else { (page.y, page.x) }
                 };
-                let order = |a: &DVec3, b: &DVec3| {
+                let order = |a: &Measured, b: &Measured| {
                     let ((a, c), (b, d)) = (key(a), key(b));
                     a.total_cmp(&b).then(c.total_cmp(&d))
                 };
-                let last = |a: &DVec3, b: &DVec3| {
+                let last = |a: &Measured, b: &Measured| {
                     let ((a, c), (b, d)) = (key(a), key(b));
                     a.total_cmp(&b).then(d.total_cmp(&c))
                 };
                 let ends = (points.iter().copied().min_by(order), points.iter().copied().max_by(last));
                 if let (Some(from), Some(to)) = ends {
-                    let text = value((to - from).dot(axis).abs() * plan.unit_mm);
-                    self.add(view, [sight.page(from), sight.page(to)], side, text, ink)?;
+                    let length = (to.at - from.at).dot(axis).abs();
+                    let text = plan.values.written(length, Precision::between([from, to], axis));
+                    self.add(view, [from, to].map(|p| sight.page(p.at)), side, text, ink)?;
                 }
             }
         }
@@ -105,9 +106,9 @@ impl Measures {
                 if round.centres.len() > 1 { format!("{}× ", round.centres.len()) } else { String::new() };
             let pitch = round.pitch.map(|(middle, radius)| (sight.page(middle), radius * sight.unit));
             let on = round.pitch.map_or_else(String::new, |(_, radius)| {
-                format!(" / ⌀{}", value(2.0 * radius * plan.unit_mm))
+                format!(" / ⌀{}", plan.values.written(2.0 * radius, round.precision))
             });
-            let text = format!("{count}⌀{}{on}", value(2.0 * round.radius * plan.unit_mm));
+            let text = format!("{count}⌀{}{on}", plan.values.written(2.0 * round.radius, round.precision));
             let centres: Vec<Point> = round.centres.iter().map(|at| sight.page(*at)).collect();
             // The one that is nearest to the upper right corner.
             let high = |p: &Point| p.x - p.y;
@@ -119,6 +120,7 @@ impl Measures {
         }
         let mut views: Vec<usize> = rounds.iter().map(|round| round.view).collect();
         views.dedup();
+        let step = if views.is_empty() { 0.0 } else { Measured::coarsest(&plan.sets[0].scene) };
         for view in views {
             let sight = &plan.views[view].sight;
             let rect = sight.rect();
@@ -129,32 +131,33 @@ impl Measures {
                 .filter(|round| !round.hollow)
                 .flat_map(|round| round.centres.iter().map(|at| sight.page(*at)))
                 .collect();
-            let places: Vec<Point> = own
+            let places: Vec<(DVec3, Precision)> = own
                 .iter()
                 .filter(|round| round.hollow && round.pitch.is_none())
-                .flat_map(|round| round.centres.iter().map(|at| sight.page(*at)))
-                .filter(|at| outer.iter().all(|other| (*other - *at).hypot2() > SAME * SAME))
+                .flat_map(|round| round.centres.iter().map(|at| (*at, round.precision)))
+                .filter(|(at, _)| outer.iter().all(|other| (*other - sight.page(*at)).hypot2() > SAME * SAME))
                 .collect();
-            for side in [Side::Below, Side::Left] {
-                let across = side.is_across();
-                let from = Point::new(rect.x0, rect.y1);
-                let mut done: Vec<f64> = Vec::new();
+            let [right, up, _] = sight.axes();
+            let corner = plan.middle + right * sight.low.x + up * sight.low.y;
+            for (side, axis) in [(Side::Below, right), (Side::Left, up)] {
+                let mut done: Vec<String> = Vec::new();
                 let mut sorted = places.clone();
                 // Of several in line the one that is nearest to the side.
-                sorted.sort_by(|a, b| {
-                    let key = |p: &Point| if across { (p.x, -p.y) } else { (-p.y, p.x) };
-                    let ((a, c), (b, d)) = (key(a), key(b));
+                sorted.sort_by(|(a, _), (b, _)| {
+                    let along = |p: &DVec3| (p.dot(axis), p.dot(right + up - axis));
+                    let ((a, c), (b, d)) = (along(a), along(b));
                     a.total_cmp(&b).then(c.total_cmp(&d))
                 });
-                for at in sorted {
-                    let far = if across { at.x - from.x } else { from.y - at.y };
-                    if far < SAME || done.len() >= MOST || done.iter().any(|known| (known - far).abs() < SAME)
-                    {
+                for (at, precision) in sorted {
+                    let far = (at - corner).dot(axis);
+                    let ends = [Measured { at: corner, step }, Measured::exact(at)];
+                    let text = plan.values.written(far, Precision::between(ends, axis).coarser(precision));
+                    if far * sight.unit < SAME || done.len() >= MOST || done.contains(&text) {
                         continue;
                     }
-                    done.push(far);
-                    let text = value(far / sight.unit * plan.unit_mm);
-                    self.add(view, [from, at], side, text, ink)?;
+                    done.push(text.clone());
+                    let from = Point::new(rect.x0, rect.y1);
+                    self.add(view, [from, sight.page(at)], side, text, ink)?;
                 }
             }
         }

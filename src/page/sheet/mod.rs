@@ -21,10 +21,13 @@ mod notes;
 mod pack;
 mod places;
 mod plan;
+mod precision;
 mod rounds;
 pub mod rows;
 mod scales;
 mod sight;
+mod true_length;
+mod values;
 
 use std::path::PathBuf;
 
@@ -132,7 +135,8 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     let asked = Asked::of(sheet, source)?;
     let mut scale = None;
     for _ in 0..ROUNDS {
-        scale = arrange(&mut plan.views, (inner, &taken), (sheet.projection, plan.unit_mm, told));
+        let unit_mm = plan.unit_mm();
+        scale = arrange(&mut plan.views, (inner, &taken), (sheet.projection, unit_mm, told));
         if scale.is_none() {
             break;
         }
@@ -165,7 +169,7 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     frame::draw(size, &mut ink)?;
     drawn.insert(0, whole("frame", ink, size));
     let mut ink = Ink::new(&font, "title-block");
-    let names = (&*scales::written(scale), sheet.projection, size_name(size));
+    let names = (&*scales::written(scale), sheet.projection, size_name(size), plan.values.unit.name);
     block::draw(title, &sheet.title, names, &mut ink)?;
     drawn.insert(1, whole("title-block", ink, size));
     if !items.is_empty() {

@@ -19,7 +19,7 @@ const SMALL: f64 = 2.5;
 /// Titles above views: what they show, and their scale where it is another one.
 pub(super) fn titles(plan: &Plan, scale: f64, ink: &mut Ink) -> Result<(), Error> {
     for (k, placed) in plan.views.iter().enumerate() {
-        let own = placed.sight.unit / plan.unit_mm;
+        let own = placed.sight.unit / plan.unit_mm();
         let other =
             !matches!(placed.stands, Stands::Free | Stands::Pictorial) && (own / scale - 1.0).abs() > 1e-9;
         let scale = other.then(|| scales::written(own));

@@ -4,19 +4,20 @@ use glam::DVec3;
 use kurbo::{Point, Vec2};
 use toml::Spanned;
 
-use super::dimension::{dimension, value};
+use super::dimension::dimension;
 use super::ink::Ink;
 use super::keys::{DimensionKeys, Measure, PlaceKeys, SheetPage};
 use super::measures::{Led, Measures};
 use super::plan::Plan;
+use super::precision::{Measured, Precision};
 use super::rows::Side;
 use super::sight::Sight;
+use super::true_length::{Foreshortening, IN_EXPLODED, true_length};
 use crate::error::Error;
 use crate::math::glob::Glob;
 use crate::mesh::Mesh;
 use crate::page::source::Source;
 use crate::scene::Scene;
-use crate::scene::drawn_points::DrawnPoints;
 use crate::shape::{Cylinder, cylinders};
 
 /// What names of places end with.
@@ -49,7 +50,10 @@ pub(super) fn add_told(
         };
         let measure = keys.measure.unwrap_or_default();
         if matches!(measure, Measure::Diameter | Measure::Radius) {
-            let at = place(&keys.at, "at")?;
+            if plan.foreshortening(view) == Foreshortening::Moved {
+                return Err(source.fault(&span, IN_EXPLODED[0], IN_EXPLODED[1]));
+            }
+            let at = place(&keys.at, "at")?.at;
             let own = found.get_or_insert_with(|| cylinders(&Mesh::build(scene.to_soup())));
             let led = of_cylinder(own, at, (measure, keys), (plan, sight));
             let told = keys.at.as_ref().map_or(span, Spanned::span);
@@ -59,7 +63,11 @@ pub(super) fn add_told(
             continue;
         }
         let (from, to) = (place(&keys.from, "from")?, place(&keys.to, "to")?);
-        length([from, to].map(|p| sight.page(p)), measure, keys, (plan, view), measures, ink)?;
+        let length = true_length([from, to], measure, sight, plan.foreshortening(view));
+        let (length, precision) = length.map_err(|[message, advice]| source.fault(&span, message, advice))?;
+        let text = keys.text.clone().unwrap_or_else(|| plan.values.written(length, precision));
+        let ends = [from, to].map(|p| sight.page(p.at));
+        add_length(ends, (measure, text), keys, view, measures, ink)?;
     }
     Ok(())
 }
@@ -71,13 +79,19 @@ fn point(
     scene: &Scene,
     sight: &Sight,
     source: &Source,
-) -> Result<DVec3, Error> {
+) -> Result<Measured, Error> {
+    let finite = |p: &[f64; 3]| {
+        let advice = "write three numbers such as [0, 12.5, 3]";
+        let is_finite = p.iter().all(|x| x.is_finite());
+        let point = is_finite.then(|| Measured::exact(DVec3::from_array(*p)));
+        point.ok_or_else(|| source.fault(&told.span(), "this is no point", advice))
+    };
     let name = match told.get_ref() {
-        PlaceKeys::Point(p) => return Ok(DVec3::from_array(*p)),
+        PlaceKeys::Point(p) => return finite(p),
         PlaceKeys::Named(name) => name,
     };
     if let Some(p) = sheet.points.get(name) {
-        return Ok(DVec3::from_array(*p));
+        return finite(p);
     }
     let (part, end) = name.rsplit_once('.').unwrap_or(("*", name));
     if !ENDS.contains(&end) {
@@ -85,23 +99,29 @@ fn point(
         return Err(source.unknown(&Spanned::new(told.span(), name.clone()), "place", &known));
     }
     let glob = Glob::new(part);
-    let points = DrawnPoints::of_parts(scene, |part| glob.matches(&part.name)).points;
+    let points = Measured::of_parts(scene, |part| glob.matches(&part.name));
     if points.is_empty() {
         let message = format!("there is no part `{part}`");
         return Err(source.fault(&told.span(), &message, "`ligne info MODEL` lists them; * is any text"));
     }
     let [right, up, _] = sight.axes();
-    let (low, high) =
-        points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
-    let outermost = |way: DVec3| points.iter().copied().max_by(|a, b| a.dot(way).total_cmp(&b.dot(way)));
+    let outermost =
+        |way: DVec3| points.iter().copied().max_by(|a, b| a.at.dot(way).total_cmp(&b.at.dot(way)));
     let found = match end {
         "left" => outermost(-right),
         "right" => outermost(right),
         "top" => outermost(up),
         "bottom" => outermost(-up),
-        _ => Some((low + high) / 2.0),
+        _ => Some(centre(&points)),
     };
-    Ok(found.unwrap_or_default())
+    Ok(found.unwrap_or(Measured::exact(DVec3::ZERO)))
+}
+
+/// The middle of the box around points, with the coarsest of their steps.
+fn centre(points: &[Measured]) -> Measured {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(nothing, |(l, h), p| (l.min(p.at), h.max(p.at)));
+    Measured { at: (low + high) / 2.0, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
 }
 
 /// The cylinder, seen along its axis, whose surface is nearest to a point.
@@ -123,21 +143,23 @@ fn of_cylinder(
     let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
     let is_radius = measure == Measure::Radius;
     let (sign, length) = if is_radius { ("R", nearest.radius) } else { ("⌀", 2.0 * nearest.radius) };
-    let text = keys.text.clone().unwrap_or_else(|| format!("{sign}{}", value(length * plan.unit_mm)));
+    let text = keys
+        .text
+        .clone()
+        .unwrap_or_else(|| format!("{sign}{}", plan.values.written(length, Precision::of_cylinder(nearest))));
     let (centre, radius) = (sight.page(nearest.point), nearest.radius * sight.unit);
     Some(Led { centre, radius, text, pitch: None })
 }
 
 /// Adds a length, or draws it where it is told how far beside the points.
-fn length(
+fn add_length(
     ends: [Point; 2],
-    measure: Measure,
+    (measure, text): (Measure, String),
     keys: &DimensionKeys,
-    (plan, view): (&Plan, usize),
+    view: usize,
     measures: &mut Measures,
     ink: &mut Ink,
 ) -> Result<(), Error> {
-    let sight = &plan.views[view].sight;
     let along = match measure {
         Measure::Horizontal => Vec2::new(1.0, 0.0),
         Measure::Vertical => Vec2::new(0.0, 1.0),
@@ -148,8 +170,6 @@ fn length(
         return Ok(());
     }
     let along = along / far;
-    let length = (ends[1] - ends[0]).dot(along).abs() / sight.unit * plan.unit_mm;
-    let text = keys.text.clone().unwrap_or_else(|| value(length));
     let across = along.y.abs() < 1e-9;
     if keys.offset.is_none() && (across || along.x.abs() < 1e-9) {
         let side = keys.side.filter(|side| side.is_across() == across);

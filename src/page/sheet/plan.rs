@@ -8,6 +8,8 @@ use super::exploded;
 use super::keys::{DetailKeys, SheetPage};
 use super::scales;
 use super::sight::Sight;
+use super::true_length::Foreshortening;
+use super::values::Values;
 use crate::error::Error;
 use crate::explode::{explode, with_trails};
 use crate::lines::HiddenLines;
@@ -51,8 +53,8 @@ pub(super) struct Plan {
     pub set_of: Vec<usize>,
     pub cuts: Vec<CutLine>,
     pub circled: Vec<Circled>,
-    /// Millimetres in a unit of the model.
-    pub unit_mm: f64,
+    /// How lengths are written.
+    pub values: Values,
     /// The middle of the model.
     pub middle: DVec3,
     /// The view with balloons, if any.
@@ -73,7 +75,7 @@ impl Plan {
     /// Points to the key that is wrong.
     pub fn new(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
         let name = sheet.style.clone().unwrap_or_else(|| Spanned::new(0..0, "technical".to_owned()));
-        let mut style = figure::style(&name, &sheet.set, source)?;
+        let mut style = figure::style(&name, &sheet.set, source)?.to_scale();
         style.lines.hidden = if sheet.hidden { HiddenLines::Dashed } else { HiddenLines::None };
         if sheet.model.0.is_empty() {
             return Err(Error::new("this sheet shows no model")
@@ -81,7 +83,7 @@ impl Plan {
                 .remedy("name one: model = \"part.glb\""));
         }
         let scene = figure::staged(&sheet.model, None, None, &style, source)?;
-        let unit_mm = unit_mm(sheet.unit.as_ref(), &scene, source)?;
+        let values = Values::new(sheet, scene.format == "glTF", source)?;
         let (low, high) = scene.bounds().ok_or_else(|| {
             Error::new("there is nothing to draw in the model")
                 .in_file(&source.path)
@@ -94,7 +96,7 @@ impl Plan {
             set_of: Vec::new(),
             cuts: Vec::new(),
             circled: Vec::new(),
-            unit_mm,
+            values,
             middle: (low + high) / 2.0,
             balloons: None,
         };
@@ -159,7 +161,7 @@ impl Plan {
             let forward = |view: &NamedView| Camera::named(*view, whole.up).axes()[2];
             let preferred = SIDES.iter().map(forward).find(|forward| forward.dot(normal).abs() > 1.0 - 1e-9);
             let plane = told
-                .of(whole, self.unit_mm, preferred.unwrap_or(-normal))
+                .of(whole, self.unit_mm(), preferred.unwrap_or(-normal))
                 .map_err(|error| source.about(&span, error))?;
             let side = SIDES.into_iter().find(|view| forward(view).dot(plane.normal()) < -1.0 + 1e-9);
             let camera = side.map_or_else(|| looking_at(&plane, whole), |view| Camera::named(view, whole.up));
@@ -240,6 +242,22 @@ impl Plan {
         Ok(())
     }
 
+    /// Millimetres in a unit of the model.
+    pub fn unit_mm(&self) -> f64 {
+        self.values.unit_mm()
+    }
+
+    /// How lengths in a view relate to those of the model.
+    pub fn foreshortening(&self, view: usize) -> Foreshortening {
+        let shown = self.circled.iter().find(|circled| circled.shown == view);
+        match (shown, self.views[view].stands) {
+            (Some(detail), _) => self.foreshortening(detail.of),
+            (None, Stands::Pictorial) => Foreshortening::Pictorial,
+            (None, Stands::Free) => Foreshortening::Moved,
+            (None, _) => Foreshortening::None,
+        }
+    }
+
     /// The number of a view by its name.
     pub fn view(&self, name: &Spanned<String>, source: &Source) -> Result<usize, Error> {
         let names: Vec<&str> = self.views.iter().map(|view| view.sight.name.as_str()).collect();
@@ -259,13 +277,6 @@ pub(super) fn read_scale(told: &Spanned<String>, source: &Source) -> Result<f64,
 fn named(name: &Spanned<String>, source: &Source) -> Result<NamedView, Error> {
     let known: Vec<&str> = NamedView::ALL.map(NamedView::name).into();
     NamedView::parse(name.get_ref()).ok_or_else(|| source.unknown(name, "view", &known))
-}
-
-fn unit_mm(told: Option<&Spanned<String>>, scene: &Scene, source: &Source) -> Result<f64, Error> {
-    const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
-    let Some(told) = told else { return Ok(if scene.format == "glTF" { 1000.0 } else { 1.0 }) };
-    let found = UNITS.iter().find(|(name, _)| name == told.get_ref());
-    found.map(|(_, mm)| *mm).ok_or_else(|| source.unknown(told, "unit", &UNITS.map(|(name, _)| name)))
 }
 
 /// A, B, C and so on.

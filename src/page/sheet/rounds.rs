@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::arrange::Stands;
 use super::plan::Plan;
+use super::precision::Precision;
 use super::sight::Sight;
 use crate::mesh::{FaceId, Mesh};
 use crate::raster::{FaceBuffer, Screen};
@@ -16,6 +17,8 @@ pub(super) struct Round {
     /// The view they are told in.
     pub view: usize,
     pub radius: f64,
+    /// What the input carries of the radius and of the places.
+    pub precision: Precision,
     pub hollow: bool,
     /// Places of their axes.
     pub centres: Vec<DVec3>,
@@ -26,7 +29,7 @@ pub(super) struct Round {
 /// So much of a turn is a whole cylinder, radians.
 const WHOLE: f64 = 5.8;
 
-/// Radii and places that differ by less than this share of the radius are the same.
+/// Places that differ by less than this share of the radius are the same.
 const SAME: f64 = 5e-3;
 
 /// Pixels along the longer side of a view in which is asked what stands before what.
@@ -58,19 +61,23 @@ pub(super) fn rounds(plan: &Plan) -> Vec<Round> {
         let mut own: Vec<Round> = Vec::new();
         for cylinder in shown {
             let flat = cylinder.point - forward * cylinder.point.dot(forward);
+            let precision = Precision::of_cylinder(&cylinder);
+            let written = plan.values.written(2.0 * cylinder.radius, precision);
             let is_same = |round: &&mut Round| {
                 round.hollow == cylinder.hollow
-                    && (round.radius - cylinder.radius).abs() < SAME * round.radius
+                    && plan.values.written(2.0 * round.radius, round.precision) == written
             };
             match own.iter_mut().find(is_same) {
                 None => own.push(Round {
                     view,
                     radius: cylinder.radius,
+                    precision,
                     hollow: cylinder.hollow,
                     centres: vec![flat],
                     pitch: None,
                 }),
                 Some(known) => {
+                    known.precision = known.precision.coarser(precision);
                     if known.centres.iter().all(|at| at.distance(flat) > SAME * cylinder.radius) {
                         known.centres.push(flat);
                     }

@@ -2,6 +2,7 @@
 
 use kurbo::{BezPath, Point};
 
+use super::circles::{Arc, Nearness, arcs, circle_path, extend_to_ends};
 use super::corners::corners;
 use super::curve::{add_exact, add_smooth, closed_exact, closed_smooth, polyline};
 use super::line::Line;
@@ -23,6 +24,8 @@ pub(super) struct Tolerances {
     pub clean: bool,
     /// 0 when curves are not fitted.
     pub fit: f64,
+    /// How near corners are to the circles that they make; `None` where no circles are sought.
+    pub circle: Option<Nearness>,
     /// Whether the points are asked for too where a curve is fitted.
     pub points: bool,
 }
@@ -42,8 +45,63 @@ const LONG: usize = 256;
 /// Cosine of the turn (35 degrees) over that length that makes a corner.
 const SHARP_COSINE: f64 = 0.82;
 
-/// A finished line and its path; the line has no points where a curve is fitted and they are not asked for.
+/// A finished line and its path, with the arcs that its corners lie on; the line has no points where a curve is fitted and they are not asked for.
 pub(super) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
+    let Some(near) = t.circle else { return finish_between(raw, t) };
+    let mut raw = straighten(raw);
+    let mut found = arcs(&raw.points, raw.closed, near);
+    if !raw.closed {
+        extend_to_ends(&mut raw.points, &mut found, near);
+    }
+    match found.as_slice() {
+        [] => finish_between(raw, t),
+        [circle] if circle.is_circle() => {
+            let path = circle_path(circle, raw.points[0]);
+            (raw, path)
+        }
+        [first, ..] if raw.closed => {
+            let begun = raw.opened_at(first.first % raw.len());
+            let moved =
+                |arc: &Arc| Arc { first: arc.first - first.first, last: arc.last - first.first, ..*arc };
+            let (mut line, mut path) = with_arcs(&begun, &found.iter().map(moved).collect::<Vec<_>>(), t);
+            close(&mut line);
+            path.close_path();
+            (line, path)
+        }
+        _ => with_arcs(&raw, &found, t),
+    }
+}
+
+/// An open line with arcs, between which it is finished stretch by stretch.
+fn with_arcs(raw: &Line, arcs: &[Arc], t: Tolerances) -> (Line, BezPath) {
+    let mut line = Line::default();
+    let mut path = BezPath::new();
+    if let Some(first) = raw.points.first() {
+        path.move_to(*first);
+    }
+    let last = raw.len().saturating_sub(1);
+    let mut at = 0;
+    let between = |from: usize, to: usize, line: &mut Line, path: &mut BezPath| {
+        if to > from {
+            let (part, drawn) = finish_between(raw.slice(from, to), t);
+            append(line, &part);
+            path.extend(drawn.elements().iter().skip(1).copied());
+        }
+    };
+    for arc in arcs {
+        between(at, arc.first, &mut line, &mut path);
+        arc.add(raw.points[arc.first], raw.points[arc.last], &mut path);
+        if t.points {
+            append(&mut line, &raw.slice(arc.first, arc.last));
+        }
+        at = arc.last;
+    }
+    between(at, last, &mut line, &mut path);
+    (line, path)
+}
+
+/// The same of a line without arcs.
+fn finish_between(raw: Line, t: Tolerances) -> (Line, BezPath) {
     if t.smooth <= 0.0 || !raw.is_soft() {
         return exact(raw, t);
     }
@@ -252,6 +310,7 @@ mod tests {
             simplify: 0.1,
             tidy: 0.0,
             clean: false,
+            circle: None,
             fit: 0.2,
             points: true,
         };

@@ -1,5 +1,6 @@
 //! [`Chain`]: view edges joined end to end, tidied, smoothed and fitted with curves.
 
+mod circles;
 mod class;
 mod corners;
 mod crumbs;
@@ -41,6 +42,7 @@ use crate::drawing::{Length, Unit};
 use crate::lines::{HiddenLines, LineKind};
 use crate::mesh::{MaterialId, PartId};
 use crate::viewmap::{Ahead, ViewMap};
+use circles::Nearness;
 use finish::{Tolerances, finish};
 use line::Line;
 use part_runs::{PartRuns, Piece};
@@ -88,6 +90,23 @@ pub struct Chain {
     pub path: BezPath,
 }
 
+/// How far the rounding of the file moves the corners of each part on the page, user units. Only parallel views have it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Rounding<'a>(pub Option<&'a [f64]>);
+
+impl Rounding<'_> {
+    /// How near the corners of a line are to circles.
+    fn nearness(self, line: &Line, unit: Unit) -> Option<Nearness> {
+        let of_part = self.0?;
+        let own = line.part.iter().map(|part| of_part.get(part.index()).copied().unwrap_or_default());
+        let radius = Length { value: MAX_UNCERTAIN_MM, unit: Unit::Mm }.in_unit(unit);
+        Some(Nearness { rounding: own.fold(0.0, f64::max).min(radius), radius })
+    }
+}
+
+/// By how much the radius of an arc may be uncertain, mm on the page.
+const MAX_UNCERTAIN_MM: f64 = 0.02;
+
 /// Length over which directions are measured at junctions, px.
 const DIRECTION_PX: f64 = 3.0;
 
@@ -101,7 +120,7 @@ const DIRECTION_PX: f64 = 3.0;
 /// with.
 #[must_use]
 pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
-    link_with(map, options, unit, hidden, None, &mut Bin::default())
+    link_with(map, (options, Rounding::default()), unit, hidden, None, &mut Bin::default())
 }
 
 /// Chains as [`link`] makes them, but that tidying draws no line across what hides it, however thin, if
@@ -114,7 +133,19 @@ pub fn link_behind(
     unit: Unit,
     hidden: HiddenLines,
 ) -> Vec<Chain> {
-    link_with(map, options, unit, hidden, Some(ahead), &mut Bin::default())
+    link_rounded(ahead, map, (options, Rounding::default()), unit, hidden)
+}
+
+/// Chains as [`link_behind`] makes them, with circles where the options ask for them and the rounding of corners is known.
+#[must_use]
+pub fn link_rounded(
+    ahead: &Ahead,
+    map: &ViewMap,
+    (options, rounding): (&ChainOptions, Rounding),
+    unit: Unit,
+    hidden: HiddenLines,
+) -> Vec<Chain> {
+    link_with(map, (options, rounding), unit, hidden, Some(ahead), &mut Bin::default())
 }
 
 /// Chains as [`link_behind`] makes them, and what tidying left out, in the order in which it went.
@@ -127,13 +158,13 @@ pub fn link_and_keep(
     hidden: HiddenLines,
 ) -> (Vec<Chain>, Vec<Removed>) {
     let mut bin = Bin::kept();
-    let chains = link_with(map, options, unit, hidden, ahead, &mut bin);
+    let chains = link_with(map, (options, Rounding::default()), unit, hidden, ahead, &mut bin);
     (chains, bin.emptied())
 }
 
 fn link_with(
     map: &ViewMap,
-    options: &ChainOptions,
+    (options, rounding): (&ChainOptions, Rounding),
     unit: Unit,
     hidden: HiddenLines,
     ahead: Option<&Ahead>,
@@ -146,11 +177,19 @@ fn link_with(
         simplify: options.simplify.in_unit(unit).max(0.0),
         tidy: options.tidy.in_unit(unit).max(0.0),
         clean: false,
+        circle: None,
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
         points: true,
     };
     let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, ahead, bin);
-    raws.into_par_iter().with_max_len(8).flat_map_iter(|raw| chains(raw, t)).collect()
+    let circle = |line: &Line| if options.circles { rounding.nearness(line, unit) } else { None };
+    raws.into_par_iter()
+        .with_max_len(8)
+        .flat_map_iter(|raw| {
+            let circle = circle(&raw.line);
+            chains(raw, Tolerances { circle, ..t })
+        })
+        .collect()
 }
 
 /// The curve through a line that is drawn like chains are: smooth and fitted where `soft` says that
@@ -171,6 +210,7 @@ pub(crate) fn curve(
         simplify: options.simplify.in_unit(unit).max(0.0),
         tidy: 0.0,
         clean: false,
+        circle: None,
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
         points: false,
     };

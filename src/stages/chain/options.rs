@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::drawing::Length;
+use crate::drawing::{Length, Unit};
 
 /// How lines are linked, tidied, smoothed and fitted. A length of 0 turns its step off; with all
 /// steps off a chain is exactly the projected mesh edges.
@@ -19,6 +19,32 @@ pub struct ChainOptions {
     pub fit: bool,
     /// How far a fitted curve may lie from the smoothed line. Default: 0.15 px.
     pub fit_tolerance: Length,
+    /// Whether corners on one circle, within the rounding of the file, become that circle or arc, in parallel views. Default: false.
+    pub circles: bool,
+}
+
+/// How far leaving out points and fitting may move a point on a page to scale, mm. With the lines and arcs of DXF these are less than 0.02 mm
+/// together.
+const SIMPLIFY_MM: f64 = 0.002;
+const FIT_MM: f64 = 0.008;
+
+impl ChainOptions {
+    /// The same for a page to scale or a DXF file, on which no point of the model is to move by more than 0.02 mm, and corners on one circle become
+    /// it.
+    #[must_use]
+    pub fn to_scale(self) -> Self {
+        let within = |length: Length, most: f64| {
+            if length.in_unit(Unit::Mm) > most { Length { value: most, unit: Unit::Mm } } else { length }
+        };
+        Self {
+            // Smoothing cuts corners by more than it is asked to move points.
+            smooth: within(self.smooth, 0.0),
+            simplify: within(self.simplify, SIMPLIFY_MM),
+            fit_tolerance: within(self.fit_tolerance, FIT_MM),
+            circles: true,
+            ..self
+        }
+    }
 }
 
 impl Default for ChainOptions {
@@ -29,6 +55,7 @@ impl Default for ChainOptions {
             tidy: Length::px(4.0),
             fit: true,
             fit_tolerance: Length::px(0.15),
+            circles: false,
         }
     }
 }

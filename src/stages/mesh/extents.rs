@@ -169,6 +169,12 @@ impl Extents {
         self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
     }
 
+    /// The extents of all parts.
+    #[must_use]
+    pub fn all(&self) -> &[Extent] {
+        &self.of_part
+    }
+
     /// The place of each part in the order of [`Extent::precedence`]; parts of one size in one place keep the order of the file.
     #[must_use]
     pub fn ranks(&self) -> Vec<u32> {

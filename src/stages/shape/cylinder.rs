@@ -15,6 +15,8 @@ pub struct Cylinder {
     pub axis: DVec3,
     /// Its radius, world units.
     pub radius: f64,
+    /// How far the corners of its facets are from it at most, world units.
+    pub spread: f64,
     /// Where it begins and ends along the axis from the point.
     pub ends: [f64; 2],
     /// How much of a whole turn there is of it, radians.

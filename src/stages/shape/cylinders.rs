@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
 pub use super::cylinder::Cylinder;
@@ -87,27 +87,29 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
         first_face.entry(facet(face)).or_insert(face);
     }
     let mut strips: Vec<Strip> = Vec::new();
+    let mut edges_of: Vec<Vec<usize>> = Vec::new();
     let mut part_of: Vec<PartId> = Vec::new();
     let mut at_edge: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
     let mut edges: Vec<usize> = Vec::new();
     for own in order {
         let (Some(lines), Some(face)) = (lines.get(&own), first_face.get(&own)) else { continue };
         for (strip, along) in strips_of(mesh, lines, normals[*face as usize]) {
-            for edge in along {
-                let known = at_edge.entry(edge).or_default();
+            for edge in &along {
+                let known = at_edge.entry(*edge).or_default();
                 if known.is_empty() {
-                    edges.push(edge);
+                    edges.push(*edge);
                 }
                 known.push(strips.len());
             }
             strips.push(strip);
+            edges_of.push(along);
             part_of.push(mesh.face_part[*face as usize]);
         }
     }
     edges.sort_unstable();
     let pairs: Vec<Pair> =
         edges.iter().flat_map(|edge| pairs_at(mesh, *edge, &at_edge[edge], &strips)).collect();
-    let mut found = grouped(mesh, &pairs, &strips, &part_of);
+    let mut found = grouped(mesh, &pairs, (&strips, &edges_of), &part_of);
     let rims = rims(mesh, &normals, &facets, &found);
     found.extend(rims);
     found.sort_by(|a, b| a.part.index().cmp(&b.part.index()).then(b.radius.total_cmp(&a.radius)));
@@ -198,7 +200,12 @@ fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec
 }
 
 /// Pairs that share a strip and a circle, together, as cylinders.
-fn grouped(mesh: &Mesh, pairs: &[Pair], strips: &[Strip], part_of: &[PartId]) -> Vec<Cylinder> {
+fn grouped(
+    mesh: &Mesh,
+    pairs: &[Pair],
+    (strips, edges_of): (&[Strip], &[Vec<usize>]),
+    part_of: &[PartId],
+) -> Vec<Cylinder> {
     let agree = |a: &Pair, b: &Pair| {
         let axis = strips[a.strips[0]].axis;
         let apart = a.centre - b.centre;
@@ -249,11 +256,55 @@ fn grouped(mesh: &Mesh, pairs: &[Pair], strips: &[Strip], part_of: &[PartId]) ->
             [low.min(a), high.max(b)]
         });
         let ends = ends.map(|end| end - centre.dot(axis));
+        let corners = corners_of(mesh, &of, edges_of);
+        let (centre, radius, spread) = fitted(&corners, axis, centre, radius);
         let (part, point) = (part_of[of[0]], centre + mesh.origin);
-        let hollow = pairs[own[0]].hollow;
-        merge(mesh, &mut found, Cylinder { part, point, axis, radius, ends, arc: arc.min(TAU), hollow });
+        let (arc, hollow) = (arc.min(TAU), pairs[own[0]].hollow);
+        merge(mesh, &mut found, Cylinder { part, point, axis, radius, spread, ends, arc, hollow });
     }
     found
+}
+
+/// The ends of the lines on both sides of strips, each once.
+fn corners_of(mesh: &Mesh, strips: &[usize], edges_of: &[Vec<usize>]) -> Vec<DVec3> {
+    let edges = strips.iter().flat_map(|strip| &edges_of[*strip]);
+    let mut corners: Vec<u32> = edges.flat_map(|edge| mesh.edges.vertices[*edge]).collect();
+    corners.sort_unstable();
+    corners.dedup();
+    corners.into_iter().map(|corner| mesh.positions[corner as usize]).collect()
+}
+
+/// The centre and the radius of the circle that corners are on, seen along an axis, and how far they are from it at most. Where the
+/// fit leaves the circle that is known, as on a short arc, that one stays.
+///
+/// The lines across two narrow strips meet at a small angle, so that their centre is far less certain than that of all corners. Source:
+/// Kåsa, A circle fitting procedure and its error analysis, 1976.
+fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3, f64, f64) {
+    let across = axis.any_orthonormal_vector();
+    let along = axis.cross(across);
+    let flat = |p: &DVec3| DVec2::new((*p - centre).dot(across), (*p - centre).dot(along));
+    let spread = |to: DVec2, radius: f64| {
+        corners.iter().map(|p| (flat(p).distance(to) - radius).abs()).fold(0.0, f64::max)
+    };
+    let known = || (centre, radius, spread(DVec2::ZERO, radius));
+    let count = corners.len() as f64;
+    let mean = corners.iter().map(flat).sum::<DVec2>() / count;
+    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);
+    for away in corners.iter().map(|p| flat(p) - mean) {
+        (xx, xy, yy) = (xx + away.x * away.x, xy + away.x * away.y, yy + away.y * away.y);
+        right += away * (away.length_squared() / 2.0);
+    }
+    let determinant = xx * yy - xy * xy;
+    let to = mean + DVec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
+    if !to.is_finite() || to.length() > SAME * radius {
+        return known();
+    }
+    let fitted = corners.iter().map(|p| flat(p).distance(to)).sum::<f64>() / count;
+    let off = spread(to, fitted);
+    if (fitted - radius).abs() > SAME * radius || off > SAME * radius {
+        return known();
+    }
+    (centre + across * to.x + along * to.y, fitted, off)
 }
 
 /// Adds a cylinder to the one that it is another piece of, if there is such a one.
@@ -275,6 +326,7 @@ fn merge(mesh: &Mesh, found: &mut Vec<Cylinder>, new: Cylinder) {
             let [a, b] = if known.axis.dot(new.axis) < 0.0 { [-new.ends[1], -new.ends[0]] } else { new.ends };
             known.ends = [known.ends[0].min(a + shift), known.ends[1].max(b + shift)];
             known.arc = (known.arc + new.arc).min(TAU);
+            known.spread = known.spread.max(new.spread);
         }
     }
 }

@@ -28,6 +28,8 @@ const ALIKE: f64 = 1e-3;
 /// A chord of a circle about an axis.
 struct Chord {
     radius: f64,
+    /// How far the distances of its corners differ.
+    spread: f64,
     hollow: bool,
     arc: f64,
     ends: [f64; 2],
@@ -108,7 +110,7 @@ fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<
     let (radius, half) = (radii[1], (sides[1] - sides[0]) / 2.0);
     let arc = 2.0 * atan2(half, out.abs());
     let is_chord = half > 0.0 && (sides[0] + sides[1]).abs() < ALIKE * radius && arc < WIDEST;
-    is_chord.then_some(Chord { radius, hollow: out < 0.0, arc, ends })
+    is_chord.then_some(Chord { radius, spread: radii[1] - radii[0], hollow: out < 0.0, arc, ends })
 }
 
 /// The cylinder of chords about an axis.
@@ -116,11 +118,14 @@ fn whole(chords: &[Chord], part: PartId, about: &Cylinder) -> Cylinder {
     let ends = chords.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], chord| {
         [low.min(chord.ends[0]), high.max(chord.ends[1])]
     });
+    let radius = chords.iter().map(|chord| chord.radius).sum::<f64>() / chords.len() as f64;
+    let off = chords.iter().map(|chord| (chord.radius - radius).abs() + chord.spread);
     Cylinder {
         part,
         point: about.point,
         axis: about.axis,
-        radius: chords.iter().map(|chord| chord.radius).sum::<f64>() / chords.len() as f64,
+        radius,
+        spread: off.fold(about.spread, f64::max),
         ends,
         arc: chords.iter().map(|chord| chord.arc).sum::<f64>().min(TAU),
         hollow: chords[0].hollow,

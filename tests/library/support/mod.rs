@@ -3,6 +3,7 @@
 pub mod bars;
 pub mod board;
 pub mod dice;
+pub mod dxf;
 pub mod eye;
 pub mod forms;
 pub mod glb;

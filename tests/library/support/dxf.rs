@@ -1,0 +1,50 @@
+//! A plain reader of the entities of DXF files.
+
+/// Pairs of a code and a value.
+pub fn pairs(bytes: &[u8]) -> Vec<(u16, String)> {
+    let text = std::str::from_utf8(bytes).expect("text");
+    assert!(text.is_ascii());
+    let lines: Vec<&str> = text.split_terminator("\r\n").collect();
+    assert_eq!(lines.len() % 2, 0);
+    lines.chunks(2).map(|pair| (pair[0].parse().expect("a code"), pair[1].to_owned())).collect()
+}
+
+/// One entity with all its pairs; vertices of polylines are entities of their own.
+pub struct Entity {
+    /// Its name.
+    pub kind: String,
+    /// Codes and values.
+    pub pairs: Vec<(u16, String)>,
+}
+
+impl Entity {
+    /// The first value of a code.
+    pub fn text(&self, code: u16) -> Option<&str> {
+        self.pairs.iter().find(|pair| pair.0 == code).map(|pair| pair.1.as_str())
+    }
+
+    /// The same as a number, 0 where there is none.
+    pub fn number(&self, code: u16) -> f64 {
+        self.text(code).and_then(|text| text.parse().ok()).unwrap_or(0.0)
+    }
+}
+
+/// The entities of a file.
+pub fn entities(pairs: &[(u16, String)]) -> Vec<Entity> {
+    let at = |wanted: (u16, &str), from: usize| {
+        from + pairs[from..]
+            .iter()
+            .position(|(code, value)| (*code, value.as_str()) == wanted)
+            .expect("a section")
+    };
+    let begin = at((2, "ENTITIES"), 0) + 1;
+    let mut entities: Vec<Entity> = Vec::new();
+    for (code, value) in &pairs[begin..at((0, "ENDSEC"), begin)] {
+        if *code == 0 {
+            entities.push(Entity { kind: value.clone(), pairs: Vec::new() });
+        } else {
+            entities.last_mut().expect("an entity").pairs.push((*code, value.clone()));
+        }
+    }
+    entities
+}
