@@ -12,7 +12,7 @@ use crate::math::function::ln;
 use crate::scene::NamedView;
 
 /// Room between views in a row, and around those that stand alone, mm.
-pub(super) const BETWEEN: f64 = 22.0;
+const BETWEEN: f64 = 22.0;
 const AROUND: f64 = 7.0;
 
 /// Room at the border of the sheet for the lengths of the first views, mm.
@@ -23,9 +23,6 @@ const LARGEST: f64 = 4.0;
 const FREE_STEP: f64 = 0.94;
 const FREE_STEPS: i32 = 72;
 
-/// Height of a title above a view.
-pub(super) const TITLE: f64 = 8.0;
-
 /// Views that stand alone may be smaller than the others by so many steps of the series.
 const SMALLER: usize = 3;
 
@@ -34,9 +31,7 @@ const SMALLER: usize = 3;
 pub(super) struct Placed {
     pub sight: Sight,
     pub stands: Stands,
-    /// Room that it needs on all sides, mm.
-    pub margin: f64,
-    /// Room that it needs beyond that on the left, above, on the right and below, mm.
+    /// Room that it needs for what is written on it, more than its margin, on the left, above, on the right and below, mm.
     pub around: [f64; 4],
     /// The place that it has with all that, on the page.
     place: Rect,
@@ -44,8 +39,8 @@ pub(super) struct Placed {
 
 impl Placed {
     /// A view that needs no room but its own.
-    pub fn new(sight: Sight, stands: Stands, margin: f64) -> Self {
-        Self { sight, stands, margin, around: [0.0; 4], place: Rect::ZERO }
+    pub fn new(sight: Sight, stands: Stands) -> Self {
+        Self { sight, stands, around: [0.0; 4], place: Rect::ZERO }
     }
 }
 
@@ -64,6 +59,13 @@ pub(super) enum Stands {
     Enlarged(f64),
     /// Anywhere, at that scale.
     At(f64),
+}
+
+impl Stands {
+    /// Room around the view on all sides, mm.
+    pub fn margin(self) -> f64 {
+        if matches!(self, Self::Beside(_)) { BETWEEN / 2.0 } else { AROUND }
+    }
 }
 
 /// A scale, and those of the series that are a little smaller.
@@ -198,8 +200,6 @@ fn try_scale(
                 }
             }
         }
-        let titled = beside.iter().any(|(k, _)| views[*k].sight.title.is_some());
-        let above = if titled { TITLE } else { 0.0 };
         let place = space;
         let mut taken = Vec::new();
         for (k, field) in &beside {
@@ -210,14 +210,13 @@ fn try_scale(
             sight.unit = unit;
             sight.corner = Point::new(
                 place.x0 + middle(0) + sight.low.x * unit,
-                place.y0 + above + middle(1) - sight.high.y * unit,
+                place.y0 + middle(1) - sight.high.y * unit,
             );
-            let titled = if sight.title.is_some() { TITLE } else { 0.0 };
             let own = sight.rect().inflate(BETWEEN / 2.0, BETWEEN / 2.0);
             let [left, above, right, below] = views[*k].around;
             let place = Rect {
                 x0: own.x0 - left,
-                y0: own.y0 - titled - above,
+                y0: own.y0 - above,
                 x1: own.x1 + right,
                 y1: own.y1 + below,
             };
@@ -241,18 +240,17 @@ fn try_scale(
             Stands::Pictorial => (0..FREE_STEPS).map(|k| scale * FREE_STEP.powi(k)).collect(),
             Stands::Free => (0..FREE_STEPS).map(|k| scale * LARGEST * FREE_STEP.powi(k)).collect(),
         };
-        let margin = placed.margin + AROUND;
+        let margin = placed.stands.margin();
         let [left, above, right, below] = placed.around;
-        let title = if placed.sight.title.is_some() { TITLE } else { 0.0 };
         let found = scales.into_iter().find_map(|scale| {
             let [w, h] = placed.sight.size(scale * unit_mm);
-            room.put(w + 2.0 * margin + left + right, h + 2.0 * margin + title + above + below)
+            room.put(w + 2.0 * margin + left + right, h + 2.0 * margin + above + below)
                 .map(|place| (scale, place))
         });
         let (scale, place) = found?;
         placed.place = place;
         placed.sight.unit = scale * unit_mm;
-        placed.sight.corner = Point::new(place.x0 + margin + left, place.y0 + margin + title + above);
+        placed.sight.corner = Point::new(place.x0 + margin + left, place.y0 + margin + above);
     }
     Some(())
 }

@@ -4,10 +4,9 @@ use glam::DVec3;
 use kurbo::{Point, Vec2};
 use toml::Spanned;
 
-use super::dimension::{dimension, value};
-use super::ink::Ink;
+use super::dimension::value;
 use super::keys::{DimensionKeys, Measure, PlaceKeys, SheetPage};
-use super::measures::{Led, Measures};
+use super::measures::{Led, Measures, Slanted};
 use super::plan::Plan;
 use super::rows::Side;
 use super::sight::Sight;
@@ -22,12 +21,11 @@ use crate::shape::{Cylinder, cylinders};
 /// What names of places end with.
 const ENDS: [&str; 5] = ["left", "right", "top", "bottom", "centre"];
 
-/// Adds what is asked for; draws what has a place of its own.
+/// Adds what is asked for.
 pub(super) fn add_told(
     sheet: &SheetPage,
     plan: &Plan,
     measures: &mut Measures,
-    ink: &mut Ink,
     source: &Source,
 ) -> Result<(), Error> {
     let mut found: Option<Vec<Cylinder>> = None;
@@ -59,7 +57,7 @@ pub(super) fn add_told(
             continue;
         }
         let (from, to) = (place(&keys.from, "from")?, place(&keys.to, "to")?);
-        length([from, to].map(|p| sight.page(p)), measure, keys, (plan, view), measures, ink)?;
+        length([from, to].map(|p| sight.page(p)), measure, keys, (plan, view), measures);
     }
     Ok(())
 }
@@ -128,15 +126,14 @@ fn of_cylinder(
     Some(Led { centre, radius, text, pitch: None })
 }
 
-/// Adds a length, or draws it where it is told how far beside the points.
+/// Adds a length.
 fn length(
     ends: [Point; 2],
     measure: Measure,
     keys: &DimensionKeys,
     (plan, view): (&Plan, usize),
     measures: &mut Measures,
-    ink: &mut Ink,
-) -> Result<(), Error> {
+) {
     let sight = &plan.views[view].sight;
     let along = match measure {
         Measure::Horizontal => Vec2::new(1.0, 0.0),
@@ -145,7 +142,7 @@ fn length(
     };
     let far = along.hypot2().sqrt();
     if far.is_nan() || far <= 0.0 {
-        return Ok(());
+        return;
     }
     let along = along / far;
     let length = (ends[1] - ends[0]).dot(along).abs() / sight.unit * plan.unit_mm;
@@ -154,16 +151,8 @@ fn length(
     if keys.offset.is_none() && (across || along.x.abs() < 1e-9) {
         let side = keys.side.filter(|side| side.is_across() == across);
         let side = side.unwrap_or(if across { Side::Below } else { Side::Left });
-        return measures.add(view, ends, side, text, ink);
+        measures.add(view, ends, side, text);
+        return;
     }
-    let offset = keys.offset.unwrap_or(10.0);
-    let mut out = Vec2::new(-along.y, along.x);
-    // Below or to the right.
-    if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 {
-        out = -out;
-    }
-    let outer = ends.map(|p| p.to_vec2().dot(out));
-    let reach = if offset > 0.0 { outer[0].max(outer[1]) } else { outer[0].min(outer[1]) };
-    let through = ends[0] + out * (reach - outer[0] + offset);
-    dimension(ends, along, through, &text, ink)
+    measures.slanted.push((view, Slanted { ends, along, offset: keys.offset, text }));
 }

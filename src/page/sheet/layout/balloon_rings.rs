@@ -1,0 +1,124 @@
+//! Balloons around a view: in one ring or several, as near as they and their leaders find clear paper.
+//!
+//! A ring is a rectangle around the view. Its places that lie on clear paper are given to the items so that no two leaders cross
+//! ([`leaders`]). If a leader crosses another one, a text or a balloon all the same, or there are too few places, the next rings are tried:
+//! farther out, or several, whose places are staggered so that leaders run between the balloons of the inner ring.
+
+use kurbo::{Affine, Circle, Point, Rect, Shape as _, Vec2};
+
+use super::board::Board;
+use super::occupancy::{Clear, Kind, Shape};
+use crate::error::Error;
+use crate::page::sheet::balloons::{RADIUS, cross, leaders, runs_through, slots};
+use crate::page::sheet::ink::NARROW;
+use crate::page::sheet::list::Item;
+
+/// Height of numbers, mm.
+const LETTERS: f64 = 3.5;
+
+/// From the view to the first ring, and from ring to ring, mm.
+const FIRST: f64 = 10.0;
+const STEP: f64 = 9.5;
+
+/// Room that a balloon takes along a ring, where there is one ring and where there are several, mm.
+const ALONE: f64 = 10.0;
+const STAGGERED: f64 = 11.5;
+
+/// Clear paper around a balloon, mm.
+const CLEAR: f64 = 0.8;
+
+/// How many rings are tried at most; how much farther out the last one is tried at a time, and how often, mm.
+const RINGS: u32 = 4;
+const FARTHER: f64 = 3.0;
+const STEPS: u32 = 32;
+
+/// Draws the balloons of items that have an anchor.
+pub(super) fn draw(
+    rect: Rect,
+    items: &[Item],
+    anchors: &[Option<Point>],
+    board: &mut Board,
+) -> Result<(), Error> {
+    let seen: Vec<(usize, Point)> =
+        anchors.iter().enumerate().filter_map(|(k, anchor)| anchor.map(|anchor| (k, anchor))).collect();
+    let points: Vec<Point> = seen.iter().map(|(_, anchor)| *anchor).collect();
+    if points.is_empty() {
+        return Ok(());
+    }
+    // The outermost ring counts: that is the room that the view needs.
+    let rings = (0..STEPS).flat_map(|step| {
+        let away = FARTHER * f64::from(step);
+        let farther = move |rings: u32| (rings, away - STEP * f64::from(rings - 1));
+        (1..=RINGS).map(farther).filter(|(_, farther)| *farther >= 0.0)
+    });
+    let found = rings.into_iter().find_map(|rings| {
+        let places = places(rect, rings, board);
+        if places.len() < points.len() {
+            return None;
+        }
+        let is_blocked = |p: &Point, place: &Point| {
+            !board.taken.is_free(&Shape::line(*p, *place, NARROW).wider(0.3), Clear::OfLeaders)
+        };
+        let blocked: Vec<Vec<bool>> = points
+            .iter()
+            .map(|p| places.iter().map(|place| is_blocked(p, place)).collect())
+            .collect();
+        let of = leaders(&points, &places, &|k, place| blocked[k][place]);
+        let lines: Vec<[Point; 2]> = points.iter().zip(&of).map(|(p, slot)| [*p, places[*slot]]).collect();
+        let is_clear = lines.iter().enumerate().all(|(k, own)| {
+            !blocked[k][of[k]]
+                && lines.iter().enumerate().all(|(n, other)| {
+                    n == k || !runs_through(*own, other[1]) && (n < k || !cross(*own, *other))
+                })
+        });
+        is_clear.then_some(lines)
+    });
+    let Some(lines) = found else {
+        let numbers: Vec<&str> = seen.iter().map(|(item, _)| &*items[*item].number).collect();
+        let (first, last) = (numbers.first().unwrap_or(&""), numbers.last().unwrap_or(&""));
+        board.unplaced.push(match numbers.len() {
+            1 => format!("the balloon {first}"),
+            count => format!("the {count} balloons {first} to {last}"),
+        });
+        return Ok(());
+    };
+    for ((item, _), [anchor, centre]) in seen.iter().zip(lines) {
+        let towards = anchor - centre;
+        let far = towards.hypot2().sqrt();
+        if far > RADIUS {
+            let end = centre + towards * (RADIUS / far);
+            board.balloons.line(end, anchor, NARROW);
+            board.taken.take(Shape::line(end, anchor, NARROW), Kind::Leader);
+        }
+        board.balloons.fill(Circle::new(anchor, 0.5).to_path(1e-3));
+        board.balloons.circle(centre, RADIUS, NARROW);
+        board.taken.take(Shape::disc(centre, RADIUS), Kind::Solid);
+        let word = board.word_within(&items[*item].number, LETTERS, 2.0 * RADIUS - 1.5)?;
+        // On one line of writing whether or not letters reach below it.
+        let at = Point::new(centre.x - word.bounds.center().x, centre.y - word.bounds.y0 / 2.0);
+        board.write_in_balloon(&word, Affine::translate(at.to_vec2()));
+    }
+    Ok(())
+}
+
+/// The places of rings that lie on clear paper.
+fn places(rect: Rect, (rings, farther): (u32, f64), board: &Board) -> Vec<Point> {
+    let room = if rings == 1 { ALONE } else { STAGGERED };
+    let is_free = |centre: &Point| {
+        board.taken.is_free(&Shape::disc(*centre, RADIUS + CLEAR), Clear::OfAll)
+    };
+    let ring = |k: u32| {
+        let away = FIRST + farther + STEP * f64::from(k);
+        slots(rect.inflate(away, away), room, if k % 2 == 0 { 0.5 } else { 0.0 })
+    };
+    let all: Vec<Point> = (0..rings).flat_map(ring).collect();
+    // At corners places of neighbouring rings and sides may be near each other.
+    let mut kept: Vec<Point> = Vec::new();
+    for p in all.into_iter().filter(is_free) {
+        let near = 2.0 * RADIUS + CLEAR;
+        if kept.iter().all(|other| Vec2::hypot2(*other - p) >= near * near) {
+            kept.push(p);
+        }
+    }
+    kept
+}
