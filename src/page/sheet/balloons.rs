@@ -4,7 +4,7 @@
 //! doing it as long as it can be done ends with none that cross. Those that then run through the circle of another balloon go to other
 //! places, as long as that leaves fewer that do.
 
-use kurbo::{Point, Rect};
+use kurbo::{Point, Rect, Vec2};
 use robust::{Coord, orient2d};
 
 /// Radius of a balloon, and what leaders keep clear around it, mm.
@@ -51,6 +51,42 @@ pub fn leaders(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, us
         free[slot] = false;
         of.push(slot);
     }
+    untangle(anchors, slots, is_blocked, &mut of);
+    of
+}
+
+/// The same, of which the leaders go out like the spokes of a wheel: for places in several rings, of which the outer ones are reached
+/// between the inner ones. There are as many slots as anchors, or more.
+#[must_use]
+pub fn spokes(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
+    let count = anchors.len();
+    let middle = anchors.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / count.max(1) as f64;
+    let angle = |p: &Point| crate::math::function::atan2(p.y - middle.y, p.x - middle.x);
+    let around = |points: &[Point]| {
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by(|a, b| angle(&points[*a]).total_cmp(&angle(&points[*b])).then(a.cmp(b)));
+        order
+    };
+    let (order, places) = (around(anchors), around(slots));
+    let turned = |turn: usize| {
+        let mut of = vec![0; count];
+        for (k, anchor) in order.iter().enumerate() {
+            of[*anchor] = places[(k * places.len() / count + turn) % places.len()];
+        }
+        of
+    };
+    let long = |of: &[usize]| -> f64 {
+        anchors.iter().zip(of).map(|(p, slot)| (*p - slots[*slot]).hypot2().sqrt()).sum()
+    };
+    let shortest = (0..places.len()).map(turned).min_by(|a, b| long(a).total_cmp(&long(b)));
+    let mut of = shortest.unwrap_or_default();
+    clear(anchors, slots, is_blocked, &mut of);
+    of
+}
+
+/// Exchanges slots as long as leaders cross or both become shorter, and moves those that are left with faults.
+fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
+    let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
     for _ in 0..MOST_SWEEPS {
         let mut exchanged = false;
         for a in 0..of.len() {
@@ -67,8 +103,7 @@ pub fn leaders(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, us
             break;
         }
     }
-    clear(anchors, slots, is_blocked, &mut of);
-    of
+    clear(anchors, slots, is_blocked, of);
 }
 
 /// Moves balloons whose leaders cross others or run through their circles, or others through theirs, to places where fewer do.

@@ -200,7 +200,10 @@ fn items(sheet: &SheetPage, plan: &Plan, source: &Source) -> Result<(Vec<list::I
 }
 
 /// Room for what is written changes the scale, and that again the room.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 16;
+
+/// How many times as large a view within a ring of balloons is tried.
+const RINGS_FILLED: [f64; 6] = [4.0, 3.0, 2.4, 1.9, 1.5, 1.25];
 
 /// A sheet whose views have their places.
 struct Laid {
@@ -259,19 +262,30 @@ impl<'a> Laying<'a> {
         source: &Source,
     ) -> Result<Laid, Error> {
         let told = self.sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
+        let sets = plan.sets.clone();
         let mut prepared = Vec::new();
-        for (number, set) in plan.sets.iter().enumerate() {
+        for (number, set) in sets.iter().enumerate() {
             prepared.push(plan.set_of.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
         }
         let mut drawn = DrawnViews::new(prepared, plan.views.len());
         let mut anchors: Option<Vec<Option<DVec2>>> = None;
         for _ in 0..ROUNDS {
             let arranged = arrange(&mut plan.views, place, (self.sheet.projection, plan.unit_mm, told));
-            let Some(scale) = arranged else { return Err(self.refused(plan, source)) };
+            let Some(scale) = arranged else {
+                // Smaller views with rings that take less paper.
+                if plan.views.iter().any(|placed| placed.ring.is_some()) {
+                    plan.views.iter_mut().for_each(|placed| placed.ring = None);
+                    continue;
+                }
+                return Err(self.refused(plan, source));
+            };
             if anchors.is_none() {
                 drawn.update(plan)?;
                 if let Some(rounds) = &mut self.rounds {
                     *rounds = rounds::rounds(plan);
+                }
+                if let Some(view) = plan.balloons {
+                    plan.views[view].ring = Some([0.0; 2]);
                 }
                 let found = plan.balloons.map(|view| {
                     let sight = &plan.views[view].sight;
@@ -303,6 +317,10 @@ impl<'a> Laying<'a> {
             if !fits {
                 continue;
             }
+            if let Some(view) = plan.balloons {
+                let board = |plan: &Plan, drawn: &DrawnViews| layout.board(view, plan, drawn);
+                fill_ring(plan, view, &mut drawn, (scale, &mut laid[view]), board)?;
+            }
             if let Some(unplaced) = laid.iter().find_map(|board| board.unplaced.first()) {
                 return Err(Error::new(format!("there is no clear place for {unplaced} on this sheet"))
                     .remedy("choose a larger size or another scale, or leave some of it out"));
@@ -332,14 +350,47 @@ impl<'a> Laying<'a> {
     }
 }
 
+/// Makes a view with balloons that has no scale of its own as large as the ring of its balloons lets it be.
+fn fill_ring(
+    plan: &mut Plan,
+    view: usize,
+    drawn: &mut DrawnViews,
+    (scale, laid): (f64, &mut Board),
+    board: impl Fn(&Plan, &DrawnViews) -> Result<Board, Error>,
+) -> Result<(), Error> {
+    let unit = plan.views[view].sight.unit;
+    let Some(most) = plan.views[view].stands.largest(scale * plan.unit_mm) else { return Ok(()) };
+    for larger in RINGS_FILLED {
+        plan.views[view].enlarge(unit, (unit * larger).min(most));
+        let mut own = board(plan, drawn)?;
+        if plan.views[view].has_room_for(&own) {
+            drawn.update(plan)?;
+            own = board(plan, drawn)?;
+            if plan.views[view].has_room_for(&own) {
+                *laid = own;
+                return Ok(());
+            }
+        }
+        let now = plan.views[view].sight.unit;
+        plan.views[view].enlarge(now, unit);
+    }
+    drawn.update(plan)?;
+    Ok(())
+}
+
 /// Gives views the room that what is written on them needs. Reports whether they had it.
 fn make_room(views: &mut [arrange::Placed], boards: &[Board]) -> bool {
     let mut fits = true;
     for (placed, board) in views.iter_mut().zip(boards) {
         let needed = Layout::room(board, placed.sight.rect(), placed.stands);
-        for (own, needed) in placed.around.iter_mut().zip(needed) {
-            fits &= needed <= *own + 1e-9;
-            *own = own.max(needed);
+        let own = placed.around_at(placed.sight.unit);
+        if needed.iter().zip(own).all(|(needed, own)| *needed <= own + 1e-9) {
+            continue;
+        }
+        fits = false;
+        placed.around = [0, 1, 2, 3].map(|side| own[side].max(needed[side]));
+        if let Some(size) = &mut placed.ring {
+            *size = placed.sight.size(placed.sight.unit);
         }
     }
     fits

@@ -1,5 +1,7 @@
 //! [`Plan`]: the views of a sheet, and the scenes they show.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use toml::Spanned;
 
@@ -49,7 +51,7 @@ pub(super) struct Circled {
 /// The views of a sheet, and the scenes they show.
 pub(super) struct Plan {
     /// The whole model first.
-    pub sets: Vec<Set>,
+    pub sets: Vec<Arc<Set>>,
     pub views: Vec<Placed>,
     /// For each view its set.
     pub set_of: Vec<usize>,
@@ -112,11 +114,11 @@ impl Plan {
             let camera = Camera::named(*view, scene.up);
             plan.add(view.name(), camera, &points, (0, stands));
         }
-        plan.sets.push(Set { scene, style: style.clone() });
+        plan.sets.push(Arc::new(Set { scene, style: style.clone() }));
         plan.add_sections(sheet, &views, (&points, &pictorial), source)?;
         if sheet.hidden && views.iter().any(|view| !SIDES.contains(view)) {
             let scene = plan.sets[0].scene.clone();
-            plan.sets.push(Set { scene, style: pictorial.clone() });
+            plan.sets.push(Arc::new(Set { scene, style: pictorial.clone() }));
             for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
                 if *set == 0 && placed.stands == Stands::Pictorial {
                     *set = plan.sets.len() - 1;
@@ -170,7 +172,7 @@ impl Plan {
             let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
             let mut section = cut(whole.clone(), &plane, &uncut);
             let style = hatched_for(style, &mut section.scene, &mut section.faces, &[camera]);
-            self.sets.push(Set { scene: std::mem::take(&mut section.scene), style });
+            self.sets.push(Arc::new(Set { scene: std::mem::take(&mut section.scene), style }));
             let stands = match side.filter(|view| !taken.contains(view)) {
                 Some(view) => {
                     taken.push(view);
@@ -196,7 +198,7 @@ impl Plan {
         let ways = explode(whole, &exploded::explosion(keys, whole, source)?);
         let scene = with_trails(whole.clone(), &ways);
         let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
-        self.sets.push(Set { scene, style: trailed(style) });
+        self.sets.push(Arc::new(Set { scene, style: trailed(style) }));
         let set = self.sets.len() - 1;
         self.add("exploded", camera, &points, (set, Stands::Free));
         Ok(())

@@ -1,15 +1,16 @@
-//! Balloons around a view: in one ring or several, as near as they and their leaders find clear paper.
+//! Balloons around a view: in one ring or two, as near as they and their leaders find clear paper.
 //!
 //! A ring is a rectangle around the view. Its places that lie on clear paper are given to the items so that no two leaders cross
-//! ([`leaders`]). If a leader crosses another one, a text or a balloon all the same, or there are too few places, the next rings are tried:
-//! farther out, or several, whose places are staggered so that leaders run between the balloons of the inner ring.
+//! ([`leaders`], [`spokes`]). If a leader crosses another one, a text or a balloon all the same, or there are too few places, the next rings are tried:
+//! farther out, or two, whose places are staggered so that leaders run between the balloons of the inner ring.
 
 use kurbo::{Affine, Circle, Point, Rect, Shape as _, Vec2};
 
 use super::board::Board;
 use super::occupancy::{Clear, Kind, Shape};
 use crate::error::Error;
-use crate::page::sheet::balloons::{RADIUS, cross, leaders, runs_through, slots};
+use crate::math::function::{cos, sin};
+use crate::page::sheet::balloons::{RADIUS, cross, leaders, runs_through, slots, spokes};
 use crate::page::sheet::ink::NARROW;
 use crate::page::sheet::list::Item;
 
@@ -20,15 +21,17 @@ const LETTERS: f64 = 3.5;
 const FIRST: f64 = 10.0;
 const STEP: f64 = 9.5;
 
-/// Room that a balloon takes along a ring, where there is one ring and where there are several, mm.
+/// Room that a balloon takes along a ring, where there is one ring.
 const ALONE: f64 = 10.0;
-const STAGGERED: f64 = 11.5;
+
+/// From the middle of a balloon to a leader that passes it, mm: its radius, clear paper, and what leaders lean to the side.
+const PASSING: f64 = 5.2;
 
 /// Clear paper around a balloon, mm.
 const CLEAR: f64 = 0.8;
 
-/// How many rings are tried at most; how much farther out the last one is tried at a time, and how often, mm.
-const RINGS: u32 = 4;
+/// How many rings there are at most; how much farther out the last one is tried at a time, and how often, mm.
+const RINGS: u32 = 2;
 const FARTHER: f64 = 3.0;
 const STEPS: u32 = 32;
 
@@ -63,15 +66,24 @@ pub(super) fn draw(
             .iter()
             .map(|p| places.iter().map(|place| is_blocked(p, place)).collect())
             .collect();
-        let of = leaders(&points, &places, &|k, place| blocked[k][place]);
-        let lines: Vec<[Point; 2]> = points.iter().zip(&of).map(|(p, slot)| [*p, places[*slot]]).collect();
-        let is_clear = lines.iter().enumerate().all(|(k, own)| {
-            !blocked[k][of[k]]
-                && lines.iter().enumerate().all(|(n, other)| {
-                    n == k || !runs_through(*own, other[1]) && (n < k || !cross(*own, *other))
-                })
-        });
-        is_clear.then_some(lines)
+        let lines = |of: &[usize]| -> Vec<[Point; 2]> {
+            points.iter().zip(of).map(|(p, slot)| [*p, places[*slot]]).collect()
+        };
+        let is_clear = |of: &Vec<usize>| {
+            let lines = lines(of);
+            lines.iter().enumerate().all(|(k, own)| {
+                !blocked[k][of[k]]
+                    && lines.iter().enumerate().all(|(n, other)| {
+                        n == k || !runs_through(*own, other[1]) && (n < k || !cross(*own, *other))
+                    })
+            })
+        };
+        let nearest = leaders(&points, &places, &|k, place| blocked[k][place]);
+        if is_clear(&nearest) {
+            return Some(lines(&nearest));
+        }
+        let spokes = spokes(&points, &places, &|k, place| blocked[k][place]);
+        is_clear(&spokes).then(|| lines(&spokes))
     });
     let Some(lines) = found else {
         let numbers: Vec<&str> = seen.iter().map(|(item, _)| &*items[*item].number).collect();
@@ -101,24 +113,47 @@ pub(super) fn draw(
     Ok(())
 }
 
-/// The places of rings that lie on clear paper.
+/// The places of one ring or two that lie on clear paper.
 fn places(rect: Rect, (rings, farther): (u32, f64), board: &Board) -> Vec<Point> {
-    let room = if rings == 1 { ALONE } else { STAGGERED };
-    let is_free = |centre: &Point| {
-        board.taken.is_free(&Shape::disc(*centre, RADIUS + CLEAR), Clear::OfAll)
-    };
-    let ring = |k: u32| {
-        let away = FIRST + farther + STEP * f64::from(k);
-        slots(rect.inflate(away, away), room, if k % 2 == 0 { 0.5 } else { 0.0 })
-    };
-    let all: Vec<Point> = (0..rings).flat_map(ring).collect();
-    // At corners places of neighbouring rings and sides may be near each other.
+    let inner = rect.inflate(FIRST + farther, FIRST + farther);
+    let all = if rings == 1 { slots(inner, ALONE, 0.5) } else { staggered(inner) };
+    // At corners places of neighbouring sides may be near each other.
     let mut kept: Vec<Point> = Vec::new();
-    for p in all.into_iter().filter(is_free) {
+    for p in all {
         let near = 2.0 * RADIUS + CLEAR;
-        if kept.iter().all(|other| Vec2::hypot2(*other - p) >= near * near) {
+        let is_free = board.taken.is_free(&Shape::disc(p, RADIUS + CLEAR), Clear::OfAll);
+        if is_free && kept.iter().all(|other| Vec2::hypot2(*other - p) >= near * near) {
             kept.push(p);
         }
     }
     kept
+}
+
+/// Places on rays from the middle of a ring, in turn on this ring and the one around it: rays are so far apart that each passes the
+/// balloons of its neighbours.
+fn staggered(inner: Rect) -> Vec<Point> {
+    let outer = inner.inflate(STEP, STEP);
+    let middle = inner.center();
+    let at = |ring: Rect, turn: f64| {
+        let way = Vec2::new(cos(turn), sin(turn));
+        let far = (ring.width() / 2.0 / way.x.abs()).min(ring.height() / 2.0 / way.y.abs());
+        way * far
+    };
+    let step = |turn: f64| {
+        let far = at(inner, turn).hypot2().sqrt();
+        (PASSING / far).min(1.0)
+    };
+    let mut turns = Vec::new();
+    let mut turn = 0.0;
+    while turn + step(turn) <= std::f64::consts::TAU {
+        turns.push(turn);
+        turn += step(turn);
+    }
+    // Each has another ring than both its neighbours.
+    let count = turns.len() - turns.len() % 2;
+    let slack = turn / std::f64::consts::TAU;
+    let place = |(k, turn): (usize, &f64)| {
+        middle + at(if k % 2 == 0 { inner } else { outer }, *turn / slack.max(f64::MIN_POSITIVE))
+    };
+    turns.iter().take(count).enumerate().map(place).collect()
 }

@@ -25,7 +25,7 @@ use kurbo::{Point, Rect, Vec2};
 pub(super) use board::Board;
 pub(super) use drawn_views::DrawnViews;
 
-use super::arrange::Stands;
+use super::arrange::{ELEMENTS_CLEAR, Stands};
 use super::centre;
 use super::list::Item;
 use super::measures::Measures;
@@ -37,9 +37,6 @@ use crate::shape::Cylinder;
 use crate::text::Font;
 use cut_marks::CutMark;
 use occupancy::{Kind, Shape};
-
-/// From what is written on a view to the border of its room, mm.
-const CLEAR: f64 = 3.0;
 
 /// What is to be written on the views.
 pub(super) struct Layout<'a> {
@@ -139,7 +136,7 @@ impl Layout<'_> {
     /// The room that a view needs for what is written on it, more than it has anyway, mm: on the left, above, on the right, below.
     pub fn room(board: &Board, rect: Rect, stands: Stands) -> [f64; 4] {
         let Some(extents) = board.extents() else { return [0.0; 4] };
-        let own = stands.margin() - CLEAR;
+        let own = stands.margin() - ELEMENTS_CLEAR;
         let past = [rect.x0 - extents.x0, rect.y0 - extents.y0, extents.x1 - rect.x1, extents.y1 - rect.y1];
         past.map(|past| (past - own).max(0.0))
     }
