@@ -80,6 +80,7 @@ mod section_shells;
 mod sections;
 mod shadows;
 mod shallow_creases;
+mod sheet_layouts;
 mod sheet_lengths;
 mod sheets;
 mod smooth_contours;

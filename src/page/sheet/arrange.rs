@@ -100,11 +100,10 @@ impl Stands {
 }
 
 impl Stands {
-    /// The largest length on paper of a unit that it may have where it has no scale of its own.
+    /// The largest length on paper of a unit that it may have where nobody measures in it.
     pub fn largest(self, unit: f64) -> Option<f64> {
         match self {
-            Self::Pictorial => Some(unit),
-            Self::Free => Some(unit * LARGEST),
+            Self::Pictorial | Self::Free => Some(unit * LARGEST),
             _ => None,
         }
     }

@@ -38,6 +38,9 @@ use crate::text::Font;
 use cut_marks::CutMark;
 use occupancy::{Kind, Shape};
 
+/// Clear paper around the place where a leader begins, mm.
+const ANCHOR: f64 = 1.5;
+
 /// What is to be written on the views.
 pub(super) struct Layout<'a> {
     pub font: &'a Font,
@@ -62,6 +65,16 @@ impl Layout<'_> {
         let rect = sight.rect();
         for ([a, b], width) in drawn.chords(view, plan) {
             board.taken.take(Shape::line(a, b, width), Kind::Geometry);
+        }
+        let anchors: Vec<Option<Point>> = if plan.balloons == Some(view) {
+            let anchor = |at: &Option<DVec2>| at.map(|at| sight.corner + Vec2::new(at.x, at.y) * sight.unit);
+            self.anchors.iter().map(anchor).collect()
+        } else {
+            Vec::new()
+        };
+        // Leaders begin where no text is.
+        for anchor in anchors.iter().flatten() {
+            board.taken.take(Shape::disc(*anchor, ANCHOR), Kind::Geometry);
         }
         centre::centre_lines(plan, view, self.cylinders, &mut board);
         for circled in &plan.circled {
@@ -103,13 +116,7 @@ impl Layout<'_> {
         if let Some(title) = notes::title(plan, view, self.scale) {
             letters::title(&title, rect, &mut board)?;
         }
-        if plan.balloons == Some(view) {
-            let anchor = |at: &Option<DVec2>| {
-                at.map(|at| sight.corner + Vec2::new(at.x * sight.unit, at.y * sight.unit))
-            };
-            let anchors: Vec<Option<Point>> = self.anchors.iter().map(anchor).collect();
-            balloon_rings::draw(rect, self.items, &anchors, &mut board)?;
-        }
+        balloon_rings::draw(rect, self.items, &anchors, &mut board)?;
         Ok(board)
     }
 

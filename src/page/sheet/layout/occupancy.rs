@@ -124,38 +124,55 @@ fn squared_distance(one: [Point; 2], other: [Point; 2]) -> f64 {
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// The paper that is taken.
+/// Shapes by the cells of the grid that they reach into.
 #[derive(Debug, Clone, Default)]
-pub(in crate::page::sheet) struct Occupancy {
-    shapes: Vec<(Shape, Kind)>,
+struct Cells {
+    shapes: Vec<(Shape, Rect, Kind)>,
     cells: FxHashMap<[i32; 2], Vec<u32>>,
 }
 
-impl Occupancy {
-    /// Takes the paper of a shape.
-    pub fn take(&mut self, shape: Shape, kind: Kind) {
-        if shape.count == 2 {
-            let [a, b] = [shape.corners[0], shape.corners[1]];
-            let pieces = ((b - a).hypot2().sqrt() / (4.0 * CELL)).ceil().clamp(1.0, 1000.0);
-            for k in 0..pieces as u32 {
-                let at = |k: f64| a.lerp(b, k / pieces);
-                let piece = Shape::line(at(f64::from(k)), at(f64::from(k) + 1.0), 2.0 * shape.margin);
-                self.add(piece, kind);
-            }
-            return;
-        }
-        self.add(shape, kind);
-    }
-
+impl Cells {
     fn add(&mut self, shape: Shape, kind: Kind) {
         let bounds = shape.bounds();
         if !bounds.is_finite() {
             return;
         }
         let number = self.shapes.len() as u32;
-        self.shapes.push((shape, kind));
+        self.shapes.push((shape, bounds, kind));
         for cell in cells(bounds) {
             self.cells.entry(cell).or_default().push(number);
+        }
+    }
+
+    fn any(&self, shape: &Shape, matters: impl Fn(Kind) -> bool) -> bool {
+        let bounds = shape.bounds();
+        for cell in cells(bounds) {
+            for number in self.cells.get(&cell).into_iter().flatten() {
+                let (other, its, kind) = &self.shapes[*number as usize];
+                if matters(*kind) && its.overlaps(bounds) && other.touches(shape) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+}
+
+/// The paper that is taken.
+#[derive(Debug, Clone, Default)]
+pub(in crate::page::sheet) struct Occupancy {
+    /// The lines of the view, which are many.
+    geometry: Cells,
+    /// What is written on it.
+    written: Cells,
+}
+
+impl Occupancy {
+    /// Takes the paper of a shape.
+    pub fn take(&mut self, shape: Shape, kind: Kind) {
+        let own = if kind == Kind::Geometry { &mut self.geometry } else { &mut self.written };
+        for piece in pieces(shape) {
+            own.add(piece, kind);
         }
     }
 
@@ -167,12 +184,24 @@ impl Occupancy {
             Clear::OfTexts => kind == Kind::Solid,
             Clear::OfLeaders => matches!(kind, Kind::Solid | Kind::Arrow | Kind::Leader),
         };
-        let bounds = shape.bounds();
-        !cells(bounds).filter_map(|cell| self.cells.get(&cell)).flatten().any(|number| {
-            let (other, kind) = &self.shapes[*number as usize];
-            matters(*kind) && other.bounds().overlaps(bounds) && other.touches(shape)
+        !pieces(*shape).any(|piece| {
+            self.written.any(&piece, matters) || clear == Clear::OfAll && self.geometry.any(&piece, matters)
         })
     }
+}
+
+/// A line as pieces that reach into few cells; other shapes whole.
+fn pieces(shape: Shape) -> impl Iterator<Item = Shape> {
+    let [a, b] = [shape.corners[0], shape.corners[1]];
+    let count = if shape.count == 2 {
+        ((b - a).hypot2().sqrt() / (2.0 * CELL)).ceil().clamp(1.0, 1000.0) as u32
+    } else {
+        1
+    };
+    (0..count).map(move |k| {
+        let at = |k: u32| a.lerp(b, f64::from(k) / f64::from(count));
+        if count == 1 { shape } else { Shape::line(at(k), at(k + 1), 2.0 * shape.margin) }
+    })
 }
 
 /// The cells that a box reaches into.
