@@ -205,7 +205,7 @@ fn generated(seed: u64) -> (String, String) {
     text += &format!("dimensions = '{}'\n", ["none", "overall", "auto", "auto"][dice.below(4)]);
     if count > 1 && dice.below(4) > 0 {
         text += "parts_list = true\n";
-        if dice.below(3) == 0 {
+        if dice.below(3) == 0 && views.contains("top") {
             text += "balloons = 'top'\n";
         }
     }

@@ -49,18 +49,22 @@ pub(super) fn draw(
         return Ok(());
     }
     // The outermost ring counts: that is the room that the view needs.
-    let rings = (0..STEPS).flat_map(|step| {
-        let away = FARTHER * f64::from(step);
-        let farther = move |rings: u32| (rings, away - STEP * f64::from(rings - 1));
-        (1..=RINGS).map(farther).filter(|(_, farther)| *farther >= 0.0)
+    // Where it does not go otherwise, leaders cross those of diameters, and then heads of arrows.
+    let ways = [(Clear::OfLeaders, STEPS / 3), (Clear::OfSolids, STEPS / 3), (Clear::OfTexts, STEPS)];
+    let rings = ways.into_iter().flat_map(|(clear, steps)| {
+        (0..steps).flat_map(move |step| {
+            let away = FARTHER * f64::from(step);
+            let farther = move |rings: u32| (clear, rings, away - STEP * f64::from(rings - 1));
+            (1..=RINGS).map(farther).filter(|(.., farther)| *farther >= 0.0)
+        })
     });
-    let found = rings.into_iter().find_map(|rings| {
-        let places = places(rect, rings, board);
+    let found = rings.into_iter().find_map(|(clear, rings, farther)| {
+        let places = places(rect, (rings, farther), board);
         if places.len() < points.len() {
             return None;
         }
         let is_blocked = |p: &Point, place: &Point| {
-            !board.taken.is_free(&Shape::line(*p, *place, NARROW).wider(0.3), Clear::OfLeaders)
+            !board.taken.is_free(&Shape::line(*p, *place, NARROW).wider(0.3), clear)
         };
         let blocked: Vec<Vec<bool>> = points
             .iter()

@@ -42,6 +42,8 @@ pub(in crate::page::sheet) struct Board {
     pub ink: Ink,
     pub balloons: Ink,
     pub taken: Occupancy,
+    /// Where lines of lengths must pass that have no place yet: texts keep clear of it.
+    pub kept: Occupancy,
     /// What found no place.
     pub unplaced: Vec<String>,
 }
@@ -53,6 +55,7 @@ impl Board {
             ink: Ink::new(font, "note"),
             balloons: Ink::new(font, "balloon"),
             taken: Occupancy::default(),
+            kept: Occupancy::default(),
             unplaced: Vec::new(),
         }
     }
@@ -73,7 +76,8 @@ impl Board {
 
     /// Whether there is clear paper for a word at a place.
     pub fn is_free(&self, word: &Word, place: Affine) -> bool {
-        self.taken.is_free(&word.shape(place).wider(TEXT_CLEAR), Clear::OfAll)
+        let shape = word.shape(place).wider(TEXT_CLEAR);
+        self.taken.is_free(&shape, Clear::OfAll) && self.kept.is_free(&shape, Clear::OfAll)
     }
 
     /// Writes a word at a place.

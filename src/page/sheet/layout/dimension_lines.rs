@@ -8,7 +8,7 @@
 use kurbo::{Affine, Point, Rect, Vec2};
 
 use super::board::{Board, LINE_CLEAR, TEXT_CLEAR, Word};
-use super::occupancy::{Clear, Kind};
+use super::occupancy::{Clear, Kind, Occupancy, Shape};
 use crate::error::Error;
 use crate::page::sheet::dimension::{ARROW, HIGH};
 use crate::page::sheet::ink::NARROW;
@@ -39,6 +39,9 @@ const SHIFTS: u32 = 40;
 /// How far other lengths stand from their points, and by how much farther they are tried, mm.
 const BESIDE: f64 = 10.0;
 const FARTHER: f64 = 4.0;
+
+/// How far outside the view lines pass that lead to such lengths, mm.
+const PASSED: f64 = 40.0;
 
 /// A length on a line.
 struct DimensionLine {
@@ -205,15 +208,30 @@ fn in_row(told: &Told, rect: Rect, row: u32) -> DimensionLine {
     DimensionLine::new(told.ends, along, corner + out * away)
 }
 
+/// The paper where lines that lead to lengths in no row may pass.
+pub(super) fn passing<'a>(rect: Rect, told: impl Iterator<Item = &'a Slanted>) -> Occupancy {
+    let mut kept = Occupancy::default();
+    let far = rect.width().hypot(rect.height()) + PASSED;
+    for told in told {
+        let out = outward(told.along);
+        for p in told.ends {
+            kept.take(Shape::line(p - out * far, p + out * far, NARROW).wider(LINE_CLEAR), Kind::Line);
+        }
+    }
+    kept
+}
+
+/// Across a length, to below or the right.
+fn outward(along: Vec2) -> Vec2 {
+    let out = Vec2::new(-along.y, along.x);
+    if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 { -out } else { out }
+}
+
 /// Draws a length that stands in no row.
 pub(super) fn slanted(rect: Rect, told: &Slanted, board: &mut Board) -> Result<(), Error> {
     let word = board.word(&told.text, HIGH)?;
     let wide = word.bounds.width();
-    let mut out = Vec2::new(-told.along.y, told.along.x);
-    // Below or to the right.
-    if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 {
-        out = -out;
-    }
+    let out = outward(told.along);
     let outer = told.ends.map(|p| p.to_vec2().dot(out));
     let line = |offset: f64| {
         let reach = if offset > 0.0 { outer[0].max(outer[1]) } else { outer[0].min(outer[1]) };

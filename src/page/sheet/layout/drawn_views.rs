@@ -63,6 +63,8 @@ impl<'a> DrawnViews<'a> {
             let circle = item.place.inverse() * circle_of(sight).to_path(1e-4);
             item.drawing.cut(&circle, TOLERANCE);
             if item.drawing.layers.iter().all(|layer| layer.marks.is_empty()) {
+                // Says more than that the drawing is empty.
+                warnings.clear();
                 warnings.push(format!(
                     "the detail `{}` shows nothing: no line of the model is in its circle; move `at` or \
                      make `radius` larger",

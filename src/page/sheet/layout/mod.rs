@@ -28,7 +28,7 @@ pub(super) use drawn_views::DrawnViews;
 use super::arrange::{ELEMENTS_CLEAR, Stands};
 use super::centre;
 use super::list::Item;
-use super::measures::Measures;
+use super::measures::{Measures, Slanted};
 use super::notes;
 use super::plan::Plan;
 use super::rows::{Side, Told};
@@ -91,6 +91,9 @@ impl Layout<'_> {
         let kept = |out: Vec2| -> Vec<f64> {
             told.iter().filter(|told| told.side.outward().dot(out) > 0.7).flat_map(|told| told.span()).collect()
         };
+        let slanted: Vec<&Slanted> =
+            self.measures.slanted.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
+        board.kept = dimension_lines::passing(rect, slanted.iter().copied());
         for mark in &mut marks {
             mark.place_near(&kept, &mut board)?;
         }
@@ -100,8 +103,9 @@ impl Layout<'_> {
                 marks.iter().filter_map(|mark| mark.open_at(side.is_across(), side.outward())).collect();
             dimension_lines::rows(rect, &own, &open, &mut board)?;
         }
-        for (_, slanted) in self.measures.slanted.iter().filter(|(of, _)| *of == view) {
-            dimension_lines::slanted(rect, slanted, &mut board)?;
+        for (k, own) in slanted.iter().enumerate() {
+            board.kept = dimension_lines::passing(rect, slanted.iter().skip(k + 1).copied());
+            dimension_lines::slanted(rect, own, &mut board)?;
         }
         for (_, led) in self.measures.led.iter().filter(|(of, _)| *of == view) {
             round_notes::draw(rect, led, &mut board)?;
