@@ -2,7 +2,7 @@
 //!
 //! Leaders are straight. Exchanging the balloons of two leaders that cross makes both together shorter (triangle inequality), so that
 //! doing it as long as it can be done ends with none that cross. Those that then run through the circle of another balloon go to other
-//! places, as long as that leaves fewer that do.
+//! places.
 
 use kurbo::{Point, Rect, Vec2};
 use robust::{Coord, orient2d};
@@ -13,6 +13,10 @@ const CLEAR: f64 = 0.6;
 
 /// More places than this are on no border.
 const MOST_SLOTS: usize = 2000;
+
+/// Steps without a better arrangement after which no other is sought, and for how many a leader does not go back.
+const PATIENCE: usize = 60;
+const BARRED: usize = 8;
 
 /// Exchanges are made in sweeps over all pairs; more sweeps than this are needed by no sheet.
 const MOST_SWEEPS: usize = 1000;
@@ -106,7 +110,10 @@ fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize
     clear(anchors, slots, is_blocked, of);
 }
 
-/// Moves balloons whose leaders cross others or run through their circles, or others through theirs, to places where fewer do.
+/// Moves balloons whose leaders cross others or run through their circles, or others through theirs, to places where fewer do: one after
+/// the other, also where that leaves more for a while; no leader goes back to where it was before long.
+///
+/// Source: F. Glover, "Tabu search, part I", ORSA Journal on Computing 1(3), 1989.
 fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
     let line = |k: usize, slot: usize| [anchors[k], slots[slot]];
     let long = |k: usize, slot: usize| (anchors[k] - slots[slot]).hypot2().sqrt();
@@ -122,12 +129,18 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
     };
     let row = |k: usize| (0..slots.len()).map(|slot| faults_at(k, slot, of)).collect::<Vec<usize>>();
     let mut faults: Vec<Vec<usize>> = (0..of.len()).map(row).collect();
-    loop {
+    let total = |faults: &[Vec<usize>], of: &[usize]| of.iter().enumerate().map(|(k, slot)| faults[k][*slot]).sum::<usize>();
+    let mut best = (total(&faults, of), of.to_vec());
+    // Until which step a leader does not go back to a slot.
+    let mut barred = vec![vec![0_usize; slots.len()]; of.len()];
+    let (mut step, mut found) = (0, 0);
+    while best.0 > 0 && step < found + PATIENCE {
+        step += 1;
         // The change that leaves fewest, of those the one by which leaders grow least.
-        let mut best: Option<(usize, f64, usize, usize)> = None;
+        let mut next: Option<(usize, usize, f64, usize, usize)> = None;
         for k in (0..of.len()).filter(|k| faults[*k][of[*k]] > 0) {
             let from = of[k];
-            for slot in (0..slots.len()).filter(|slot| *slot != from) {
+            for slot in (0..slots.len()).filter(|slot| *slot != from && barred[k][*slot] < step) {
                 let (mut old, mut new) = (faults[k][from], faults[k][slot]);
                 let mut longer = long(k, slot) - long(k, from);
                 if let Some(other) = holder[slot] {
@@ -137,20 +150,22 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
                     new += between(line(k, slot), line(other, from));
                     longer += long(other, from) - long(other, slot);
                 }
-                let gain = old.saturating_sub(new);
-                let is_better =
-                    best.is_none_or(|(known, length, ..)| gain > known || gain == known && longer < length);
-                if gain > 0 && is_better {
-                    best = Some((gain, longer, k, slot));
+                let is_better = next.is_none_or(|(its_new, its_old, length, ..)| {
+                    let order = (new + its_old).cmp(&(its_new + old));
+                    order.is_lt() || order.is_eq() && longer < length
+                });
+                if is_better {
+                    next = Some((new, old, longer, k, slot));
                 }
             }
         }
-        let Some((_, _, k, slot)) = best else { return };
+        let Some((_, _, _, k, slot)) = next else { break };
         let from = of[k];
         let other = holder[slot].replace(k);
         holder[from] = other;
         for (moved, old, new) in [Some((k, from, slot)), other.map(|other| (other, slot, from))].into_iter().flatten() {
             of[moved] = new;
+            barred[moved][old] = step + BARRED;
             let [before, after] = [line(moved, old), line(moved, new)];
             for (k, row) in faults.iter_mut().enumerate().filter(|(k, _)| *k != moved) {
                 for (slot, faults) in row.iter_mut().enumerate() {
@@ -159,7 +174,12 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
                 }
             }
         }
+        let now = total(&faults, of);
+        if now < best.0 {
+            (best, found) = ((now, of.to_vec()), step);
+        }
     }
+    of.copy_from_slice(&best.1);
 }
 
 /// How many faults two leaders have with each other.

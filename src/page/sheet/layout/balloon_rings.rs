@@ -70,6 +70,9 @@ pub(super) fn draw(
             .iter()
             .map(|p| places.iter().map(|place| is_blocked(p, place)).collect())
             .collect();
+        if blocked.iter().any(|places| places.iter().all(|is_blocked| *is_blocked)) {
+            return None;
+        }
         let lines = |of: &[usize]| -> Vec<[Point; 2]> {
             points.iter().zip(of).map(|(p, slot)| [*p, places[*slot]]).collect()
         };
