@@ -82,6 +82,7 @@ mod shadows;
 mod shallow_creases;
 mod sheet_layouts;
 mod sheet_lengths;
+mod sheet_texts;
 mod sheets;
 mod smooth_contours;
 mod stability;

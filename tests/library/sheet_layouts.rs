@@ -70,7 +70,8 @@ fn found(composed: &Composed) -> Found {
             }
             let half = if let Paint::Stroke(stroke) = &mark.paint { stroke.width / 2.0 } else { 0.0 };
             let own = path.bounding_box();
-            let is_round = half > 0.0 && (own.width() - 8.0).abs() < 0.01 && (own.height() - 8.0).abs() < 0.01;
+            let is_round =
+                half > 0.0 && (own.width() - 8.0).abs() < 0.01 && (own.height() - 8.0).abs() < 0.01;
             if item.name == "balloons" && is_round && path.elements().len() > 3 {
                 found.balloons.push(own.center());
             }
@@ -137,7 +138,10 @@ fn faults(composed: &Composed) -> Vec<String> {
             if enters(near, stroke.ends)
                 && enters(text.turned.inflate(wide, wide), stroke.ends.map(|p| text.upright * p))
             {
-                faults.push(format!("a line of {} runs through `{}` of {}", stroke.item, text.words, text.item));
+                faults.push(format!(
+                    "a line of {} runs through `{}` of {}",
+                    stroke.item, text.words, text.item
+                ));
             }
         }
         if text.item != "frame" && !space.contains_rect(text.rect) {
@@ -209,7 +213,8 @@ fn generated(seed: u64) -> (String, String) {
             text += "balloons = 'top'\n";
         }
     }
-    let notes: Vec<String> = (0..dice.below(4)).map(|k| format!("'{}. Remove burrs, break sharp edges (R0.2).'", k + 1)).collect();
+    let notes: Vec<String> =
+        (0..dice.below(4)).map(|k| format!("'{}. Remove burrs, break sharp edges (R0.2).'", k + 1)).collect();
     text += &format!("notes = [{}]\n", notes.join(", "));
     let is_seen = |view: &str| views.contains(view);
     for _ in 0..dice.below(3) {
@@ -223,16 +228,33 @@ fn generated(seed: u64) -> (String, String) {
         text += &format!("[[page.detail]]\nof = '{of}'\nat = [{x}, {y}, {h}]\nradius = {radius:.1}\n");
     }
     for _ in 0..dice.below(4) {
-        let of = if is_seen("top") && dice.below(2) == 0 { "top" } else if is_seen("front") { "front" } else { "top" };
-        let mut place = || format!("[{:.1}, {:.1}, {:.1}]", dice.between(0.0, w), dice.between(0.0, d), dice.between(0.0, h));
+        let of = if is_seen("top") && dice.below(2) == 0 {
+            "top"
+        } else if is_seen("front") {
+            "front"
+        } else {
+            "top"
+        };
+        let mut place = || {
+            format!("[{:.1}, {:.1}, {:.1}]", dice.between(0.0, w), dice.between(0.0, d), dice.between(0.0, h))
+        };
         let (from, to) = (place(), place());
         let measure = ["horizontal", "vertical", "aligned", "aligned"][dice.below(4)];
-        text += &format!("[[page.dimension]]\nof = '{of}'\nfrom = {from}\nto = {to}\nmeasure = '{measure}'\n");
+        text +=
+            &format!("[[page.dimension]]\nof = '{of}'\nfrom = {from}\nto = {to}\nmeasure = '{measure}'\n");
     }
     let long = "Intermediate gearbox support with flanged connection to the main frame, left-hand variant";
     text += &format!("[page.title]\ntitle = '{}'\n", if dice.below(2) == 0 { long } else { "Support" });
-    text += &format!("department = '{}'\n", if dice.below(3) == 0 { "Mechanical design of special machines, group for gearboxes" } else { "Design" });
-    text += &format!("owner = '{}'\nnumber = 'T-{seed}'\n", if dice.below(3) == 0 { long } else { "Workshop" });
+    text += &format!(
+        "department = '{}'\n",
+        if dice.below(3) == 0 {
+            "Mechanical design of special machines, group for gearboxes"
+        } else {
+            "Design"
+        }
+    );
+    text +=
+        &format!("owner = '{}'\nnumber = 'T-{seed}'\n", if dice.below(3) == 0 { long } else { "Workshop" });
     (text, obj(&parts))
 }
 
@@ -260,7 +282,9 @@ fn judge(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
             Err(error) => {
                 let message = error.to_string();
                 eprintln!("sheet {seed}: {message}");
-                let is_refused = ["fit", "no clear place", "the cut runs beside"].iter().any(|known| message.contains(known));
+                let is_refused = ["fit", "no clear place", "the cut runs beside"]
+                    .iter()
+                    .any(|known| message.contains(known));
                 if !is_refused {
                     wrong.push(format!("sheet {seed}: {message}"));
                 }

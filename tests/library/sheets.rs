@@ -164,7 +164,9 @@ fn sections_take_the_place_of_their_view_and_details_are_round() {
     assert!(detail.clip.is_none());
     let scale = top.width() / 60.0;
     let circle = marks(item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box());
-    let circle = circle.filter(|own| (own.width() - 10.0 * 5.0 * scale).abs() < 0.02).max_by(|a, b| a.x0.total_cmp(&b.x0));
+    let circle = circle
+        .filter(|own| (own.width() - 10.0 * 5.0 * scale).abs() < 0.02)
+        .max_by(|a, b| a.x0.total_cmp(&b.x0));
     let circle = circle.expect("a circle");
     // Its lines end at the circle.
     let mut reach = 0.0_f64;

@@ -54,7 +54,8 @@ impl Placed {
     /// The room around it at a length on paper of a unit of the model.
     pub fn around_at(&self, unit: f64) -> [f64; 4] {
         let [w, h] = self.sight.size(unit);
-        let [x, y] = self.ring.map_or([0.0; 2], |[wide, high]| [(wide - w).max(0.0) / 2.0, (high - h).max(0.0) / 2.0]);
+        let [x, y] =
+            self.ring.map_or([0.0; 2], |[wide, high]| [(wide - w).max(0.0) / 2.0, (high - h).max(0.0) / 2.0]);
         let [left, above, right, below] = self.around;
         [left + x, above + y, right + x, below + y]
     }
@@ -255,12 +256,8 @@ fn try_scale(
             );
             let own = sight.rect().inflate(BETWEEN / 2.0, BETWEEN / 2.0);
             let [left, above, right, below] = views[*k].around_at(unit);
-            let place = Rect {
-                x0: own.x0 - left,
-                y0: own.y0 - above,
-                x1: own.x1 + right,
-                y1: own.y1 + below,
-            };
+            let place =
+                Rect { x0: own.x0 - left, y0: own.y0 - above, x1: own.x1 + right, y1: own.y1 + below };
             views[*k].place = place;
             taken.push(place);
         }

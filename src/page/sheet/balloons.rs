@@ -129,7 +129,9 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
     };
     let row = |k: usize| (0..slots.len()).map(|slot| faults_at(k, slot, of)).collect::<Vec<usize>>();
     let mut faults: Vec<Vec<usize>> = (0..of.len()).map(row).collect();
-    let total = |faults: &[Vec<usize>], of: &[usize]| of.iter().enumerate().map(|(k, slot)| faults[k][*slot]).sum::<usize>();
+    let total = |faults: &[Vec<usize>], of: &[usize]| {
+        of.iter().enumerate().map(|(k, slot)| faults[k][*slot]).sum::<usize>()
+    };
     let mut best = (total(&faults, of), of.to_vec());
     // Until which step a leader does not go back to a slot.
     let mut barred = vec![vec![0_usize; slots.len()]; of.len()];
@@ -163,7 +165,9 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
         let from = of[k];
         let other = holder[slot].replace(k);
         holder[from] = other;
-        for (moved, old, new) in [Some((k, from, slot)), other.map(|other| (other, slot, from))].into_iter().flatten() {
+        for (moved, old, new) in
+            [Some((k, from, slot)), other.map(|other| (other, slot, from))].into_iter().flatten()
+        {
             of[moved] = new;
             barred[moved][old] = step + BARRED;
             let [before, after] = [line(moved, old), line(moved, new)];

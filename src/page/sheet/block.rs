@@ -130,10 +130,14 @@ impl TitleBlock {
             let room = rows[from..to].iter().sum::<f64>() - NAMES - UNDER;
             let about = |key: &'static str, text: &'_ String| {
                 let text = text.clone();
-                move |error: Error| source.about_text([&text], error.within(format!("`{key}` of the title block")))
+                move |error: Error| {
+                    source.about_text([&text], error.within(format!("`{key}` of the title block")))
+                }
             };
             let below = ink
-                .fitted(below, &LOW, width, |high, lines| lines < 2 || height(&(high, vec![String::new(); lines])) < 4.0)
+                .fitted(below, &LOW, width, |high, lines| {
+                    lines < 2 || height(&(high, vec![String::new(); lines])) < 4.0
+                })
                 .map_err(about("subtitle", &keys.subtitle))?;
             let left = room - if below.1.is_empty() { 0.0 } else { height(&below) + UNDER };
             let fits = |high: f64, lines: usize| height(&(high, vec![String::new(); lines])) <= left + 1e-9;
@@ -149,8 +153,9 @@ impl TitleBlock {
         if whole > HIGHEST * space.height() {
             let longest = fields(keys).into_iter().max_by_key(|(_, text)| text.len());
             let (key, text) = longest.map_or(("title", &keys.title), |((_, key, ..), text)| (key, text));
-            let error = Error::new(format!("the text of `{key}` in the title block is too long for this sheet"))
-                .remedy("shorten it, or choose a larger size");
+            let error =
+                Error::new(format!("the text of `{key}` in the title block is too long for this sheet"))
+                    .remedy("shorten it, or choose a larger size");
             return Err(source.about_text([text], error));
         }
         let place = Rect::new(space.x1 - WIDTH, space.y1 - whole, space.x1, space.y1);

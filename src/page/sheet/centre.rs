@@ -28,8 +28,7 @@ pub(super) fn centre_lines(plan: &Plan, number: usize, found: &[Cylinder], board
     if !matches!(placed.stands, Stands::Beside(_)) && section.is_none() {
         return;
     }
-    let kept: Vec<Cylinder> =
-        found.iter().filter_map(|cylinder| plan.left_of(cylinder, section)).collect();
+    let kept: Vec<Cylinder> = found.iter().filter_map(|cylinder| plan.left_of(cylinder, section)).collect();
     view(&placed.sight, &kept, board);
 }
 

@@ -63,7 +63,8 @@ impl ItemTable {
         let mut widest = [0.0_f64; 5];
         for (item, texts) in items.iter().zip(&texts) {
             for (widest, text) in widest.iter_mut().zip(texts) {
-                let about = |error: Error| error.within(format!("part `{}`, item {}", item.name, item.number));
+                let about =
+                    |error: Error| error.within(format!("part `{}`, item {}", item.name, item.number));
                 *widest = widest.max(ink.width(text, LETTERS[0]).map_err(about)?);
             }
         }
@@ -74,7 +75,9 @@ impl ItemTable {
         // Thirds where everything fits.
         let third = whole / 3.0;
         let natural: f64 = widest.iter().skip(2).map(|wide| (wide + 2.0 * ASIDE).max(HEADED)).sum();
-        let narrow = natural + 2.0 * NUMBER <= third && widest[0] + 2.0 * ASIDE <= NUMBER && widest[1] + 2.0 * ASIDE <= NUMBER;
+        let narrow = natural + 2.0 * NUMBER <= third
+            && widest[0] + 2.0 * ASIDE <= NUMBER
+            && widest[1] + 2.0 * ASIDE <= NUMBER;
         if narrow {
             ways.insert(2.min(ways.len()), (3, third));
         }

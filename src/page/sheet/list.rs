@@ -40,7 +40,8 @@ pub fn items(scene: &Scene) -> Vec<Item> {
         let same_geometry = of_geometry.entry(part.geometry).or_default();
         let same_name = of_name.entry(stem(&part.name)).or_default();
         let known = same_geometry.iter().chain(same_name.iter()).copied();
-        let known = known.into_iter().find(|item| items[*item].material == material && shapes[*item].equals(&shape));
+        let known =
+            known.into_iter().find(|item| items[*item].material == material && shapes[*item].equals(&shape));
         let item = known.unwrap_or_else(|| {
             items.push(Item {
                 number: (items.len() + 1).to_string(),

@@ -47,13 +47,7 @@ pub(super) struct Measures {
 
 impl Measures {
     /// Adds a length along a side of a view.
-    pub fn add(
-        &mut self,
-        view: usize,
-        ends: [Point; 2],
-        side: Side,
-        text: String,
-    ) {
+    pub fn add(&mut self, view: usize, ends: [Point; 2], side: Side, text: String) {
         self.lengths.push((view, Told { ends, side, text }));
     }
 

@@ -45,10 +45,10 @@ use super::source::Source;
 use crate::drawing::{Composition, Item, Page, Unit};
 use crate::error::Error;
 use crate::math::colour::Colour;
-use crate::render::Prepared;
-use crate::text::Font;
 use crate::mesh::Mesh;
+use crate::render::Prepared;
 use crate::shape::Cylinder;
+use crate::text::Font;
 use arrange::arrange;
 use ink::Ink;
 use item_table::ItemTable;
@@ -119,8 +119,9 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
     let (items, mut warnings) = items(sheet, &plan, source)?;
     let space = frame::space(size);
     let block = block::TitleBlock::new(&sheet.title, space, &font, source)?;
-    let table = ItemTable::new(&items, block.place, space, &font)
-        .map_err(|error| sheet.parts_list.as_ref().map_or(error.clone(), |told| source.about(&told.span(), error)))?;
+    let table = ItemTable::new(&items, block.place, space, &font).map_err(|error| {
+        sheet.parts_list.as_ref().map_or(error.clone(), |told| source.about(&told.span(), error))
+    })?;
     let mut tables = vec![block.place];
     tables.extend(table.as_ref().map(|table| table.place));
     let (written, notes) = notes::written(sheet, (space, &tables), &font, source)?;
@@ -289,8 +290,7 @@ impl<'a> Laying<'a> {
                 }
                 let found = plan.balloons.map(|view| {
                     let sight = &plan.views[view].sight;
-                    let found =
-                        balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, items);
+                    let found = balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, items);
                     let within = |p: Point| DVec2::new(p.x - sight.corner.x, p.y - sight.corner.y);
                     found.into_iter().map(|p| p.map(|p| within(p) / sight.unit)).collect()
                 });
@@ -306,7 +306,9 @@ impl<'a> Laying<'a> {
                 scale,
             };
             let boards = |plan: &Plan, drawn: &DrawnViews| {
-                (0..plan.views.len()).map(|view| layout.board(view, plan, drawn)).collect::<Result<Vec<_>, _>>()
+                (0..plan.views.len())
+                    .map(|view| layout.board(view, plan, drawn))
+                    .collect::<Result<Vec<_>, _>>()
             };
             let mut laid = boards(plan, &drawn)?;
             let mut fits = make_room(&mut plan.views, &laid);

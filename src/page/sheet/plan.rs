@@ -48,6 +48,14 @@ pub(super) struct Circled {
     pub radius: f64,
 }
 
+impl Circled {
+    /// Whether the circle reaches into a view; one that does not is not drawn there.
+    pub fn meets(&self, sight: &Sight) -> bool {
+        let radius = self.radius * sight.unit;
+        sight.rect().inflate(radius, radius).contains(sight.page(self.at))
+    }
+}
+
 /// The views of a sheet, and the scenes they show.
 pub(super) struct Plan {
     /// The whole model first.
@@ -134,13 +142,7 @@ impl Plan {
         Ok(plan)
     }
 
-    fn add(
-        &mut self,
-        name: &str,
-        camera: Camera,
-        points: &[DVec3],
-        (set, stands): (usize, Stands),
-    ) {
+    fn add(&mut self, name: &str, camera: Camera, points: &[DVec3], (set, stands): (usize, Stands)) {
         let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
         let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
         let sight = Sight::new(&name, camera, self.middle, points);

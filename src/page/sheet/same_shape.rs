@@ -65,7 +65,16 @@ impl Shape {
         sorted.sort_by(f64::total_cmp);
         let m = place.matrix3;
         let instance = (part.geometry, m.transpose() * m);
-        Some(Self { instance, is_mirrored: m.determinant() < 0.0, corners, faces, mean, far, sorted, rounding })
+        Some(Self {
+            instance,
+            is_mirrored: m.determinant() < 0.0,
+            corners,
+            faces,
+            mean,
+            far,
+            sorted,
+            rounding,
+        })
     }
 
     /// Whether a rigid motion brings one to the other.
@@ -152,7 +161,8 @@ fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
     let largest = geometry.positions.iter().fold(0.0_f64, |most, p| most.max(p.abs().max_element()));
     let single = if geometry.single_precision { F32_STEP * largest * ROUNDING_OF_SINGLE } else { 0.0 };
     let lattice = geometry.lattice_step * ROUNDING_OF_LATTICE;
-    let stretch = place.matrix3.x_axis.length().max(place.matrix3.y_axis.length()).max(place.matrix3.z_axis.length());
+    let stretch =
+        place.matrix3.x_axis.length().max(place.matrix3.y_axis.length()).max(place.matrix3.z_axis.length());
     let world = largest * stretch + place.translation.abs().max_element();
     single.max(lattice) * stretch + ROUNDING_OF_DOUBLE * world
 }
@@ -182,8 +192,12 @@ fn same_faces(one: &Shape, other: &Shape, to: &[u32], near: f64) -> bool {
             None => mine.push(face),
         }
     }
-    let its: Vec<[u32; 3]> =
-        other.faces.iter().copied().filter(|face| left.get(&key(*face)).is_some_and(|count| *count > 0)).collect();
+    let its: Vec<[u32; 3]> = other
+        .faces
+        .iter()
+        .copied()
+        .filter(|face| left.get(&key(*face)).is_some_and(|count| *count > 0))
+        .collect();
     if mine.len().max(its.len()) > MOST_FLIPPED {
         return false;
     }
@@ -191,7 +205,9 @@ fn same_faces(one: &Shape, other: &Shape, to: &[u32], near: f64) -> bool {
         faces.iter().all(|face| {
             let [a, b, c] = face.map(|k| other.corners[k as usize]);
             let inner = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0];
-            inner.into_iter().all(|p| by.iter().any(|face| lies_in(p, face.map(|k| other.corners[k as usize]), near)))
+            inner
+                .into_iter()
+                .all(|p| by.iter().any(|face| lies_in(p, face.map(|k| other.corners[k as usize]), near)))
         })
     };
     covered(&mine, &its) && covered(&its, &mine)
@@ -204,9 +220,9 @@ fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], near: f64) -> bool {
     if long <= 0.0 || ((p - a).dot(normal) / long).abs() > near {
         return false;
     }
-    [[a, b], [b, c], [c, a]].into_iter().all(|[a, b]| {
-        (b - a).cross(p - a).dot(normal) >= -near * (b - a).length() * long
-    })
+    [[a, b], [b, c], [c, a]]
+        .into_iter()
+        .all(|[a, b]| (b - a).cross(p - a).dot(normal) >= -near * (b - a).length() * long)
 }
 
 /// Corners by the cells of a grid.
@@ -326,7 +342,8 @@ mod tests {
             let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
             scene.geometries.push(Geometry { positions, triangles, ..Geometry::default() });
             let geometry = scene.geometries.len() - 1;
-            Shape::of(&scene, &Part { name: String::new(), geometry, world_from_part: DAffine3::IDENTITY }).unwrap()
+            Shape::of(&scene, &Part { name: String::new(), geometry, world_from_part: DAffine3::IDENTITY })
+                .unwrap()
         };
         let [left, right, other] = [shape(1.0), shape(-1.0), shape(1.0)];
         assert!(left.equals(&other) && !left.equals(&right));

@@ -95,7 +95,9 @@ pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
         // The triangles at the corners of the column, which the fan cuts off.
         for (cx, cy) in [(x0, 0.0), (x1, 0.0), (x1, depth), (x0, depth)] {
             for (z, up) in [(0.0, false), (height, true)] {
-                let on = |p: &&glam::DVec3| p.z == z && (p.x == cx || (p.x - cx).abs() < 1e-9 || (p.y - cy).abs() < 1e-9);
+                let on = |p: &&glam::DVec3| {
+                    p.z == z && (p.x == cx || (p.x - cx).abs() < 1e-9 || (p.y - cy).abs() < 1e-9)
+                };
                 let near = |p: &glam::DVec3| (p.x - cx).hypot(p.y - cy);
                 let own = &plate.positions[first as usize..];
                 let side = |along_x: bool| {
@@ -109,7 +111,11 @@ pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
                 let start = plate.positions.len() as u32;
                 plate.positions.extend([corner(cx, cy, z), a, b]);
                 let turns = (a - corner(cx, cy, z)).cross(b - corner(cx, cy, z)).z > 0.0;
-                plate.triangles.push(if turns == up { [start, start + 1, start + 2] } else { [start, start + 2, start + 1] });
+                plate.triangles.push(if turns == up {
+                    [start, start + 1, start + 2]
+                } else {
+                    [start, start + 2, start + 1]
+                });
             }
         }
     }
@@ -120,7 +126,12 @@ pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
         [[0.0, depth], [0.0, 0.0]],
     ] {
         let first = plate.positions.len() as u32;
-        plate.positions.extend([corner(a, b, 0.0), corner(c, d, 0.0), corner(c, d, height), corner(a, b, height)]);
+        plate.positions.extend([
+            corner(a, b, 0.0),
+            corner(c, d, 0.0),
+            corner(c, d, height),
+            corner(a, b, height),
+        ]);
         plate.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
     }
     plate

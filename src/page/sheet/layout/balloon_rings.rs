@@ -66,10 +66,8 @@ pub(super) fn draw(
         let is_blocked = |p: &Point, place: &Point| {
             !board.taken.is_free(&Shape::line(*p, *place, NARROW).wider(0.3), clear)
         };
-        let blocked: Vec<Vec<bool>> = points
-            .iter()
-            .map(|p| places.iter().map(|place| is_blocked(p, place)).collect())
-            .collect();
+        let blocked: Vec<Vec<bool>> =
+            points.iter().map(|p| places.iter().map(|place| is_blocked(p, place)).collect()).collect();
         if blocked.iter().any(|places| places.iter().all(|is_blocked| *is_blocked)) {
             return None;
         }

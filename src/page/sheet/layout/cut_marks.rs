@@ -53,7 +53,14 @@ impl CutMark {
         let places = corners.map(|corner| (Point::from(corner) - on).dot(along));
         let least = places.into_iter().fold(f64::INFINITY, f64::min);
         let most = places.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        Self { label: label.to_owned(), on, along, back, open: vec![(-1.0, least), (1.0, most)], ends: [None; 2] }
+        Self {
+            label: label.to_owned(),
+            on,
+            along,
+            back,
+            open: vec![(-1.0, least), (1.0, most)],
+            ends: [None; 2],
+        }
     }
 
     fn at(&self, along: f64) -> Point {
@@ -100,13 +107,14 @@ impl CutMark {
         for (sign, border) in std::mem::take(&mut self.open) {
             // Where nothing else is left a line may pass the head of an arrow.
             let ways = [Clear::OfAll, Clear::OfSolids, Clear::OfTexts];
-            let found = ways.into_iter().filter(|clear| kept.is_none() || *clear == Clear::OfAll).find_map(|clear| {
-                (0..tries).find_map(|k| {
-                    let end = border + sign * (REACH + FARTHER * f64::from(k));
-                    let letter = self.letter((sign, border, end), &word, (clear, kept), board)?;
-                    Some((end, letter))
-                })
-            });
+            let found =
+                ways.into_iter().filter(|clear| kept.is_none() || *clear == Clear::OfAll).find_map(|clear| {
+                    (0..tries).find_map(|k| {
+                        let end = border + sign * (REACH + FARTHER * f64::from(k));
+                        let letter = self.letter((sign, border, end), &word, (clear, kept), board)?;
+                        Some((end, letter))
+                    })
+                });
             let Some((end, letter)) = found else {
                 self.open.push((sign, border));
                 continue;

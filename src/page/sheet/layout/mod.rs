@@ -78,7 +78,7 @@ impl Layout<'_> {
         }
         centre::centre_lines(plan, view, self.cylinders, &mut board);
         for circled in &plan.circled {
-            if circled.of == view {
+            if circled.of == view && circled.meets(sight) {
                 letters::circle(sight.page(circled.at), circled.radius * sight.unit, &mut board);
             }
             if circled.shown == view {
@@ -89,7 +89,10 @@ impl Layout<'_> {
         let told: Vec<&Told> =
             self.measures.lengths.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
         let kept = |out: Vec2| -> Vec<f64> {
-            told.iter().filter(|told| told.side.outward().dot(out) > 0.7).flat_map(|told| told.span()).collect()
+            told.iter()
+                .filter(|told| told.side.outward().dot(out) > 0.7)
+                .flat_map(|told| told.span())
+                .collect()
         };
         let slanted: Vec<&Slanted> =
             self.measures.slanted.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
@@ -113,7 +116,7 @@ impl Layout<'_> {
         for mark in marks {
             mark.finish(&mut board)?;
         }
-        for circled in plan.circled.iter().filter(|circled| circled.of == view) {
+        for circled in plan.circled.iter().filter(|circled| circled.of == view && circled.meets(sight)) {
             let (centre, radius) = (sight.page(circled.at), circled.radius * sight.unit);
             letters::of_detail(&circled.label, centre, radius, &mut board)?;
         }
