@@ -44,6 +44,33 @@ impl Composition {
     }
 }
 
+impl Drawing {
+    /// Leaves what lies inside a border without hollows: lines and areas end there. Dashes become lines where theirs is cut.
+    #[cfg(feature = "page")]
+    pub(crate) fn cut(&mut self, border: &BezPath, tolerance: f64) {
+        let region = Region::new(border, tolerance);
+        for layer in &mut self.layers {
+            layer.marks = std::mem::take(&mut layer.marks)
+                .into_iter()
+                .filter_map(|mut mark| {
+                    if let Paint::Stroke(stroke) = &mut mark.paint
+                        && !stroke.dash.is_empty()
+                        && region.line(&mark.path) != mark.path
+                    {
+                        let dash = std::mem::take(&mut stroke.dash);
+                        mark.path = kurbo::dash(mark.path.iter(), stroke.dash_offset, &dash).collect();
+                    }
+                    let picture = matches!(mark.paint, Paint::Image(_));
+                    if picture {
+                        mark.path = region.area(&mark.path, tolerance);
+                    }
+                    cut(mark, &region, tolerance)
+                })
+                .collect();
+        }
+    }
+}
+
 /// What a region shows of a mark.
 fn cut(mut mark: Mark, region: &Region, tolerance: f64) -> Option<Mark> {
     let is_there = |path: &BezPath| path.elements().len() > 1;

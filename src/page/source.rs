@@ -42,6 +42,17 @@ impl Source {
         }
     }
 
+    /// An error about texts that the file holds, told of the line of the first one that is found in it.
+    #[must_use]
+    pub fn about_text<'a>(&self, texts: impl IntoIterator<Item = &'a String>, error: Error) -> Error {
+        let lines = texts.into_iter().filter_map(|text| text.lines().find(|line| !line.trim().is_empty()));
+        let found = lines.filter_map(|line| Some((self.text.find(line)?, line))).next();
+        match found {
+            Some((at, line)) if error.file.is_none() => self.about(&(at..at + line.len()), error),
+            _ => error,
+        }
+    }
+
     /// An error about a word that is none of those that are known: names the nearest one, or all.
     #[must_use]
     pub fn unknown(&self, word: &Spanned<String>, what: &str, known: &[&str]) -> Error {

@@ -72,6 +72,11 @@ impl Chain {
             self.add_others()?;
             number = self.fonts.iter().position(has);
         }
+        if number.is_none() && letter.starts_with(char::REPLACEMENT_CHARACTER) {
+            // What stands for letters that could not be read is drawn as the box that fonts have for letters they lack.
+            let has_box = |font: &Font| !font.outline(0).elements().is_empty();
+            number = Some(self.fonts.iter().position(has_box).unwrap_or_default());
+        }
         let Some(number) = number else {
             let names: Vec<&str> = self.fonts.iter().map(Font::name).collect();
             let message =

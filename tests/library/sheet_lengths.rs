@@ -2,11 +2,9 @@
 
 use std::fs;
 
-use ligne::kurbo::{Point, Rect, Shape};
-use ligne::page::sheet::rows::{Side, Told, rows};
+use ligne::kurbo::{Rect, Shape};
 use ligne::page::{Composed, PageFile};
 
-use crate::support::dice::Dice;
 use crate::support::sheets::{block, bounds, folder, item, marks, obj, words};
 use crate::support::solids::Solid;
 
@@ -242,35 +240,5 @@ fn pictorial_views_show_true_lengths_or_refuse() {
             text.contains(wanted) && text.contains("sheet.toml") && text.contains("line "),
             "{keys}: {text}"
         );
-    }
-}
-
-#[test]
-fn lengths_in_rows_neither_overlap_nor_are_crossed() {
-    let mut dice = Dice::new(8);
-    for round in 0..300 {
-        let count = 1 + dice.below(12);
-        let told: Vec<Told> = (0..count)
-            .map(|_| {
-                let (a, b) = (dice.between(0.0, 120.0), dice.between(0.0, 120.0));
-                let side = Side::ALL[dice.below(4)];
-                let at = |x: f64| if side.is_across() { Point::new(x, 0.0) } else { Point::new(0.0, x) };
-                Told { ends: [at(a), at(b)], side, text: String::new(), wide: dice.between(2.0, 20.0) }
-            })
-            .collect();
-        let rows = rows(&told);
-        let span = |k: usize| {
-            let of = |p: Point| p.x + p.y;
-            let [a, b] = told[k].ends.map(of);
-            [a.min(b), a.max(b)]
-        };
-        for a in 0..count {
-            for b in (0..count).filter(|b| *b != a && told[*b].side == told[a].side) {
-                let ([low, high], [from, to]) = (span(a), span(b));
-                assert!(rows[a] != rows[b] || high <= from || to <= low, "round {round}");
-                // A length within another one is nearer to the view, so that no line that leads to the other crosses it.
-                assert!(low < from || high > to || rows[a] <= rows[b], "round {round}");
-            }
-        }
     }
 }

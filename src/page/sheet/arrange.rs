@@ -4,6 +4,7 @@
 
 use kurbo::{Point, Rect};
 
+use super::layout::Board;
 use super::method::Method;
 use super::pack::Room;
 use super::scales::SERIES;
@@ -12,8 +13,11 @@ use crate::math::function::ln;
 use crate::scene::NamedView;
 
 /// Room between views in a row, and around those that stand alone, mm.
-pub(super) const BETWEEN: f64 = 22.0;
+const BETWEEN: f64 = 22.0;
 const AROUND: f64 = 7.0;
+
+/// From what is written on a view to the border of its place, mm.
+pub(super) const ELEMENTS_CLEAR: f64 = 3.0;
 
 /// Room at the border of the sheet for the lengths of the first views, mm.
 const BESIDE: f64 = 9.0;
@@ -23,9 +27,6 @@ const LARGEST: f64 = 4.0;
 const FREE_STEP: f64 = 0.94;
 const FREE_STEPS: i32 = 72;
 
-/// Height of a title above a view.
-pub(super) const TITLE: f64 = 8.0;
-
 /// Views that stand alone may be smaller than the others by so many steps of the series.
 const SMALLER: usize = 3;
 
@@ -34,18 +35,44 @@ const SMALLER: usize = 3;
 pub(super) struct Placed {
     pub sight: Sight,
     pub stands: Stands,
-    /// Room that it needs on all sides, mm.
-    pub margin: f64,
-    /// Room that it needs beyond that on the left, above, on the right and below, mm.
+    /// Room that it needs for what is written on it, more than its margin, on the left, above, on the right and below, mm.
     pub around: [f64; 4],
+    /// Its size on paper when that room was found, if it has balloons around it: when it is smaller, their rings stay as large.
+    pub ring: Option<[f64; 2]>,
     /// The place that it has with all that, on the page.
     place: Rect,
 }
 
 impl Placed {
     /// A view that needs no room but its own.
-    pub fn new(sight: Sight, stands: Stands, margin: f64) -> Self {
-        Self { sight, stands, margin, around: [0.0; 4], place: Rect::ZERO }
+    pub fn new(sight: Sight, stands: Stands) -> Self {
+        Self { sight, stands, around: [0.0; 4], ring: None, place: Rect::ZERO }
+    }
+}
+
+impl Placed {
+    /// The room around it at a length on paper of a unit of the model.
+    pub fn around_at(&self, unit: f64) -> [f64; 4] {
+        let [w, h] = self.sight.size(unit);
+        let [x, y] =
+            self.ring.map_or([0.0; 2], |[wide, high]| [(wide - w).max(0.0) / 2.0, (high - h).max(0.0) / 2.0]);
+        let [left, above, right, below] = self.around;
+        [left + x, above + y, right + x, below + y]
+    }
+
+    /// Makes it larger or smaller around its middle.
+    pub fn enlarge(&mut self, from: f64, to: f64) {
+        let ([w, h], [wide, high]) = (self.sight.size(from), self.sight.size(to));
+        self.sight.unit = to;
+        self.sight.corner += kurbo::Vec2::new((w - wide) / 2.0, (h - high) / 2.0);
+    }
+
+    /// Whether it, and what is written on it, lie within its place.
+    pub fn has_room_for(&self, board: &Board) -> bool {
+        let rect = self.sight.rect();
+        let extents = board.extents().map_or(rect, |extents| extents.union(rect));
+        let own = self.place.inflate(1e-6 - ELEMENTS_CLEAR, 1e-6 - ELEMENTS_CLEAR);
+        own.contains_rect(extents) && board.unplaced.is_empty()
     }
 }
 
@@ -64,6 +91,23 @@ pub(super) enum Stands {
     Enlarged(f64),
     /// Anywhere, at that scale.
     At(f64),
+}
+
+impl Stands {
+    /// Room around the view on all sides, mm.
+    pub fn margin(self) -> f64 {
+        if matches!(self, Self::Beside(_)) { BETWEEN / 2.0 } else { AROUND }
+    }
+}
+
+impl Stands {
+    /// The largest length on paper of a unit that it may have where nobody measures in it.
+    pub fn largest(self, unit: f64) -> Option<f64> {
+        match self {
+            Self::Pictorial | Self::Free => Some(unit * LARGEST),
+            _ => None,
+        }
+    }
 }
 
 /// A scale, and those of the series that are a little smaller.
@@ -178,7 +222,7 @@ fn try_scale(
             let own = beside.iter().filter(|(_, field)| field[line] == at);
             own.fold(None, |reach: Option<[f64; 2]>, (k, _)| {
                 let (low, high) = (views[*k].sight.low * unit, views[*k].sight.high * unit);
-                let around = views[*k].around;
+                let around = views[*k].around_at(unit);
                 let [before, after] = if line == 0 {
                     [around[0] - low.x, high.x + around[2]]
                 } else {
@@ -198,8 +242,6 @@ fn try_scale(
                 }
             }
         }
-        let titled = beside.iter().any(|(k, _)| views[*k].sight.title.is_some());
-        let above = if titled { TITLE } else { 0.0 };
         let place = space;
         let mut taken = Vec::new();
         for (k, field) in &beside {
@@ -210,17 +252,12 @@ fn try_scale(
             sight.unit = unit;
             sight.corner = Point::new(
                 place.x0 + middle(0) + sight.low.x * unit,
-                place.y0 + above + middle(1) - sight.high.y * unit,
+                place.y0 + middle(1) - sight.high.y * unit,
             );
-            let titled = if sight.title.is_some() { TITLE } else { 0.0 };
             let own = sight.rect().inflate(BETWEEN / 2.0, BETWEEN / 2.0);
-            let [left, above, right, below] = views[*k].around;
-            let place = Rect {
-                x0: own.x0 - left,
-                y0: own.y0 - titled - above,
-                x1: own.x1 + right,
-                y1: own.y1 + below,
-            };
+            let [left, above, right, below] = views[*k].around_at(unit);
+            let place =
+                Rect { x0: own.x0 - left, y0: own.y0 - above, x1: own.x1 + right, y1: own.y1 + below };
             views[*k].place = place;
             taken.push(place);
         }
@@ -241,18 +278,18 @@ fn try_scale(
             Stands::Pictorial => (0..FREE_STEPS).map(|k| scale * FREE_STEP.powi(k)).collect(),
             Stands::Free => (0..FREE_STEPS).map(|k| scale * LARGEST * FREE_STEP.powi(k)).collect(),
         };
-        let margin = placed.margin + AROUND;
-        let [left, above, right, below] = placed.around;
-        let title = if placed.sight.title.is_some() { TITLE } else { 0.0 };
+        let margin = placed.stands.margin();
         let found = scales.into_iter().find_map(|scale| {
             let [w, h] = placed.sight.size(scale * unit_mm);
-            room.put(w + 2.0 * margin + left + right, h + 2.0 * margin + title + above + below)
+            let [left, above, right, below] = placed.around_at(scale * unit_mm);
+            room.put(w + 2.0 * margin + left + right, h + 2.0 * margin + above + below)
                 .map(|place| (scale, place))
         });
         let (scale, place) = found?;
+        let [left, above, ..] = placed.around_at(scale * unit_mm);
         placed.place = place;
         placed.sight.unit = scale * unit_mm;
-        placed.sight.corner = Point::new(place.x0 + margin + left, place.y0 + margin + title + above);
+        placed.sight.corner = Point::new(place.x0 + margin + left, place.y0 + margin + above);
     }
     Some(())
 }

@@ -9,6 +9,8 @@ use serde::Deserialize;
 use super::ink::{CHAIN, Ink, NARROW, Stand, WIDE, way};
 use super::method::Method;
 use crate::error::Error;
+use crate::page::source::Source;
+use crate::text::Font;
 
 /// Width of the title block, mm.
 pub const WIDTH: f64 = 180.0;
@@ -17,8 +19,22 @@ pub const WIDTH: f64 = 180.0;
 const ROW: f64 = 9.0;
 const STRIP: f64 = 10.0;
 
-/// Height of the block with its strip.
-pub const HEIGHT: f64 = 3.0 * ROW + STRIP;
+/// Heights of letters in a row and in fields of two rows, from the usual ones to the smallest (ISO 3098), mm.
+const LOW: [f64; 4] = [2.5, 2.2, 2.0, SMALLEST];
+const TALL: [f64; 6] = [3.5, 3.0, 2.5, 2.2, 2.0, SMALLEST];
+const SMALLEST: f64 = 1.8;
+
+/// From line to line, and what reaches below a line, in heights of letters.
+const PITCH: f64 = 1.5;
+const DESCENT: f64 = 0.35;
+
+/// Room for the name of a field, below its text, and at its sides, mm.
+const NAMES: f64 = 3.4;
+const UNDER: f64 = 0.6;
+const ASIDE: f64 = 1.0;
+
+/// The share of the height of the sheet that the block takes at most.
+const HIGHEST: f64 = 0.4;
 
 /// What a title block says.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -56,60 +72,151 @@ pub struct TitleKeys {
     pub tolerances: String,
 }
 
-/// The place of a title block in a drawing space: its lower right corner.
-#[must_use]
-pub fn place(space: Rect) -> Rect {
-    Rect::new(space.x1 - WIDTH, space.y1 - HEIGHT, space.x1, space.y1)
+/// A field of the block: its name, the key of its text, and where it is: from column to column, mm, and from row to row.
+type Field<'a> = (&'a str, &'a str, [f64; 2], [usize; 2]);
+
+/// The fields of texts from the page file.
+fn fields(keys: &TitleKeys) -> [(Field<'static>, &String); 14] {
+    [
+        (("General tolerances", "tolerances", [0.0, 80.0], [0, 1]), &keys.tolerances),
+        (("Responsible department", "department", [0.0, 40.0], [1, 2]), &keys.department),
+        (("Technical reference", "reference", [40.0, 80.0], [1, 2]), &keys.reference),
+        (("Document type", "document", [80.0, 130.0], [1, 2]), &keys.document),
+        (("Document status", "status", [130.0, 180.0], [1, 2]), &keys.status),
+        (("Created by", "creator", [40.0, 80.0], [2, 3]), &keys.creator),
+        (("Approved by", "approver", [40.0, 80.0], [3, 4]), &keys.approver),
+        (("Number", "number", [130.0, 180.0], [2, 3]), &keys.number),
+        (("Rev.", "revision", [130.0, 140.0], [3, 4]), &keys.revision),
+        (("Date of issue", "date", [140.0, 162.0], [3, 4]), &keys.date),
+        (("Lang.", "language", [162.0, 170.0], [3, 4]), &keys.language),
+        (("Sheet", "sheet", [170.0, 180.0], [3, 4]), &keys.sheet),
+        (("Legal owner", "owner", [0.0, 40.0], [2, 4]), &keys.owner),
+        (("Title, supplementary title", "title", [80.0, 130.0], [2, 4]), &keys.title),
+    ]
 }
 
-/// Draws it.
-pub(super) fn draw(
-    place: Rect,
-    keys: &TitleKeys,
-    (scale, method, size, unit): (&str, Method, &str, &str),
-    ink: &mut Ink,
-) -> Result<(), Error> {
-    ink.rect(place, WIDE);
-    let row = |k: f64| place.y0 + STRIP + k * ROW;
-    let x = |x: f64| place.x0 + x;
-    let cell = |x0: f64, y0: f64, x1: f64, y1: f64| Rect::new(x(x0), y0, x(x1), y1);
-    let cells = [
-        ("General tolerances", &*keys.tolerances, cell(0.0, place.y0, 80.0, row(0.0))),
-        ("Scale", scale, cell(80.0, place.y0, 110.0, row(0.0))),
-        ("Size", size, cell(110.0, place.y0, 130.0, row(0.0))),
-        ("Dimensions in", unit, cell(130.0, place.y0, 150.0, row(0.0))),
-        ("Projection", "", cell(150.0, place.y0, 180.0, row(0.0))),
-        ("Responsible department", &keys.department, cell(0.0, row(0.0), 40.0, row(1.0))),
-        ("Technical reference", &keys.reference, cell(40.0, row(0.0), 80.0, row(1.0))),
-        ("Document type", &keys.document, cell(80.0, row(0.0), 130.0, row(1.0))),
-        ("Document status", &keys.status, cell(130.0, row(0.0), 180.0, row(1.0))),
-        ("Created by", &keys.creator, cell(40.0, row(1.0), 80.0, row(2.0))),
-        ("Approved by", &keys.approver, cell(40.0, row(2.0), 80.0, row(3.0))),
-        ("", &keys.number, cell(130.0, row(1.0), 180.0, row(2.0))),
-        ("Rev.", &keys.revision, cell(130.0, row(2.0), 140.0, row(3.0))),
-        ("Date of issue", &keys.date, cell(140.0, row(2.0), 162.0, row(3.0))),
-        ("Lang.", &keys.language, cell(162.0, row(2.0), 170.0, row(3.0))),
-        ("Sheet", &keys.sheet, cell(170.0, row(2.0), 180.0, row(3.0))),
-    ];
-    for (name, value, cell) in cells {
-        ink.rect(cell, NARROW);
-        ink.word(name, Point::new(cell.x0 + 1.0, cell.y0 + 2.7), 1.8, Stand::Left, cell.width() - 2.0)?;
-        ink.word(value, Point::new(cell.x0 + 1.0, cell.y1 - 1.6), 2.5, Stand::Left, cell.width() - 2.0)?;
+/// Lines of a text, and the height of their letters, mm.
+type Lines = (f64, Vec<String>);
+
+/// How high lines are, with what reaches below the last one.
+fn height((high, lines): &Lines) -> f64 {
+    if lines.is_empty() { 0.0 } else { high * (PITCH * (lines.len() - 1) as f64 + 1.0 + DESCENT) }
+}
+
+/// A title block whose place is known: rows are as high as their texts need.
+pub(super) struct TitleBlock {
+    pub place: Rect,
+    /// Where rows begin and end.
+    rows: [f64; 5],
+    /// For each field its text, and below it the supplementary title.
+    texts: Vec<(Field<'static>, Lines, Lines)>,
+}
+
+impl TitleBlock {
+    /// The title block in the lower right corner of a drawing space.
+    ///
+    /// # Errors
+    /// If a letter is in no font, or a text is too long for the sheet.
+    pub fn new(keys: &TitleKeys, space: Rect, font: &Font, source: &Source) -> Result<Self, Error> {
+        let ink = Ink::new(font, "title-block");
+        let mut rows = [STRIP, ROW, ROW, ROW];
+        let mut texts = Vec::new();
+        for (field, text) in fields(keys) {
+            let (_, key, [x0, x1], [from, to]) = field;
+            let width = x1 - x0 - 2.0 * ASIDE;
+            let is_tall = to - from > 1;
+            let heights: &[f64] = if is_tall { &TALL } else { &LOW };
+            let below = if key == "title" { &*keys.subtitle } else { "" };
+            let room = rows[from..to].iter().sum::<f64>() - NAMES - UNDER;
+            let about = |key: &'static str, text: &'_ String| {
+                let text = text.clone();
+                move |error: Error| {
+                    source.about_text([&text], error.within(format!("`{key}` of the title block")))
+                }
+            };
+            let below = ink
+                .fitted(below, &LOW, width, |high, lines| {
+                    lines < 2 || height(&(high, vec![String::new(); lines])) < 4.0
+                })
+                .map_err(about("subtitle", &keys.subtitle))?;
+            let left = room - if below.1.is_empty() { 0.0 } else { height(&below) + UNDER };
+            let fits = |high: f64, lines: usize| height(&(high, vec![String::new(); lines])) <= left + 1e-9;
+            let own = ink.fitted(text, heights, width, fits).map_err(about(key, text))?;
+            // Rows become higher where the smallest letters do not fit.
+            let needed = height(&own) - left;
+            if needed > 0.0 {
+                rows[to - 1] += needed;
+            }
+            texts.push((field, own, below));
+        }
+        let whole: f64 = rows.iter().sum();
+        if whole > HIGHEST * space.height() {
+            let longest = fields(keys).into_iter().max_by_key(|(_, text)| text.len());
+            let (key, text) = longest.map_or(("title", &keys.title), |((_, key, ..), text)| (key, text));
+            let error =
+                Error::new(format!("the text of `{key}` in the title block is too long for this sheet"))
+                    .remedy("shorten it, or choose a larger size");
+            return Err(source.about_text([text], error));
+        }
+        let place = Rect::new(space.x1 - WIDTH, space.y1 - whole, space.x1, space.y1);
+        let mut ends = [place.y0; 5];
+        for k in 0..4 {
+            ends[k + 1] = ends[k] + rows[k];
+        }
+        Ok(Self { place, rows: ends, texts })
     }
-    let tall = [
-        ("Legal owner", &*keys.owner, "", cell(0.0, row(1.0), 40.0, row(3.0))),
-        ("Title, supplementary title", &*keys.title, &*keys.subtitle, cell(80.0, row(1.0), 130.0, row(3.0))),
-    ];
-    for (name, value, below, cell) in tall {
-        ink.rect(cell, NARROW);
-        let most = cell.width() - 2.0;
-        ink.word(name, Point::new(cell.x0 + 1.0, cell.y0 + 2.7), 1.8, Stand::Left, most)?;
-        ink.word(value, Point::new(cell.x0 + 1.0, cell.y0 + 9.5), 3.5, Stand::Left, most)?;
-        ink.word(below, Point::new(cell.x0 + 1.0, cell.y0 + 15.0), 2.5, Stand::Left, most)?;
+
+    fn cell(&self, [x0, x1]: [f64; 2], [from, to]: [usize; 2]) -> Rect {
+        Rect::new(self.place.x0 + x0, self.rows[from], self.place.x0 + x1, self.rows[to])
     }
-    ink.word("Number", Point::new(x(131.0), row(1.0) + 2.7), 1.8, Stand::Left, 30.0)?;
-    symbol(Point::new(x(170.0), place.y0 + STRIP / 2.0), method, ink);
-    Ok(())
+
+    /// Draws it, with the scale, the method of projection, the name of the size and the unit of dimensions.
+    ///
+    /// # Errors
+    /// If a letter is in no font.
+    pub fn draw(
+        &self,
+        (scale, method, size, unit): (&str, Method, &str, &str),
+        ink: &mut Ink,
+    ) -> Result<(), Error> {
+        ink.rect(self.place, WIDE);
+        let one = |text: &str| (LOW[0], vec![text.to_owned()]);
+        let none = || (LOW[0], Vec::new());
+        let own: [(Field, Lines, Lines); 4] = [
+            (("Scale", "", [80.0, 110.0], [0, 1]), one(scale), none()),
+            (("Size", "", [110.0, 130.0], [0, 1]), one(size), none()),
+            (("Dimensions in", "", [130.0, 150.0], [0, 1]), one(unit), none()),
+            (("Projection", "", [150.0, 180.0], [0, 1]), none(), none()),
+        ];
+        for ((name, _, columns, rows), text, below) in own.iter().chain(&self.texts) {
+            let cell = self.cell(*columns, *rows);
+            ink.rect(cell, NARROW);
+            let left = cell.x0 + ASIDE;
+            ink.word(name, Point::new(left, cell.y0 + 2.7), SMALLEST, Stand::Left, 0.0)?;
+            // Texts of one line stand at one height above the bottom of their row.
+            let is_low = rows[1] - rows[0] == 1;
+            let mut y = if is_low && text.1.len() < 2 {
+                cell.y1 - 1.6
+            } else if is_low {
+                cell.y0 + NAMES + text.0 + 0.2
+            } else if text.1.len() < 2 {
+                cell.y0 + 9.5
+            } else {
+                cell.y0 + NAMES + text.0 + 0.5
+            };
+            for line in &text.1 {
+                ink.word(line, Point::new(left, y), text.0, Stand::Left, 0.0)?;
+                y += PITCH * text.0;
+            }
+            y += below.0 + text.0 * DESCENT + UNDER - if text.1.is_empty() { 0.0 } else { PITCH * text.0 };
+            for line in &below.1 {
+                ink.word(line, Point::new(left, y), below.0, Stand::Left, 0.0)?;
+                y += PITCH * below.0;
+            }
+        }
+        symbol(Point::new(self.place.x0 + 170.0, self.place.y0 + STRIP / 2.0), method, ink);
+        Ok(())
+    }
 }
 
 /// The symbol of first- or third-angle projection around a point: a cut cone from the side, and along its axis.

@@ -4,11 +4,11 @@
 use kurbo::{Point, Vec2};
 
 use super::arrange::Stands;
-use super::ink::{CHAIN, Ink, NARROW, way};
+use super::ink::{CHAIN, NARROW, way};
+use super::layout::Board;
+use super::layout::occupancy::{Kind, Shape};
 use super::plan::Plan;
-use super::rounds::whole;
 use super::sight::Sight;
-use crate::mesh::Mesh;
 use crate::shape::Cylinder;
 
 /// How far lines reach beyond the cylinder, mm.
@@ -21,19 +21,18 @@ const UNBROKEN: f64 = 9.0;
 /// Lines nearer than this are one, mm.
 const SAME: f64 = 0.05;
 
-/// Draws them in all views from the sides and in all sections.
-pub(super) fn centre_lines(plan: &Plan, ink: &mut Ink) {
-    let mesh = Mesh::build(plan.sets[0].scene.to_soup());
-    let found: Vec<Cylinder> = whole(&mesh);
-    for placed in &plan.views {
-        let is_side = matches!(placed.stands, Stands::Beside(_)) || placed.sight.name.starts_with("section");
-        if is_side {
-            view(&placed.sight, &found, ink);
-        }
+/// Draws them in a view from a side, or in a section.
+pub(super) fn centre_lines(plan: &Plan, number: usize, found: &[Cylinder], board: &mut Board) {
+    let placed = &plan.views[number];
+    let section = plan.cut_of(number);
+    if !matches!(placed.stands, Stands::Beside(_)) && section.is_none() {
+        return;
     }
+    let kept: Vec<Cylinder> = found.iter().filter_map(|cylinder| plan.left_of(cylinder, section)).collect();
+    view(&placed.sight, &kept, board);
 }
 
-fn view(sight: &Sight, found: &[Cylinder], ink: &mut Ink) {
+fn view(sight: &Sight, found: &[Cylinder], board: &mut Board) {
     let forward = sight.axes()[2];
     let mut crosses: Vec<(Point, f64)> = Vec::new();
     let mut lines: Vec<[Point; 2]> = Vec::new();
@@ -59,14 +58,16 @@ fn view(sight: &Sight, found: &[Cylinder], ink: &mut Ink) {
             let reach = radius + BEYOND;
             // Long dashes cross in the middle.
             let dash: &[f64] = if 2.0 * reach < UNBROKEN { &[] } else { &CHAIN };
-            ink.dashed(way(&[at, at + out * reach]), NARROW, dash, CHAIN[0] / 2.0);
+            board.ink.dashed(way(&[at, at + out * reach]), NARROW, dash, CHAIN[0] / 2.0);
+            board.taken.take(Shape::line(at, at + out * reach, NARROW), Kind::Geometry);
         }
     }
     for [a, b] in lines {
         let along = (b - a) / (b - a).hypot2().sqrt();
         let (a, b) = (a - along * BEYOND, b + along * BEYOND);
         let dash: &[f64] = if (b - a).hypot2() < UNBROKEN * UNBROKEN { &[] } else { &CHAIN };
-        ink.path(way(&[a, b]), NARROW, dash);
+        board.ink.path(way(&[a, b]), NARROW, dash);
+        board.taken.take(Shape::line(a, b, NARROW), Kind::Geometry);
     }
 }
 

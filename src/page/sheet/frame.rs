@@ -49,8 +49,26 @@ pub fn zones(low: f64, high: f64, middle: f64) -> Vec<f64> {
     [low].into_iter().chain(inner).chain([high]).collect()
 }
 
+/// The centring marks of a sheet, from the border of the zones into the drawing space, but not into tables.
+pub(super) fn centring_marks(size: Size, tables: &[Rect]) -> [[Point; 2]; 4] {
+    let frame = space(size);
+    let (middle, outer) = (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(BAND, BAND));
+    [
+        [Point::new(outer.x0, middle.y), Point::new(frame.x0 + CENTRING, middle.y)],
+        [Point::new(outer.x1, middle.y), Point::new(frame.x1 - CENTRING, middle.y)],
+        [Point::new(middle.x, outer.y0), Point::new(middle.x, frame.y0 + CENTRING)],
+        [Point::new(middle.x, outer.y1), Point::new(middle.x, frame.y1 - CENTRING)],
+    ]
+    .map(|[from, to]| {
+        let mark = Rect::from_points(from, to).inflate(FRAME_WIDTH, FRAME_WIDTH);
+        let is_in_table = tables.iter().any(|table| table.overlaps(mark));
+        let inward = (to - from).normalize();
+        [from, if is_in_table { from + inward * BAND } else { to }]
+    })
+}
+
 /// Draws all of it.
-pub(super) fn draw(size: Size, ink: &mut Ink) -> Result<(), Error> {
+pub(super) fn draw(size: Size, marks: &[[Point; 2]], ink: &mut Ink) -> Result<(), Error> {
     let frame = space(size);
     let (middle, outer) = (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(BAND, BAND));
     ink.rect(frame, FRAME_WIDTH);
@@ -84,13 +102,8 @@ pub(super) fn draw(size: Size, ink: &mut Ink) -> Result<(), Error> {
             }
         }
     }
-    for (from, to) in [
-        (Point::new(outer.x0, middle.y), Point::new(frame.x0 + CENTRING, middle.y)),
-        (Point::new(frame.x1 - CENTRING, middle.y), Point::new(outer.x1, middle.y)),
-        (Point::new(middle.x, outer.y0), Point::new(middle.x, frame.y0 + CENTRING)),
-        (Point::new(middle.x, frame.y1 - CENTRING), Point::new(middle.x, outer.y1)),
-    ] {
-        ink.line(from, to, FRAME_WIDTH);
+    for [from, to] in marks {
+        ink.line(*from, *to, FRAME_WIDTH);
     }
     for x in [0.0, 1.0] {
         for y in [0.0, 1.0] {

@@ -1,6 +1,6 @@
 //! [`Ink`]: lines and letters of a sheet, in mm.
 
-use kurbo::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2};
+use kurbo::{BezPath, Circle, Point, Rect, Shape, Vec2};
 
 use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
@@ -15,6 +15,9 @@ pub(super) const NARROW: f64 = 0.25;
 
 /// A long dash, a gap, a short dash, a gap, in mm, for narrow lines (ISO 128-2, line type 04.1).
 pub(super) const CHAIN: [f64; 4] = [6.0, 0.75, 0.13, 0.75];
+
+/// Texts in tables are no longer than this, bytes.
+const LONGEST: usize = 2000;
 
 /// Where a word stands at its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,6 +40,11 @@ impl Ink {
     /// Nothing yet; what is drawn has a class.
     pub fn new(font: &Font, class: &'static str) -> Self {
         Self { font: font.clone(), class, marks: Vec::new() }
+    }
+
+    /// Nothing yet, in the same font and class.
+    pub fn emptied(&self) -> Self {
+        Self { font: self.font.clone(), class: self.class, marks: Vec::new() }
     }
 
     fn provenance(&self) -> Provenance {
@@ -110,24 +118,6 @@ impl Ink {
         Ok(block.width)
     }
 
-    /// A word whose middle is at a point, along a direction.
-    ///
-    /// # Errors
-    /// If no font has one of its letters.
-    pub fn turned_word(&mut self, words: &str, at: Point, high: f64, along: Vec2) -> Result<(), Error> {
-        let first = self.marks.len();
-        self.word(words, Point::ZERO, high, Stand::Middle, 0.0)?;
-        let along = along / along.hypot2().sqrt();
-        let turn = Affine::new([along.x, along.y, -along.y, along.x, at.x, at.y]);
-        for mark in self.marks.iter_mut().skip(first) {
-            mark.path.apply_affine(turn);
-            if let Some(text) = &mut mark.provenance.text {
-                text.place = turn * text.place;
-            }
-        }
-        Ok(())
-    }
-
     /// A text in lines no wider than so much, from its upper left corner. Gives how high it is.
     ///
     /// # Errors
@@ -137,6 +127,62 @@ impl Ink {
         let block = Block::in_width(words, &setting, width)?;
         self.marks.extend(block.marks(corner, Colour::BLACK));
         Ok(block.height)
+    }
+
+    /// Lines of a text that are no wider than so much: between words where that is enough, else between letters.
+    ///
+    /// # Errors
+    /// If no font has one of its letters.
+    pub fn wrapped(&self, words: &str, high: f64, width: f64) -> Result<Vec<String>, Error> {
+        let mut lines: Vec<String> = Vec::new();
+        for paragraph in words.lines() {
+            let mut line = String::new();
+            for word in paragraph.split_whitespace() {
+                let both = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+                if self.width(&both, high)? <= width {
+                    line = both;
+                    continue;
+                }
+                lines.extend(Some(std::mem::take(&mut line)).filter(|line| !line.is_empty()));
+                // A word that is wider than the line.
+                for c in word.chars() {
+                    let longer = format!("{line}{c}");
+                    if !line.is_empty() && self.width(&longer, high)? > width {
+                        lines.push(std::mem::replace(&mut line, c.to_string()));
+                    } else {
+                        line = longer;
+                    }
+                }
+            }
+            lines.extend(Some(line).filter(|line| !line.is_empty()));
+        }
+        Ok(lines)
+    }
+
+    /// The largest of some heights of letters, which fall, at which the lines of a text fit, and these lines; the smallest where they fit
+    /// at none.
+    ///
+    /// # Errors
+    /// If no font has one of its letters, or the text is too long for any table.
+    pub fn fitted(
+        &self,
+        words: &str,
+        heights: &[f64],
+        width: f64,
+        fits: impl Fn(f64, usize) -> bool,
+    ) -> Result<(f64, Vec<String>), Error> {
+        if words.len() > LONGEST {
+            return Err(Error::new(format!("a text of {} bytes is too long for a table", words.len()))
+                .remedy(format!("write at most {LONGEST} bytes")));
+        }
+        let mut found = (0.0, Vec::new());
+        for high in heights {
+            found = (*high, self.wrapped(words, *high, width)?);
+            if fits(*high, found.1.len()) {
+                break;
+            }
+        }
+        Ok(found)
     }
 
     /// How wide a word is.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::same_shape::Shape;
 use crate::scene::Scene;
 
 /// An item of a parts list.
@@ -21,25 +22,27 @@ pub struct Item {
     pub parts: Vec<usize>,
 }
 
-/// The items of a scene, in the order in which their first parts are in it: parts that show one shape, not mirrored, are one item, and so
-/// are parts of one name, and parts whose names differ in a number at the end alone (`bolt.001`, `bolt-2`, `bolt 3`).
+/// The items of a scene, in the order in which their first parts are in it: parts of equal shape and one material are one item if they
+/// show one geometry, or if their names are the same but for a number at the end (`bolt.001`, `bolt-2`, `bolt 3`). Shapes are equal if a
+/// rotation and a shift bring one to the other, in the precision of the file; mirror images are not.
 #[must_use]
 pub fn items(scene: &Scene) -> Vec<Item> {
-    let drawn = |part: &usize| {
-        let geometry = scene.parts.get(*part).and_then(|part| scene.geometry_of(part));
-        geometry.is_some_and(|geometry| !geometry.triangles.is_empty())
-    };
-    let mut of_shape: BTreeMap<(usize, bool), usize> = BTreeMap::new();
-    let mut of_name: BTreeMap<&str, usize> = BTreeMap::new();
+    // The items of each geometry and of each name, and the shapes of their first parts.
+    let mut of_geometry: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut of_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    let mut shapes: Vec<Shape> = Vec::new();
     let mut items: Vec<Item> = Vec::new();
-    for number in (0..scene.parts.len()).filter(drawn) {
-        let part = &scene.parts[number];
-        let shape = (part.geometry, part.world_from_part.matrix3.determinant() < 0.0);
-        let known = of_shape.get(&shape).or_else(|| of_name.get(stem(&part.name))).copied();
+    for (number, part) in scene.parts.iter().enumerate() {
+        let Some(shape) = Shape::of(scene, part) else { continue };
+        let material = scene.geometry_of(part).and_then(|shape| shape.material_of(0));
+        let material = material.and_then(|material| scene.materials.get(material as usize));
+        let material = material.map(|material| material.name.clone()).unwrap_or_default();
+        let same_geometry = of_geometry.entry(part.geometry).or_default();
+        let same_name = of_name.entry(stem(&part.name)).or_default();
+        let known = same_geometry.iter().chain(same_name.iter()).copied();
+        let known =
+            known.into_iter().find(|item| items[*item].material == material && shapes[*item].equals(&shape));
         let item = known.unwrap_or_else(|| {
-            let material = scene.geometry_of(part).and_then(|shape| shape.material_of(0));
-            let material = material.and_then(|material| scene.materials.get(material as usize));
-            let material = material.map(|material| material.name.clone()).unwrap_or_default();
             items.push(Item {
                 number: (items.len() + 1).to_string(),
                 count: 0,
@@ -48,10 +51,14 @@ pub fn items(scene: &Scene) -> Vec<Item> {
                 remark: String::new(),
                 parts: Vec::new(),
             });
+            shapes.push(shape);
             items.len() - 1
         });
-        of_shape.insert(shape, item);
-        of_name.entry(stem(&part.name)).or_insert(item);
+        for list in [same_geometry, same_name] {
+            if !list.contains(&item) {
+                list.push(item);
+            }
+        }
         items[item].parts.push(number);
     }
     for item in &mut items {

@@ -1,7 +1,7 @@
 //! Technical sheets: a model in views that stand as the standards have it, in a frame with a title block and a parts list.
 //!
-//! [`keys`] is what is told, `plan` which views there are and of what, `arrange` where they stand and how large, `notes` what is
-//! written beside them.
+//! [`keys`] is what is told, `plan` which views there are and of what, `arrange` where they stand and how large, `layout` where what is
+//! written on them stands.
 
 mod arrange;
 mod balloon_anchors;
@@ -12,7 +12,9 @@ mod dimension;
 mod exploded;
 pub mod frame;
 mod ink;
+mod item_table;
 pub mod keys;
+mod layout;
 pub mod list;
 mod list_file;
 mod measures;
@@ -24,6 +26,7 @@ mod plan;
 mod precision;
 mod rounds;
 pub mod rows;
+mod same_shape;
 mod scales;
 mod sight;
 mod true_length;
@@ -31,7 +34,8 @@ mod values;
 
 use std::path::PathBuf;
 
-use kurbo::{Affine, Rect, Shape};
+use glam::DVec2;
+use kurbo::{Affine, Point, Rect};
 
 pub use block::TitleKeys;
 pub use keys::SheetPage;
@@ -44,19 +48,24 @@ use super::source::Source;
 use crate::drawing::{Composition, Item, Page, Unit};
 use crate::error::Error;
 use crate::math::colour::Colour;
+use crate::mesh::Mesh;
 use crate::render::Prepared;
+use crate::shape::Cylinder;
 use crate::text::Font;
 use arrange::arrange;
 use ink::Ink;
+use item_table::ItemTable;
 use keys::ListKeys;
+use layout::{Board, DrawnViews, Layout};
 use measures::Measures;
-use plan::{Plan, Set, read_scale};
+use plan::{Plan, read_scale};
+use rounds::Round;
 
 /// Between the frame and what is drawn, mm.
 const INSET: f64 = 4.0;
 
-/// Height of notes, and how wide they are, mm.
-const NOTES: [f64; 2] = [3.5, 90.0];
+/// Clear paper around centring marks, mm.
+const MARK_CLEAR: f64 = 2.0;
 
 impl SheetPage {
     /// The files it is made from.
@@ -95,6 +104,11 @@ fn size_name(size: Size) -> &'static str {
 /// # Errors
 /// If the model or the style cannot be read, a key tells what is not there, or the views do not fit on the sheet.
 pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
+    let in_file = |error: Error| if error.file.is_some() { error } else { error.in_file(&source.path) };
+    compose_sheet(sheet, source).map_err(in_file)
+}
+
+fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     let size = sheet.lying();
     let font = match &sheet.font {
         None => Font::named("technical")?,
@@ -105,96 +119,71 @@ pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
         }
     };
     let mut plan = Plan::new(sheet, source)?;
-    let (items, unlisted) = items(sheet, &plan, source)?;
+    let (items, mut warnings) = items(sheet, &plan, source)?;
     let space = frame::space(size);
-    let title = block::place(space);
-    let (columns, rows, high) = notes::list_size(items.len(), space.height() * 0.3);
-    if high > space.height() * 0.6 {
-        return Err(Error::new(format!("a list of {} items does not fit on this sheet", items.len()))
-            .in_file(&source.path)
-            .remedy("choose a larger size, hide parts with `hide`, or leave parts_list out"));
-    }
-    let list_place = Rect { y0: title.y0 - high, y1: title.y0, ..title };
-    let mut taken = vec![title];
-    if !items.is_empty() {
-        taken.push(list_place);
-    }
-    let mut written = Ink::new(&font, "note");
-    let notes = sheet.notes.join("\n");
-    if !notes.trim().is_empty() {
-        let corner = kurbo::Point::new(space.x0 + INSET + 12.0, 0.0);
-        let height = written.lines(&notes, corner, NOTES[0], NOTES[1])?;
-        let top = space.y1 - INSET - 2.0 - height;
-        written.marks =
-            written.marks.into_iter().map(|mark| mark.moved(kurbo::Vec2::new(0.0, top))).collect();
-        taken.push(Rect::new(corner.x, top, corner.x + NOTES[1], space.y1));
-    }
-    let taken: Vec<Rect> = taken.iter().map(|rect| rect.inflate(INSET, INSET)).collect();
-    let told = sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
+    let block = block::TitleBlock::new(&sheet.title, space, &font, source)?;
+    let table = ItemTable::new(&items, block.place, space, &font).map_err(|error| {
+        sheet.parts_list.as_ref().map_or(error.clone(), |told| source.about(&told.span(), error))
+    })?;
+    let mut tables = vec![block.place];
+    tables.extend(table.as_ref().map(|table| table.place));
+    let (written, notes) = notes::written(sheet, (space, &tables), &font, source)?;
+    let marks = frame::centring_marks(size, &tables);
     let inner = space.inflate(-INSET, -INSET);
-    let asked = Asked::of(sheet, source)?;
-    let mut scale = None;
-    for _ in 0..ROUNDS {
-        let unit_mm = plan.unit_mm();
-        scale = arrange(&mut plan.views, (inner, &taken), (sheet.projection, unit_mm, told));
-        if scale.is_none() {
-            break;
-        }
-        // What stands beside views needs room, which is known once they have their size.
-        let measures = asked.measures(sheet, &plan, &mut Ink::new(&font, "note"), source)?;
-        let room = measures.room(&plan, &written)?;
-        let mut fits = true;
-        for (placed, room) in plan.views.iter_mut().zip(room) {
-            for (own, needed) in placed.around.iter_mut().zip(room) {
-                fits &= needed <= *own + 1e-9;
-                *own = own.max(needed);
-            }
-        }
-        if fits {
-            break;
-        }
-    }
-    let Some(scale) = scale else {
-        let message = "the views do not fit on this sheet";
-        let remedy = "choose a larger size, fewer views or another scale";
-        return Err(match &sheet.scale {
-            Some(told) => source.fault(&told.span(), message, remedy),
-            None => Error::new(message).in_file(&source.path).remedy(remedy),
-        });
-    };
+    let taken: Vec<Rect> = tables
+        .iter()
+        .chain(&notes)
+        .map(|rect| rect.inflate(INSET, INSET))
+        .chain(marks.iter().map(|[a, b]| Rect::from_points(*a, *b).inflate(MARK_CLEAR, MARK_CLEAR)))
+        .collect();
 
-    let (mut drawn, mut warnings) = views(&plan)?;
-    warnings.extend(unlisted);
+    let mut laying = Laying::new(sheet, &plan, source)?;
+    let laid = laying.lay(&mut plan, (inner, &taken), (&font, &items), source)?;
+    let (drawn, told) = laid.views;
+    warnings.extend(told);
     let mut ink = Ink::new(&font, "frame");
-    frame::draw(size, &mut ink)?;
-    drawn.insert(0, whole("frame", ink, size));
+    frame::draw(size, &marks, &mut ink)?;
+    let mut parts = vec![whole("frame", ink, size)];
     let mut ink = Ink::new(&font, "title-block");
-    let names = (&*scales::written(scale), sheet.projection, size_name(size), plan.values.unit.name);
-    block::draw(title, &sheet.title, names, &mut ink)?;
-    drawn.insert(1, whole("title-block", ink, size));
-    if !items.is_empty() {
+    let names = (&*scales::written(laid.scale), sheet.projection, size_name(size), plan.values.unit.name);
+    block.draw(names, &mut ink)?;
+    parts.push(whole("title-block", ink, size));
+    parts.extend(drawn);
+    if let Some(table) = &table {
         let mut ink = Ink::new(&font, "parts-list");
-        notes::list(list_place, &items, (columns, rows), &mut ink)?;
-        drawn.push(whole("parts-list", ink, size));
+        table.draw(&mut ink)?;
+        parts.push(whole("parts-list", ink, size));
     }
-    if let Some(view) = plan.balloons {
-        let sight = &plan.views[view].sight;
-        let anchors = balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, &items);
-        for (item, anchor) in items.iter().zip(&anchors) {
+    let mut written = written;
+    let mut balloons = Ink::new(&font, "balloon");
+    for board in laid.boards {
+        written.marks.extend(board.ink.marks);
+        balloons.marks.extend(board.balloons.marks);
+    }
+    if plan.balloons.is_some() {
+        for (item, anchor) in items.iter().zip(&laid.anchors) {
             if anchor.is_none() && !item.parts.is_empty() {
                 warnings.push(format!("nothing is seen of item '{}' in the view with balloons", item.name));
             }
         }
-        let mut ink = Ink::new(&font, "balloon");
-        notes::balloons(sight.rect(), &items, &anchors, &mut ink)?;
-        drawn.push(whole("balloons", ink, size));
+        parts.push(whole("balloons", balloons, size));
     }
-    annotate(sheet, &plan, scale, (&asked, &mut written), source)?;
-    drawn.push(whole("notes", written, size));
+    parts.push(whole("notes", written, size));
     let page =
         Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
     let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
-    Ok(Composed { composition: Composition::new(name, page, drawn), warnings })
+    let composition = Composition::new(name, page, parts);
+    warnings.extend(unreadable(&composition));
+    Ok(Composed { composition, warnings })
+}
+
+/// A warning about texts that have a character which could not be read, if there are any.
+fn unreadable(composition: &Composition) -> Option<String> {
+    let marks = composition.items.iter().flat_map(|item| &item.drawing.layers).flat_map(|layer| &layer.marks);
+    let texts = marks.filter_map(|mark| Some(&mark.provenance.text.as_ref()?.words));
+    let first = texts.into_iter().find(|words| words.contains(char::REPLACEMENT_CHARACTER))?;
+    let what = "the text has a character that could not be read (U+FFFD); it is drawn as a box";
+    Some(format!("`{first}`: {what}"))
 }
 
 /// The items of the parts list, and warnings about parts that are in none.
@@ -214,44 +203,30 @@ fn items(sheet: &SheetPage, plan: &Plan, source: &Source) -> Result<(Vec<list::I
     Ok((items, left.into_iter().map(warning).collect()))
 }
 
-/// The views, each as an item; details are cut to their circles.
-fn views(plan: &Plan) -> Result<(Vec<Item>, Vec<String>), Error> {
-    let mut drawn: Vec<(usize, Item)> = Vec::new();
-    let mut warnings: Vec<String> = Vec::new();
-    for (number, Set { scene, style }) in plan.sets.iter().enumerate() {
-        let own: Vec<usize> = (0..plan.views.len()).filter(|view| plan.set_of[*view] == number).collect();
-        if own.is_empty() {
-            continue;
-        }
-        let prepared = Prepared::new(scene, style);
-        for view in own {
-            let (mut item, told) = plan.views[view].sight.item(&prepared)?;
-            if plan.circled.iter().any(|circled| circled.shown == view) {
-                item.clip = Some(notes::circle_of(&plan.views[view].sight).to_path(1e-3));
-            }
-            drawn.push((view, item));
-            for warning in scene.warnings.lines().into_iter().chain(told) {
-                if !warnings.contains(&warning) {
-                    warnings.push(warning);
-                }
-            }
-        }
-    }
-    drawn.sort_by_key(|(view, _)| *view);
-    Ok((drawn.into_iter().map(|(_, item)| item).collect(), warnings))
+/// Room for what is written changes the scale, and that again the room.
+const ROUNDS: usize = 16;
+
+/// How many times as large a view within a ring of balloons is tried.
+const RINGS_FILLED: [f64; 6] = [4.0, 3.0, 2.4, 1.9, 1.5, 1.25];
+
+/// A sheet whose views have their places.
+struct Laid {
+    scale: f64,
+    views: (Vec<Item>, Vec<String>),
+    boards: Vec<Board>,
+    anchors: Vec<Option<DVec2>>,
 }
 
-/// Room for dimensions changes the scale, and that again the room; hardly ever more than twice.
-const ROUNDS: usize = 5;
-
-/// What views are to tell by themselves.
-struct Asked {
+/// What is found once for a sheet, while its views are arranged again and again.
+struct Laying<'a> {
+    sheet: &'a SheetPage,
     overall: bool,
-    auto: bool,
+    rounds: Option<Vec<Round>>,
+    cylinders: Vec<Cylinder>,
 }
 
-impl Asked {
-    fn of(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
+impl<'a> Laying<'a> {
+    fn new(sheet: &'a SheetPage, plan: &Plan, source: &Source) -> Result<Self, Error> {
         let dimensions = match &sheet.dimensions {
             None => "overall",
             Some(told) => match &**told.get_ref() {
@@ -259,49 +234,172 @@ impl Asked {
                 _ => return Err(source.unknown(told, "set of dimensions", &["none", "overall", "auto"])),
             },
         };
+        let auto = dimensions == "auto";
+        let is_single = plan.sets[0].scene.parts.len() == 1;
+        let cylinders = if sheet.centre_lines.unwrap_or(is_single || auto) {
+            rounds::whole(&Mesh::build(plan.sets[0].scene.to_soup()))
+        } else {
+            Vec::new()
+        };
         let overall = sheet.overall.unwrap_or(dimensions != "none");
-        Ok(Self { overall, auto: dimensions == "auto" })
+        Ok(Self { sheet, overall, rounds: auto.then(Vec::new), cylinders })
     }
 
-    fn measures(
-        &self,
-        sheet: &SheetPage,
-        plan: &Plan,
-        ink: &mut Ink,
-        source: &Source,
-    ) -> Result<Measures, Error> {
+    fn measures(&self, plan: &Plan, source: &Source) -> Result<Measures, Error> {
         let mut measures = Measures::default();
         if self.overall {
-            measures.add_overall(plan, ink)?;
+            measures.add_overall(plan);
         }
-        if self.auto {
-            measures.add_rounds(plan, &rounds::rounds(plan), ink)?;
+        if let Some(rounds) = &self.rounds {
+            measures.add_rounds(plan, rounds);
         }
-        places::add_told(sheet, plan, &mut measures, ink, source)?;
+        places::add_told(self.sheet, plan, &mut measures, source)?;
         Ok(measures)
+    }
+
+    /// Arranges the views until all that is written on them has room.
+    fn lay(
+        &mut self,
+        plan: &mut Plan,
+        place: (Rect, &[Rect]),
+        (font, items): (&Font, &[list::Item]),
+        source: &Source,
+    ) -> Result<Laid, Error> {
+        let told = self.sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
+        let sets = plan.sets.clone();
+        let mut prepared = Vec::new();
+        for (number, set) in sets.iter().enumerate() {
+            prepared.push(plan.set_of.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
+        }
+        let mut drawn = DrawnViews::new(prepared, plan.views.len());
+        let mut anchors: Option<Vec<Option<DVec2>>> = None;
+        for _ in 0..ROUNDS {
+            let unit_mm = plan.unit_mm();
+            let arranged = arrange(&mut plan.views, place, (self.sheet.projection, unit_mm, told));
+            let Some(scale) = arranged else {
+                // Smaller views with rings that take less paper.
+                if plan.views.iter().any(|placed| placed.ring.is_some()) {
+                    plan.views.iter_mut().for_each(|placed| placed.ring = None);
+                    continue;
+                }
+                return Err(self.refused(plan, source));
+            };
+            if anchors.is_none() {
+                drawn.update(plan)?;
+                if let Some(rounds) = &mut self.rounds {
+                    *rounds = rounds::rounds(plan);
+                }
+                if let Some(view) = plan.balloons {
+                    plan.views[view].ring = Some([0.0; 2]);
+                }
+                let found = plan.balloons.map(|view| {
+                    let sight = &plan.views[view].sight;
+                    let found = balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, items);
+                    let within = |p: Point| DVec2::new(p.x - sight.corner.x, p.y - sight.corner.y);
+                    found.into_iter().map(|p| p.map(|p| within(p) / sight.unit)).collect()
+                });
+                anchors = Some(found.unwrap_or_default());
+            }
+            let measures = self.measures(plan, source)?;
+            let layout = Layout {
+                font,
+                measures: &measures,
+                cylinders: &self.cylinders,
+                items,
+                anchors: anchors.as_deref().unwrap_or_default(),
+                scale,
+            };
+            let boards = |plan: &Plan, drawn: &DrawnViews| {
+                (0..plan.views.len())
+                    .map(|view| layout.board(view, plan, drawn))
+                    .collect::<Result<Vec<_>, _>>()
+            };
+            let mut laid = boards(plan, &drawn)?;
+            let mut fits = make_room(&mut plan.views, &laid);
+            if fits && drawn.update(plan)? {
+                laid = boards(plan, &drawn)?;
+                fits = make_room(&mut plan.views, &laid);
+            }
+            if !fits {
+                continue;
+            }
+            if let Some(view) = plan.balloons {
+                let board = |plan: &Plan, drawn: &DrawnViews| layout.board(view, plan, drawn);
+                fill_ring(plan, view, &mut drawn, (scale, &mut laid[view]), board)?;
+            }
+            if let Some(unplaced) = laid.iter().find_map(|board| board.unplaced.first()) {
+                return Err(Error::new(format!("there is no clear place for {unplaced} on this sheet"))
+                    .remedy("choose a larger size or another scale, or leave some of it out"));
+            }
+            let views = drawn.into_items(plan);
+            return Ok(Laid { scale, views, boards: laid, anchors: anchors.unwrap_or_default() });
+        }
+        Err(self.refused(plan, source))
+    }
+
+    /// The error that the views do not fit, which says what takes the room.
+    fn refused(&self, plan: &Plan, source: &Source) -> Error {
+        let around = |placed: &arrange::Placed| placed.around.iter().sum::<f64>();
+        let widest = plan.views.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
+        let message = match widest.filter(|placed| around(placed) > 0.0) {
+            Some(placed) => format!(
+                "the views do not fit on this sheet; most room around it takes `{}`, for its dimensions, letters and balloons",
+                placed.sight.name
+            ),
+            None => "the views do not fit on this sheet".to_owned(),
+        };
+        let remedy = "choose a larger size, fewer views or another scale";
+        match &self.sheet.scale {
+            Some(told) => source.fault(&told.span(), &message, remedy),
+            None => Error::new(message).remedy(remedy),
+        }
     }
 }
 
-/// All that is written beside views.
-fn annotate(
-    sheet: &SheetPage,
-    plan: &Plan,
-    scale: f64,
-    (asked, ink): (&Asked, &mut Ink),
-    source: &Source,
+/// Makes a view with balloons that has no scale of its own as large as the ring of its balloons lets it be.
+fn fill_ring(
+    plan: &mut Plan,
+    view: usize,
+    drawn: &mut DrawnViews,
+    (scale, laid): (f64, &mut Board),
+    board: impl Fn(&Plan, &DrawnViews) -> Result<Board, Error>,
 ) -> Result<(), Error> {
-    notes::titles(plan, scale, ink)?;
-    for cut in &plan.cuts {
-        notes::cutting_plane(plan, cut, ink)?;
+    let unit = plan.views[view].sight.unit;
+    let Some(most) = plan.views[view].stands.largest(scale * plan.unit_mm()) else { return Ok(()) };
+    for larger in RINGS_FILLED {
+        plan.views[view].enlarge(unit, (unit * larger).min(most));
+        let mut own = board(plan, drawn)?;
+        if plan.views[view].has_room_for(&own) {
+            drawn.update(plan)?;
+            own = board(plan, drawn)?;
+            if plan.views[view].has_room_for(&own) {
+                *laid = own;
+                return Ok(());
+            }
+        }
+        let now = plan.views[view].sight.unit;
+        plan.views[view].enlarge(now, unit);
     }
-    for circled in &plan.circled {
-        notes::circled(plan, circled, ink)?;
+    drawn.update(plan)?;
+    Ok(())
+}
+
+/// Gives views the room that what is written on them needs. Reports whether they had it.
+fn make_room(views: &mut [arrange::Placed], boards: &[Board]) -> bool {
+    let mut fits = true;
+    for (placed, board) in views.iter_mut().zip(boards) {
+        let needed = Layout::room(board, placed.sight.rect(), placed.stands);
+        let own = placed.around_at(placed.sight.unit);
+        if needed.iter().zip(own).all(|(needed, own)| *needed <= own + 1e-9) {
+            continue;
+        }
+        fits = false;
+        placed.around = [0, 1, 2, 3].map(|side| own[side].max(needed[side]));
+        if let Some(size) = &mut placed.ring {
+            *size = placed.sight.size(placed.sight.unit);
+        }
     }
-    let is_single = plan.sets[0].scene.parts.len() == 1;
-    if sheet.centre_lines.unwrap_or(is_single || asked.auto) {
-        centre::centre_lines(plan, ink);
-    }
-    asked.measures(sheet, plan, ink, source)?.draw(plan, ink)
+    fits
 }
 
 /// What lies on the sheet as a whole.

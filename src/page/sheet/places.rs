@@ -4,10 +4,8 @@ use glam::DVec3;
 use kurbo::{Point, Vec2};
 use toml::Spanned;
 
-use super::dimension::dimension;
-use super::ink::Ink;
 use super::keys::{DimensionKeys, Measure, PlaceKeys, SheetPage};
-use super::measures::{Led, Measures};
+use super::measures::{Led, Measures, Slanted};
 use super::plan::Plan;
 use super::precision::{Measured, Precision};
 use super::rows::Side;
@@ -23,12 +21,11 @@ use crate::shape::{Cylinder, cylinders};
 /// What names of places end with.
 const ENDS: [&str; 5] = ["left", "right", "top", "bottom", "centre"];
 
-/// Adds what is asked for; draws what has a place of its own.
+/// Adds what is asked for.
 pub(super) fn add_told(
     sheet: &SheetPage,
     plan: &Plan,
     measures: &mut Measures,
-    ink: &mut Ink,
     source: &Source,
 ) -> Result<(), Error> {
     let mut found: Option<Vec<Cylinder>> = None;
@@ -67,7 +64,7 @@ pub(super) fn add_told(
         let (length, precision) = length.map_err(|[message, advice]| source.fault(&span, message, advice))?;
         let text = keys.text.clone().unwrap_or_else(|| plan.values.written(length, precision));
         let ends = [from, to].map(|p| sight.page(p.at));
-        add_length(ends, (measure, text), keys, view, measures, ink)?;
+        add_length(ends, (measure, text), keys, view, measures);
     }
     Ok(())
 }
@@ -151,15 +148,14 @@ fn of_cylinder(
     Some(Led { centre, radius, text, pitch: None })
 }
 
-/// Adds a length, or draws it where it is told how far beside the points.
+/// Adds a length.
 fn add_length(
     ends: [Point; 2],
     (measure, text): (Measure, String),
     keys: &DimensionKeys,
     view: usize,
     measures: &mut Measures,
-    ink: &mut Ink,
-) -> Result<(), Error> {
+) {
     let along = match measure {
         Measure::Horizontal => Vec2::new(1.0, 0.0),
         Measure::Vertical => Vec2::new(0.0, 1.0),
@@ -167,23 +163,15 @@ fn add_length(
     };
     let far = along.hypot2().sqrt();
     if far.is_nan() || far <= 0.0 {
-        return Ok(());
+        return;
     }
     let along = along / far;
     let across = along.y.abs() < 1e-9;
     if keys.offset.is_none() && (across || along.x.abs() < 1e-9) {
         let side = keys.side.filter(|side| side.is_across() == across);
         let side = side.unwrap_or(if across { Side::Below } else { Side::Left });
-        return measures.add(view, ends, side, text, ink);
+        measures.add(view, ends, side, text);
+        return;
     }
-    let offset = keys.offset.unwrap_or(10.0);
-    let mut out = Vec2::new(-along.y, along.x);
-    // Below or to the right.
-    if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 {
-        out = -out;
-    }
-    let outer = ends.map(|p| p.to_vec2().dot(out));
-    let reach = if offset > 0.0 { outer[0].max(outer[1]) } else { outer[0].min(outer[1]) };
-    let through = ends[0] + out * (reach - outer[0] + offset);
-    dimension(ends, along, through, &text, ink)
+    measures.slanted.push((view, Slanted { ends, along, offset: keys.offset, text }));
 }

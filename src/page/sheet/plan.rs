@@ -1,5 +1,7 @@
 //! [`Plan`]: the views of a sheet, and the scenes they show.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use toml::Spanned;
 
@@ -20,6 +22,7 @@ use crate::render::{hatched_for, trailed};
 use crate::scene::framing::world_points;
 use crate::scene::{Camera, NamedView, Scene};
 use crate::section::{CutPlane, Plane, cut};
+use crate::shape::Cylinder;
 use crate::style::Style;
 
 /// A scene, and the style it is drawn in.
@@ -32,6 +35,9 @@ pub(super) struct Set {
 pub(super) struct CutLine {
     pub label: String,
     pub plane: Plane,
+    /// The view that shows what it leaves, and parts that are not cut.
+    pub shown: usize,
+    pub uncut: Vec<Glob>,
 }
 
 /// A circle around what is shown larger, in a view.
@@ -44,10 +50,18 @@ pub(super) struct Circled {
     pub radius: f64,
 }
 
+impl Circled {
+    /// Whether the circle reaches into a view; one that does not is not drawn there.
+    pub fn meets(&self, sight: &Sight) -> bool {
+        let radius = self.radius * sight.unit;
+        sight.rect().inflate(radius, radius).contains(sight.page(self.at))
+    }
+}
+
 /// The views of a sheet, and the scenes they show.
 pub(super) struct Plan {
     /// The whole model first.
-    pub sets: Vec<Set>,
+    pub sets: Vec<Arc<Set>>,
     pub views: Vec<Placed>,
     /// For each view its set.
     pub set_of: Vec<usize>,
@@ -61,8 +75,8 @@ pub(super) struct Plan {
     pub balloons: Option<usize>,
 }
 
-/// Room round a view for its balloons, mm.
-pub(super) const BALLOONS: f64 = 16.0;
+/// Places nearer than this share of a radius are the same: what single precision leaves of cylinders.
+const SAME: f64 = 5e-3;
 
 /// Views in which a section is taken from, by preference.
 const SIDES: [NamedView; 6] =
@@ -108,13 +122,13 @@ impl Plan {
         for view in &views {
             let stands = if SIDES.contains(view) { Stands::Beside(*view) } else { Stands::Pictorial };
             let camera = Camera::named(*view, scene.up);
-            plan.add(view.name(), camera, &points, (0, stands, 0.0));
+            plan.add(view.name(), camera, &points, (0, stands));
         }
-        plan.sets.push(Set { scene, style: style.clone() });
+        plan.sets.push(Arc::new(Set { scene, style: style.clone() }));
         plan.add_sections(sheet, &views, (&points, &pictorial), source)?;
         if sheet.hidden && views.iter().any(|view| !SIDES.contains(view)) {
             let scene = plan.sets[0].scene.clone();
-            plan.sets.push(Set { scene, style: pictorial.clone() });
+            plan.sets.push(Arc::new(Set { scene, style: pictorial.clone() }));
             for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
                 if *set == 0 && placed.stands == Stands::Pictorial {
                     *set = plan.sets.len() - 1;
@@ -130,17 +144,11 @@ impl Plan {
         Ok(plan)
     }
 
-    fn add(
-        &mut self,
-        name: &str,
-        camera: Camera,
-        points: &[DVec3],
-        (set, stands, margin): (usize, Stands, f64),
-    ) {
+    fn add(&mut self, name: &str, camera: Camera, points: &[DVec3], (set, stands): (usize, Stands)) {
         let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
         let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
         let sight = Sight::new(&name, camera, self.middle, points);
-        self.views.push(Placed::new(sight, stands, margin));
+        self.views.push(Placed::new(sight, stands));
         self.set_of.push(set);
     }
 
@@ -168,7 +176,7 @@ impl Plan {
             let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
             let mut section = cut(whole.clone(), &plane, &uncut);
             let style = hatched_for(style, &mut section.scene, &mut section.faces, &[camera]);
-            self.sets.push(Set { scene: std::mem::take(&mut section.scene), style });
+            self.sets.push(Arc::new(Set { scene: std::mem::take(&mut section.scene), style }));
             let stands = match side.filter(|view| !taken.contains(view)) {
                 Some(view) => {
                     taken.push(view);
@@ -178,11 +186,11 @@ impl Plan {
             };
             let label = keys.label.clone().unwrap_or_else(|| letter(k));
             let set = self.sets.len() - 1;
-            self.add(&format!("section-{label}"), camera, points, (set, stands, 0.0));
+            self.add(&format!("section-{label}"), camera, points, (set, stands));
             if let Some(placed) = self.views.last_mut() {
                 placed.sight.title = Some(format!("{label}-{label}"));
             }
-            self.cuts.push(CutLine { label, plane });
+            self.cuts.push(CutLine { label, plane, shown: self.views.len() - 1, uncut });
         }
         Ok(())
     }
@@ -194,9 +202,9 @@ impl Plan {
         let ways = explode(whole, &exploded::explosion(keys, whole, source)?);
         let scene = with_trails(whole.clone(), &ways);
         let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
-        self.sets.push(Set { scene, style: trailed(style) });
+        self.sets.push(Arc::new(Set { scene, style: trailed(style) }));
         let set = self.sets.len() - 1;
-        self.add("exploded", camera, &points, (set, Stands::Free, 0.0));
+        self.add("exploded", camera, &points, (set, Stands::Free));
         Ok(())
     }
 
@@ -210,9 +218,6 @@ impl Plan {
             Some(name) => Some(self.view(name, source)?),
             None => find("exploded").or_else(|| find("iso")).or(Some(0)),
         };
-        if let Some(placed) = chosen.and_then(|k| self.views.get_mut(k)) {
-            placed.margin += BALLOONS;
-        }
         self.balloons = chosen;
         Ok(())
     }
@@ -237,7 +242,7 @@ impl Plan {
             Some(told) => Stands::At(read_scale(told, source)?),
         };
         self.circled.push(Circled { label, of, shown: self.views.len(), at, radius });
-        self.views.push(Placed::new(sight, stands, 0.0));
+        self.views.push(Placed::new(sight, stands));
         self.set_of.push(self.set_of[of]);
         Ok(())
     }
@@ -256,6 +261,33 @@ impl Plan {
             (None, Stands::Free) => Foreshortening::Moved,
             (None, _) => Foreshortening::None,
         }
+    }
+
+    /// What a section leaves of a cylinder; all of it where there is none.
+    pub fn left_of(&self, cylinder: &Cylinder, section: Option<&CutLine>) -> Option<Cylinder> {
+        let Some(section) = section else { return Some(*cylinder) };
+        let scene = &self.sets[0].scene;
+        let part = scene.parts.get(cylinder.part.index());
+        if let Some(part) = part.filter(|part| section.uncut.iter().any(|glob| glob.matches(&part.name))) {
+            let positions = scene.geometry_of(part).map(|geometry| &*geometry.positions).unwrap_or_default();
+            let is_behind = |p: &DVec3| section.plane.side(part.world_from_part.transform_point3(*p)) < 0;
+            return positions.iter().any(is_behind).then_some(*cylinder);
+        }
+        let away = cylinder.ends.map(|end| section.plane.distance(cylinder.point + cylinder.axis * end));
+        let near = SAME * cylinder.radius;
+        if (away[0] - away[1]).abs() <= near {
+            return (away[0] <= near).then_some(*cylinder);
+        }
+        // The end that lies in front of the plane comes to lie in it.
+        let share = away[0] / (away[0] - away[1]);
+        let at = cylinder.ends[0] + share * (cylinder.ends[1] - cylinder.ends[0]);
+        let ends = [0, 1].map(|k| if away[k] > 0.0 { at } else { cylinder.ends[k] });
+        ((ends[1] - ends[0]).abs() > near).then_some(Cylinder { ends, ..*cylinder })
+    }
+
+    /// The plane of a section that a view shows.
+    pub fn cut_of(&self, view: usize) -> Option<&CutLine> {
+        self.cuts.iter().find(|cut| cut.shown == view)
     }
 
     /// The number of a view by its name.

@@ -9,7 +9,7 @@ use crate::render::Prepared;
 use crate::scene::{Camera, Projection};
 
 /// Room round a view for the width of its lines, mm.
-const RIM: f64 = 1.5;
+pub(super) const RIM: f64 = 1.5;
 
 /// A view on a sheet.
 #[derive(Debug, Clone)]

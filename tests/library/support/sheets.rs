@@ -59,3 +59,80 @@ pub fn bounds(item: &Item) -> Rect {
 pub fn words(item: &Item) -> Vec<String> {
     marks(item).filter_map(|(_, mark)| Some(mark.provenance.text.as_ref()?.words.to_string())).collect()
 }
+
+/// A plate from the origin with a hole through it in each of several columns side by side: its middle and radius.
+pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
+    use ligne::math::function::{cos, sin};
+    let mut plate = Solid::default();
+    let [width, depth, height] = size;
+    let column = width / holes.len().max(1) as f64;
+    let corner = |x: f64, y: f64, z: f64| glam::DVec3::new(x, y, z);
+    for (n, ([x, y], radius)) in holes.iter().enumerate() {
+        let [x0, x1] = [column * n as f64, column * (n + 1) as f64];
+        let first = plate.positions.len() as u32;
+        let count = 48u32;
+        for k in 0..count {
+            let turn = std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(count);
+            let (c, s) = (cos(turn), sin(turn));
+            let far = |d: f64, low: f64, high: f64, at: f64| match d {
+                d if d > 1e-12 => (high - at) / d,
+                d if d < -1e-12 => (low - at) / d,
+                _ => f64::INFINITY,
+            };
+            let out = far(c, x0, x1, *x).min(far(s, 0.0, depth, *y));
+            for z in [0.0, height] {
+                plate.positions.push(corner(x + radius * c, y + radius * s, z));
+                plate.positions.push(corner(x + out * c, y + out * s, z));
+            }
+        }
+        for k in 0..count {
+            let [a, b] = [first + 4 * k, first + 4 * ((k + 1) % count)];
+            let mut quad = |a: u32, b: u32, c: u32, d: u32| plate.triangles.extend([[a, b, c], [a, c, d]]);
+            quad(b, a, a + 2, b + 2);
+            quad(a + 2, a + 3, b + 3, b + 2);
+            quad(b, b + 1, a + 1, a);
+        }
+        // The triangles at the corners of the column, which the fan cuts off.
+        for (cx, cy) in [(x0, 0.0), (x1, 0.0), (x1, depth), (x0, depth)] {
+            for (z, up) in [(0.0, false), (height, true)] {
+                let on = |p: &&glam::DVec3| {
+                    p.z == z && (p.x == cx || (p.x - cx).abs() < 1e-9 || (p.y - cy).abs() < 1e-9)
+                };
+                let near = |p: &glam::DVec3| (p.x - cx).hypot(p.y - cy);
+                let own = &plate.positions[first as usize..];
+                let side = |along_x: bool| {
+                    own.iter()
+                        .filter(on)
+                        .filter(|p| if along_x { (p.y - cy).abs() < 1e-9 } else { (p.x - cx).abs() < 1e-9 })
+                        .copied()
+                        .min_by(|a, b| near(a).total_cmp(&near(b)))
+                };
+                let (Some(a), Some(b)) = (side(true), side(false)) else { continue };
+                let start = plate.positions.len() as u32;
+                plate.positions.extend([corner(cx, cy, z), a, b]);
+                let turns = (a - corner(cx, cy, z)).cross(b - corner(cx, cy, z)).z > 0.0;
+                plate.triangles.push(if turns == up {
+                    [start, start + 1, start + 2]
+                } else {
+                    [start, start + 2, start + 1]
+                });
+            }
+        }
+    }
+    for [[a, b], [c, d]] in [
+        [[0.0, 0.0], [width, 0.0]],
+        [[width, 0.0], [width, depth]],
+        [[width, depth], [0.0, depth]],
+        [[0.0, depth], [0.0, 0.0]],
+    ] {
+        let first = plate.positions.len() as u32;
+        plate.positions.extend([
+            corner(a, b, 0.0),
+            corner(c, d, 0.0),
+            corner(c, d, height),
+            corner(a, b, height),
+        ]);
+        plate.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    plate
+}
