@@ -35,10 +35,11 @@ const SMALLER: usize = 3;
 pub(super) struct Placed {
     pub sight: Sight,
     pub stands: Stands,
-    /// Room that it needs for what is written on it, more than its margin, on the left, above, on the right and below, mm.
-    pub around: [f64; 4],
-    /// Its size on paper when that room was found, if it has balloons around it: when it is smaller, their rings stay as large.
-    pub ring: Option<[f64; 2]>,
+    /// Room that it needs for what is written on it, more than its margin, on the left, above, on the right and below, mm: at the lengths
+    /// on paper of a unit at which that is known.
+    pub rooms: Vec<(f64, [f64; 4])>,
+    /// Whether it has balloons around it whose rings stay as large where a pictorial view becomes smaller.
+    pub keeps_ring: bool,
     /// The place that it has with all that, on the page.
     place: Rect,
 }
@@ -46,18 +47,33 @@ pub(super) struct Placed {
 impl Placed {
     /// A view that needs no room but its own.
     pub fn new(sight: Sight, stands: Stands) -> Self {
-        Self { sight, stands, around: [0.0; 4], ring: None, place: Rect::ZERO }
+        Self { sight, stands, rooms: Vec::new(), keeps_ring: false, place: Rect::ZERO }
     }
 }
 
 impl Placed {
-    /// The room around it at a length on paper of a unit of the model.
+    /// The room around it at a length on paper of a unit of the model. At a scale at which it is not known there is none yet; of pictorial
+    /// views, which have any scale, it is that found last.
     pub fn around_at(&self, unit: f64) -> [f64; 4] {
-        let [w, h] = self.sight.size(unit);
-        let [x, y] =
-            self.ring.map_or([0.0; 2], |[wide, high]| [(wide - w).max(0.0) / 2.0, (high - h).max(0.0) / 2.0]);
-        let [left, above, right, below] = self.around;
+        let known = self.rooms.iter().find(|(known, _)| (known / unit - 1.0).abs() < 1e-9);
+        if let Some((_, around)) = known {
+            return *around;
+        }
+        let Some((known, around)) = self.rooms.last().filter(|_| self.stands.largest(unit).is_some()) else {
+            return [0.0; 4];
+        };
+        let ([w, h], [wide, high]) = (self.sight.size(unit), self.sight.size(*known));
+        let grown = |more: f64| if self.keeps_ring { more.max(0.0) / 2.0 } else { 0.0 };
+        let ([left, above, right, below], x, y) = (*around, grown(wide - w), grown(high - h));
         [left + x, above + y, right + x, below + y]
+    }
+
+    /// Notes that at its present scale it needs that much room.
+    pub fn make_room(&mut self, needed: [f64; 4]) {
+        let unit = self.sight.unit;
+        let own = self.around_at(unit);
+        self.rooms.retain(|(known, _)| (known / unit - 1.0).abs() >= 1e-9);
+        self.rooms.push((unit, [0, 1, 2, 3].map(|side| own[side].max(needed[side]))));
     }
 
     /// Makes it larger or smaller around its middle.

@@ -203,10 +203,10 @@ fn parted(rows: Vec<Row>, count: usize) -> Vec<Vec<Row>> {
     let ends = columns(most);
     let mut rows = rows.into_iter();
     let mut begin = 0;
-    let mut take = |end: usize| {
+    let take = |end: usize| {
         let own = rows.by_ref().take(end - begin).collect();
         begin = end;
         own
     };
-    ends.into_iter().map(|end| take(end)).collect()
+    ends.into_iter().map(take).collect()
 }

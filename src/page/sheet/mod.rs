@@ -204,7 +204,7 @@ fn items(sheet: &SheetPage, plan: &Plan, source: &Source) -> Result<(Vec<list::I
 }
 
 /// Room for what is written changes the scale, and that again the room.
-const ROUNDS: usize = 16;
+const ROUNDS: usize = 60;
 
 /// How many times as large a view within a ring of balloons is tried.
 const RINGS_FILLED: [f64; 6] = [4.0, 3.0, 2.4, 1.9, 1.5, 1.25];
@@ -278,8 +278,8 @@ impl<'a> Laying<'a> {
             let arranged = arrange(&mut plan.views, place, (self.sheet.projection, unit_mm, told));
             let Some(scale) = arranged else {
                 // Smaller views with rings that take less paper.
-                if plan.views.iter().any(|placed| placed.ring.is_some()) {
-                    plan.views.iter_mut().for_each(|placed| placed.ring = None);
+                if plan.views.iter().any(|placed| placed.keeps_ring) {
+                    plan.views.iter_mut().for_each(|placed| placed.keeps_ring = false);
                     continue;
                 }
                 return Err(self.refused(plan, source));
@@ -290,7 +290,7 @@ impl<'a> Laying<'a> {
                     *rounds = rounds::rounds(plan);
                 }
                 if let Some(view) = plan.balloons {
-                    plan.views[view].ring = Some([0.0; 2]);
+                    plan.views[view].keeps_ring = true;
                 }
                 let found = plan.balloons.map(|view| {
                     let sight = &plan.views[view].sight;
@@ -339,7 +339,9 @@ impl<'a> Laying<'a> {
 
     /// The error that the views do not fit, which says what takes the room.
     fn refused(&self, plan: &Plan, source: &Source) -> Error {
-        let around = |placed: &arrange::Placed| placed.around.iter().sum::<f64>();
+        let around = |placed: &arrange::Placed| {
+            placed.rooms.last().map_or(0.0, |(_, around)| around.iter().sum::<f64>())
+        };
         let widest = plan.views.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
         let message = match widest.filter(|placed| around(placed) > 0.0) {
             Some(placed) => format!(
@@ -394,10 +396,7 @@ fn make_room(views: &mut [arrange::Placed], boards: &[Board]) -> bool {
             continue;
         }
         fits = false;
-        placed.around = [0, 1, 2, 3].map(|side| own[side].max(needed[side]));
-        if let Some(size) = &mut placed.ring {
-            *size = placed.sight.size(placed.sight.unit);
-        }
+        placed.make_room(needed);
     }
     fits
 }

@@ -50,7 +50,7 @@ pub(super) fn draw(
     }
     // The outermost ring counts: that is the room that the view needs.
     // Where it does not go otherwise, leaders cross those of diameters, and then heads of arrows.
-    let ways = [(Clear::OfLeaders, STEPS / 3), (Clear::OfSolids, STEPS / 3), (Clear::OfTexts, STEPS)];
+    let ways = [(Clear::Leaders, STEPS / 3), (Clear::Solids, STEPS / 3), (Clear::Texts, STEPS)];
     let rings = ways.into_iter().flat_map(|(clear, steps)| {
         (0..steps).flat_map(move |step| {
             let away = FARTHER * f64::from(step);
@@ -126,7 +126,7 @@ fn places(rect: Rect, (rings, farther): (u32, f64), board: &Board) -> Vec<Point>
     let mut kept: Vec<Point> = Vec::new();
     for p in all {
         let near = 2.0 * RADIUS + CLEAR;
-        let is_free = board.taken.is_free(&Shape::disc(p, RADIUS + CLEAR), Clear::OfAll);
+        let is_free = board.taken.is_free(&Shape::disc(p, RADIUS + CLEAR), Clear::All);
         if is_free && kept.iter().all(|other| Vec2::hypot2(*other - p) >= near * near) {
             kept.push(p);
         }

@@ -77,7 +77,7 @@ impl Board {
     /// Whether there is clear paper for a word at a place.
     pub fn is_free(&self, word: &Word, place: Affine) -> bool {
         let shape = word.shape(place).wider(TEXT_CLEAR);
-        self.taken.is_free(&shape, Clear::OfAll) && self.kept.is_free(&shape, Clear::OfAll)
+        self.taken.is_free(&shape, Clear::All) && self.kept.is_free(&shape, Clear::All)
     }
 
     /// Writes a word at a place.

@@ -75,7 +75,7 @@ impl CutMark {
     /// Where it passes a side of the view on which an end is open: the place across the page, or down it.
     pub fn open_at(&self, across: bool, outward: Vec2) -> Option<f64> {
         let passes = self.open.iter().any(|(sign, _)| (self.along * *sign).dot(outward) > 0.7);
-        passes.then(|| if across { self.on.x } else { self.on.y })
+        passes.then_some(if across { self.on.x } else { self.on.y })
     }
 
     /// Takes the paper of the line within the view.
@@ -106,9 +106,9 @@ impl CutMark {
         let word = board.word(&self.label, LETTERS)?;
         for (sign, border) in std::mem::take(&mut self.open) {
             // Where nothing else is left a line may pass the head of an arrow.
-            let ways = [Clear::OfAll, Clear::OfSolids, Clear::OfTexts];
+            let ways = [Clear::All, Clear::Solids, Clear::Texts];
             let found =
-                ways.into_iter().filter(|clear| kept.is_none() || *clear == Clear::OfAll).find_map(|clear| {
+                ways.into_iter().filter(|clear| kept.is_none() || *clear == Clear::All).find_map(|clear| {
                     (0..tries).find_map(|k| {
                         let end = border + sign * (REACH + FARTHER * f64::from(k));
                         let letter = self.letter((sign, border, end), &word, (clear, kept), board)?;
@@ -138,7 +138,7 @@ impl CutMark {
         let thick = Shape::line(self.at(end), self.at(end - sign * THICK), 2.0 * WIDE).wider(TEXT_CLEAR);
         let shaft = Shape::line(tip + self.back * TAIL, tip + self.back * 3.0, NARROW).wider(TEXT_CLEAR);
         let head = Board::head(tip, -self.back, HEAD).wider(TEXT_CLEAR);
-        let solids = if clear == Clear::OfTexts { Clear::OfTexts } else { Clear::OfSolids };
+        let solids = if clear == Clear::Texts { Clear::Texts } else { Clear::Solids };
         let is_free = board.taken.is_free(&thick, solids)
             && board.taken.is_free(&head, clear)
             && board.taken.is_free(&shaft, clear)
@@ -186,6 +186,8 @@ impl CutMark {
         board.taken.take(Shape::line(self.at(border), a, NARROW), Kind::Line);
         board.line(tip + self.back * TAIL, tip + self.back * 3.0, NARROW, Kind::Line);
         board.arrow(tip, -self.back, HEAD);
+        // Nothing passes between the arrow and its letter.
+        board.taken.take(Shape::line(tip + self.back * 3.0, letter, NARROW), Kind::Arrow);
         board.write(word, word.centred(letter));
     }
 }

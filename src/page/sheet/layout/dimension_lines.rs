@@ -127,8 +127,8 @@ impl DimensionLine {
         let heads = self.heads().map(|(tip, towards)| Board::head(tip, towards, ARROW).wider(LINE_CLEAR));
         board.is_line_free(self.at(ends[0]), self.at(ends[1]), clear)
             // Lines that lead to rows farther out pass the arrows of others that begin at the same point.
-            && self.leading().all(|[a, b]| board.is_line_free(a, b, Clear::OfTexts))
-            && heads.iter().all(|head| board.taken.is_free(head, Clear::OfTexts))
+            && self.leading().all(|[a, b]| board.is_line_free(a, b, Clear::Texts))
+            && heads.iter().all(|head| board.taken.is_free(head, Clear::Texts))
     }
 
     fn draw(&self, word: &Word, (spot, is_above): (f64, bool), board: &mut Board) {
@@ -179,7 +179,7 @@ pub(super) fn rows(rect: Rect, told: &[&Told], kept: &[f64], board: &mut Board) 
                 is_outer
                     && !passing.iter().any(|x| text[0] <= *x && *x <= text[1])
                     && board.is_free(&word, place)
-                    && line.is_free(ends, Clear::OfSolids, board)
+                    && line.is_free(ends, Clear::Solids, board)
             })?;
             Some((row, line, spot))
         });
@@ -211,7 +211,7 @@ fn in_row(told: &Told, rect: Rect, row: u32) -> DimensionLine {
 /// The paper where lines that lead to lengths in no row may pass.
 pub(super) fn passing<'a>(rect: Rect, told: impl Iterator<Item = &'a Slanted>) -> Occupancy {
     let mut kept = Occupancy::default();
-    let far = rect.width().hypot(rect.height()) + PASSED;
+    let far = rect.size().to_vec2().hypot2().sqrt() + PASSED;
     for told in told {
         let out = outward(told.along);
         for p in told.ends {
@@ -239,13 +239,13 @@ pub(super) fn slanted(rect: Rect, told: &Slanted, board: &mut Board) -> Result<(
     };
     let offsets: Vec<f64> = told.offset.map_or_else(
         || {
-            let most = (rect.width().hypot(rect.height()) / FARTHER).ceil().min(200.0) as u32 + 10;
+            let most = (rect.size().to_vec2().hypot2().sqrt() / FARTHER).ceil().min(200.0) as u32 + 10;
             let farther = (0..most).map(|k| BESIDE + FARTHER * f64::from(k));
             farther.flat_map(|offset| [offset, -offset]).collect()
         },
         |offset| vec![offset],
     );
-    for clear in [Clear::OfSolids, Clear::OfTexts] {
+    for clear in [Clear::Solids, Clear::Texts] {
         for offset in &offsets {
             let line = line(*offset);
             for spot in line.spots(wide) {

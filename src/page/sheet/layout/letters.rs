@@ -33,7 +33,7 @@ pub(super) fn circle(centre: Point, radius: f64, board: &mut Board) {
 /// Writes the letter of a detail, with a line to its circle.
 pub(super) fn of_detail(label: &str, centre: Point, radius: f64, board: &mut Board) -> Result<(), Error> {
     let word = board.word(label, LETTERS)?;
-    for clear in [Clear::OfLeaders, Clear::OfTexts] {
+    for clear in [Clear::Leaders, Clear::Texts] {
         for step in 0..STEPS {
             for k in 0..WAYS {
                 let aside = if k % 2 == 0 { -f64::from(k / 2) } else { f64::from(k.div_ceil(2)) };

@@ -33,13 +33,13 @@ pub(in crate::page::sheet) enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::page::sheet) enum Clear {
     /// Everything: texts, arrows, balloons.
-    OfAll,
+    All,
     /// Texts, balloons and arrows: lines.
-    OfSolids,
+    Solids,
     /// Texts and balloons: lines that have no other place.
-    OfTexts,
+    Texts,
     /// Texts, balloons, arrows and leaders: leaders.
-    OfLeaders,
+    Leaders,
 }
 
 /// A convex shape on the page and a margin around it, mm.
@@ -179,13 +179,13 @@ impl Occupancy {
     /// Whether a shape may lie where it does.
     pub fn is_free(&self, shape: &Shape, clear: Clear) -> bool {
         let matters = |kind: Kind| match clear {
-            Clear::OfAll => true,
-            Clear::OfSolids => matches!(kind, Kind::Solid | Kind::Arrow),
-            Clear::OfTexts => kind == Kind::Solid,
-            Clear::OfLeaders => matches!(kind, Kind::Solid | Kind::Arrow | Kind::Leader),
+            Clear::All => true,
+            Clear::Solids => matches!(kind, Kind::Solid | Kind::Arrow),
+            Clear::Texts => kind == Kind::Solid,
+            Clear::Leaders => matches!(kind, Kind::Solid | Kind::Arrow | Kind::Leader),
         };
         !pieces(*shape).any(|piece| {
-            self.written.any(&piece, matters) || clear == Clear::OfAll && self.geometry.any(&piece, matters)
+            self.written.any(&piece, matters) || clear == Clear::All && self.geometry.any(&piece, matters)
         })
     }
 }
@@ -236,8 +236,8 @@ mod tests {
             taken.take(shape, Kind::Line);
             assert_eq!(text.touches(&shape), touches, "{shape:?}");
             assert_eq!(shape.touches(&text), touches, "{shape:?}");
-            assert_eq!(!taken.is_free(&text, Clear::OfAll), touches, "{shape:?}");
-            assert!(taken.is_free(&text, Clear::OfSolids));
+            assert_eq!(!taken.is_free(&text, Clear::All), touches, "{shape:?}");
+            assert!(taken.is_free(&text, Clear::Solids));
         }
     }
 
@@ -247,8 +247,8 @@ mod tests {
         taken.take(Shape::line(Point::new(-500.0, -250.0), Point::new(500.0, 250.0), 0.5), Kind::Leader);
         for k in -49..50 {
             let at = Point::new(10.0 * f64::from(k), 5.0 * f64::from(k));
-            assert!(!taken.is_free(&Shape::disc(at, 0.1), Clear::OfLeaders), "{k}");
-            assert!(taken.is_free(&Shape::disc(at + Vec2::new(0.0, 2.0), 1.0), Clear::OfLeaders), "{k}");
+            assert!(!taken.is_free(&Shape::disc(at, 0.1), Clear::Leaders), "{k}");
+            assert!(taken.is_free(&Shape::disc(at + Vec2::new(0.0, 2.0), 1.0), Clear::Leaders), "{k}");
         }
     }
 }

@@ -52,10 +52,10 @@ pub(super) fn draw(rect: Rect, led: &Led, board: &mut Board) -> Result<(), Error
         (both.width() <= 0.0 || both.height() <= 0.0)
             && board.is_free(&word, word.centred(leader.middle))
             && board.is_line_free(leader.tip, leader.knee, clear)
-            && board.is_line_free(leader.knee, leader.shelf, Clear::OfSolids)
-            && board.taken.is_free(&Board::head(leader.tip, leader.tip - leader.knee, ARROW), Clear::OfTexts)
+            && board.is_line_free(leader.knee, leader.shelf, Clear::Solids)
+            && board.taken.is_free(&Board::head(leader.tip, leader.tip - leader.knee, ARROW), Clear::Texts)
     };
-    let found = [Clear::OfLeaders, Clear::OfSolids, Clear::OfTexts]
+    let found = [Clear::Leaders, Clear::Solids, Clear::Texts]
         .into_iter()
         .find_map(|clear| leaders.iter().find(|leader| is_free(leader, clear)));
     let Some(Leader { tip, knee, shelf, middle, .. }) = found else {
