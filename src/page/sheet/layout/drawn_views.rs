@@ -26,7 +26,7 @@ struct DrawnView {
 }
 
 /// The drawings of the views.
-pub(in super::super) struct DrawnViews<'a> {
+pub(crate) struct DrawnViews<'a> {
     prepared: Vec<Option<Prepared<'a>>>,
     views: Vec<Option<DrawnView>>,
 }
