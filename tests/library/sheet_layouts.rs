@@ -162,7 +162,7 @@ fn faults(composed: &Composed) -> Vec<String> {
         for text in texts.iter().filter(|text| text.item != "balloons") {
             let x = (text.rect.x0 - centre.x).max(centre.x - text.rect.x1).max(0.0);
             let y = (text.rect.y0 - centre.y).max(centre.y - text.rect.y1).max(0.0);
-            if x.hypot(y) < 4.0 {
+            if x * x + y * y < 16.0 {
                 faults.push(format!("a balloon lies on `{}`", text.words));
             }
         }

@@ -27,7 +27,7 @@ fn texts(composed: &Composed, name: &str) -> Vec<(String, Rect, f64)> {
     let own = marks(item(composed, name)).filter_map(|(place, mark)| {
         let text = mark.provenance.text.as_ref()?;
         let [a, b, ..] = (place * text.place).as_coeffs();
-        let capitals = a.hypot(b) * text.font.cap_height;
+        let capitals = (a * a + b * b).sqrt() * text.font.cap_height;
         Some((text.words.to_string(), (place * mark.path.clone()).bounding_box(), capitals))
     });
     own.collect()

@@ -173,17 +173,8 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
         Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
     let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
     let composition = Composition::new(name, page, parts);
-    warnings.extend(unreadable(&composition));
+    warnings.extend(notes::unreadable(&composition));
     Ok(Composed { composition, warnings })
-}
-
-/// A warning about texts that have a character which could not be read, if there are any.
-fn unreadable(composition: &Composition) -> Option<String> {
-    let marks = composition.items.iter().flat_map(|item| &item.drawing.layers).flat_map(|layer| &layer.marks);
-    let texts = marks.filter_map(|mark| Some(&mark.provenance.text.as_ref()?.words));
-    let first = texts.into_iter().find(|words| words.contains(char::REPLACEMENT_CHARACTER))?;
-    let what = "the text has a character that could not be read (U+FFFD); it is drawn as a box";
-    Some(format!("`{first}`: {what}"))
 }
 
 /// The items of the parts list, and warnings about parts that are in none.

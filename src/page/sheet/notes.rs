@@ -8,6 +8,7 @@ use super::keys::SheetPage;
 use super::plan::{CutLine, Plan};
 use super::scales;
 use super::sight::Sight;
+use crate::drawing::Composition;
 use crate::error::Error;
 use crate::page::source::Source;
 use crate::text::Font;
@@ -79,4 +80,13 @@ pub(super) fn written(
     }
     ink.marks = ink.marks.into_iter().map(|mark| mark.moved(place.origin().to_vec2())).collect();
     Ok((ink, Some(place)))
+}
+
+/// A warning about texts that have a character which could not be read, if there are any.
+pub(super) fn unreadable(composition: &Composition) -> Option<String> {
+    let marks = composition.items.iter().flat_map(|item| &item.drawing.layers).flat_map(|layer| &layer.marks);
+    let texts = marks.filter_map(|mark| Some(&mark.provenance.text.as_ref()?.words));
+    let first = texts.into_iter().find(|words| words.contains(char::REPLACEMENT_CHARACTER))?;
+    let what = "the text has a character that could not be read (U+FFFD); it is drawn as a box";
+    Some(format!("`{first}`: {what}"))
 }

@@ -98,7 +98,7 @@ pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
                 let on = |p: &&glam::DVec3| {
                     p.z == z && (p.x == cx || (p.x - cx).abs() < 1e-9 || (p.y - cy).abs() < 1e-9)
                 };
-                let near = |p: &glam::DVec3| (p.x - cx).hypot(p.y - cy);
+                let near = |p: &glam::DVec3| (p.x - cx).powi(2) + (p.y - cy).powi(2);
                 let own = &plate.positions[first as usize..];
                 let side = |along_x: bool| {
                     own.iter()

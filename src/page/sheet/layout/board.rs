@@ -16,7 +16,7 @@ pub(super) const LINE_CLEAR: f64 = 0.4;
 const FLAT: f64 = 0.05;
 
 /// A word that is set, its baseline beginning at zero.
-pub(in crate::page::sheet) struct Word {
+pub(crate) struct Word {
     marks: Vec<Mark>,
     /// The box around its letters.
     pub bounds: Rect,
@@ -38,7 +38,7 @@ impl Word {
 }
 
 /// What is written on a view, and the paper that is taken there.
-pub(in crate::page::sheet) struct Board {
+pub(crate) struct Board {
     pub ink: Ink,
     pub balloons: Ink,
     pub taken: Occupancy,

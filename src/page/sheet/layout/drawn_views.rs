@@ -26,7 +26,7 @@ struct DrawnView {
 }
 
 /// The drawings of the views.
-pub(in crate::page::sheet) struct DrawnViews<'a> {
+pub(crate) struct DrawnViews<'a> {
     prepared: Vec<Option<Prepared<'a>>>,
     views: Vec<Option<DrawnView>>,
 }

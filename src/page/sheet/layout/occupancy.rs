@@ -16,7 +16,7 @@ const CELL: f64 = 5.0;
 
 /// What takes paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::page::sheet) enum Kind {
+pub(crate) enum Kind {
     /// Lines and areas of a view: edges, hatching, centre lines.
     Geometry,
     /// Lines that are written on a view: of dimensions, of cutting planes, around details.
@@ -31,7 +31,7 @@ pub(in crate::page::sheet) enum Kind {
 
 /// What a shape must keep clear of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::page::sheet) enum Clear {
+pub(crate) enum Clear {
     /// Everything: texts, arrows, balloons.
     All,
     /// Texts, balloons and arrows: lines.
@@ -44,7 +44,7 @@ pub(in crate::page::sheet) enum Clear {
 
 /// A convex shape on the page and a margin around it, mm.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::page::sheet) struct Shape {
+pub(crate) struct Shape {
     corners: [Point; 4],
     count: usize,
     margin: f64,
@@ -160,7 +160,7 @@ impl Cells {
 
 /// The paper that is taken.
 #[derive(Debug, Clone, Default)]
-pub(in crate::page::sheet) struct Occupancy {
+pub(crate) struct Occupancy {
     /// The lines of the view, which are many.
     geometry: Cells,
     /// What is written on it.
