@@ -38,8 +38,6 @@ pub(super) struct Placed {
     /// Room that it needs for what is written on it, more than its margin, on the left, above, on the right and below, mm: at the lengths
     /// on paper of a unit at which that is known.
     pub rooms: Vec<(f64, [f64; 4])>,
-    /// Whether it has balloons around it whose rings stay as large where a pictorial view becomes smaller.
-    pub keeps_ring: bool,
     /// The place that it has with all that, on the page.
     place: Rect,
 }
@@ -47,7 +45,7 @@ pub(super) struct Placed {
 impl Placed {
     /// A view that needs no room but its own.
     pub fn new(sight: Sight, stands: Stands) -> Self {
-        Self { sight, stands, rooms: Vec::new(), keeps_ring: false, place: Rect::ZERO }
+        Self { sight, stands, rooms: Vec::new(), place: Rect::ZERO }
     }
 }
 
@@ -59,13 +57,8 @@ impl Placed {
         if let Some((_, around)) = known {
             return *around;
         }
-        let Some((known, around)) = self.rooms.last().filter(|_| self.stands.largest(unit).is_some()) else {
-            return [0.0; 4];
-        };
-        let ([w, h], [wide, high]) = (self.sight.size(unit), self.sight.size(*known));
-        let grown = |more: f64| if self.keeps_ring { more.max(0.0) / 2.0 } else { 0.0 };
-        let ([left, above, right, below], x, y) = (*around, grown(wide - w), grown(high - h));
-        [left + x, above + y, right + x, below + y]
+        let last = self.rooms.last().filter(|_| self.stands.largest(unit).is_some());
+        last.map_or([0.0; 4], |(_, around)| *around)
     }
 
     /// Notes that at its present scale it needs that much room.

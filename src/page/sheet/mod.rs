@@ -267,21 +267,11 @@ impl<'a> Laying<'a> {
         for _ in 0..ROUNDS {
             let unit_mm = plan.unit_mm();
             let arranged = arrange(&mut plan.views, place, (self.sheet.projection, unit_mm, told));
-            let Some(scale) = arranged else {
-                // Smaller views with rings that take less paper.
-                if plan.views.iter().any(|placed| placed.keeps_ring) {
-                    plan.views.iter_mut().for_each(|placed| placed.keeps_ring = false);
-                    continue;
-                }
-                return Err(self.refused(plan, source));
-            };
+            let Some(scale) = arranged else { return Err(self.refused(plan, source)) };
             if anchors.is_none() {
                 drawn.update(plan)?;
                 if let Some(rounds) = &mut self.rounds {
                     *rounds = rounds::rounds(plan);
-                }
-                if let Some(view) = plan.balloons {
-                    plan.views[view].keeps_ring = true;
                 }
                 let found = plan.balloons.map(|view| {
                     let sight = &plan.views[view].sight;
