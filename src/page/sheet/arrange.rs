@@ -12,15 +12,14 @@ use super::sight::Sight;
 use crate::math::function::ln;
 use crate::scene::NamedView;
 
-/// Room between views in a row, and around those that stand alone, mm.
-const BETWEEN: f64 = 22.0;
-const AROUND: f64 = 7.0;
+/// Least room around a view, mm.
+pub(super) const AROUND: f64 = 7.0;
+
+/// How far views start from the border of the room where centring marks are in their way, mm.
+const PAST_MARKS: f64 = 9.0;
 
 /// From what is written on a view to the border of its place, mm.
 pub(super) const ELEMENTS_CLEAR: f64 = 3.0;
-
-/// Room at the border of the sheet for the lengths of the first views, mm.
-const BESIDE: f64 = 9.0;
 
 /// Views without a scale are up to so many times as large as the others, and are made smaller by this factor until they fit.
 const LARGEST: f64 = 4.0;
@@ -100,13 +99,6 @@ pub(super) enum Stands {
     Enlarged(f64),
     /// Anywhere, at that scale.
     At(f64),
-}
-
-impl Stands {
-    /// Room around the view on all sides, mm.
-    pub fn margin(self) -> f64 {
-        if matches!(self, Self::Beside(_)) { BETWEEN / 2.0 } else { AROUND }
-    }
 }
 
 impl Stands {
@@ -243,38 +235,41 @@ fn try_scale(
         };
         let mut middles = [Vec::new(), Vec::new()];
         for (line, middles) in middles.iter_mut().enumerate() {
-            let mut at = BETWEEN / 2.0 + BESIDE;
+            let mut at = AROUND;
             for k in -2..=3 {
                 if let Some([before, after]) = reach(line, k) {
                     middles.push((k, at + before));
-                    at += before + after + BETWEEN;
+                    at += before + after + 2.0 * AROUND;
                 }
             }
         }
-        let place = space;
-        let mut taken = Vec::new();
-        for (k, field) in &beside {
+        // The place of a view with all that is written on it, and the corner of the view.
+        let place = |placed: &Placed, field: [i32; 2], start: [f64; 2]| {
             let middle = |line: usize| {
-                middles[line].iter().find(|(at, _)| *at == field[line]).map_or(0.0, |(_, middle)| *middle)
+                let found = middles[line].iter().find(|(at, _)| *at == field[line]);
+                start[line] + found.map_or(0.0, |(_, middle)| *middle)
             };
-            let sight = &mut views[*k].sight;
-            sight.unit = unit;
-            sight.corner = Point::new(
-                place.x0 + middle(0) + sight.low.x * unit,
-                place.y0 + middle(1) - sight.high.y * unit,
+            let sight = &placed.sight;
+            let corner = Point::new(
+                space.x0 + middle(0) + sight.low.x * unit,
+                space.y0 + middle(1) - sight.high.y * unit,
             );
-            let own = sight.rect().inflate(BETWEEN / 2.0, BETWEEN / 2.0);
-            let [left, above, right, below] = views[*k].around_at(unit);
-            let place =
-                Rect { x0: own.x0 - left, y0: own.y0 - above, x1: own.x1 + right, y1: own.y1 + below };
-            views[*k].place = place;
-            taken.push(place);
+            let [w, h] = sight.size(unit);
+            let [left, above, right, below] = placed.around_at(unit).map(|room| AROUND + room);
+            let (x1, y1) = (corner.x + w + right, corner.y + h + below);
+            (Rect { x0: corner.x - left, y0: corner.y - above, x1, y1 }, corner)
+        };
+        // They stand in the upper left corner, within the centring marks or past them; what lies in the angle between them is free.
+        let starts = [[0.0, 0.0], [0.0, PAST_MARKS], [PAST_MARKS, 0.0], [PAST_MARKS, PAST_MARKS]];
+        let fits =
+            |start: &[f64; 2]| beside.iter().all(|(k, field)| room.has(place(&views[*k], *field, *start).0));
+        let start = starts.into_iter().find(fits)?;
+        for (k, field) in &beside {
+            let (place, corner) = place(&views[*k], *field, start);
+            let placed = &mut views[*k];
+            (placed.place, placed.sight.unit, placed.sight.corner) = (place, unit, corner);
+            room.take(place);
         }
-        // They stand in the upper left corner; what lies in the angle between them is free.
-        if !taken.iter().all(|rect| room.has(*rect)) {
-            return None;
-        }
-        taken.into_iter().for_each(|rect| room.take(rect));
     }
     for k in order {
         let placed = &mut views[*k];
@@ -287,18 +282,17 @@ fn try_scale(
             Stands::Pictorial => (0..FREE_STEPS).map(|k| scale * FREE_STEP.powi(k)).collect(),
             Stands::Free => (0..FREE_STEPS).map(|k| scale * LARGEST * FREE_STEP.powi(k)).collect(),
         };
-        let margin = placed.stands.margin();
         let found = scales.into_iter().find_map(|scale| {
             let [w, h] = placed.sight.size(scale * unit_mm);
             let [left, above, right, below] = placed.around_at(scale * unit_mm);
-            room.put(w + 2.0 * margin + left + right, h + 2.0 * margin + above + below)
+            room.put(w + 2.0 * AROUND + left + right, h + 2.0 * AROUND + above + below)
                 .map(|place| (scale, place))
         });
         let (scale, place) = found?;
         let [left, above, ..] = placed.around_at(scale * unit_mm);
         placed.place = place;
         placed.sight.unit = scale * unit_mm;
-        placed.sight.corner = Point::new(place.x0 + margin + left, place.y0 + margin + above);
+        placed.sight.corner = Point::new(place.x0 + AROUND + left, place.y0 + AROUND + above);
     }
     Some(())
 }

@@ -371,7 +371,7 @@ fn fill_ring(
 fn make_room(views: &mut [arrange::Placed], boards: &[Board]) -> bool {
     let mut fits = true;
     for (placed, board) in views.iter_mut().zip(boards) {
-        let needed = Layout::room(board, placed.sight.rect(), placed.stands);
+        let needed = Layout::room(board, placed.sight.rect());
         let own = placed.around_at(placed.sight.unit);
         if needed.iter().zip(own).all(|(needed, own)| *needed <= own + 1e-9) {
             continue;

@@ -2,6 +2,14 @@
 
 use kurbo::{Point, Rect};
 
+/// Rounding of places on a sheet, mm.
+const SLACK: f64 = 1e-6;
+
+/// Whether a rectangle lies in another one.
+fn holds(outer: Rect, rect: Rect) -> bool {
+    outer.inflate(SLACK, SLACK).contains_rect(rect)
+}
+
 /// The free places of a sheet: the largest rectangles that nothing is in.
 #[derive(Debug, Clone)]
 pub(super) struct Room {
@@ -27,19 +35,13 @@ impl Room {
 
     /// Whether nothing is in a rectangle.
     pub fn has(&self, rect: Rect) -> bool {
-        self.free
-            .iter()
-            .any(|own| own.x0 <= rect.x0 && own.y0 <= rect.y0 && own.x1 >= rect.x1 && own.y1 >= rect.y1)
+        self.free.iter().any(|own| holds(*own, rect))
     }
 
     /// The largest free place that a rectangle lies in.
     pub fn around(&self, rect: Rect) -> Option<Rect> {
-        const SLACK: f64 = 1e-6;
-        let holds = |own: &&Rect| {
-            let own = own.inflate(SLACK, SLACK);
-            own.x0 <= rect.x0 && own.y0 <= rect.y0 && own.x1 >= rect.x1 && own.y1 >= rect.y1
-        };
-        self.free.iter().filter(holds).copied().max_by(|a, b| a.area().total_cmp(&b.area()))
+        let places = self.free.iter().filter(|own| holds(**own, rect)).copied();
+        places.max_by(|a, b| a.area().total_cmp(&b.area()))
     }
 
     /// Takes a rectangle away.

@@ -25,7 +25,7 @@ use kurbo::{Point, Rect, Vec2};
 pub(super) use board::Board;
 pub(super) use drawn_views::DrawnViews;
 
-use super::arrange::{ELEMENTS_CLEAR, Stands};
+use super::arrange::{AROUND, ELEMENTS_CLEAR};
 use super::centre;
 use super::list::Item;
 use super::measures::{Measures, Slanted};
@@ -148,9 +148,9 @@ impl Layout<'_> {
     }
 
     /// The room that a view needs for what is written on it, more than it has anyway, mm: on the left, above, on the right, below.
-    pub fn room(board: &Board, rect: Rect, stands: Stands) -> [f64; 4] {
+    pub fn room(board: &Board, rect: Rect) -> [f64; 4] {
         let Some(extents) = board.extents() else { return [0.0; 4] };
-        let own = stands.margin() - ELEMENTS_CLEAR;
+        let own = AROUND - ELEMENTS_CLEAR;
         let past = [rect.x0 - extents.x0, rect.y0 - extents.y0, extents.x1 - rect.x1, extents.y1 - rect.y1];
         past.map(|past| (past - own).max(0.0))
     }
