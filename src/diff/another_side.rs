@@ -17,9 +17,9 @@ use super::label::Label;
 use super::motion::points;
 use super::picture::{Picture, Shape, ShapeKind};
 
-/// Marks without an equal from which on comparing them one by one takes longer than about half a second.
+/// Fewest marks without an equal. Fewer are compared one by one in about half a second.
 const LEAST_MARKS: usize = 1000;
-/// Of so many marks one has an equal at most: what lies on the axis of the turn.
+/// At most one of this number of marks has an equal: lines on the axis of the turn do.
 const MARKS_PER_EQUAL: usize = 20;
 /// Parts that go the same way, by this part of it and this many px.
 const SAME_WAY: f64 = 0.02;

@@ -45,7 +45,7 @@ impl Composition {
 }
 
 impl Drawing {
-    /// Leaves what lies inside a border without hollows: lines and areas end there. Dashes become lines where theirs is cut.
+    /// Leaves the inside of a border without hollows: lines and areas end there. Dashes become lines where theirs is cut.
     #[cfg(feature = "page")]
     pub(crate) fn cut(&mut self, border: &BezPath, tolerance: f64) {
         let region = Region::new(border, tolerance);

@@ -59,7 +59,7 @@ impl DxfOptions {
     }
 }
 
-/// How far lines and arcs may be from the curves that they stand for, mm: what the curves themselves leave of 0.02 mm ([`Style::to_scale`]).
+/// Largest distance of lines and arcs from their curves, mm. The curves themselves take the rest of 0.02 mm ([`Style::to_scale`]).
 ///
 /// [`Style::to_scale`]: crate::Style::to_scale
 const TOLERANCE_MM: f64 = 0.008;

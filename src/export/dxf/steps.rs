@@ -15,14 +15,14 @@ const SAME: f64 = 1e-7;
 /// A cubic stands for an arc of no more than this, radians.
 const MAX_TURN: f64 = 1.6;
 
-/// Arcs turn by less than this: beyond, their ends come so near each other that their middle is uncertain.
+/// Arcs turn by less than this. The ends of longer ones come so near each other that their middle is uncertain.
 const LARGEST_TURN: f64 = 6.0;
 
 /// A straight line or an arc to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Step {
     pub end: Point,
-    /// The centre of an arc, and the angle by which it turns.
+    /// The centre of an arc, and its turn.
     pub arc: Option<(Point, f64)>,
 }
 

@@ -1,6 +1,6 @@
 //! [`GifFilm`]: frames as an animated GIF.
 //!
-//! - Every frame holds only what changed since the one before, in a palette of its own.
+//! - Every frame holds only what changed since the one before, with its own palette.
 //! - GIF counts time in hundredths of a second, and browsers show a frame for two of them at least. A frame that would be shown for
 //!   less is left out: the film lasts as long as it should. Whether the last one has the time is known at the end, so frames are
 //!   written late.
@@ -26,7 +26,7 @@ const SHORTEST: u64 = 2;
 /// Most pixels a side.
 const LONGEST_SIDE: u32 = u16::MAX as u32;
 
-/// Alpha from which on a pixel is opaque.
+/// Least alpha of an opaque pixel.
 const OPAQUE: u8 = 128;
 
 /// Writes an animated GIF.
@@ -37,9 +37,9 @@ pub struct GifFilm<W: Write> {
     fps: f64,
     /// Ticks of all frames so far.
     ticks: u64,
-    /// Frames that are not written yet, each with the hundredth of a second at which it begins: two at most.
+    /// Frames that are not written yet, each with its beginning in hundredths of a second: two at most.
     waiting: VecDeque<(Pixels, u64)>,
-    /// What the player has on its canvas when the next frame is drawn.
+    /// The canvas of the player when the next frame is drawn.
     canvas: Option<Pixels>,
     left_out: u64,
 }
