@@ -106,20 +106,24 @@ impl Shape {
         let near = self.margin + other.margin;
         self.holds(other.corners[0])
             || other.holds(self.corners[0])
-            || self.sides().any(|a| other.sides().any(|b| squared_distance(a, b) < near * near))
+            || self
+                .sides()
+                .any(|a| other.sides().any(|b| is_crossed(a, b) || squared_distance(a, b) < near * near))
     }
 }
 
-/// The square of the distance between two segments.
+/// Whether two segments cross; points cross nothing.
+fn is_crossed(one: [Point; 2], other: [Point; 2]) -> bool {
+    one[0] != one[1] && other[0] != other[1] && cross(one, other)
+}
+
+/// The square of the distance between two segments that do not cross.
 fn squared_distance(one: [Point; 2], other: [Point; 2]) -> f64 {
     let from = |p: Point, [a, b]: [Point; 2]| {
         let way = b - a;
         let share = ((p - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         (a + way * share - p).hypot2()
     };
-    if one[0] != one[1] && other[0] != other[1] && cross(one, other) {
-        return 0.0;
-    }
     let ends = [from(one[0], other), from(one[1], other), from(other[0], one), from(other[1], one)];
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
