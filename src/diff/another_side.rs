@@ -28,8 +28,17 @@ const SAME_WAY_PX: f64 = 0.05;
 /// The lines of one part without an equal, in one picture.
 #[derive(Default)]
 struct PartLines<'a> {
-    place: Option<Rect>,
+    /// The sum of the points of all paths, and their number.
+    sum: Vec2,
+    count: usize,
     longest: Option<(&'a BezPath, f64)>,
+}
+
+impl PartLines<'_> {
+    /// The mean of all points. Unlike the middle of a box it goes where an affine map takes it.
+    fn middle(&self) -> Point {
+        (self.sum / self.count.max(1) as f64).to_point()
+    }
 }
 
 /// The sentence for two drawings seen from two sides, and a finding that stands for all marks; none for all others, and for small ones.
@@ -41,8 +50,7 @@ pub(super) fn find(pictures: [&Picture; 2], parted: &Parted, reach: f64) -> Opti
     let [before, after] = [0, 1].map(|side: usize| lines_of_parts(pictures[side], &parted.rest[side]));
     let both = before.iter().filter_map(|(part, old)| Some((old, after.get(part)?)));
     let both: Vec<(&PartLines, &PartLines)> = both.collect();
-    let middles: Vec<[Point; 2]> =
-        both.iter().filter_map(|(old, new)| Some([old.place?.center(), new.place?.center()])).collect();
+    let middles: Vec<[Point; 2]> = both.iter().map(|(old, new)| [old.middle(), new.middle()]).collect();
     let map = affine(&middles)?;
     let mut ways: Vec<Vec2> = Vec::new();
     for ((old, new), [from, to]) in both.iter().zip(&middles) {
@@ -70,7 +78,9 @@ fn lines_of_parts<'a>(picture: &'a Picture, rest: &[usize]) -> BTreeMap<&'a str,
         let Some(part) = label.part.as_deref() else { continue };
         let own = parts.entry(part).or_default();
         let place = path.bounding_box();
-        own.place = Some(own.place.map_or(place, |known| known.union(place)));
+        let points = points(path);
+        own.sum += points.iter().map(|p| p.to_vec2()).fold(Vec2::ZERO, |sum, p| sum + p);
+        own.count += points.len();
         let length = place.width() + place.height();
         if own.longest.is_none_or(|(_, known)| length > known) {
             own.longest = Some((path, length));
@@ -153,8 +163,11 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_move_and_drawings_that_grow_are_compared_mark_by_mark() {
+    fn parts_that_move_and_drawings_that_grow_or_turn_are_compared_mark_by_mark() {
         assert_eq!(sentence(&picture(20.0, 0.1, 1.0)), None);
         assert_eq!(sentence(&picture(20.0, 0.0, 1.1)), None);
+        let old = picture(20.0, 0.0, 1.0);
+        let turned = old.svg.replacen("<g ", r#"<g transform="rotate(2 500 400)" "#, 1);
+        assert_eq!(sentence(&Picture::from_svg(&turned).unwrap()), None);
     }
 }
