@@ -1,4 +1,4 @@
-//! Lengths and distances in the plane.
+//! Lengths, distances and circles in the plane.
 
 use kurbo::{Point, Vec2};
 
@@ -15,4 +15,23 @@ pub fn distance2(p: Point, a: Point, b: Point) -> f64 {
     let length2 = way.hypot2();
     let t = if length2 > 0.0 { ((p - a).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
     (p - (a + way * t)).hypot2()
+}
+
+/// The centre of the circle that points are nearest to, by least squares of the squares of distances.
+///
+/// Source: Kåsa, A circle fitting procedure and its error analysis, 1976.
+#[must_use]
+pub fn nearest_centre(points: &[Point]) -> Option<Point> {
+    let mean = points.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / points.len() as f64;
+    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, Vec2::ZERO);
+    for p in points {
+        let away = p.to_vec2() - mean;
+        xx += away.x * away.x;
+        xy += away.x * away.y;
+        yy += away.y * away.y;
+        right += away * away.hypot2() / 2.0;
+    }
+    let determinant = xx * yy - xy * xy;
+    let to = Vec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
+    (determinant > 0.0 && to.is_finite()).then(|| (mean + to).to_point())
 }

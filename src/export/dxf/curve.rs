@@ -8,6 +8,7 @@ use kurbo::{Affine, BezPath, Point, Vec2};
 
 use super::steps::Steps;
 use crate::math::function::{atan2, tan};
+use crate::math::plane::nearest_centre;
 
 /// A part of a path that is drawn without lifting the pen.
 #[derive(Debug, Clone, PartialEq)]
@@ -185,7 +186,7 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     if count < LEAST_OF_CIRCLE {
         return None;
     }
-    let centre = middle_of(points)?;
+    let centre = nearest_centre(points)?;
     let mean = points.iter().map(|point| (*point - centre).hypot()).sum::<f64>() / count as f64;
     let mut round: Vec<Point> = points.to_vec();
     round.push(points[0]);
@@ -193,25 +194,6 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     let turn =
         turn_about(&round, centre, mean, within).or_else(|| turn_of_facets(&round, centre, mean, within))?;
     ((turn.abs() - std::f64::consts::TAU).abs() < 1e-6).then_some((centre, mean))
-}
-
-/// The centre of the circle that points are nearest to, by least squares of the squares of distances.
-///
-/// Source: Kåsa, A circle fitting procedure and its error analysis, 1976.
-fn middle_of(points: &[Point]) -> Option<Point> {
-    let count = points.len() as f64;
-    let mean = points.iter().fold(Vec2::ZERO, |sum, point| sum + point.to_vec2()) / count;
-    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, Vec2::ZERO);
-    for point in points {
-        let away = point.to_vec2() - mean;
-        xx += away.x * away.x;
-        xy += away.x * away.y;
-        yy += away.y * away.y;
-        right += away * away.hypot2() / 2.0;
-    }
-    let determinant = xx * yy - xy * xy;
-    let to = Vec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
-    (determinant > 0.0 && to.is_finite()).then(|| (mean + to).to_point())
 }
 
 /// The angle by which points go round a centre, always the same way, at this distance from it, their chords too.

@@ -79,7 +79,7 @@ impl<W: Write> GifFilm<W> {
         self.left_out + u64::from(self.is_last_too_short())
     }
 
-    /// Ends the film and gives back what it was written to.
+    /// Ends the film and returns its writer.
     ///
     /// # Errors
     /// If the end cannot be written, or if there is no frame.
@@ -94,7 +94,7 @@ impl<W: Write> GifFilm<W> {
         encoder.into_inner().map_err(cannot_write)
     }
 
-    /// The hundredth of a second at which the next frame begins.
+    /// The beginning of the next frame, in hundredths of a second.
     fn now(&self) -> u64 {
         (self.ticks as f64 / self.fps * PER_SECOND).round() as u64
     }

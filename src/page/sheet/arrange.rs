@@ -102,7 +102,7 @@ pub(super) enum Stands {
 }
 
 impl Stands {
-    /// The largest length on paper of a unit that it may have where nobody measures in it.
+    /// The largest length on paper of a unit that it may have in views that are not measured.
     pub fn largest(self, unit: f64) -> Option<f64> {
         match self {
             Self::Pictorial | Self::Free => Some(unit * LARGEST),

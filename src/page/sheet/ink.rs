@@ -129,7 +129,7 @@ impl Ink {
         Ok(block.height)
     }
 
-    /// Lines of a text that are no wider than so much: between words where that is enough, else between letters.
+    /// Lines of a text within a width: broken between words where that is enough, else between letters.
     ///
     /// # Errors
     /// If no font has one of its letters.

@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use kurbo::{BezPath, Point, Vec2};
 
 use crate::math::function::{atan2, cos, sin, tan};
-use crate::math::plane::length;
+use crate::math::plane::{length, nearest_centre};
 
 /// Fewest corners of a stretch, and of a circle.
 const MIN_CORNERS: usize = 5;
@@ -202,7 +202,7 @@ fn longest(points: &[Point], first: usize, near: Nearness) -> Option<Arc> {
 
 /// The circle that all points are on within `rounding`, each farther round than the one before, and the angle from the first to the last.
 fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
-    let centre = middle_of(points)?;
+    let centre = nearest_centre(points)?;
     let radius = points.iter().map(|p| length(*p - centre)).sum::<f64>() / points.len() as f64;
     if points.iter().any(|p| (length(*p - centre) - radius).abs() > rounding) {
         return None;
@@ -218,24 +218,6 @@ fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
         turn += step;
     }
     Some((centre, radius, turn))
-}
-
-/// The centre of the circle that points are nearest to, by least squares of the squares of distances.
-///
-/// Source: Kåsa, A circle fitting procedure and its error analysis, 1976.
-fn middle_of(points: &[Point]) -> Option<Point> {
-    let mean = points.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / points.len() as f64;
-    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, Vec2::ZERO);
-    for p in points {
-        let away = p.to_vec2() - mean;
-        xx += away.x * away.x;
-        xy += away.x * away.y;
-        yy += away.y * away.y;
-        right += away * away.hypot2() / 2.0;
-    }
-    let determinant = xx * yy - xy * xy;
-    let to = Vec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
-    (determinant > 0.0 && to.is_finite()).then(|| (mean + to).to_point())
 }
 
 /// The arc with its centre moved so that it goes through both end corners.

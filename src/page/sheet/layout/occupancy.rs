@@ -9,6 +9,7 @@
 use kurbo::{Point, Rect, Vec2};
 use rustc_hash::FxHashMap;
 
+use crate::math::plane::distance2;
 use crate::page::sheet::balloons::cross;
 
 /// Side of a cell of the grid, mm.
@@ -119,11 +120,7 @@ fn is_crossed(one: [Point; 2], other: [Point; 2]) -> bool {
 
 /// The square of the distance between two segments that do not cross.
 fn squared_distance(one: [Point; 2], other: [Point; 2]) -> f64 {
-    let from = |p: Point, [a, b]: [Point; 2]| {
-        let way = b - a;
-        let share = ((p - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        (a + way * share - p).hypot2()
-    };
+    let from = |p: Point, [a, b]: [Point; 2]| distance2(p, a, b);
     let ends = [from(one[0], other), from(one[1], other), from(other[0], one), from(other[1], one)];
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
