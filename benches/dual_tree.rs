@@ -173,7 +173,7 @@ fn tones() {
         let ball = round_solids::icosphere(level);
         let normals: Vec<[DVec3; 3]> =
             ball.triangles.iter().map(|t| t.map(|v| ball.positions[v as usize])).collect();
-        let tree = ToneTree::new(normals.par_iter().copied());
+        let tree = ToneTree::new(&normals);
         let parts = |normals: &[DVec3; 3], light: DVec3| {
             let bright = normals.map(|n| n.dot(light) >= 0.3);
             bright[0] != bright[1] || bright[1] != bright[2]

@@ -56,6 +56,7 @@ pub mod math;
 pub mod motion;
 #[cfg(feature = "page")]
 pub mod page;
+mod parallel;
 pub mod pose;
 pub mod render;
 pub mod scene;

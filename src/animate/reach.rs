@@ -1,7 +1,7 @@
 //! [`reach`]: the points that a camera must have in its frame to see all of a film.
 
+use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
-use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::math::function::{cos, sin};

@@ -6,8 +6,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, PathEl, Point};
-use rayon::prelude::*;
 use usvg::roxmltree::{Attribute, Document, Node};
 
 use super::inherited::{Afar, Leave, Look, painted_alike};

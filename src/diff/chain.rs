@@ -1,7 +1,7 @@
 //! [`Chain`]: shapes as polylines, joined where they were split.
 
+use crate::parallel::prelude::*;
 use kurbo::{PathEl, Point};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::groups::Groups;

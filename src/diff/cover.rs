@@ -3,8 +3,8 @@
 //! The points of a segment that are within r of another segment are those inside its capsule. That is convex, so they
 //! are one interval, whose ends are roots of quadratics: nothing is sampled.
 
+use crate::parallel::prelude::*;
 use kurbo::Point;
-use rayon::prelude::*;
 
 use super::bundles::Met;
 use super::chain::Chain;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::parallel::prelude::*;
 use kurbo::BezPath;
-use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::align::align;

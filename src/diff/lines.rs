@@ -1,7 +1,7 @@
 //! Findings about lines: what became of each.
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Rect, Shape as _};
-use rayon::prelude::*;
 
 use super::chain::Chain;
 use super::events::Event;

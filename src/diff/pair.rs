@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use crate::parallel::prelude::*;
 use kurbo::{Point, Rect};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::align::{Alignment, align};

@@ -5,9 +5,9 @@
 
 use std::collections::BTreeSet;
 
+use crate::parallel::prelude::*;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
-use rayon::prelude::*;
 
 use super::SvgOptions;
 use super::number::Decimals;

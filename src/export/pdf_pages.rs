@@ -16,9 +16,9 @@
 
 use std::collections::BTreeSet;
 
+use crate::parallel::prelude::*;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Filter, Finish, Name, Pdf, Ref, TextStr};
-use rayon::prelude::*;
 
 use super::pdf::DEFLATE_LEVEL;
 use super::pdf_content::Press;

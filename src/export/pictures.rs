@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use crate::parallel::prelude::*;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use kurbo::{Affine, Rect};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::number::Decimals;

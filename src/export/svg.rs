@@ -1,6 +1,6 @@
 //! A drawing as SVG: Inkscape layers or groups of parts, small and fast to write.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::attributes::{Attributes, WIDTH_DECIMALS, hex};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
-use rayon::prelude::*;
 
 use super::record::{NONE, Wedge};
 use super::weld::{Weld, joined};

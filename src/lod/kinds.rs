@@ -1,7 +1,7 @@
 //! [`Kind`]: which way a point may go, by the edges at it that must stay; and the planes it must stay near.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::fans::Fans;
 use super::flat::Flat;

@@ -1,6 +1,6 @@
 //! The order of collapses: at each moment the one that adds least error.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::collapse::{Collapser, others};
 use super::flat::Flat;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Values by the groups they belong to, in each in the order in which they came.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 //! Memory that nobody has touched is cleared by the system when it first is: of long lists that takes longer than to copy
 //! them, and one thread that does it keeps all others waiting.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Values that one task copies at least.
 const LEAST: usize = 1 << 12;

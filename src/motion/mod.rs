@@ -21,8 +21,8 @@ mod choose;
 pub mod options;
 mod starts;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::math::function::cos;
@@ -93,7 +93,7 @@ fn movers(
     }
     let longest = found.iter().flat_map(|(_, _, starts, _)| &starts.lines).map(|line| line.segments).max();
     let interval = step / POINTS_A_SEGMENT as f64;
-    let buffer: Vec<Moment> = (0..=longest.unwrap_or(0) * POINTS_A_SEGMENT)
+    let buffer: Vec<Moment> = (0..longest.unwrap_or(0) * POINTS_A_SEGMENT + 1)
         .into_par_iter()
         .map(|k| rigged.at(&earlier(playing, interval * k as f64)))
         .collect();

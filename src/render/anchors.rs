@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
+use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
-use rayon::prelude::*;
 
 use crate::chain::{Anchor, Chain, identity};
 use crate::math::function::{cbrt, tan};

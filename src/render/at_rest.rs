@@ -1,7 +1,7 @@
 //! [`AtRest`]: where the vertices of a posed mesh rest, so that what is laid through the model moves with it.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::anchors::Anchors;
 use crate::chain::Anchor;

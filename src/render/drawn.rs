@@ -113,7 +113,7 @@ impl Prepared<'_> {
             let chains = hidden::chains(&ahead, &map, (style, &widths), page.unit, of_view);
             (lines, chains, [joining, watch.lap_ms()])
         };
-        let (painted, (lines, mut chains, [joining, linking])) = rayon::join(paint, link);
+        let (painted, (lines, mut chains, [joining, linking])) = crate::parallel::join(paint, link);
         let Painted { layers: painted, blacks, warnings: more, regions, leaks, regions_ms, hatching_ms } =
             painted.unwrap_or_default();
         layers.extend(painted);

@@ -1,6 +1,6 @@
 //! [`MapFiles`]: the maps in which lines are found, as pictures to keep.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::error::Error;
 use crate::lines::image::{self, ImageOptions};

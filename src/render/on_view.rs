@@ -57,8 +57,8 @@ impl Prepared<'_> {
         };
         let search =
             || refined.as_ref().and_then(|finer| self.search.of_finer_view(&self.surface, finer, sought));
-        let look = || rayon::join(|| View::new(&surface.mesh, camera), paint);
-        let (finer, (view, own)) = rayon::join(search, look);
+        let look = || crate::parallel::join(|| View::new(&surface.mesh, camera), paint);
+        let (finer, (view, own)) = crate::parallel::join(search, look);
         let paintable = own.as_ref().or(self.paintable.as_ref());
         report.stages_ms.topology = watch.lap_ms();
 

@@ -66,7 +66,7 @@ fn widest(beside: &Beside) -> f64 {
 
 /// Tells visible chains, point by point, how far blacks reach on both sides of them.
 fn ask_blacks(chains: &mut [Chain], blacks: &Ground, rings: u32, px: f64) {
-    use rayon::prelude::*;
+    use crate::parallel::prelude::*;
     let is_black = |p| {
         let cell = blacks.cells.get(blacks.cell_at(p) as usize);
         cell.is_some_and(|cell| cell.facet != 0 && cell.look.bin == 0)

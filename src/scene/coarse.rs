@@ -4,8 +4,8 @@
 //! The step of a part is that of single precision at its largest coordinates. In text the numbers show it: either all of them are in
 //! single precision, or they have few decimals. Whole numbers in text are taken to be exact.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{Geometry, Scene};
 use crate::math::grain::GRAIN;

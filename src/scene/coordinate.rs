@@ -1,7 +1,7 @@
 //! Which coordinates can be drawn, and the box round points.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// Points handled at once by one thread.
 const CHUNK: usize = 1 << 14;

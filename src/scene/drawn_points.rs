@@ -8,8 +8,8 @@ use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::coordinate::{bounds, is_drawable};

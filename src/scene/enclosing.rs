@@ -1,7 +1,7 @@
 //! Whether a point lies inside a part, as a camera that one has put into the model by mistake does.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{Part, Scene};
 use crate::math::function::atan2;

@@ -1,8 +1,7 @@
 //! Flattening: all instances of a scene into one [`Soup`] in world space, and what can be known of it before.
 
+use crate::parallel::prelude::*;
 use glam::{DAffine3, DMat3, DVec3};
-use rayon::iter::repeat_n;
-use rayon::prelude::*;
 
 use super::coordinate::is_drawable;
 use super::framing::{bounds, world_points};
@@ -209,15 +208,8 @@ pub(crate) fn longest_axis(place: &DAffine3) -> f64 {
     axes.x_axis.length().max(axes.y_axis.length()).max(axes.z_axis.length())
 }
 
-/// More values than these all threads write: it takes each a fraction of a nanosecond.
-const FILL: usize = 1 << 14;
-
-/// Makes a list of triangles' own so long, on all threads where much is missing.
-fn fill<T: Copy + Send + Sync>(list: &mut Vec<T>, count: usize, value: T) {
-    let missing = count.saturating_sub(list.len());
-    if missing > FILL {
-        list.par_extend(repeat_n(value, missing));
-    }
+/// Appends `value` to a list that is shorter than `count`, up to that length.
+fn fill<T: Copy>(list: &mut Vec<T>, count: usize, value: T) {
     list.resize(count, value);
 }
 

@@ -7,8 +7,8 @@
 //! one maximum over all points, `max(p.x - t p.z)`, and the nearest eye from which everything is
 //! seen follows from two opposite planes: exact, from the vertices and not from their box.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 pub use super::coordinate::bounds;
 use super::drawn_points::DrawnPoints;

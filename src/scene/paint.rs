@@ -4,7 +4,7 @@
 //! part a material into areas of flat colour; any other picture is painted in a few colours, point by point. They matter to
 //! fills only: lines know materials, and a change of paint within one is no material boundary.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::coloured::{Coloured, Factor};

@@ -209,7 +209,7 @@ fn triangles_that_hold_the_border_of_a_tone_are_found() {
     let ball = round_solids::icosphere(5);
     let corners: Vec<[DVec3; 3]> =
         ball.triangles.iter().map(|t| t.map(|v| ball.positions[v as usize])).collect();
-    let tree = ToneTree::new(corners.par_iter().copied());
+    let tree = ToneTree::new(&corners);
     for level in [-0.4, 0.0, 0.3, 0.6, 0.95] {
         let light = dice.direction();
         let found = tree.candidates(light, level).items;
@@ -233,7 +233,7 @@ fn triangles_that_hold_the_border_of_a_tone_are_found() {
     }
     // Normals that point to all sides or nowhere are proposed for every light.
     let wild = [[DVec3::X, DVec3::NEG_X, DVec3::Y], [DVec3::ZERO; 3]];
-    let wild = ToneTree::new(wild.par_iter().copied());
+    let wild = ToneTree::new(&wild);
     assert_eq!(wild.candidates(DVec3::Z, 0.9).items, [0, 1]);
 }
 

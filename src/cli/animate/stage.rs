@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::args::AnimateArgs;
 use super::around::{Around, Drawn};

@@ -80,7 +80,8 @@ pub(super) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Pi
         true => picture(after, &String::from_utf8_lossy(&draw::encoded(&request(after)?)?)),
         false => picture(after, &text(after)?),
     };
-    let (first, second) = rayon::join(|| text(before).and_then(|svg| picture(before, &svg)), second);
+    let (first, second) =
+        crate::parallel::join(|| text(before).and_then(|svg| picture(before, &svg)), second);
     Ok([first?, second?])
 }
 

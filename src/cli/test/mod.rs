@@ -10,8 +10,8 @@ mod outcome;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use crate::parallel::prelude::*;
 use clap::Args;
-use rayon::prelude::*;
 
 use self::folder::Folder;
 use self::outcome::{Outcome, Totals, Verdict};

@@ -64,8 +64,10 @@ pub(super) fn decide(
     let Some(scale) = cost::scale(pictures, [width, height]) else { return Decision::Unknown };
     let canvases = pictures.map(|picture| Canvas::new(picture, ignore));
     let (columns, rows) = ((width * scale).ceil() as usize, (height * scale).ceil() as usize);
-    let (a, b) =
-        rayon::join(|| canvases[0].coarse(columns, rows, scale), || canvases[1].coarse(columns, rows, scale));
+    let (a, b) = crate::parallel::join(
+        || canvases[0].coarse(columns, rows, scale),
+        || canvases[1].coarse(columns, rows, scale),
+    );
     let (Some(a), Some(b)) = (a, b) else { return Decision::Unknown };
     // Marks with tolerances of their own may have gone as far as the widest of these.
     let tolerances = || groups.groups.iter().map(|group| group.tolerance);

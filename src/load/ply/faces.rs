@@ -1,7 +1,7 @@
 //! The faces of a PLY file: polygons, and strips of triangles.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::body::{Body, Row, place};
 use super::header::{Element, Encoding, Scalar};
@@ -115,9 +115,19 @@ impl<'a> Faces<'a> {
             let (triangle, _) = packed.triangle(row)?;
             triangle.iter().all(|&i| (i as usize) < vertices).then_some(triangle)
         };
-        let all = rows.par_chunks_exact(size).with_min_len(ROWS);
-        let first = all.clone().position_first(|row| triangle(row).is_none()).unwrap_or(rows.len() / size);
-        self.triangles.par_extend(all.take(first).map(|row| triangle(row).unwrap_or_default()));
+        let before = self.triangles.len();
+        let chunks = rows.par_chunks(size * ROWS);
+        let read: Vec<Vec<[u32; 3]>> =
+            chunks.map(|rows| rows.chunks_exact(size).map_while(triangle).collect()).collect();
+        self.triangles.reserve(read.iter().map(Vec::len).sum());
+        for (triangles, rows) in read.into_iter().zip(rows.chunks(size * ROWS)) {
+            let is_whole = triangles.len() * size == rows.len();
+            self.triangles.extend(triangles);
+            if !is_whole {
+                break;
+            }
+        }
+        let first = self.triangles.len() - before;
         body.cursor.at += first * size;
         first
     }

@@ -1,7 +1,7 @@
 //! The vertices of a PLY file: positions, normals, colours, texture coordinates.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::body::{Body, Row};
 use super::header::{Element, Encoding, Scalar};
@@ -67,7 +67,7 @@ pub(super) fn read(body: &mut Body, element: &Element) -> Result<Geometry, Error
             let follow = element.offset(y) == Some(o + 4) && element.offset(z) == Some(o + 8);
             follow && single_precision && body.encoding == Encoding::Little
         });
-        let each = rows.par_chunks_exact(stride).with_min_len(ROWS);
+        let each = rows.par_chunks(stride).with_min_len(ROWS);
         if let Some(start) = packed {
             geometry.positions.par_extend(each.map(|row| packed_position(row, start)));
         } else {

@@ -6,8 +6,8 @@ mod letters;
 mod panel;
 mod shapes;
 
+use crate::parallel::prelude::*;
 use kurbo::Rect;
-use rayon::prelude::*;
 
 use super::composed::Composed;
 use super::source::Source;

@@ -13,8 +13,8 @@ mod triangle;
 use std::borrow::Cow;
 use std::hash::Hash;
 
+use crate::parallel::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use self::mask::{Mask, Masked};

@@ -3,7 +3,7 @@
 //! Where a picture passes from one colour to another its texels have colours in between, and some of these may be nearest to a
 //! colour that is not there at all: a thin rim of it would be painted round everything.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::guess::Guess;
 use crate::math::grain::GRAIN;

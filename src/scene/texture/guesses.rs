@@ -1,6 +1,6 @@
 //! [`Guesses`]: between which colours of a palette each texel of a picture lies, however large it is seen.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::guess::Guess;
 use crate::math::grain::GRAIN;

@@ -1,7 +1,7 @@
 //! [`Labels`]: which of a few colours each texel of a picture is painted with, and each point between them.
 
+use crate::parallel::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::guess::Guess;
 use super::guesses::{Guesses, MOST_REACH};

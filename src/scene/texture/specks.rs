@@ -1,6 +1,6 @@
 //! [`merge`]: specks of colour go to what is around them.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::labels::Labels;
 use crate::math::grain::GRAIN;

@@ -1,6 +1,6 @@
 //! Drops what no illustrator would draw: crumbs, spurs, tiny loops and creases that are noise.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::raw::{Degrees, Raw};

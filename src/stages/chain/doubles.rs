@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::crumbs::may_be_noise;

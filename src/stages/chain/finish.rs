@@ -184,7 +184,7 @@ fn simple_and_fitted<P: Send>(
 ) -> (Line, Option<P>) {
     let simple = || if t.points || !fits { simplify(dense, t.simplify) } else { Line::default() };
     let fitted = || fits.then(fitted);
-    if dense.len() < LONG { (simple(), fitted()) } else { rayon::join(simple, fitted) }
+    if dense.len() < LONG { (simple(), fitted()) } else { crate::parallel::join(simple, fitted) }
 }
 
 /// An open line, in stretches that are smooth and stretches that are exact.

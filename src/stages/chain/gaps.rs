@@ -3,8 +3,6 @@
 //! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px; a pen
 //! makes one line of them.
 
-use rayon::prelude::*;
-
 use super::class::Class;
 use super::link::Routes;
 use super::step::Step;

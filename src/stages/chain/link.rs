@@ -4,7 +4,10 @@
 //! vertex. Where more meet, pieces of one feature segment come first, then the straightest pairs,
 //! with directions taken over a few px so that the zigzag of small triangles has no say.
 
-use rayon::prelude::*;
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+use crate::parallel::{self, Parallel};
 
 use super::class::Class;
 use super::partners::{NONE, partners};
@@ -38,7 +41,7 @@ impl Routes {
         (&self.steps[span.first as usize..span.end as usize], span.closed)
     }
 
-    pub fn iter(&self) -> impl IndexedParallelIterator<Item = (&[Step], bool)> {
+    pub fn iter(&self) -> Parallel<Range<usize>, impl parallel::Step<Range<usize>, Item = (&[Step], bool)>> {
         (0..self.len()).into_par_iter().with_min_len(CHUNK).map(|route| self.get(route))
     }
 

@@ -35,8 +35,8 @@ pub use sample::{Anchor, Sample, Under};
 
 use std::sync::Arc;
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
-use rayon::prelude::*;
 
 use crate::drawing::{Length, Unit};
 use crate::lines::{HiddenLines, LineKind};

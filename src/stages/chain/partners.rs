@@ -1,7 +1,7 @@
 //! Which ends of view edges continue each other: what of one class meets at a vertex, straight through junctions.
 
+use crate::parallel::prelude::*;
 use kurbo::Vec2;
-use rayon::prelude::*;
 
 use super::class::Class;
 use super::step::{Step, order};

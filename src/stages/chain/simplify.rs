@@ -96,7 +96,10 @@ fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: 
         let (below, above) = (i - a, b - i);
         // Deep only where the halves are halves, and no deeper than their number has digits.
         if below.min(above) * EVEN >= b - a && b - a >= LONG {
-            rayon::join(|| split(line, tolerance2, [a, i], low), || split(line, tolerance2, [i, b], high));
+            crate::parallel::join(
+                || split(line, tolerance2, [a, i], low),
+                || split(line, tolerance2, [i, b], high),
+            );
             return;
         }
         if below < above {

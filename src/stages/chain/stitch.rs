@@ -5,8 +5,8 @@
 //! T-junction a px from where that one begins. In the drawing they are one line, and the stub
 //! before the junction is a spur.
 
+use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 use super::Sample;
 use super::line::Line;

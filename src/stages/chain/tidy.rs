@@ -4,7 +4,7 @@
 //! ACM Transactions on Graphics 2014, section 6: lines without junctions that are short and end
 //! free, loop on themselves or lie beside others go, until none is left.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::class::Class;
 use super::crumbs::drop_crumbs;
@@ -72,7 +72,8 @@ pub(super) fn tidied(
     let routes = routes(map, &classes, window);
     let raw = |route| Raw::of_route(map, &routes, route, &classes);
     let all = || (0..routes.len()).into_par_iter().with_min_len(64).with_max_len(128).map(raw).collect();
-    let (raws, mut degrees): (Vec<Option<Raw>>, Degrees) = rayon::join(all, || Degrees::new(map, &classes));
+    let (raws, mut degrees): (Vec<Option<Raw>>, Degrees) =
+        crate::parallel::join(all, || Degrees::new(map, &classes));
     let mut raws: Vec<Raw> = raws.into_iter().flatten().collect();
     if tidy <= 0.0 {
         return raws;

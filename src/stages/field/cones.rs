@@ -6,8 +6,8 @@
 //! Source: Shirman and Abi-Ezzi, "The cone of normals technique for fast processing of curved patches",
 //! Computer Graphics Forum 12(3), 1993.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::mesh::Mesh;
 use crate::shape::SmoothNormals;

@@ -13,8 +13,8 @@
 
 use std::ops::Range;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::tolerance;
 use crate::mesh::Mesh;

@@ -3,7 +3,7 @@
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000,
 //! section 4.1.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::math::grain::GRAIN;
 use crate::mesh::Mesh;

@@ -5,8 +5,8 @@
 //! are the same at all vertices, so that what one of them meets changes at few places, and the result
 //! has no noise to be smoothed.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::function::{cos, sin};
 use crate::math::tolerance;

@@ -4,8 +4,8 @@
 //! where it has any, or the faces around a vertex that no hard edge parts share one, so that
 //! tessellation does not show and corners stay corners.
 
+use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
 use crate::mesh::{FaceId, Mesh, Share, shares};
 use crate::shape::{HardEdges, SmoothNormals};

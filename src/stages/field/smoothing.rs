@@ -4,7 +4,7 @@
 //! a few px cannot be drawn, so the field is averaged over as much. To average n·v is to average
 //! the normals: the one is linear in the other.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::math::grain::GRAIN;
 use crate::mesh::{FaceId, Mesh, PartId};

@@ -3,8 +3,8 @@
 //! Of an edge between normals that lean apart by little ([`SmoothNormals::gentle`]) it is enough to know that of its ends: two small
 //! numbers in place of two normals.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::grain::GRAIN;
 use crate::mesh::Mesh;

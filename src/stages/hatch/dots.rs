@@ -7,8 +7,8 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
-use rayon::prelude::*;
 
 use super::cut::Cut;
 use super::disc::Disc;
@@ -90,6 +90,7 @@ pub fn dots(
     let first = |row: i64| meetings.partition_point(|m| m.row < row);
     let numbers = meetings.first().map_or(scan.first, |m| m.row.min(scan.first))
         ..=meetings.last().map_or(scan.first, |m| m.row).max(scan.first + scan.rows() as i64 - 1);
+    let numbers: Vec<i64> = numbers.collect();
     let marks: Vec<Vec<Dot>> = numbers
         .into_par_iter()
         .map(|row| {

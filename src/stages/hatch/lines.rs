@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point, Rect};
-use rayon::prelude::*;
 
 use super::lay::HatchStroke;
 use super::mark::{self, Nib};
@@ -76,7 +76,7 @@ pub(super) fn lines(
                 .chain(tooth(layer, context, number, strokes, nib.width, look))
                 .collect::<Vec<_>>()
         })
-        .flatten()
+        .flatten_iter()
         .collect()
 }
 

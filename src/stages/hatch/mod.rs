@@ -37,8 +37,8 @@ mod voronoi;
 
 use std::sync::Arc;
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
-use rayon::prelude::*;
 
 pub use context::HatchContext;
 pub use dots::{CellDots, DotScreen, ToneBorders, dots};

@@ -6,8 +6,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point, Vec2};
-use rayon::prelude::*;
 
 use super::clip::{between, stretches};
 use super::domain::Domains;

@@ -3,8 +3,8 @@
 //! Each row is met with the pieces of border that cross it, so what it costs to know the cells of all
 //! points of a grid depends on the borders, not on the points.
 
+use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 use crate::math::function::{cos, sin};
 use crate::math::grouped::{Grouped, grouped};

@@ -8,8 +8,8 @@
 
 use std::f64::consts::PI;
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::CellDots;

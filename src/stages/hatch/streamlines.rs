@@ -9,8 +9,8 @@
 
 use std::collections::VecDeque;
 
+use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 use super::clip::norm;
 use super::flow::Flow;

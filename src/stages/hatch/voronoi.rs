@@ -7,7 +7,7 @@
 //! the weight, so sites lie as dense as it asks. All sums are of whole numbers: threads do not
 //! matter.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::math::grouped::{Grouped, grouped};
 

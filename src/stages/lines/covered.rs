@@ -3,7 +3,7 @@
 //! A buffer of pixels proposes only. Lines are hidden exactly, wherever they come from; what could be missed is the step of a
 //! gradient in a sliver narrower than a px, which nobody can see.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::Lit;
 use crate::mesh::Mesh;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::parallel::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::texture_scale::{Density, Scale, density_of};
 use crate::scene::texels::outline::{Outline, Segment};
@@ -48,7 +48,8 @@ impl Drawn {
             return Some(Self { levels: vec![level], ends: Vec::new(), densities: Vec::new() });
         };
         let texels_per_px = |power: i32| if power < 0 { 0.5_f64.powi(-power) } else { 2.0_f64.powi(power) };
-        let levels: Option<Vec<Level>> = (first..=last)
+        let powers: Vec<i32> = (first..=last).collect();
+        let levels: Option<Vec<Level>> = powers
             .into_par_iter()
             .map(|power| {
                 let texels_per_px = texels_per_px(power);

@@ -4,7 +4,7 @@
 //! real-time 3D animation", NPAR 2000, section 4.1. A contour is told from the geometry of its
 //! faces, not from their winding alone, so that meshes of mixed winding are drawn right.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::math::grain::GRAIN;

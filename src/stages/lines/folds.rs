@@ -5,7 +5,7 @@
 //! where they reach a crease beyond which the other surface turns so too; where they come to an end
 //! without either, they are a ripple of the mesh.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::{FeatureSegment, Role};
 use crate::mesh::{EdgeFaces, Mesh};

@@ -7,8 +7,8 @@
 //! 3. A wire runs along a line over the range in which each lies within reach of the other. A wire that has lines along it from end to
 //!    end is left out. One that has them over a part of its way stays whole: where both coincide in the image the view map draws one.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::line::{FeatureSegment, Role};
 use crate::math::grouped::{Grouped, grouped_pairs};
@@ -257,5 +257,5 @@ fn part(items: &mut [(DVec3, u32)]) {
     let middle = (items.len() / 2).next_multiple_of(FAN).min(items.len() - 1);
     items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
     let (near, far) = items.split_at_mut(middle);
-    rayon::join(|| part(near), || part(far));
+    crate::parallel::join(|| part(near), || part(far));
 }

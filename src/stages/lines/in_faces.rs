@@ -5,8 +5,8 @@
 use std::hash::BuildHasher;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::{FeatureLines, FeatureSegment, LineKind};

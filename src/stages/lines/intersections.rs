@@ -7,7 +7,7 @@
 //! from the pairs found among them the curves are followed over the mesh, so that every visible
 //! curve is whole, its hidden parts included.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::contacts;
 use super::surface::Finer;

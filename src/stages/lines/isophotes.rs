@@ -6,8 +6,8 @@
 //! meet. Here any number of levels is cut, and instead of at corners the tone is asked with the
 //! interpolated unit normal wherever it bends, so that borders are right inside large faces too.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::covered::in_sight;
 use super::levels::{Band, Found, Measures, Node};

@@ -45,7 +45,7 @@ pub use options::{Contours, HiddenLines, LineOptions, Normals};
 pub use surface::{Finer, Surface};
 pub use textures::Textures;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::field;
 use crate::shape::{Origin, Patches};
@@ -109,7 +109,8 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     let sought = options.kinds.contains(&LineKind::Intersection) && known.intersections.is_none();
     let curves = || sought.then(|| intersections::find(mesh, view, options.hidden));
     // None of them needs another.
-    let ((segments, contours), curves) = rayon::join(|| rayon::join(along_edges, contours), curves);
+    let ((segments, contours), curves) =
+        crate::parallel::join(|| crate::parallel::join(along_edges, contours), curves);
     lines.segments = segments;
     let wires = if options.kinds.contains(&LineKind::Wire) && !mesh.wires.is_empty() {
         free_wires::find(mesh, &lines.segments)

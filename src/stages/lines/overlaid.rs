@@ -4,8 +4,8 @@
 //! hole for the label. So does the rim of a body that is let into the wall. Where a rim runs under another surface of its plane there is
 //! no line. So each edge is cut where what is on top changes just next to it, on one side or the other.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::mesh::{FaceId, Mesh, VertexId};

@@ -7,8 +7,8 @@
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, sections
 //! 4.1 and 4.2; the points lie on the arcs over the edges rather than on the edges themselves.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::zero_set::{self, EdgePoint, ZeroSet};
 use super::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};

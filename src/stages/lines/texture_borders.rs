@@ -1,7 +1,7 @@
 //! The borders between the colours of pictures, and between those of vertices, on the faces that show them.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::in_faces::PointIds;
 use super::isophotes::page_px;

@@ -1,7 +1,7 @@
 //! [`Textures`]: the pictures and the colours of vertices that a view shows on its surfaces, in the few colours they are painted in.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::drawn::Drawn;
 use super::texture_scale::Seen;

@@ -8,8 +8,8 @@
 
 use std::ops::Range;
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::in_faces::PointIds;
 use super::{FeatureLines, FeatureSegment, Lit, NO_FACE};

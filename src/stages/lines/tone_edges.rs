@@ -1,7 +1,7 @@
 //! Edges of the mesh across which the surface looks different: another part or material, or another
 //! tone because its normals differ.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::line::segment;

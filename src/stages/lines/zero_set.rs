@@ -7,8 +7,8 @@
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section
 //! 4.2: contours of smooth surfaces as zero sets of an interpolated field.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::tolerance;
 use crate::mesh::Mesh;

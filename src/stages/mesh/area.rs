@@ -1,7 +1,7 @@
 //! Which triangles have an area, by the scale of their part: the others hide nothing and do not count in its size.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::grain::GRAIN;
 use crate::math::tolerance;

@@ -6,8 +6,8 @@
 //! edge, and stay apart. Where other bodies touch the edge as well, of the parts with one face there those are of one body whose faces
 //! enclose material.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{EdgeFaces, Edges, Groups, Mesh, PartId, Soup};
 use crate::math::function::atan2;

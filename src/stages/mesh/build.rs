@@ -1,7 +1,7 @@
 //! From [`Soup`] to [`Mesh`]: origin, order, welding, cleaning, topology, face normals.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::area::{has_own_area, may_have_flat_faces};
 use super::bodies::bodies;

@@ -12,8 +12,8 @@
 //!
 //! The face takes over the normal of its carrier, and turns to the eye when its carrier does.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::area::has_area;
 use super::{EdgeFaces, Edges, Extents, Mesh, PartId};

@@ -1,6 +1,6 @@
 //! Cleaning: faces that no surface has, and the count of what was mended.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::soup::Soup;
 use super::{Edges, sheets};

@@ -3,7 +3,7 @@
 //! With several threads the items are first dealt out by the upper bits of their keys, each thread a run of them to places of
 //! its own, then each hand is sorted by itself: the order is the same.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Fewer items are sorted by one thread.
 const MANY: usize = 1 << 17;

@@ -1,7 +1,7 @@
 //! [`EdgeSet`]: some edges of a mesh, one bit each.
 
 use crate::math::grain::GRAIN;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// A set of edges of one mesh.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::edges::{MANY, NONE, SAME_WAY};
 use super::{EdgeFaces, Edges};

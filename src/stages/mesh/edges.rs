@@ -3,7 +3,7 @@
 //! Each worker owns a share of the vertices and takes the edges whose smaller vertex lies in it, so
 //! the result does not depend on how many workers there are.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::shares::{Share, share_count, shares};
 use crate::math::grain::GRAIN;

@@ -5,8 +5,8 @@
 
 use std::cmp::Ordering;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::area::{has_own_area, scale_of};
 use super::{FaceId, Mesh, PartId, Soup};

@@ -1,7 +1,7 @@
 //! The normals of triangles, and which have none.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::area::area_vector;
 use super::carriers::{height, is_narrow};

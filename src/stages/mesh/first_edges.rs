@@ -1,6 +1,6 @@
 //! [`FirstEdges`]: where the edges of each vertex begin, by which the edge between two vertices is found at once.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::edges::Edges;
 

@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use crate::math::grain::GRAIN;
 use crate::math::ranks::Ranks;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Faces in groups, each known by the least face in it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! [`near_other_colours`]: which faces come near faces of another colour, by a coarse grid over the mesh.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{FaceId, Mesh};
 use crate::math::grain::GRAIN;

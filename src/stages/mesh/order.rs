@@ -12,8 +12,8 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::counting_sort::counting_sort;
 use super::space_curve::{CELLS, along_curve, along_exact_curve};

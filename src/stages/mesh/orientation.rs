@@ -11,8 +11,8 @@
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{EdgeFaces, Edges, Groups, Numbered, PartId, Soup};
 use crate::math::grain::GRAIN;

@@ -10,8 +10,8 @@
 //! 2. Surfaces are sorted by the cell of their plane: squares of its normal's coordinates, and its distance from the middle.
 //! 3. In each cell with unlike colours boxes are swept along an axis; where two meet, triangles are clipped by triangles.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use self::candidate::{Candidate, PlaneKey, widest_axis};
 use super::arcs::{Arc, arcs};

@@ -5,8 +5,8 @@
 //!
 //! Source: Bentley, "Multidimensional binary search trees used for associative searching", 1975, for how the points are parted.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::grain::GRAIN;
 
@@ -91,7 +91,7 @@ fn part(places: &mut [Place]) {
         part(first);
         part(second);
     } else {
-        rayon::join(|| part(first), || part(second));
+        crate::parallel::join(|| part(first), || part(second));
     }
 }
 

@@ -5,8 +5,8 @@
 
 use std::cmp::Ordering;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::carriers::{Faces, take_over};

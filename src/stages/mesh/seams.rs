@@ -5,8 +5,8 @@
 //! middle of sides: there two open edges lie along each other and share no corner. A line drawn there would be one
 //! of the mesh and not of the thing. Nothing moves: faces get more corners, no more places.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::cuts::{Cut, CutFace};
 use super::places::Places;

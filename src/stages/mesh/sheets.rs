@@ -7,7 +7,7 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::Edges;
 use super::soup::Soup;

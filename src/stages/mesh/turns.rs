@@ -1,6 +1,6 @@
 //! [`Turns`]: by how much the surface turns at every edge, found once for all who ask.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::{Dihedral, EdgeFaces, Mesh};
 use crate::math::grain::GRAIN;

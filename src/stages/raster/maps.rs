@@ -3,8 +3,8 @@
 //! Source: Scheelk, Non-Photorealistic Rendering, sections 3.4.1 and 3.4.2: images that are made from the surface beforehand, and in
 //! which edges are sought afterwards.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::Screen;
 use super::bands::Bands;

@@ -6,7 +6,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::{FaceBuffer, Screen};
 

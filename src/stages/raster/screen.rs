@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::mesh::Mesh;
 use crate::view::View;

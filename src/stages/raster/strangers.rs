@@ -7,7 +7,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::FaceBuffer;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};

@@ -1,7 +1,7 @@
 //! [`Axes`]: which way strokes are to run at the points of a lattice, as the surface or its light there has it.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::flat::flat;
 use super::samples::{Probe, Samples};

@@ -4,7 +4,7 @@
 //! needs no closed borders: where a line breaks off before it meets the next one, triangles close
 //! the gap.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use spade::handles::{FixedFaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 

@@ -6,9 +6,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 pub use super::chart::Chart;
 use super::chart::Walker;

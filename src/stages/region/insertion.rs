@@ -1,6 +1,6 @@
 //! [`insertion_order`]: in which order points are put into a triangulation.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::noding::GridPoint;
 use crate::math::grain::GRAIN;

@@ -4,9 +4,9 @@
 //! They are traced through the faces, led to the page, and cut where visibility may change, at the borders
 //! of the ground; the face in front in the middle of each piece decides.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::lines::{Lit, shows_inside};

@@ -31,8 +31,8 @@ mod seen_at;
 mod thin;
 pub(crate) mod unions;
 
+use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
-use rayon::prelude::*;
 
 pub use ground::Ground;
 pub use look::{Darkened, Look};

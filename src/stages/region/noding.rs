@@ -6,7 +6,7 @@
 //! (Halperin and Packer, "Iterated snap rounding", Computational Geometry 23, 2002), here with points
 //! that draw pieces near them in place of hot pixels.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::meeting::{Passing, beside, dot, foot};

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::parallel::prelude::*;
 use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
-use rayon::prelude::*;
 
 use super::ramps::gradient;
 use super::{Look, Region, RegionOptions, Regions, Seams};

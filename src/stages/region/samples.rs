@@ -4,9 +4,9 @@
 //! They give strokes their direction, width and density; where strokes end is decided by the borders of the
 //! [`Ground`], never here.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 use super::Ground;
 use crate::field::SurfacePoint;

@@ -1,8 +1,8 @@
 //! [`Seen`]: the page in triangles, and what the eye sees in each.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::Point;
-use rayon::prelude::*;
 
 use super::cells::Triangulation;
 use super::look::{Darkened, Look, NOTHING};

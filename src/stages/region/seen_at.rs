@@ -1,7 +1,7 @@
 //! [`seen_at`]: what is seen at points of the image.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::look::{Darkened, Look, NOTHING};

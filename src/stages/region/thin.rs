@@ -4,7 +4,7 @@
 //! represent a digitized line or its caricature", 1973. What the borders are cut into costs more than
 //! all that is done before, and a hundredth of a px is not seen.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::noding::{Border, GridPoint};

@@ -1,7 +1,7 @@
 //! [`LightView`]: what a light sees, in one image or six.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::Caster;
 use crate::math::function::atan2;

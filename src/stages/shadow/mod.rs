@@ -17,8 +17,8 @@ mod outside;
 mod receive;
 mod test_points;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 pub use crate::field::Caster;
 pub use lines::{ShadowLines, ShadowSegment};

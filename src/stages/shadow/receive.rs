@@ -4,8 +4,8 @@
 //! over an interval of the edge's parameter, with computed ends, and is as near as a linear function
 //! says. The nearest of several is their upper envelope ([`super::envelope`]).
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::cast::{self, CastEdge};
 use super::envelope::{Candidate, EdgePart, envelope};

@@ -1,7 +1,7 @@
 //! Which points of the surface a light does not reach.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::Caster;
 use super::light::LightView;

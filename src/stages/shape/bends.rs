@@ -6,7 +6,7 @@
 
 use std::cmp::Ordering;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::math::function::cos;
 use crate::math::grain::GRAIN;

@@ -5,8 +5,8 @@
 //! hysteresis. Here lines are followed straight on through junctions, and never from a ridge into
 //! a valley.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::function::cos;
 use crate::math::grouped::{Grouped, grouped_pairs};

@@ -3,8 +3,8 @@
 //! Source: Rusinkiewicz 2004, section 4: the same method once more, from the differences of the
 //! tensors at the corners of each face.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::SmoothNormals;
 use super::fans::{Fans, sides};

@@ -7,8 +7,8 @@
 //! Source: Hammond, Vandergheynst and Gribonval, "Wavelets on graphs via spectral graph theory",
 //! 2011, section 6, for Chebyshev's polynomials of a smoothing matrix.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::SmoothNormals;
 use super::fans::Fans;

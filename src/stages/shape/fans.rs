@@ -1,7 +1,7 @@
 //! [`Fans`]: the rounded faces around each smooth vertex, with the shares of their areas.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::SmoothNormals;
 use super::smooth_normals::NO_NORMAL;

@@ -5,7 +5,7 @@
 //! model. Here pieces of the surface count by their area, so that how finely they are cut does not
 //! matter, and each part of the model has its own size of features, so that no other part changes its lines.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::fans::Fans;
 use super::principal::Principal;

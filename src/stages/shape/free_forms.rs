@@ -7,7 +7,7 @@ use std::ops::AddAssign;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::planes::{Planes, area};
 use super::rounded::LEAST_EDGES;

@@ -4,7 +4,7 @@
 //! thresholding with hysteresis: a line is followed from where it is surely one into where it is
 //! faint. Whether it is one at all is told by the noise around it.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::crease_chains::{Chain, Fold, Folds, folds};
 use super::roughness::Roughness;

@@ -1,7 +1,7 @@
 //! `marks`: which edges of rounded surfaces are cut for a view, and which are too thin to be.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::SmoothNormals;
 use super::smooth_normals::NO_NORMAL;

@@ -3,8 +3,8 @@
 //! On thinned out meshes an edge here and there looks like the middle of a rounding. What is drawn is a line that goes as far as the
 //! rounding does, but for a corner at its ends.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::walk::Walk;
 use crate::math::grain::GRAIN;

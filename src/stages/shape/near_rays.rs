@@ -1,7 +1,7 @@
 //! `near_faces`: the faces that some short rays may meet, so that no tree of a whole mesh is made for a few of them.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::grain::GRAIN;
 use crate::math::tolerance;

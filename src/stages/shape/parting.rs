@@ -1,7 +1,7 @@
 //! Fans: the faces around a vertex between the edges that part them, each a smooth vertex.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::file_normals::{chosen, file_normals};
 use super::normal_sum::{FaceWeights, NormalSum};

@@ -60,7 +60,7 @@ impl Patches {
         let turns = &turns;
         let believed = verdicts.map(|verdict| verdict.believed);
         let makes = verdicts.map(|verdict| verdict.make);
-        let ((hard, wrinkles), rims) = rayon::join(
+        let ((hard, wrinkles), rims) = crate::parallel::join(
             || hard_edges(mesh, turns, &verdicts, crease_deg),
             || rims(mesh, turns, &planes, &makes),
         );
@@ -78,7 +78,7 @@ impl Patches {
             let shallow = shallow_creases(mesh, (turns, &planes.flat), crease_deg, &hard, may);
             (rounded, shallow)
         };
-        let ((rounded, shallow), roundings) = rayon::join(rounded_and_shallow, || {
+        let ((rounded, shallow), roundings) = crate::parallel::join(rounded_and_shallow, || {
             if all {
                 return EdgeSet::default();
             }
@@ -109,7 +109,7 @@ fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Verdicts) {
         let planes = Planes::new(mesh, &turns);
         (turns, planes)
     };
-    let ((turns, planes), pieces) = rayon::join(turned, || pieces(mesh));
+    let ((turns, planes), pieces) = crate::parallel::join(turned, || pieces(mesh));
     let verdicts = verdicts(mesh, &turns, (&planes, pieces), all);
     (turns, planes, verdicts)
 }

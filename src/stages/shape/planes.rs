@@ -6,7 +6,7 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::sums::sums;
 use crate::math::grain::GRAIN;
@@ -69,7 +69,7 @@ impl Planes {
             let bounds = move |face| in_flat(face).filter(|_| turns).map(|flat| (flat, length(edge)));
             mesh.edges.faces(edge).each().filter_map(bounds)
         };
-        let (areas, outlines): (Vec<f64>, Vec<f64>) = rayon::join(
+        let (areas, outlines): (Vec<f64>, Vec<f64>) = crate::parallel::join(
             || sums(first.len(), asked(faces), area_of),
             || sums(first.len(), asked(mesh.edges.len()), bounded_by),
         );

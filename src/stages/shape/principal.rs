@@ -4,8 +4,8 @@
 //! 3DPVT 2004: a tensor for each face from the differences of the normals at its corners, averaged
 //! over the faces around each vertex in frames that are turned into one plane.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::SmoothNormals;
 use super::fans::{Fans, sides};

@@ -6,8 +6,8 @@
 
 use std::borrow::Cow;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::cut_pieces::{CLOSED, Fate, Parted, Piece, STRAIGHT, Side, is_open};
 use super::marking::{Marks, marks};

@@ -8,8 +8,8 @@
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
 
+use crate::parallel::prelude::*;
 use glam::Vec3;
-use rayon::prelude::*;
 
 use super::leaning::{leaning, leans};
 use super::planes::{Planes, area};
@@ -244,7 +244,7 @@ pub(super) fn verdicts(
 ) -> Verdicts {
     let faces = mesh.triangles.len();
     let Numbered { of_face: number, first } = &pieces;
-    let (of_faces, of_edges): (Vec<FaceCount>, Vec<EdgeCount>) = rayon::join(
+    let (of_faces, of_edges): (Vec<FaceCount>, Vec<EdgeCount>) = crate::parallel::join(
         || sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32)))),
         || {
             sums(first.len(), mesh.edges.len(), |edge| {

@@ -3,7 +3,7 @@
 //! A rounding of three or four steps turns by less than a crease at each of them, and would leave a box without edges. On paper it is
 //! one edge: the line in its middle.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::middle_lines::{Middle, middle_lines};
 use super::walk::{Bend, Walk};

@@ -1,7 +1,7 @@
 //! Makes [`SmoothNormals`] of a mesh: a normal for each vertex, and more of them where surfaces are parted.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::file_normals::{chosen, file_normals};
 use super::normal_sum::{FaceWeights, NormalSum};

@@ -176,7 +176,7 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cut
         drop(edges);
         (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
     } else {
-        rayon::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
+        crate::parallel::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
     };
     mesh.edges = of_edges.edges;
     (smooth.straight, smooth.parting) = (of_edges.straight, of_edges.parting);

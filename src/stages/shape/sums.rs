@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Items whose sums are made as one piece of work.
 const CHUNK: usize = 1 << 13;

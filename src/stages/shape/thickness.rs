@@ -5,8 +5,8 @@
 //! their sides would swell to an egg. A shell is as thin, but both its walls bend the same way, and keep
 //! their distance.
 
+use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
 use super::near_rays::near_faces;
 use super::{EdgeArc, SmoothNormals};

@@ -1,6 +1,6 @@
 //! [`Verdicts`]: what each face of a mesh belongs to, told for its piece; and what a piece may be.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::mesh::groups::Numbered;
 

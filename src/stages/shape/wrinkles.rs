@@ -6,7 +6,7 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::math::function::cos;
 use crate::math::grain::GRAIN;

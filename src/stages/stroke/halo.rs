@@ -41,7 +41,7 @@ const STRETCH: usize = 4;
 /// The gaps in each line, as arc lengths, ascending; those over the seam of a closed line begin before 0 or
 /// end beyond it.
 pub(super) fn gaps(lines: &[Haloed], depths: [f64; 2], px: f64) -> Vec<Vec<[f64; 2]>> {
-    use rayon::prelude::*;
+    use crate::parallel::prelude::*;
     let greatest = lines.iter().map(|line| line.reach).fold(0.0, f64::max);
     if greatest <= 0.0 {
         return vec![Vec::new(); lines.len()];

@@ -33,8 +33,8 @@ mod widths;
 
 use std::sync::Arc;
 
+use crate::parallel::prelude::*;
 use kurbo::BezPath;
-use rayon::prelude::*;
 
 pub use crate::math::glob::Glob;
 pub use brush::{Brush, BrushShape, Turns};

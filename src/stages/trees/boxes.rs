@@ -10,8 +10,8 @@
 //! Triangles are sorted along a Morton curve by centre; eight neighbours on it make a leaf, eight
 //! leaves a group, and so on: the tree is nothing but one array of boxes a level.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::eight_boxes::{EightBoxes, GridBox, Places, Probe, WIDTH};
 use super::fine_box::{FINE_FIELD, FineBox, LAST_FINE};

@@ -7,8 +7,8 @@
 //! of its children. Here a cube with many items of its own keeps them in blocks with a box each,
 //! so that items on a border between large cubes, of which there are many, are not all asked.
 
+use crate::parallel::prelude::*;
 use glam::DVec4;
-use rayon::prelude::*;
 
 /// Halvings of each axis.
 const LEVELS: u32 = 16;

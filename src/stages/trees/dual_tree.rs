@@ -6,8 +6,8 @@
 //! faces; an eye, in homogeneous coordinates, is a hyperplane through zero; and the contours are
 //! the pairs that it parts. The tree proposes: whoever draws asks the faces themselves.
 
+use crate::parallel::prelude::*;
 use glam::{DVec3, DVec4};
-use rayon::prelude::*;
 
 use super::dual_boxes::{DualBoxes, DualFound, Item};
 use crate::math::tolerance;
@@ -129,8 +129,10 @@ impl ToneTree {
     /// Whether normals are interpolated between corners as they are or made unit vectors again
     /// does not matter: the boxes hold both.
     #[must_use]
-    pub fn new(corner_normals: impl IndexedParallelIterator<Item = [DVec3; 3]>) -> Self {
+    pub fn new(corner_normals: &[[DVec3; 3]]) -> Self {
         let items: Vec<Item> = corner_normals
+            .par_iter()
+            .copied()
             .enumerate()
             .map(|(id, normals)| {
                 let [a, b, c] = normals;

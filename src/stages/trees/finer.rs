@@ -3,7 +3,7 @@
 //! A view cuts faces near its contours and leaves the others as they are, so that of two that are left it is known whether they
 //! meet. Only the pieces are sought: in the tree of the mesh, with boxes around all the pieces of a face instead of the face.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::boxes::{BoxTree, Faces, share_a_vertex};
 use super::fine_box::FineBox;

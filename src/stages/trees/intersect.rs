@@ -9,8 +9,8 @@
 
 use std::cmp::Ordering;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::boxes::{BoxTree, Faces};

@@ -4,8 +4,8 @@
 //! nodes one of the next level, and so on, as in [`super::boxes`]. The eight boxes of a node lie
 //! coordinate by coordinate, so that all are tested at once.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::tolerance;
 use crate::mesh::space_curve::spread;

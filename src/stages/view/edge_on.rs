@@ -10,8 +10,8 @@
 //!
 //! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact: nothing rounded their corners.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::Frame;
 use crate::math::grain::GRAIN;

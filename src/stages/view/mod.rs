@@ -9,8 +9,8 @@ pub mod clip;
 mod edge_on;
 pub mod frame;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 pub use clip::ClippedFace;
 pub use frame::Frame;
@@ -47,7 +47,7 @@ impl View {
         let points =
             || mesh.positions.par_iter().with_min_len(GRAIN).map(|p| frame.image_from_local(*p)).collect();
         let (points, (facing, unsure)): (Vec<DVec3>, _) =
-            rayon::join(points, || edge_on::facing(mesh, &frame));
+            crate::parallel::join(points, || edge_on::facing(mesh, &frame));
         let clipped = clip::clip_faces(mesh, &frame, &points);
         Self { frame, points, facing, unsure, clipped }
     }

@@ -2,9 +2,9 @@
 
 use std::sync::OnceLock;
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 use super::compared::Item;
 use super::graph::SeenContour;

@@ -1,7 +1,7 @@
 //! From decided segments to the [`ViewMap`]: nodes by identity, pieces between them.
 
+use crate::parallel::prelude::*;
 use kurbo::Point;
-use rayon::prelude::*;
 
 use super::cuts::{Cuts, Seen, SegmentPart};
 use super::doubles;
@@ -116,7 +116,7 @@ impl<'a> Asked<'a> {
         let Self { view, lines, limits, segments, .. } = self;
         let counting = self.hidden == HiddenPieces::All;
         let is_round = segments.iter().any(|s| s.role != Role::Line);
-        let (seen, smooth) = rayon::join(
+        let (seen, smooth) = crate::parallel::join(
             || decide_with(mesh, view, segments, limits, counting, covers),
             || is_round.then(|| Smooth::new(lines, segments, limits)),
         );
@@ -129,7 +129,7 @@ impl<'a> Asked<'a> {
     /// The map of what is seen; or of what is seen so, but not with another mesh before it.
     fn map(&self, told: &Told, but: Option<&Told>) -> ViewMap {
         let Self { mesh, view, lines, limits, .. } = self;
-        let (mut map, needles) = rayon::join(
+        let (mut map, needles) = crate::parallel::join(
             || self.map_with_doubles(told, but),
             || needles::find(mesh, view, lines, &self.segments),
         );

@@ -6,9 +6,9 @@
 
 use std::cmp::Ordering;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
 use kurbo::{Point, Vec2};
-use rayon::prelude::*;
 
 use super::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use super::grid::Grid;

@@ -6,8 +6,8 @@
 //!
 //! The far side of a body covers next to nothing that its near side does not, and is left out.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 use robust::{Coord, orient2d};
 
 use super::far_sides::FarSides;
@@ -71,7 +71,7 @@ impl Expanses {
         let count = ids.iter().filter(|id| **id != NONE).max().map_or(0, |id| *id as usize + 1);
         let of = |face: u32| Some(ids[far.group(face) as usize]).filter(|id| *id != NONE);
         let of_face = |face: u32| of(face).map(|id| (id as usize, face));
-        let (faces, ends) = rayon::join(
+        let (faces, ends) = crate::parallel::join(
             || grouped_pairs(count, (0..turns.len() as u32).filter_map(of_face)),
             || {
                 grouped(count, |put| {

@@ -5,7 +5,7 @@
 use std::sync::atomic::AtomicI32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use crate::math::grain::GRAIN;
 use crate::mesh::edge_set::EdgeSet;

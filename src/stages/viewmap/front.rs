@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use crate::math::grouped::{Grouped, grouped_pairs};
 use crate::mesh::{FaceId, Mesh};

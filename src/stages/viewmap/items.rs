@@ -1,6 +1,6 @@
 //! [`Items`]: what lies of each line in each tile, but for what lies behind covers.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::compared::Item;
 use super::cover::Covers;

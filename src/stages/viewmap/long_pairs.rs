@@ -4,7 +4,7 @@
 //! in each of these. Fans of needles, into which programs part flat faces with thousands of corners, have thousands of both in the
 //! same tiles.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::compared::{Compared, Item};
 use super::graph::ViewVertexKind;

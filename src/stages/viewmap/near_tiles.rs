@@ -3,8 +3,8 @@
 //! Some ways are asked about several times a view. Faces lie in an order of place: where each few of them lie together is found once
 //! for all ways, and by far the most are not looked at one by one.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::grid::{Grid, TileBox};
 use super::limits::Limits;

@@ -3,8 +3,8 @@
 //! Only tiles that hold a segment not yet decided are filled, and only with triangles that reach
 //! before their cover (see [`super::cover`]).
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::grid::{Around, Grid, TileBox};
 use super::limits::{Limits, Slack};

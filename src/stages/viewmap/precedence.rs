@@ -11,9 +11,9 @@
 
 use std::cmp::Ordering;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
 use kurbo::Vec2;
-use rayon::prelude::*;
 
 use super::doubles::{Line, cut, precedence, vector};
 use super::graph::{ViewEdge, ViewMap};

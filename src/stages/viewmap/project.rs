@@ -1,7 +1,7 @@
 //! Feature segments in image space, cut to the near plane and the page.
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::hosted_line::HostedLine;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, Role};

@@ -1,7 +1,7 @@
 //! What is drawn of rounded surfaces: of each smooth contour what its witnesses show, and of the
 //! witnesses what no smooth contour stands for.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::graph::{ContourCounts, SeenContour, ViewVertexKind};
 use super::layers::Layer;

@@ -4,7 +4,7 @@
 //! Thin faces seen edge-on stick out of the contour like teeth of a saw, and often only one side of a
 //! tooth is seen. The smooth contour passes below, and stands for them.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::project::ImageSegment;
 use super::witnesses::{Court, Place};

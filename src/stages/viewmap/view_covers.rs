@@ -3,8 +3,8 @@
 //! A face that lies behind the covers of all squares that it may meet is out of sight, and so is every line on it: where only
 //! what is seen is drawn, nobody has to ask where it passes through others.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::cover::Covers;
 use super::grid::Grid;

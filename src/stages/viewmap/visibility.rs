@@ -16,7 +16,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::compared::{Compared, Item};
 use super::cover::Covers;
@@ -115,7 +115,7 @@ pub(super) fn decide_with(
         };
         (Items::new(segments, &grid, &covers), covers)
     };
-    let ((items, covers), boxes) = rayon::join(items, || triangles.tile_boxes());
+    let ((items, covers), boxes) = crate::parallel::join(items, || triangles.tile_boxes());
     let Items { open: items, buried } = items;
     let wanted = TileSet::new(&grid, (0..grid.len()).filter(|tile| !items.of(*tile).is_empty()));
     let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
@@ -204,7 +204,7 @@ fn gather(
             intervals.extend(joined.iter().map(|l| l.interval));
         })
     };
-    let (hidden, backed) = rayon::join(hidden, backed);
+    let (hidden, backed) = crate::parallel::join(hidden, backed);
     Visibility { tests: results.iter().map(|r| r.tests).sum(), hidden, backed, buried }
 }
 

@@ -6,8 +6,8 @@
 //! running forward where the edge is convex and backward where it is hollow. It is the edge that goes
 //! to the curve and not the other way round, so that ink can stand nowhere but beside what is seen.
 
+use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
 use super::graph::{SeenContour, ViewVertexKind};
 use super::grid::Grid;

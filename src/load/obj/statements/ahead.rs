@@ -6,8 +6,8 @@
 
 use std::collections::VecDeque;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::plain::{Corner, NO_CORNER, plain_face, plain_position, plain_triangle};
 use crate::load::text::plain_number;

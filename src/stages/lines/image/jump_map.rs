@@ -1,7 +1,7 @@
 //! [`JumpMap`]: the jumps of an image, kept in tiles: lines run through all rows of it, but through few of its tiles, and memory
 //! that is not touched costs nothing.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Rows and columns of a tile: a page of memory.
 const HIGH: usize = 16;

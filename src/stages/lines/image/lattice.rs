@@ -1,6 +1,6 @@
 //! [`Lattice`]: lines between the pixels of an image, from corner to corner.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::crest::is_crest;
 use super::jump_map::JumpMap;

@@ -4,8 +4,8 @@
 //! none, but the normals of the surface: faces of which corners lie within a px of each other, and which bend by less than a
 //! crease, are taken for one surface there. Closed surfaces have no loose corners.
 
+use crate::parallel::prelude::*;
 use glam::{DVec3, IVec3};
-use rayon::prelude::*;
 
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::view::View;

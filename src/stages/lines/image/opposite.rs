@@ -3,7 +3,7 @@
 //! Source: Ishaya, Real-Time Cartoon Rendering with Direct-X 8.0 Hardware, GameDev.net 2003, listing 4: nine instructions of a pixel
 //! shader, with the constants given there.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 use super::ImageOptions;
 use super::around::around;

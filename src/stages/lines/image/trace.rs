@@ -1,7 +1,7 @@
 //! [`ImageLines`]: curves between the pixels of maps.
 
+use crate::parallel::prelude::*;
 use glam::DVec2;
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::ImageOptions;

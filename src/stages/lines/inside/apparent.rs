@@ -5,8 +5,8 @@
 //! over a way in the image; an apparent ridge is where it is greatest along its direction t₁.
 //! The derivative along t₁ is a difference over the two faces that the way runs through.
 
+use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::ridges::maximum;
 use super::{InsideOptions, Seen, positive};

@@ -12,8 +12,8 @@ pub mod options;
 mod ridges;
 mod suggestive;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 pub use options::InsideOptions;
 

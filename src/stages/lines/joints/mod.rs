@@ -14,8 +14,8 @@ mod faces;
 
 use std::ops::Range;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use self::faces::{Faces, Piece};
 use super::{FeatureLines, FeatureSegment, LineKind, Role};

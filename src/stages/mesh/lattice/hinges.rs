@@ -6,8 +6,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
 use crate::math::grain::GRAIN;
 use crate::mesh::{EdgeFaces, Edges};

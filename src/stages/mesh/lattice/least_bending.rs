@@ -3,8 +3,8 @@
 //! Source: Beck and Teboulle, "A fast iterative shrinkage-thresholding algorithm for linear inverse problems", SIAM J. Imaging
 //! Sciences 2(1), 2009, equations 4.1 to 4.3, with a step for each vertex: each goes against the slope of what it bends, and back into its box.
 
+use crate::parallel::prelude::*;
 use glam::Vec3;
-use rayon::prelude::*;
 
 use super::hinges::Hinge;
 use crate::math::grain::GRAIN;

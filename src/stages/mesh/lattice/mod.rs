@@ -11,8 +11,8 @@
 mod hinges;
 mod least_bending;
 
+use crate::parallel::prelude::*;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use self::hinges::{Doubts, hinges};
 use self::least_bending::{STEPS, least_bending};

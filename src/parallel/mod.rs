@@ -1,0 +1,139 @@
+//! Parallel loops over slices, vectors and ranges, with little code for each loop.
+//!
+//! A loop has three parts: a *source* that can be cut into parts, *steps* such as `map` and `filter`, and an *end* such as
+//! `collect`. It runs like this:
+//!
+//! 1. The length, the limits of the loop and the number of threads give the number of parts ([`part_count`]).
+//! 2. The source is cut into that many parts ([`cut`]).
+//! 3. Threads take parts in order until none is left ([`run`], the only function that starts threads).
+//! 4. Each part passes the steps as an ordinary iterator and gives one result.
+//! 5. The end joins the results in the order of the parts, so the outcome does not depend on the schedule.
+//!
+//! The names are those of rayon, whose threads run the parts. Rayon's own iterators compile their scheduling anew for
+//! every closure; here it is compiled once.
+//!
+//! A loop without limits has up to [`PARTS_PER_THREAD`] parts a thread. `with_min_len` sets the least number of items in a
+//! part, for items that cost little. `with_max_len` sets the greatest, for items of unequal cost.
+
+mod ends;
+mod sort;
+mod sources;
+mod steps;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+pub(crate) use ends::ParallelExtend;
+pub(crate) use sort::ParallelSort;
+use sources::Split;
+pub(crate) use sources::{IntoParallelIterator, ParallelSlice, ParallelSliceMut};
+pub(crate) use steps::{Parallel, Step};
+
+/// What a module with parallel loops imports.
+pub(crate) mod prelude {
+    pub(crate) use super::{
+        IntoParallelIterator, ParallelExtend, ParallelSlice, ParallelSliceMut, ParallelSort,
+    };
+}
+
+/// Parts a thread in a loop without limits: enough that a thread with cheap parts takes over others.
+const PARTS_PER_THREAD: usize = 8;
+
+/// Greatest number of parts a thread, which bounds the memory for results.
+const MAX_PARTS_PER_THREAD: usize = 128;
+
+/// Runs `work(0)` to `work(tasks - 1)` on the threads of the current pool, each once, and waits for all.
+fn run(tasks: usize, work: &(dyn Fn(usize) + Sync)) {
+    let threads = rayon::current_num_threads().min(tasks);
+    if threads <= 1 {
+        (0..tasks).for_each(work);
+        return;
+    }
+    let next = AtomicUsize::new(0);
+    let take = || {
+        loop {
+            let task = next.fetch_add(1, Ordering::Relaxed);
+            if task >= tasks {
+                break;
+            }
+            work(task);
+        }
+    };
+    rayon::scope(|scope| {
+        for _ in 1..threads {
+            scope.spawn(|_| take());
+        }
+        take();
+    });
+}
+
+/// Runs both functions, at the same time where a thread is free, and returns their results.
+pub(crate) fn join<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    let (mut first, mut second) = (Some(first), Some(second));
+    let (mut a, mut b) = (None, None);
+    join_tasks(&mut || a = first.take().map(|first| first()), &mut || {
+        b = second.take().map(|second| second())
+    });
+    match (a, b) {
+        (Some(a), Some(b)) => (a, b),
+        _ => unreachable!("both functions ran"),
+    }
+}
+
+fn join_tasks(first: &mut (dyn FnMut() + Send), second: &mut (dyn FnMut() + Send)) {
+    rayon::join(first, second);
+}
+
+/// Number of parts of a loop over `len` items with at least `min` and at most `max` items in each.
+fn part_count(len: usize, min: usize, max: usize) -> usize {
+    let threads = rayon::current_num_threads();
+    if threads == 1 {
+        return 1;
+    }
+    let most = (len / min.max(1)).min(threads * MAX_PARTS_PER_THREAD);
+    (threads * PARTS_PER_THREAD).max(len.div_ceil(max.max(1))).min(most).max(1)
+}
+
+/// A part of a source and the number of items before it, until a thread takes it.
+struct Part<S> {
+    first: usize,
+    source: Mutex<Option<S>>,
+}
+
+/// Cuts a source into `count` parts whose lengths differ by at most one.
+fn cut<S: Split>(source: S, count: usize) -> Vec<Part<S>> {
+    let len = source.length();
+    let mut parts = Vec::with_capacity(count);
+    let (mut first, mut rest) = (0, source);
+    for k in 1..count {
+        let end = len * k / count;
+        let (part, after) = rest.cut_at(end - first);
+        parts.push(Part { first, source: Mutex::new(Some(part)) });
+        (first, rest) = (end, after);
+    }
+    parts.push(Part { first, source: Mutex::new(Some(rest)) });
+    parts
+}
+
+fn slots<R>(count: usize) -> Vec<Mutex<Option<R>>> {
+    (0..count).map(|_| Mutex::new(None)).collect()
+}
+
+fn take<T>(slot: &Mutex<Option<T>>) -> Option<T> {
+    slot.lock().unwrap_or_else(PoisonError::into_inner).take()
+}
+
+fn put<T>(slot: &Mutex<Option<T>>, value: T) {
+    *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(value);
+}
+
+/// The results of all parts, in the order of the parts.
+fn gather<R>(slots: Vec<Mutex<Option<R>>>) -> Vec<R> {
+    slots.into_iter().filter_map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,248 @@
+//! Sources of parallel loops: slices, chunks of slices, vectors and ranges, and pairs of sources.
+
+use std::ops::Range;
+use std::{slice, vec};
+
+use super::Parallel;
+use super::steps::Plain;
+
+/// A sequence that can be cut in two.
+pub(crate) trait Split: Sized + Send {
+    type Item;
+    type Iter: Iterator<Item = Self::Item>;
+    /// Number of items.
+    fn length(&self) -> usize;
+    /// The first `at` items, and those after them; `at` is at most the length.
+    fn cut_at(self, at: usize) -> (Self, Self);
+    fn items(self) -> Self::Iter;
+}
+
+/// Items of a slice.
+impl<'a, T: Sync> Split for &'a [T] {
+    type Item = &'a T;
+    type Iter = slice::Iter<'a, T>;
+    fn length(&self) -> usize {
+        <[T]>::len(self)
+    }
+    fn cut_at(self, at: usize) -> (Self, Self) {
+        <[T]>::split_at(self, at)
+    }
+    fn items(self) -> Self::Iter {
+        self.iter()
+    }
+}
+
+/// Items of a slice, to be changed.
+impl<'a, T: Send> Split for &'a mut [T] {
+    type Item = &'a mut T;
+    type Iter = slice::IterMut<'a, T>;
+    fn length(&self) -> usize {
+        <[T]>::len(self)
+    }
+    fn cut_at(self, at: usize) -> (Self, Self) {
+        self.split_at_mut(at)
+    }
+    fn items(self) -> Self::Iter {
+        self.iter_mut()
+    }
+}
+
+impl<T: Send> Split for Vec<T> {
+    type Item = T;
+    type Iter = vec::IntoIter<T>;
+    fn length(&self) -> usize {
+        self.len()
+    }
+    fn cut_at(mut self, at: usize) -> (Self, Self) {
+        let after = self.split_off(at);
+        (self, after)
+    }
+    fn items(self) -> Self::Iter {
+        IntoIterator::into_iter(self)
+    }
+}
+
+/// Runs of `size` items of a slice; the last may be shorter.
+#[derive(Clone)]
+pub(crate) struct Chunks<'a, T> {
+    items: &'a [T],
+    size: usize,
+}
+
+impl<'a, T: Sync> Split for Chunks<'a, T> {
+    type Item = &'a [T];
+    type Iter = slice::Chunks<'a, T>;
+    fn length(&self) -> usize {
+        self.items.len().div_ceil(self.size)
+    }
+    fn cut_at(self, at: usize) -> (Self, Self) {
+        let (before, after) = self.items.split_at((at * self.size).min(self.items.len()));
+        (Self { items: before, ..self }, Self { items: after, ..self })
+    }
+    fn items(self) -> Self::Iter {
+        self.items.chunks(self.size)
+    }
+}
+
+/// Runs of `size` items of a slice, to be changed; the last may be shorter.
+pub(crate) struct ChunksMut<'a, T> {
+    items: &'a mut [T],
+    size: usize,
+}
+
+impl<'a, T: Send> Split for ChunksMut<'a, T> {
+    type Item = &'a mut [T];
+    type Iter = slice::ChunksMut<'a, T>;
+    fn length(&self) -> usize {
+        self.items.len().div_ceil(self.size)
+    }
+    fn cut_at(self, at: usize) -> (Self, Self) {
+        let Self { items, size } = self;
+        let end = (at * size).min(items.len());
+        let (before, after) = items.split_at_mut(end);
+        (Self { items: before, size }, Self { items: after, size })
+    }
+    fn items(self) -> Self::Iter {
+        self.items.chunks_mut(self.size)
+    }
+}
+
+macro_rules! split_ranges {
+    ($($number:ty),*) => {$(
+        impl Split for Range<$number> {
+            type Item = $number;
+            type Iter = Self;
+            fn length(&self) -> usize {
+                self.end.saturating_sub(self.start) as usize
+            }
+            fn cut_at(self, at: usize) -> (Self, Self) {
+                let middle = self.start + at as $number;
+                (self.start..middle, middle..self.end)
+            }
+            fn items(self) -> Self::Iter {
+                self
+            }
+        }
+
+        impl IntoParallelIterator for Range<$number> {
+            type Source = Self;
+            type Step = Plain;
+            fn into_par_iter(self) -> Parallel<Self, Plain> {
+                Parallel::new(self)
+            }
+        }
+    )*};
+}
+
+split_ranges!(usize, u32, u64, u8);
+
+/// Two sources of one length that are walked together.
+#[derive(Clone)]
+pub(crate) struct Both<A, B>(pub A, pub B);
+
+impl<A: Split, B: Split> Split for Both<A, B> {
+    type Item = (A::Item, B::Item);
+    type Iter = std::iter::Zip<A::Iter, B::Iter>;
+    fn length(&self) -> usize {
+        self.0.length()
+    }
+    fn cut_at(self, at: usize) -> (Self, Self) {
+        let ((a, a_after), (b, b_after)) = (self.0.cut_at(at), self.1.cut_at(at));
+        (Self(a, b), Self(a_after, b_after))
+    }
+    fn items(self) -> Self::Iter {
+        self.0.items().zip(self.1.items())
+    }
+}
+
+/// A value over whose items a parallel loop can run.
+pub(crate) trait IntoParallelIterator {
+    type Source: Split;
+    type Step: super::steps::Step<Self::Source>;
+    fn into_par_iter(self) -> Parallel<Self::Source, Self::Step>;
+}
+
+impl<S: Split, F: super::steps::Step<S>> IntoParallelIterator for Parallel<S, F> {
+    type Source = S;
+    type Step = F;
+    fn into_par_iter(self) -> Self {
+        self
+    }
+}
+
+impl<T: Send> IntoParallelIterator for Vec<T> {
+    type Source = Self;
+    type Step = Plain;
+    fn into_par_iter(self) -> Parallel<Self, Plain> {
+        Parallel::new(self)
+    }
+}
+
+impl<'a, T: Sync> IntoParallelIterator for &'a [T] {
+    type Source = Self;
+    type Step = Plain;
+    fn into_par_iter(self) -> Parallel<&'a [T], Plain> {
+        Parallel::new(self)
+    }
+}
+
+impl<'a, T: Sync> IntoParallelIterator for &'a Vec<T> {
+    type Source = &'a [T];
+    type Step = Plain;
+    fn into_par_iter(self) -> Parallel<&'a [T], Plain> {
+        Parallel::new(self.as_slice())
+    }
+}
+
+impl<'a, T: Send> IntoParallelIterator for &'a mut [T] {
+    type Source = Self;
+    type Step = Plain;
+    fn into_par_iter(self) -> Parallel<&'a mut [T], Plain> {
+        Parallel::new(self)
+    }
+}
+
+impl<'a, T: Send> IntoParallelIterator for &'a mut Vec<T> {
+    type Source = &'a mut [T];
+    type Step = Plain;
+    fn into_par_iter(self) -> Parallel<&'a mut [T], Plain> {
+        Parallel::new(self.as_mut_slice())
+    }
+}
+
+/// Parallel loops over the items of a slice.
+pub(crate) trait ParallelSlice<T> {
+    fn par_iter(&self) -> Parallel<&[T], Plain>;
+    /// Runs of `size` items; the last may be shorter.
+    fn par_chunks(&self, size: usize) -> Parallel<Chunks<'_, T>, Plain>;
+    /// Runs of neighbours for which `same` holds.
+    fn par_chunk_by(&self, same: impl FnMut(&T, &T) -> bool) -> Parallel<Vec<&[T]>, Plain>;
+}
+
+impl<T: Sync> ParallelSlice<T> for [T] {
+    fn par_iter(&self) -> Parallel<&[T], Plain> {
+        Parallel::new(self)
+    }
+    fn par_chunks(&self, size: usize) -> Parallel<Chunks<'_, T>, Plain> {
+        Parallel::new(Chunks { items: self, size })
+    }
+    fn par_chunk_by(&self, same: impl FnMut(&T, &T) -> bool) -> Parallel<Vec<&[T]>, Plain> {
+        Parallel::new(self.chunk_by(same).collect())
+    }
+}
+
+/// Parallel loops over the items of a slice that change them.
+pub(crate) trait ParallelSliceMut<T> {
+    fn par_iter_mut(&mut self) -> Parallel<&mut [T], Plain>;
+    /// Runs of `size` items; the last may be shorter.
+    fn par_chunks_mut(&mut self, size: usize) -> Parallel<ChunksMut<'_, T>, Plain>;
+}
+
+impl<T: Send> ParallelSliceMut<T> for [T] {
+    fn par_iter_mut(&mut self) -> Parallel<&mut [T], Plain> {
+        Parallel::new(self)
+    }
+    fn par_chunks_mut(&mut self, size: usize) -> Parallel<ChunksMut<'_, T>, Plain> {
+        Parallel::new(ChunksMut { items: self, size })
+    }
+}
