@@ -91,3 +91,8 @@ pub use kurbo;
 #[cfg(all(doctest, feature = "cli"))]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The code of the guide to the library, compiled and run with the doc tests.
+#[cfg(all(doctest, feature = "cli", feature = "pdf"))]
+#[doc = include_str!("../docs/how-to/library.md")]
+struct LibraryGuide;
