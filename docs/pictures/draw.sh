@@ -8,6 +8,8 @@ cargo build --release --quiet
 ligne="${CARGO_TARGET_DIR:-target}/release/ligne"
 models=examples/models
 pictures=docs/pictures
+scratch=$(mktemp -d)
+trap 'rm -r "$scratch"' EXIT
 
 # SVG pictures are kept under test: docs/pictures/cases has a case for each, docs/testing.md says how.
 "$ligne" test $pictures/cases --bless
@@ -29,7 +31,33 @@ hatched object --style pen --set 'hatching.layer=[{ direction = "object", angle 
 hatched dots --style stipple --set 'hatching.layer=[{ kind = "dots", lpi = 20 }]'
 "$ligne" draw $models/castle.obj $pictures/castle-pen.png --style pen --size 800x590
 
-# docs/stages.md
+# docs/gallery.md: each built-in style on four models, as one page of four panels
+gallery() {
+    local file="$scratch/gallery.toml"
+    cat > "$file" << END
+[page]
+kind = "comic"
+size = "960x240px"
+margin = 0
+gutter = 0
+border = 0
+style = "$1"
+layout = "[6 | 6 | 5 | 4]"
+panel = [
+    { model = "$PWD/$models/castle.obj", camera = { azimuth = 28, elevation = 16 } },
+    { model = "$PWD/$models/pump.glb", camera = { azimuth = 35, elevation = 22 } },
+    { model = "$PWD/$models/teapot.obj", camera = { azimuth = 20, elevation = 22 } },
+    { model = "$PWD/$models/bear.ply", camera = { azimuth = 25, elevation = 12 } },
+]
+END
+    "$ligne" page "$file" "$pictures/gallery/$1.png" --dpi 64 --quiet
+}
+mkdir -p $pictures/gallery
+for file in styles/*.toml; do
+    gallery "$(basename "$file" .toml)"
+done
+
+# docs/dev/stages.md
 "$ligne" draw $models/bear.ply $pictures/stage-field.png --stage field --size 400x480 --azimuth 25 --elevation 12
 "$ligne" draw $models/knot.ply $pictures/stage-zeros.svg --stage zeros --size 480x400 --precision 1
 "$ligne" draw $models/pump.glb $pictures/stage-strengths.svg --stage strengths --size 560x400 --precision 1
