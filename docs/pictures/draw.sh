@@ -25,7 +25,7 @@ hatched() {
 }
 for style in ink pencil pencil-plain pen engraving stipple woodcut comic sketch patent blueprint toon toon-highlight noir gooch comic-flats rim flat technical suggestive; do
     # Styles for plotters draw no paper.
-    hatched $style --style $style $([ $style = pencil-plain ] && echo --background white)
+    hatched $style --style $style $([ "$style" = pencil-plain ] && echo --background white)
 done
 hatched object --style pen --set 'hatching.layer=[{ direction = "object", angle = 30 }, { direction = "object", angle = -50 }]'
 hatched dots --style stipple --set 'hatching.layer=[{ kind = "dots", lpi = 20 }]'
