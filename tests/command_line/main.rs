@@ -9,6 +9,7 @@ mod config;
 mod diff;
 mod diff_causes;
 mod documentation;
+mod documented_commands;
 mod draw;
 mod dxf;
 mod fmt;

@@ -101,7 +101,7 @@ fn hotspots_of_a_drawing_with_a_title_are_buttons() {
 #[test]
 fn the_recipe_of_the_documentation_works_with_prefixes() {
     let folder = Folder::with_cubes("hotspots-recipe");
-    let documentation = include_str!("../../docs/web.md");
+    let documentation = include_str!("../../docs/how-to/web.md");
     let begin = documentation.find("```html\n").expect("a recipe") + 8;
     let recipe = &documentation[begin..begin + documentation[begin..].find("```").expect("an end")];
     let mut drawings = String::new();
