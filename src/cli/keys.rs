@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use crate::error::Error;
+use crate::error::spelling::british;
 use crate::style::{self, Style, fault};
 
 /// Options that mean something only beside another one.
@@ -124,11 +125,17 @@ impl Keys<'_> {
             if self.others.contains(&name) {
                 continue;
             }
-            let option = self.options().find(|option| option.get_long() == Some(name));
+            let is_called = |option: &&Arg, name: &str| {
+                let aliases = option.get_all_aliases().unwrap_or_default();
+                option.get_long() == Some(name) || aliases.contains(&name)
+            };
+            let spelt = british(name);
+            let option = self.options().find(|option| is_called(option, name) || is_called(option, &spelt));
             let Some(option) = option else {
                 return Err(file.unknown(key, &self.names()));
             };
-            let values = texts(file, option, name, value, values.get(name))?;
+            let (written, name) = (name, option.get_long().unwrap_or(name));
+            let values = texts(file, option, name, value, values.get(written))?;
             let mut words = Vec::new();
             for (text, span) in values {
                 let text = placed(file, name, text, &span)?;

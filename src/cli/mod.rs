@@ -32,6 +32,7 @@ mod request;
 mod section_args;
 mod shard;
 mod status;
+mod style_keys;
 mod styles;
 mod styles_sheet;
 mod test;
@@ -117,9 +118,10 @@ pub fn main() -> ExitCode {
             return ExitCode::from(WRONG);
         }
     };
-    let cli = match Cli::try_parse_from(words) {
+    let cli = match Cli::try_parse_from(&words) {
         Ok(cli) => cli,
         Err(error) => {
+            let error = style_keys::with_tip(error, &words, &Cli::command());
             // Nobody is left to tell where this fails.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
