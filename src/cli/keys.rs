@@ -231,7 +231,7 @@ pub(super) fn fault_of(
     let shown = value.unwrap_or_default();
     match error.kind() {
         ErrorKind::ValueValidation => {
-            let advice = std::error::Error::source(&error).map(ToString::to_string);
+            let advice = std::error::Error::source(&error).map(|source| plain_advice(&source.to_string()));
             Some((format!("`{shown}` does not fit here"), advice))
         }
         ErrorKind::InvalidValue => {
@@ -249,6 +249,26 @@ pub(super) fn fault_of(
         // Whatever else is amiss is due to the words that are not there.
         _ => None,
     }
+}
+
+/// What a parser of numbers says of a value, in plain words; what other parsers say stays.
+fn plain_advice(text: &str) -> String {
+    if let Some((_, range)) = text.split_once(" is not in ")
+        && let Some((low, high)) = range.split_once("..")
+    {
+        return match high.trim_start_matches('=') {
+            "" => format!("write a whole number of at least {low}"),
+            high => format!("write a whole number from {low} to {high}"),
+        };
+    }
+    match text {
+        "invalid digit found in string" | "cannot parse integer from empty string" => "write a whole number",
+        "number too large to fit in target type" => "write a smaller number",
+        "number too small to fit in target type" => "write a larger number",
+        "invalid float literal" | "cannot parse float from empty string" => "write a number",
+        _ => text,
+    }
+    .to_owned()
 }
 
 type Text = (Option<String>, Range<usize>);

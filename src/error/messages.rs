@@ -66,11 +66,17 @@ pub(crate) fn explain(message: &str) -> Explained {
     let counted = message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "));
     if let Some((found, wanted)) = counted {
         let wanted: String = wanted.chars().filter(char::is_ascii_digit).collect();
-        let (message, advice) = (format!("{found} values do not fit here"), format!("write {wanted} values"));
+        let message = match found {
+            "1" => "one value does not fit here".to_owned(),
+            _ => format!("{found} values do not fit here"),
+        };
+        let advice = format!("write {wanted} values");
         return Explained { message, advice: Some(advice), mistake: Mistake::WrongType };
     }
-    if message.starts_with("data did not match any variant") || message.starts_with("wanted string or table") {
-        return Explained { message: "this does not fit here".to_owned(), advice: None, mistake: Mistake::WrongType };
+    let is_word = message.starts_with("wanted string or table");
+    if is_word || message.starts_with("data did not match any variant") {
+        let advice = is_word.then(|| "write a word in quotes".to_owned());
+        return Explained { message: "this does not fit here".to_owned(), advice, mistake: Mistake::WrongType };
     }
     match message.split_once("; ") {
         Some((what, advice)) => other(what.to_owned(), Some(advice.to_owned())),
@@ -119,7 +125,7 @@ fn plain_type(text: &str) -> String {
         "u16" => whole("0", "65535"),
         "i8" => whole("-128", "127"),
         "a boolean" => "true or false".to_owned(),
-        "a sequence" => "a list, such as [1, 2]".to_owned(),
+        "a sequence" => "a list in brackets, [ ]".to_owned(),
         "a map" => "a table".to_owned(),
         "a string" | "a borrowed string" | "string" | "str" => "text in quotes".to_owned(),
         "path string" => "a path in quotes".to_owned(),

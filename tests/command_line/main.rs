@@ -22,4 +22,5 @@ mod pages;
 mod pictures;
 mod print;
 mod sheets;
+mod style_keys;
 mod web;

@@ -40,9 +40,9 @@ pub(super) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Erro
     let list = value.get("faces").and_then(Value::as_array);
     let faces: Option<Vec<u64>> = list.and_then(|list| list.iter().map(Value::as_u64).collect());
     let faces = faces
-        .ok_or_else(|| Error::new("this is no list of numbers of faces").in_file(path).remedy(remedy))?;
+        .ok_or_else(|| Error::new("`faces` is missing, or is not a list of whole numbers").in_file(path).remedy(remedy))?;
     if faces.len() != drawings {
-        return Err(Error::new(format!("it has {} levels, and there are {drawings} drawings", faces.len()))
+        return Err(Error::new(format!("the file has {} levels, but there are {drawings} drawings", faces.len()))
             .in_file(path)
             .remedy("draw the frames that it was written for"));
     }

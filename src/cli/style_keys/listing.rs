@@ -25,11 +25,7 @@ pub(super) fn text(keys: &[&StyleKey]) -> String {
 }
 
 fn row(key: &StyleKey) -> [String; 4] {
-    let values = [key.values(), key.unit.to_owned()];
-    let values: Vec<&str> = values.iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
-    let is_plain = values.is_empty() || key.kind == KeyType::Switch;
-    let help = if is_plain { key.help.to_owned() } else { format!("{} ({})", key.help, values.join(" ")) };
-    [key.path.clone(), key.kind.name().to_owned(), default(key), help]
+    [key.path.clone(), key.kind.name().to_owned(), default(key), key.full_help()]
 }
 
 /// The default as it is shown.

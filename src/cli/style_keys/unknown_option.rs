@@ -25,12 +25,7 @@ pub(in crate::cli) fn with_tip(mut error: Error, words: &[OsString], program: &C
     }
     let calls: Vec<String> = keys.iter().map(|key| format!("--set {key}=…")).collect();
     let tip = format!("'--{name}' is a key of the style: {}", calls.join(" or "));
-    let mut tips = match error.remove(ContextKind::Suggested) {
-        Some(ContextValue::StyledStrs(tips)) => tips,
-        _ => Vec::new(),
-    };
-    tips.insert(0, StyledStr::from(tip));
-    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(tip)]));
     error
 }
 

@@ -15,9 +15,13 @@ pub(crate) fn alternatives(typed: &str, only_settable: bool) -> Vec<String> {
     if !exact.is_empty() {
         return exact;
     }
-    let last = typed.rsplit('.').next().unwrap_or_default();
+    // The first part that is misspelt is replaced.
     let known: Vec<&str> = StyleKey::all().iter().flat_map(|key| key.path.split(['.', '['])).collect();
-    nearest(last, &known).map(|near| ending(near, only_settable)).unwrap_or_default()
+    let mut parts: Vec<&str> = typed.split('.').collect();
+    let Some(wrong) = parts.iter_mut().find(|part| !known.contains(*part)) else { return Vec::new() };
+    let Some(near) = nearest(wrong, &known) else { return Vec::new() };
+    *wrong = near;
+    ending(&parts.join("."), only_settable)
 }
 
 /// The keys, and the tables of keys, whose path ends with a word or a dotted path. For the command line only keys that `--set` sets.

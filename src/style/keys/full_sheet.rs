@@ -81,7 +81,7 @@ fn write_list(sheet: &mut String, list: &str, set: &Table) {
 
 /// A line with a key: its value, its default, or a comment.
 fn write_key(sheet: &mut String, key: &StyleKey, name: &str, own: &Table, with_defaults: bool) {
-    let help = key.help;
+    let help = key.full_help();
     if let Some(value) = value_at(own, name) {
         let _ = writeln!(sheet, "{name} = {value}  # {help}");
         return;

@@ -174,6 +174,18 @@ impl StyleKey {
         !self.path.contains("[]") && self.path != "extends"
     }
 
+    /// The help with the allowed values behind it.
+    #[must_use]
+    pub fn full_help(&self) -> String {
+        let values = [self.values(), self.unit.to_owned()];
+        let values: Vec<&str> = values.iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
+        match values[..] {
+            [] => self.help.to_owned(),
+            _ if self.kind == KeyType::Switch => self.help.to_owned(),
+            _ => format!("{} ({})", self.help, values.join(" ")),
+        }
+    }
+
     /// Its allowed values in one line: words, a range, or how they are written.
     #[must_use]
     pub fn values(&self) -> String {
