@@ -173,6 +173,25 @@ fn print(bytes: &[u8]) -> Result<(), Error> {
 mod tests {
     use clap::CommandFactory;
 
+    use crate::error::spelling::british;
+
+    #[test]
+    fn options_in_british_spelling_have_american_aliases() {
+        let program = super::Cli::command();
+        let mut tried = 0;
+        for option in program.get_subcommands().flat_map(clap::Command::get_arguments) {
+            let Some(name) = option.get_long() else { continue };
+            let american = name.replace("colour", "color").replace("centre", "center");
+            assert_eq!(british(name), name, "options are named in British spelling");
+            if american != name {
+                let aliases = option.get_all_aliases().unwrap_or_default();
+                assert!(aliases.contains(&&*american), "--{name} has no alias --{american}");
+                tried += 1;
+            }
+        }
+        assert!(tried > 0);
+    }
+
     #[test]
     fn the_commands_are_sound_and_show_an_example() {
         let mut command = super::Cli::command();

@@ -24,7 +24,10 @@ impl<T> Offered<T> {
     }
 
     /// The same with values that take time to make.
-    pub(super) fn late(values: fn() -> &'static [&'static str], parse: fn(&str) -> Result<T, String>) -> Self {
+    pub(super) fn late(
+        values: fn() -> &'static [&'static str],
+        parse: fn(&str) -> Result<T, String>,
+    ) -> Self {
         Self { values: Vec::new(), late: Some(values), parse }
     }
 }

@@ -26,7 +26,8 @@ pub(crate) enum Mistake {
 /// Explains a message.
 pub(crate) fn explain(message: &str) -> Explained {
     let message = message.trim().replace('\n', ", ");
-    let other = |message: String, advice: Option<String>| Explained { message, advice, mistake: Mistake::Other };
+    let other =
+        |message: String, advice: Option<String>| Explained { message, advice, mistake: Mistake::Other };
     if let Some(words) = quoted(&message, "unknown field ") {
         let Some((word, known)) = words.split_first() else { return other(message, None) };
         let known = without_american(known);
@@ -76,7 +77,11 @@ pub(crate) fn explain(message: &str) -> Explained {
     let is_word = message.starts_with("wanted string or table");
     if is_word || message.starts_with("data did not match any variant") {
         let advice = is_word.then(|| "write a word in quotes".to_owned());
-        return Explained { message: "this does not fit here".to_owned(), advice, mistake: Mistake::WrongType };
+        return Explained {
+            message: "this does not fit here".to_owned(),
+            advice,
+            mistake: Mistake::WrongType,
+        };
     }
     match message.split_once("; ") {
         Some((what, advice)) => other(what.to_owned(), Some(advice.to_owned())),
@@ -149,10 +154,22 @@ mod tests {
     #[test]
     fn types_of_the_program_do_not_leak() {
         for (theirs, message, advice) in [
-            ("invalid type: integer `-3`, expected usize", "`-3` does not fit here", "write a whole number of at least 0"),
+            (
+                "invalid type: integer `-3`, expected usize",
+                "`-3` does not fit here",
+                "write a whole number of at least 0",
+            ),
             ("invalid type: string \"a\", expected f64", "`\"a\"` does not fit here", "write a number"),
-            ("invalid value: integer `300`, expected u8", "`300` does not fit here", "write a whole number from 0 to 255"),
-            ("invalid type: sequence, expected struct Perspective", "a list does not fit here", "write a table"),
+            (
+                "invalid value: integer `300`, expected u8",
+                "`300` does not fit here",
+                "write a whole number from 0 to 255",
+            ),
+            (
+                "invalid type: sequence, expected struct Perspective",
+                "a list does not fit here",
+                "write a table",
+            ),
             ("invalid length 2, expected an array of length 3", "2 values do not fit here", "write 3 values"),
             ("missing field `name`", "`name` is missing", "add name = …"),
             ("duplicate field `colour`", "`colour` is given twice", "leave one out"),

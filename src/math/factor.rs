@@ -62,9 +62,9 @@ impl<'de> Visitor<'de> for FactorVisitor {
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Factor, A::Error> {
         let numbers = <[f64; 3]>::deserialize(SeqAccessDeserializer::new(list))?;
         match numbers.iter().find(|number| !(0.0..=2.0).contains(*number)) {
-            Some(number) => {
-                Err(A::Error::custom(format!("{number} is not a factor of colours; write numbers from 0 to 2")))
-            }
+            Some(number) => Err(A::Error::custom(format!(
+                "{number} is not a factor of colours; write numbers from 0 to 2"
+            ))),
             None => Ok(Factor(numbers)),
         }
     }

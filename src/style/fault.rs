@@ -117,7 +117,8 @@ fn with_keys(explained: Explained, path: &str, typed: &str, only_settable: bool)
 /// The dotted path of the key that a place of a TOML text is at, or in whose value it is.
 fn path_at(text: &str, span: &Range<usize>) -> Option<String> {
     let document = DeTable::parse(text).ok()?;
-    let holds = |other: Range<usize>| other.start <= span.start && span.start < other.end.max(other.start + 1);
+    let holds =
+        |other: Range<usize>| other.start <= span.start && span.start < other.end.max(other.start + 1);
     fn in_table(table: &DeTable<'_>, above: &str, holds: &dyn Fn(Range<usize>) -> bool) -> Option<String> {
         table.iter().find_map(|(key, value)| {
             let word = key.get_ref();
@@ -128,7 +129,11 @@ fn path_at(text: &str, span: &Range<usize>) -> Option<String> {
             in_value(value, &path, holds)
         })
     }
-    fn in_value(value: &Spanned<DeValue<'_>>, path: &str, holds: &dyn Fn(Range<usize>) -> bool) -> Option<String> {
+    fn in_value(
+        value: &Spanned<DeValue<'_>>,
+        path: &str,
+        holds: &dyn Fn(Range<usize>) -> bool,
+    ) -> Option<String> {
         let inner = match value.get_ref() {
             DeValue::Table(table) => in_table(table, path, holds),
             DeValue::Array(list) => list.iter().find_map(|value| in_value(value, path, holds)),

@@ -61,7 +61,9 @@ impl<'de> Visitor<'de> for RuleVisitor {
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<HighlightRule, A::Error> {
         let table = HighlightTable::deserialize(MapAccessDeserializer::new(map))?;
         match table.near {
-            Some(_) => Err(A::Error::custom("`near` is the same for all materials; write it in [fills.highlight]")),
+            Some(_) => {
+                Err(A::Error::custom("`near` is the same for all materials; write it in [fills.highlight]"))
+            }
             None => Ok(HighlightRule::Table(table)),
         }
     }

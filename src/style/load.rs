@@ -60,7 +60,12 @@ pub(super) fn all_keys(name_or_path: &str) -> Result<Table, Error> {
 /// The sheets that a style is made of and that are not built in, as their names in messages and their keys; the last one counts most.
 pub(super) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Error> {
     let chain = chain(find(name_or_path, None)?)?;
-    Ok(chain.into_iter().rev().filter(|(source, _)| source.folder.is_some()).map(|(s, t)| (s.shown, t)).collect())
+    Ok(chain
+        .into_iter()
+        .rev()
+        .filter(|(source, _)| source.folder.is_some())
+        .map(|(s, t)| (s.shown, t))
+        .collect())
 }
 
 /// The keys of a sheet, of those it extends, and of changes.

@@ -278,7 +278,8 @@ fn errors_of_changes_name_the_change() {
 #[test]
 fn layers_of_hatching_are_by_default_as_in_the_table_of_keys() {
     let mut sheet = String::from("[[hatching.layer]]\n");
-    let keys: Vec<&StyleKey> = StyleKey::all().iter().filter(|key| key.prefix == "hatching.layer[]").collect();
+    let keys: Vec<&StyleKey> =
+        StyleKey::all().iter().filter(|key| key.prefix == "hatching.layer[]").collect();
     for key in &keys {
         if let Some(default) = key.default {
             sheet += &format!("{} = {default}\n", key.name);

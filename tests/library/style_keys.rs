@@ -23,7 +23,11 @@ fn sheet(path: &str, value: &str) -> String {
         ("fills.pattern[]", &["kind"], "path = \"M0 0L10 10\""),
         ("hatching.material[]", &[], "name = \"x\""),
         ("light.sources[]", &["direction"], "kind = \"directional\""),
-        ("light.sources[]", &["kind"], if value.contains("point") { "position = [0; 0; 1]" } else { "direction = [0; 0; 1]" }),
+        (
+            "light.sources[]",
+            &["kind"],
+            if value.contains("point") { "position = [0; 0; 1]" } else { "direction = [0; 0; 1]" },
+        ),
         ("light.sources[]", &[], "kind = \"point\", position = [0; 0; 1]"),
         (".brush", &["file", "image"], ""),
         (".brush", &["mode"], BRUSH),
@@ -45,7 +49,8 @@ fn sheet(path: &str, value: &str) -> String {
         };
         let fields = needs.iter().find(fits).map_or("", |(_, _, fields)| fields);
         let fields = if is_turn && fields.contains("mode") { BRUSH } else { fields };
-        let others = fields.split(", ").filter(|field| !field.is_empty() && !field.starts_with(&format!("{name} =")));
+        let others =
+            fields.split(", ").filter(|field| !field.is_empty() && !field.starts_with(&format!("{name} =")));
         // Commas within a list are written as semicolons above.
         let others: String = others.map(|field| format!("{}, ", field.replace(';', ","))).collect();
         if parts.is_empty() {
@@ -75,7 +80,11 @@ fn walk(path: &str, leaves: &mut BTreeSet<String>, tables: &mut BTreeSet<String>
     let below = |form: &str| {
         let path = if path.is_empty() { NONE.to_owned() } else { format!("{path}{form}.{NONE}") };
         let fault = fault(&sheet(&path, "1")).unwrap_or_default();
-        if fault.contains(&format!("unknown key `{NONE}`")) { known(&fault, "known keys: ") } else { Vec::new() }
+        if fault.contains(&format!("unknown key `{NONE}`")) {
+            known(&fault, "known keys: ")
+        } else {
+            Vec::new()
+        }
     };
     for form in ["", "[]"] {
         let keys = below(form);
@@ -186,7 +195,7 @@ fn allowed_values_are_accepted_and_others_refused() {
         if good.is_empty() {
             faults.push(format!("{}: no value is tried", key.path));
         }
-        for value in good.iter().map(String::as_str).chain(key.default.into_iter()) {
+        for value in good.iter().map(String::as_str).chain(key.default) {
             if let Some(fault) = fault(&sheet(&key.path, value)) {
                 faults.push(format!("{}: {value} is refused: {fault}", key.path));
             }
@@ -247,7 +256,12 @@ fn last(key: &StyleKey) -> &str {
 fn rows_are_complete() {
     for key in StyleKey::all() {
         assert!(key.help.len() > 5 && key.help.len() <= 100, "{}: {}", key.path, key.help);
-        assert!(!key.help.ends_with('.') && key.help.split_whitespace().count() <= 18, "{}: {}", key.path, key.help);
+        assert!(
+            !key.help.ends_with('.') && key.help.split_whitespace().count() <= 18,
+            "{}: {}",
+            key.path,
+            key.help
+        );
         let is_choice = matches!(key.kind, KeyType::Choice | KeyType::Choices);
         assert!(!is_choice || key.words.len() > 1, "{}", key.path);
     }
@@ -265,7 +279,9 @@ fn a_full_sheet_loads_as_the_same_style() {
         let text = Style::full_sheet(name).unwrap();
         let style = Style::from_toml(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
         assert_eq!(style, Style::preset(name).unwrap(), "{name}\n{text}");
-        for key in StyleKey::all().iter().filter(|key| key.path != "extends" && !key.prefix.starts_with("pen.")) {
+        for key in
+            StyleKey::all().iter().filter(|key| key.path != "extends" && !key.prefix.starts_with("pen."))
+        {
             let name = key.path.rsplit_once("[].").map_or(key.name, |(_, name)| name);
             let is_there = text.contains(&format!("{name} = ")) || text.contains(name);
             assert!(is_there, "{}: {text}", key.path);
@@ -291,6 +307,7 @@ fn american_spelling_is_accepted_for_every_key() {
     }
     assert!(tried > 80, "{tried}");
     // Sheets in either spelling go over each other.
-    let style = Style::load("pencil", &["pen.color=#ff0000".to_owned(), "pen.colour=#00ff00".to_owned()]).unwrap();
+    let style =
+        Style::load("pencil", &["pen.color=#ff0000".to_owned(), "pen.colour=#00ff00".to_owned()]).unwrap();
     assert_eq!(style, Style::load("pencil", &["pen.color=#00ff00".to_owned()]).unwrap());
 }

@@ -56,7 +56,8 @@ fn object(key: &StyleKey) -> Value {
         _ if key.words.is_empty() => Value::Null,
         _ => Value::from(key.words.clone()),
     };
-    let default = key.default.and_then(|default| toml::from_str::<toml::Table>(&format!("v = {default}")).ok());
+    let default =
+        key.default.and_then(|default| toml::from_str::<toml::Table>(&format!("v = {default}")).ok());
     let default = default.as_ref().and_then(|table| table.get("v")).map_or(Value::Null, plain);
     let mut object = Map::new();
     for (name, value) in [

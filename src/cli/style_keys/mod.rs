@@ -26,8 +26,10 @@ pub(super) fn list(glob: &str, json: bool, reference: bool) -> Result<String, Er
     let spelt = british(glob);
     let is_pattern = spelt.contains(['*', '?']);
     let pattern = Glob::new(if is_pattern { spelt.clone() } else { format!("*{spelt}*") });
-    let keys: Vec<&StyleKey> =
-        StyleKey::all().iter().filter(|key| pattern.matches(&key.path) || pattern.matches(&key.bare_path())).collect();
+    let keys: Vec<&StyleKey> = StyleKey::all()
+        .iter()
+        .filter(|key| pattern.matches(&key.path) || pattern.matches(&key.bare_path()))
+        .collect();
     if keys.is_empty() {
         let near = alternatives(&spelt, false);
         let advice = match near[..] {

@@ -26,7 +26,11 @@ pub(super) fn page() -> String {
         let [first, others @ ..] = &section.prefixes[..] else { continue };
         if let [_, ..] = others {
             let names: Vec<String> = others.iter().map(|prefix| format!("`{prefix}`")).collect();
-            let _ = write!(page, "\nUnder `{first}`, and for some lines or materials only under {}.\n", names.join(", "));
+            let _ = write!(
+                page,
+                "\nUnder `{first}`, and for some lines or materials only under {}.\n",
+                names.join(", ")
+            );
         }
         page += "\n| key | type | default | meaning |\n| --- | --- | --- | --- |\n";
         let keys = StyleKey::all().iter().filter(|key| key.section == index && key.prefix == *first);
@@ -43,7 +47,10 @@ fn row(page: &mut String, key: &StyleKey) {
             format!(": {}", words.join(" "))
         }
         _ if key.range == "any" => String::new(),
-        _ => Some(key.values()).filter(|values| !values.is_empty()).map(|values| format!(", {values}")).unwrap_or_default(),
+        _ => Some(key.values())
+            .filter(|values| !values.is_empty())
+            .map(|values| format!(", {values}"))
+            .unwrap_or_default(),
     };
     // Lengths are explained above.
     let unit = if key.unit.is_empty() || key.unit == "px" { String::new() } else { format!(" {}", key.unit) };
@@ -51,5 +58,6 @@ fn row(page: &mut String, key: &StyleKey) {
         default if default == "-" => String::new(),
         default => format!("`{default}`"),
     };
-    let _ = writeln!(page, "| `{}` | {}{values}{unit} | {default} | {} |", key.path, key.kind.name(), key.help);
+    let _ =
+        writeln!(page, "| `{}` | {}{values}{unit} | {default} | {} |", key.path, key.kind.name(), key.help);
 }

@@ -39,7 +39,8 @@ pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) 
 /// The warning about lengths without a unit that the page file or its own sheets set: a page is in mm.
 #[must_use]
 pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Option<String> {
-    let sheet = file(name, source).map_or_else(|| name.get_ref().clone(), |path| path.to_string_lossy().into_owned());
+    let sheet =
+        file(name, source).map_or_else(|| name.get_ref().clone(), |path| path.to_string_lossy().into_owned());
     let sets: Vec<String> = sets.iter().map(|set| set.get_ref().clone()).collect();
     bare_lengths(&sheet, &sets)
 }

@@ -72,7 +72,10 @@ pub struct SheetPage {
 
 /// Where a parts list comes from.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(untagged, expecting = "this is no parts list; write true, false, or the path of a file such as \"parts.csv\"")]
+#[serde(
+    untagged,
+    expecting = "this is no parts list; write true, false, or the path of a file such as \"parts.csv\""
+)]
 pub enum ListKeys {
     /// From the names of parts, or none.
     Named(bool),

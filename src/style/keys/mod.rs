@@ -13,7 +13,5 @@
 pub(crate) mod advice;
 pub(super) mod full_sheet;
 mod table;
-#[cfg(test)]
-mod tests;
 
 pub use table::{KeyType, StyleKey};

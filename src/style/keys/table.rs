@@ -159,7 +159,16 @@ impl StyleKey {
     /// The key at a path. In a path from a sheet the parts of lists of tables have no `[]`.
     #[must_use]
     pub fn find(path: &str) -> Option<&'static Self> {
-        Self::all().iter().find(|key| key.path == path || key.bare_path() == path)
+        Self::all().iter().find(|key| key.path == path || key.is_at(path))
+    }
+
+    /// Whether its path without `[]` is this one.
+    fn is_at(&self, path: &str) -> bool {
+        let mut rest = Some(path);
+        for piece in self.path.split("[]") {
+            rest = rest.and_then(|rest| rest.strip_prefix(piece));
+        }
+        rest == Some("")
     }
 
     /// The path without `[]`.
@@ -268,7 +277,8 @@ fn expand(sections: &[Section], rows: &[Vec<&'static str>], keys: &mut Vec<Style
                 name,
             };
             // A section may restate a key of an earlier one that has another default there.
-            match keys.iter_mut().find(|other| other.path == key.path) {
+            let is_alone = section.prefixes.len() == 1;
+            match keys.iter_mut().find(|other| is_alone && other.path == key.path) {
                 Some(other) => *other = key,
                 None => keys.push(key),
             }
