@@ -19,5 +19,15 @@ pub(super) struct CompletionsArgs {
 pub(super) fn run(args: &CompletionsArgs) -> Result<(), Error> {
     let mut script = Vec::new();
     generate(args.shell, &mut super::Cli::command(), "ligne", &mut script);
+    if args.shell == Shell::Bash {
+        script = without_space_after_keys(script);
+    }
     super::print(&script)
+}
+
+/// The script for bash, in which a value follows a key of `--set` at once.
+fn without_space_after_keys(script: Vec<u8>) -> Vec<u8> {
+    let case = "--set)\n";
+    let text = String::from_utf8_lossy(&script);
+    text.replace(case, &format!("{case}                    compopt -o nospace 2>/dev/null\n")).into_bytes()
 }

@@ -58,6 +58,7 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
         }
     }
     let mut drawn = pipeline::in_threads(request.threads, || draw(request, &mut watch))??;
+    drawn.report.warnings.extend(wonder::bare_lengths(request));
     refuse_warnings(request, &drawn.report)?;
     if !request.quiet {
         for warning in &drawn.report.warnings {

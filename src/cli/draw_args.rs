@@ -13,6 +13,7 @@ use super::paper::{self, Extent, Measure};
 #[cfg(feature = "pdf")]
 use super::print_args::PrintArgs;
 use super::section_args::SectionArgs;
+use super::style_keys;
 use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;
@@ -93,8 +94,9 @@ pub(super) struct HowArgs {
         value_parser = Offered::new(Style::names(), |name| Ok(name.to_owned())))]
     pub(super) style: String,
 
-    /// Change one key of the style, may be given again: --set lines.crease_deg=30
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    /// Change one key of the style; may be given again: --set lines.crease_deg=30 (ligne styles --keys lists all keys)
+    #[arg(long = "set", value_name = "KEY=VALUE", hide_possible_values = true,
+        value_parser = Offered::late(style_keys::settings, setting))]
     pub(super) sets: Vec<String>,
 
     /// The hand: another number draws the same with another one [default: the style's]

@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use crate::error::Error;
+use crate::error::spelling::british;
 use crate::style::{self, Style, fault};
 
 /// Options that mean something only beside another one.
@@ -124,11 +125,17 @@ impl Keys<'_> {
             if self.others.contains(&name) {
                 continue;
             }
-            let option = self.options().find(|option| option.get_long() == Some(name));
+            let is_called = |option: &&Arg, name: &str| {
+                let aliases = option.get_all_aliases().unwrap_or_default();
+                option.get_long() == Some(name) || aliases.contains(&name)
+            };
+            let spelt = british(name);
+            let option = self.options().find(|option| is_called(option, name) || is_called(option, &spelt));
             let Some(option) = option else {
                 return Err(file.unknown(key, &self.names()));
             };
-            let values = texts(file, option, name, value, values.get(name))?;
+            let (written, name) = (name, option.get_long().unwrap_or(name));
+            let values = texts(file, option, name, value, values.get(written))?;
             let mut words = Vec::new();
             for (text, span) in values {
                 let text = placed(file, name, text, &span)?;
@@ -224,7 +231,7 @@ pub(super) fn fault_of(
     let shown = value.unwrap_or_default();
     match error.kind() {
         ErrorKind::ValueValidation => {
-            let advice = std::error::Error::source(&error).map(ToString::to_string);
+            let advice = std::error::Error::source(&error).map(|source| plain_advice(&source.to_string()));
             Some((format!("`{shown}` does not fit here"), advice))
         }
         ErrorKind::InvalidValue => {
@@ -242,6 +249,26 @@ pub(super) fn fault_of(
         // Whatever else is amiss is due to the words that are not there.
         _ => None,
     }
+}
+
+/// What a parser of numbers says of a value, in plain words; what other parsers say stays.
+fn plain_advice(text: &str) -> String {
+    if let Some((_, range)) = text.split_once(" is not in ")
+        && let Some((low, high)) = range.split_once("..")
+    {
+        return match high.trim_start_matches('=') {
+            "" => format!("write a whole number of at least {low}"),
+            high => format!("write a whole number from {low} to {high}"),
+        };
+    }
+    match text {
+        "invalid digit found in string" | "cannot parse integer from empty string" => "write a whole number",
+        "number too large to fit in target type" => "write a smaller number",
+        "number too small to fit in target type" => "write a larger number",
+        "invalid float literal" | "cannot parse float from empty string" => "write a number",
+        _ => text,
+    }
+    .to_owned()
 }
 
 type Text = (Option<String>, Range<usize>);

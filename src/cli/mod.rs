@@ -32,6 +32,7 @@ mod request;
 mod section_args;
 mod shard;
 mod status;
+mod style_keys;
 mod styles;
 mod styles_sheet;
 mod test;
@@ -117,9 +118,10 @@ pub fn main() -> ExitCode {
             return ExitCode::from(WRONG);
         }
     };
-    let cli = match Cli::try_parse_from(words) {
+    let cli = match Cli::try_parse_from(&words) {
         Ok(cli) => cli,
         Err(error) => {
+            let error = style_keys::with_tip(error, &words, &Cli::command());
             // Nobody is left to tell where this fails.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
@@ -170,6 +172,25 @@ fn print(bytes: &[u8]) -> Result<(), Error> {
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
+
+    use crate::error::spelling::british;
+
+    #[test]
+    fn options_in_british_spelling_have_american_aliases() {
+        let program = super::Cli::command();
+        let mut tried = 0;
+        for option in program.get_subcommands().flat_map(clap::Command::get_arguments) {
+            let Some(name) = option.get_long() else { continue };
+            let american = name.replace("colour", "color").replace("centre", "center");
+            assert_eq!(british(name), name, "options are named in British spelling");
+            if american != name {
+                let aliases = option.get_all_aliases().unwrap_or_default();
+                assert!(aliases.contains(&&*american), "--{name} has no alias --{american}");
+                tried += 1;
+            }
+        }
+        assert!(tried > 0);
+    }
 
     #[test]
     fn the_commands_are_sound_and_show_an_example() {

@@ -10,6 +10,8 @@ use clap::{Arg, Command, Error};
 #[derive(Clone)]
 pub(super) struct Offered<T> {
     values: Vec<&'static str>,
+    /// Values that are made only when they are needed.
+    late: Option<fn() -> &'static [&'static str]>,
     parse: fn(&str) -> Result<T, String>,
 }
 
@@ -18,7 +20,15 @@ impl<T> Offered<T> {
         values: impl IntoIterator<Item = &'static str>,
         parse: fn(&str) -> Result<T, String>,
     ) -> Self {
-        Self { values: values.into_iter().collect(), parse }
+        Self { values: values.into_iter().collect(), late: None, parse }
+    }
+
+    /// The same with values that take time to make.
+    pub(super) fn late(
+        values: fn() -> &'static [&'static str],
+        parse: fn(&str) -> Result<T, String>,
+    ) -> Self {
+        Self { values: Vec::new(), late: Some(values), parse }
     }
 }
 
@@ -37,6 +47,7 @@ impl<T: Clone + Send + Sync + 'static> TypedValueParser for Offered<T> {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(self.values.iter().map(PossibleValue::new)))
+        let late = self.late.map_or(&[][..], |values| values());
+        Some(Box::new(self.values.iter().chain(late).map(PossibleValue::new)))
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{print, styles_sheet};
+use super::{print, style_keys, styles_sheet};
 use crate::error::Error;
 use crate::style::Style;
 
@@ -13,6 +13,8 @@ use crate::style::Style;
 #[command(after_help = "Examples:
   ligne styles                        list the styles
   ligne styles ink > mine.toml        start a style of your own
+  ligne styles ink --all              every key of a style, with its value and a line of help
+  ligne styles --keys 'lines.*'       list keys with type, default and allowed values
   ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side")]
 pub(super) struct StylesArgs {
     /// The style whose text is shown; with --sheet the model that is drawn
@@ -22,12 +24,35 @@ pub(super) struct StylesArgs {
     /// Draw a model in all styles on one sheet: .svg, .svgz, .png or .pdf, or - for SVG on standard output
     #[arg(long, value_name = "OUT", requires = "name")]
     sheet: Option<PathBuf>,
+
+    /// Show every key of the style, also those it does not set; NAME may be a style sheet
+    #[arg(long, requires = "name", conflicts_with = "sheet")]
+    all: bool,
+
+    /// List the keys of style sheets; GLOB picks some: 'pen.*', or any part of a key [default: all]
+    #[arg(long, value_name = "GLOB", num_args = 0..=1, default_missing_value = "*",
+        conflicts_with_all = ["name", "sheet", "all"])]
+    keys: Option<String>,
+
+    /// With --keys: print JSON
+    #[arg(long, requires = "keys")]
+    json: bool,
+
+    /// With --keys: print the page docs/reference/style-keys.md
+    #[arg(long, hide = true, requires = "keys", conflicts_with = "json")]
+    reference: bool,
 }
 
 /// Lists the styles with the idea of each, or shows a sheet.
 pub(super) fn run(args: &StylesArgs) -> Result<(), Error> {
     if let (Some(out), Some(model)) = (&args.sheet, &args.name) {
         return styles_sheet::run(out, Path::new(model));
+    }
+    if let Some(glob) = &args.keys {
+        return print(style_keys::list(glob, args.json, args.reference)?.as_bytes());
+    }
+    if let Some(name) = args.name.as_ref().filter(|_| args.all) {
+        return print(Style::full_sheet(name)?.as_bytes());
     }
     let names = Style::names().collect::<Vec<_>>();
     let Some(name) = &args.name else {

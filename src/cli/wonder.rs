@@ -7,9 +7,10 @@ use kurbo::{Rect, Shape};
 use super::number::plain;
 use super::output::Format;
 use super::request::DrawRequest;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Unit};
 use crate::scene::select::glob_matches;
 use crate::scene::{Camera, Projection, Scene};
+use crate::style::bare_lengths as bare_lengths_of;
 
 /// A drawing smaller than this share of the page's shorter side is next to nothing.
 const SPECK: f64 = 0.02;
@@ -55,6 +56,14 @@ pub(super) fn idle(request: &DrawRequest, words: impl Iterator<Item = OsString>)
     ];
     let idle = rules.into_iter().filter(|(option, does_nothing, _)| *does_nothing && typed(option));
     idle.map(|(option, _, why)| format!("{option} changes nothing: {why}")).collect()
+}
+
+/// The warning about lengths of the style without a unit, on a page in mm.
+pub(super) fn bare_lengths(request: &DrawRequest) -> Option<String> {
+    match request.sheet.extent {
+        Some((_, Unit::Mm)) => bare_lengths_of(&request.style, &request.sets),
+        _ => None,
+    }
 }
 
 /// Says so where the eye is inside a part.

@@ -2,14 +2,15 @@
 
 use std::fmt;
 
-use serde::de::{Error, Visitor};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use super::colour::Colour;
 
 /// Factors of red, green and blue as written (sRGB).
 ///
-/// Written as one number for all three, 0 to 2, or as a colour, whose channels count from 0 to 1.
+/// Written as one number for all three, 0 to 2, as three numbers, or as a colour, whose channels count from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factor(pub [f64; 3]);
 
@@ -35,11 +36,11 @@ impl<'de> Deserialize<'de> for Factor {
 /// Reads either form by what it meets, so that errors keep their place in the sheet.
 struct FactorVisitor;
 
-impl Visitor<'_> for FactorVisitor {
+impl<'de> Visitor<'de> for FactorVisitor {
     type Value = Factor;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number from 0 to 2, or a colour such as \"#a09ab8\"")
+        f.write_str("a number from 0 to 2, three such numbers, or a colour such as \"#a09ab8\"")
     }
 
     fn visit_i64<E: Error>(self, number: i64) -> Result<Factor, E> {
@@ -55,6 +56,16 @@ impl Visitor<'_> for FactorVisitor {
             Ok(Factor([number; 3]))
         } else {
             Err(E::custom(format!("{number} is not a factor of colours; write a number from 0 to 2")))
+        }
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Factor, A::Error> {
+        let numbers = <[f64; 3]>::deserialize(SeqAccessDeserializer::new(list))?;
+        match numbers.iter().find(|number| !(0.0..=2.0).contains(*number)) {
+            Some(number) => Err(A::Error::custom(format!(
+                "{number} is not a factor of colours; write numbers from 0 to 2"
+            ))),
+            None => Ok(Factor(numbers)),
         }
     }
 
@@ -78,7 +89,8 @@ mod tests {
         assert_eq!(read("0.5"), Ok(Factor([0.5; 3])));
         assert_eq!(read("1"), Ok(Factor::ALL));
         assert_eq!(read("\"#ff0000\""), Ok(Factor([1.0, 0.0, 0.0])));
-        for wrong in ["-1", "3", "nan", "\"red-ish\"", "[1]"] {
+        assert_eq!(read("[0.7, 0.66, 0.78]"), Ok(Factor([0.7, 0.66, 0.78])));
+        for wrong in ["-1", "3", "nan", "\"red-ish\"", "[1]", "[1, 1, 3]", "[0, 0, 0, 0]"] {
             assert!(read(wrong).is_err(), "{wrong}");
         }
     }

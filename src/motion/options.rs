@@ -46,6 +46,7 @@ pub struct MotionOptions {
     /// Width of lines. Default: 1 px.
     pub width: Length,
     /// Colour of lines. Default: black.
+    #[serde(alias = "color")]
     pub colour: Ink,
     /// How much of its width a line loses up to its far end: 0 = nothing, 1 = all. Default: 0.
     #[serde(deserialize_with = "part")]
@@ -126,6 +127,7 @@ pub struct LineChange {
     /// Its width.
     pub width: Option<Length>,
     /// Its colour.
+    #[serde(alias = "color")]
     pub colour: Option<Ink>,
     /// Whether it is drawn; it is if this is left out.
     pub visible: Option<bool>,

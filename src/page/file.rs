@@ -170,7 +170,7 @@ impl PageFile {
             }
         }
         if self.pages.is_empty() {
-            let advice = "begin a page with a line [page], and say of which kind it is: kind = \"comic\"";
+            let advice = "begin a page with the line [page], then kind = \"comic\" or kind = \"sheet\"";
             return Err(Error::new("there is no page").in_file(&source.path).remedy(advice));
         }
         Ok(())
@@ -199,9 +199,9 @@ fn read_page(mut page: Spanned<DeValue>, source: &Source) -> Result<Kind, Error>
     };
     let kind = table
         .remove("kind")
-        .ok_or_else(|| source.fault(&span, "this page does not tell of which kind it is", advice))?;
+        .ok_or_else(|| source.fault(&span, "the kind of this page is missing", advice))?;
     let Some(name) = kind.get_ref().as_str() else {
-        return Err(source.fault(&kind.span(), "this is no kind of page", advice));
+        return Err(source.fault(&kind.span(), "this does not fit here", advice));
     };
     let made = match name {
         "comic" => read(page).map(|page| Kind::Comic(Box::new(page))),

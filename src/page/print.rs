@@ -45,6 +45,7 @@ pub struct SpotKeys {
     /// The name of the ink, such as `PANTONE 185 C`.
     pub name: String,
     /// The colour on the page that is printed with it.
+    #[serde(alias = "color")]
     pub colour: Colour,
 }
 

@@ -40,13 +40,8 @@ impl Camera {
     /// Names the line or the key that is wrong, and what would be right; see
     /// [`Camera::validate`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|error| {
-            let message = error.to_string();
-            let message = message.split(" at line ").next().unwrap_or(&message);
-            Error::new(format!("the camera record is not JSON: {message}"))
-                .at(format!("line {}, column {}", error.line(), error.column()))
-                .remedy(EXAMPLE)
-        })?;
+        let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+            .map_err(|error| Error::json("the camera record is not JSON", &error).remedy(EXAMPLE))?;
         let Value::Object(record) = value else {
             return Err(Error::new("the camera record is not a JSON object").remedy(EXAMPLE));
         };

@@ -2,17 +2,52 @@
 
 use std::ops::Range;
 
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::keys::StyleKey;
+use super::keys::advice::{alternatives, ending, listed, write_value};
 use crate::error::Error;
+use crate::error::messages::{Explained, Mistake, explain};
+use crate::error::nearest::distance;
+use crate::error::spelling::british;
+
+pub(crate) use crate::error::nearest::nearest;
 
 /// Of longer lines a part is shown, characters.
 const LONGEST: usize = 120;
 
+/// Longer values are not quoted in a message, bytes.
+const MAX_QUOTED: usize = 40;
+
 /// An error of a file's text: at its line, with the line and a caret.
 pub(crate) fn in_sheet(text: &str, error: &toml::de::Error) -> Error {
-    let (message, advice) = explain(error.message());
+    placed(text, error, &explained(text, error))
+}
+
+/// The parser's message in plain words; a value that it does not name is quoted from the text.
+fn explained(text: &str, error: &toml::de::Error) -> Explained {
+    let explained = explain(error.message());
+    let value = error.span().and_then(|span| text.get(span)).unwrap_or_default().trim();
+    match explained.message.strip_prefix("this does not") {
+        Some(rest) if !value.is_empty() && value.len() <= MAX_QUOTED && !value.contains('\n') => {
+            Explained { message: format!("`{value}` does not{rest}"), ..explained }
+        }
+        _ => explained,
+    }
+}
+
+/// The same for a style sheet: advice names keys in the whole tree, and the values that a key may have.
+pub(super) fn in_style_sheet(text: &str, error: &toml::de::Error) -> Error {
+    let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
+    placed(text, error, &with_keys(explained(text, error), &path, &path, false))
+}
+
+fn placed(text: &str, error: &toml::de::Error, explained: &Explained) -> Error {
+    let Explained { message, advice, .. } = explained;
     match error.span() {
-        Some(span) => at_span(text, &span, &message, advice.as_deref()),
-        None => with_remedy(Error::new(message), advice.as_deref(), None),
+        Some(span) => at_span(text, &span, message, advice.as_deref()),
+        None => with_remedy(Error::new(message.as_str()), advice.as_deref(), None),
     }
 }
 
@@ -28,7 +63,9 @@ pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Op
 
 /// An error of a change on the command line: the place is the change itself.
 pub(super) fn in_change(set: &str, text: &str, error: &toml::de::Error) -> Error {
-    let (message, advice) = explain(error.message());
+    let typed = set.split('=').next().unwrap_or_default().trim();
+    let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
+    let Explained { message, advice, .. } = with_keys(explained(text, error), &path, typed, true);
     let before = "--set ";
     let picture = error.span().map(|span| {
         let (_, column, _, width) = locate(text, &span);
@@ -54,14 +91,57 @@ pub(super) fn place_of_value(text: &str, key: &str) -> String {
     number.map_or_else(|| format!("key {key}"), |number| format!("line {}", number + 1))
 }
 
-/// The known word that was most likely meant: at most a third of its letters differ.
-pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
-    known
-        .iter()
-        .map(|candidate| (distance(word, candidate), *candidate))
-        .min()
-        .filter(|(distance, candidate)| *distance <= (candidate.chars().count().max(3)) / 3)
-        .map(|(_, candidate)| candidate)
+/// A message about a style, with advice from the table of keys. `path` is the path of the key that is wrong, `typed` the one that
+/// was typed, which may go on.
+fn with_keys(explained: Explained, path: &str, typed: &str, only_settable: bool) -> Explained {
+    let advice = match &explained.mistake {
+        Mistake::UnknownKey(word, known) => {
+            let near = known.iter().any(|known| distance(word, known) <= 1);
+            let parts: Vec<&str> = typed.split('.').map(str::trim).collect();
+            let at = parts.iter().position(|part| part == word);
+            let tail = at.map_or_else(|| word.clone(), |at| parts[at..].join("."));
+            let found = if near { Vec::new() } else { ending(&british(&tail), only_settable) };
+            let is_near = explained.advice.as_deref().is_some_and(|advice| advice.starts_with("did you"));
+            let found = if found.is_empty() && !is_near { alternatives(&tail, only_settable) } else { found };
+            (!found.is_empty()).then(|| format!("did you mean {}?", listed(&found)))
+        }
+        Mistake::WrongType => StyleKey::find(path).map(|key| write_value(key, only_settable)),
+        Mistake::Other => None,
+    };
+    match advice {
+        Some(advice) => Explained { advice: Some(advice), ..explained },
+        None => explained,
+    }
+}
+
+/// The dotted path of the key that a place of a TOML text is at, or in whose value it is.
+fn path_at(text: &str, span: &Range<usize>) -> Option<String> {
+    let document = DeTable::parse(text).ok()?;
+    let holds =
+        |other: Range<usize>| other.start <= span.start && span.start < other.end.max(other.start + 1);
+    fn in_table(table: &DeTable<'_>, above: &str, holds: &dyn Fn(Range<usize>) -> bool) -> Option<String> {
+        table.iter().find_map(|(key, value)| {
+            let word = key.get_ref();
+            let path = if above.is_empty() { word.to_string() } else { format!("{above}.{word}") };
+            if holds(key.span()) {
+                return Some(path);
+            }
+            in_value(value, &path, holds)
+        })
+    }
+    fn in_value(
+        value: &Spanned<DeValue<'_>>,
+        path: &str,
+        holds: &dyn Fn(Range<usize>) -> bool,
+    ) -> Option<String> {
+        let inner = match value.get_ref() {
+            DeValue::Table(table) => in_table(table, path, holds),
+            DeValue::Array(list) => list.iter().find_map(|value| in_value(value, path, holds)),
+            _ => None,
+        };
+        inner.or_else(|| holds(value.span()).then(|| path.to_owned()))
+    }
+    in_table(document.get_ref(), "", &holds)
 }
 
 fn with_remedy(error: Error, advice: Option<&str>, picture: Option<&str>) -> Error {
@@ -70,51 +150,6 @@ fn with_remedy(error: Error, advice: Option<&str>, picture: Option<&str>) -> Err
         (Some(advice), None) => error.remedy(advice),
         (None, Some(picture)) => error.remedy(format!("check this line\n{picture}")),
         (None, None) => error,
-    }
-}
-
-/// The parser's message in the words of this program, and advice.
-fn explain(message: &str) -> (String, Option<String>) {
-    let message = message.trim().replace('\n', ", ");
-    for (theirs, ours, list) in [
-        ("unknown field ", "unknown key", "known keys"),
-        ("unknown variant ", "unknown value", "known values"),
-    ] {
-        if let Some(rest) = message.strip_prefix(theirs) {
-            let words: Vec<&str> = rest.split('`').skip(1).step_by(2).collect();
-            if let Some((word, known)) = words.split_first() {
-                let advice = match nearest(word, known) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("{list}: {}", known.join(", ")),
-                };
-                return (format!("{ours} `{word}`"), Some(advice));
-            }
-        }
-    }
-    if let Some((found, wanted)) =
-        message.strip_prefix("invalid type: ").and_then(|rest| rest.split_once(", expected "))
-    {
-        return (format!("{} does not fit here", plain(found)), Some(format!("write {}", plain(wanted))));
-    }
-    match message.split_once("; ") {
-        Some((what, advice)) => (what.to_owned(), Some(advice.to_owned())),
-        None => (message, None),
-    }
-}
-
-/// A type of value in plain words.
-fn plain(text: &str) -> String {
-    match text {
-        "f64" => "a number".to_owned(),
-        "u64" => "a whole number of at least 0".to_owned(),
-        "a boolean" => "true or false".to_owned(),
-        "a sequence" => "a list, such as [1, 2]".to_owned(),
-        _ if text.starts_with("struct ") => "a table".to_owned(),
-        _ => text
-            .replace("floating point", "number")
-            .replace("integer", "number")
-            .replace("sequence", "a list")
-            .replace("map", "a table"),
     }
 }
 
@@ -150,44 +185,9 @@ fn floor(text: &str, byte: usize) -> usize {
     (0..=byte.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }
 
-/// Letters to insert, delete, replace or swap with the next to turn one word into another (optimal
-/// string alignment).
-fn distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut least = replaced.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                least = least.min(rows[i - 2][j - 2] + 1);
-            }
-            row.push(least);
-        }
-        rows.push(row);
-    }
-    rows.last().and_then(|row| row.last()).copied().unwrap_or(0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn distances() {
-        assert_eq!(distance("crease_dg", "crease_deg"), 1);
-        assert_eq!(distance("wdith", "width"), 1);
-        assert_eq!(distance("", "abc"), 3);
-        assert_eq!(distance("color", "colour"), 1);
-    }
-
-    #[test]
-    fn the_nearest_word_is_near() {
-        assert_eq!(nearest("colour", &["width", "colour"]), Some("colour"));
-        assert_eq!(nearest("fills", &["lines", "chain", "pen"]), None);
-        assert_eq!(nearest("x", &[]), None);
-    }
 
     #[test]
     fn of_long_lines_a_part_is_shown() {

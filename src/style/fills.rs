@@ -46,7 +46,7 @@ pub(super) struct FillsTable {
     crumb: Option<Length>,
     fit_tolerance: Option<Length>,
     texture: Option<TextureFill>,
-    #[serde(deserialize_with = "texture_colours")]
+    #[serde(alias = "texture_colors", deserialize_with = "texture_colours")]
     texture_colours: Option<usize>,
     #[serde(deserialize_with = "texture_samples")]
     texture_samples: Option<f64>,
@@ -59,6 +59,7 @@ pub(super) struct FillsTable {
 #[serde(deny_unknown_fields)]
 struct MaterialTable {
     name: Glob,
+    #[serde(alias = "color")]
     colour: Option<Colour>,
     #[serde(default, deserialize_with = "some_thresholds")]
     thresholds: Option<Vec<f64>>,

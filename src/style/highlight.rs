@@ -1,9 +1,13 @@
 //! The tables `[fills.highlight]` and `highlight` of `[[fills.material]]`.
 
+use std::fmt;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use super::ramp_source::RampSource;
-use crate::error::Error;
+use crate::error;
 use crate::field::light_options::fraction;
 use crate::field::tone_options::{Highlight, HighlightChange, exponent, thresholds};
 use crate::math::colour::Colour;
@@ -17,6 +21,7 @@ pub(super) struct HighlightTable {
     thresholds: Option<Vec<f64>>,
     #[serde(deserialize_with = "some_exponent")]
     exponent: Option<f64>,
+    #[serde(alias = "color")]
     colour: Option<Colour>,
     #[serde(deserialize_with = "some_fraction")]
     strength: Option<f64>,
@@ -26,17 +31,47 @@ pub(super) struct HighlightTable {
     near: Option<f64>,
 }
 
-/// What a material says of highlights: whether it has any, or a table.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
+/// The highlights of a material: on, off, or a table.
+#[derive(Debug, Clone)]
 pub(super) enum HighlightRule {
     Enabled(bool),
     Table(HighlightTable),
 }
 
+impl<'de> Deserialize<'de> for HighlightRule {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(RuleVisitor)
+    }
+}
+
+/// Reads either form by its type, so that errors keep their place in the sheet.
+struct RuleVisitor;
+
+impl<'de> Visitor<'de> for RuleVisitor {
+    type Value = HighlightRule;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("true, false, or a table such as { exponent = 60 }")
+    }
+
+    fn visit_bool<E: Error>(self, enabled: bool) -> Result<HighlightRule, E> {
+        Ok(HighlightRule::Enabled(enabled))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<HighlightRule, A::Error> {
+        let table = HighlightTable::deserialize(MapAccessDeserializer::new(map))?;
+        match table.near {
+            Some(_) => {
+                Err(A::Error::custom("`near` is the same for all materials; write it in [fills.highlight]"))
+            }
+            None => Ok(HighlightRule::Table(table)),
+        }
+    }
+}
+
 impl HighlightTable {
     /// Reads the picture that the ramp names.
-    pub fn read_pictures(&mut self) -> Result<(), Error> {
+    pub fn read_pictures(&mut self) -> Result<(), error::Error> {
         self.ramp.iter_mut().try_for_each(RampSource::read)
     }
 
@@ -62,7 +97,7 @@ impl HighlightTable {
 
 impl HighlightRule {
     /// Reads the picture that the ramp names.
-    pub fn read_pictures(&mut self) -> Result<(), Error> {
+    pub fn read_pictures(&mut self) -> Result<(), error::Error> {
         match self {
             Self::Enabled(_) => Ok(()),
             Self::Table(table) => table.read_pictures(),

@@ -14,6 +14,7 @@ use super::fills::set_aside;
 use super::picture_file::place_paper;
 use super::ramp_source::place_pictures;
 use super::sheet::Sheet;
+use super::spelling::to_british;
 use super::tile_file::place_tiles;
 use crate::error::Error;
 
@@ -41,12 +42,53 @@ pub(super) fn load_text(text: &str) -> Result<Style, Error> {
 
 /// The style of a sheet, of those it extends, and of changes.
 fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
-    let mut sheets: Vec<Table> = Vec::new();
+    let merged = merged_table(source, sets)?;
+    let mut sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
+    sheet.fills.read_pictures()?;
+    sheet.fills.read_tiles()?;
+    sheet.read_brushes()?;
+    sheet.read_paper()?;
+    read_artist_textures(&mut sheet.lines.artist_texture)?;
+    Ok(sheet.into_style())
+}
+
+/// The keys that a style sets, of its own sheet and of those it extends.
+pub(super) fn all_keys(name_or_path: &str) -> Result<Table, Error> {
+    merged_table(find(name_or_path, None)?, &[])
+}
+
+/// The sheets that a style is made of and that are not built in, as their names in messages and their keys; the last one counts most.
+pub(super) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Error> {
+    let chain = chain(find(name_or_path, None)?)?;
+    Ok(chain
+        .into_iter()
+        .rev()
+        .filter(|(source, _)| source.folder.is_some())
+        .map(|(s, t)| (s.shown, t))
+        .collect())
+}
+
+/// The keys of a sheet, of those it extends, and of changes.
+fn merged_table(source: Source, sets: &[String]) -> Result<Table, Error> {
+    let mut merged = Table::new();
+    for (_, sheet) in chain(source)?.into_iter().rev() {
+        merge(&mut merged, sheet);
+    }
+    for set in sets {
+        merge(&mut merged, change(set)?);
+    }
+    merged.remove("extends");
+    Ok(merged)
+}
+
+/// A sheet and those it extends, one after another, with their keys.
+fn chain(source: Source) -> Result<Vec<(Source, Table)>, Error> {
+    let mut sheets: Vec<(Source, Table)> = Vec::new();
     let mut seen: Vec<PathBuf> = Vec::new();
     let mut next = Some(source);
     while let Some(source) = next.take() {
         let (sheet, mut table) = read(&source.text)
-            .map_err(|error| fault::in_sheet(&source.text, &error).in_file(&source.shown))?;
+            .map_err(|error| fault::in_style_sheet(&source.text, &error).in_file(&source.shown))?;
         seen.push(source.identity.clone());
         if let Some(parent) = &sheet.extends {
             let place = || fault::place_of_value(&source.text, "extends");
@@ -68,23 +110,9 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
         place_artist_textures(&mut table, folder);
         place_tiles(&mut table, folder);
         place_paper(&mut table, folder);
-        sheets.push(table);
+        sheets.push((source, table));
     }
-    let mut merged = Table::new();
-    for sheet in sheets.into_iter().rev() {
-        merge(&mut merged, sheet);
-    }
-    for set in sets {
-        merge(&mut merged, change(set)?);
-    }
-    merged.remove("extends");
-    let mut sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
-    sheet.fills.read_pictures()?;
-    sheet.fills.read_tiles()?;
-    sheet.read_brushes()?;
-    sheet.read_paper()?;
-    read_artist_textures(&mut sheet.lines.artist_texture)?;
-    Ok(sheet.into_style())
+    Ok(sheets)
 }
 
 /// Finds a sheet: a built-in name, or a path relative to `folder`.
@@ -127,7 +155,9 @@ fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
 
 /// A sheet as options, to find its errors, and as a table, to merge it.
 fn read(text: &str) -> Result<(Sheet, Table), toml::de::Error> {
-    Ok((toml::from_str(text)?, toml::from_str(text)?))
+    let (sheet, mut table) = (toml::from_str(text)?, toml::from_str(text)?);
+    to_british(&mut table);
+    Ok((sheet, table))
 }
 
 /// A change, checked, with the paths of pictures and brushes in it relative to what `folder` is
@@ -144,7 +174,7 @@ pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
 }
 
 /// One change of the command line as a table.
-fn change(set: &str) -> Result<Table, Error> {
+pub(super) fn change(set: &str) -> Result<Table, Error> {
     let wrong = |message: &str| {
         Error::new(message).at(format!("--set {set}")).remedy("write KEY=VALUE, such as --set pen.width=1.5")
     };

@@ -11,18 +11,23 @@
 //! ```
 
 mod artist_file;
+mod bare_lengths;
 mod brush_file;
 pub(crate) mod fault;
 mod fills;
 mod hatching;
 mod highlight;
+pub(crate) mod keys;
 mod load;
 mod picture_file;
 mod ramp_source;
 mod sheet;
+mod spelling;
 mod svg_file;
 mod tile_file;
 
+pub(crate) use bare_lengths::bare_lengths;
+pub use keys::{KeyType, StyleKey};
 #[cfg(feature = "page")]
 pub(crate) use load::placed_change;
 
@@ -140,6 +145,16 @@ impl Style {
     pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
         load::load(name_or_path, sets)
     }
+
+    /// A complete sheet of a style: every key with its value or its default, and a line of help. It loads as the same style; paths in
+    /// it are relative to the working folder.
+    ///
+    /// # Errors
+    /// As [`Style::load`].
+    pub fn full_sheet(name_or_path: &str) -> Result<String, Error> {
+        Ok(keys::full_sheet::full_sheet(name_or_path, &load::all_keys(name_or_path)?))
+    }
+
     /// The same for a page to scale or a DXF file: no point of the model moves by more than 0.02 mm, and corners on one circle become it.
     #[must_use]
     pub fn to_scale(self) -> Self {

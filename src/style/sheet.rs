@@ -78,6 +78,7 @@ impl Default for PageTable {
 #[serde(default, deny_unknown_fields)]
 struct PenTable {
     width: Option<Length>,
+    #[serde(alias = "color")]
     colour: Option<Ink>,
     cap: Option<Cap>,
     join: Option<Join>,

@@ -23,4 +23,5 @@ mod pages;
 mod pictures;
 mod print;
 mod sheets;
+mod style_keys;
 mod web;

@@ -91,6 +91,7 @@ mod stability;
 mod stages;
 mod style;
 mod style_fills;
+mod style_keys;
 mod testing;
 mod text;
 mod textures;

@@ -260,7 +260,7 @@ fn what_is_wrong_is_told_with_its_place() {
     let panel = "[page]\nkind = 'comic'\n[[page.panel]]\n";
     let narrow = format!("[[page.panel]]\nballoon = [{{ text = '{}' }}]\n", "word ".repeat(60));
     for (text, line, message) in [
-        ("[page]\nsize = 'A4'\n", "line 1", "does not tell of which kind"),
+        ("[page]\nsize = 'A4'\n", "line 1", "the kind of this page is missing"),
         ("[page]\nkind = 'comik'\n", "line 2", "did you mean `comic`?"),
         ("[page]\nkind = 'comic'\nguter = 3\n", "line 3", "did you mean `gutter`?"),
         ("[pgae]\n", "line 1", "did you mean `page`?"),

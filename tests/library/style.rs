@@ -1,12 +1,12 @@
 //! Style sheets: built-in ones, extending, changes on the command line, and what errors say.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ligne::drawing::Length;
 use ligne::math::colour::Colour;
 use ligne::stages::lines::HiddenLines;
 use ligne::stages::stroke::{Ink, LayersBy, Order};
-use ligne::style::Style;
+use ligne::style::{Style, StyleKey};
 
 /// A folder of sheets that is removed at the end of the test.
 struct Sheets(PathBuf);
@@ -176,8 +176,8 @@ fn errors_show_line_caret_and_the_nearest_key() {
             "bad.toml: line 3: unknown key `crease_dg`; did you mean `crease_deg`?\n 3 | crease_dg = 20\n   | ^^^^^^^^^",
         ),
         (
-            "[pen.contour]\ncolor = \"#fff\"\n",
-            "bad.toml: line 2: unknown key `color`; did you mean `colour`?\n 2 | color = \"#fff\"\n   | ^^^^^",
+            "[pen.contour]\ncolur = \"#fff\"\n",
+            "bad.toml: line 2: unknown key `colur`; did you mean `colour`?\n 2 | colur = \"#fff\"\n   | ^^^^^",
         ),
         (
             "lines.hidden = \"dased\"\n",
@@ -205,7 +205,7 @@ fn errors_show_line_caret_and_the_nearest_key() {
         ),
         (
             "chain.fit = \"yes\"\n",
-            "bad.toml: line 1: string \"yes\" does not fit here; write true or false\n 1 | chain.fit = \"yes\"\n   |             ^^^^^",
+            "bad.toml: line 1: `\"yes\"` does not fit here; write true or false\n 1 | chain.fit = \"yes\"\n   |             ^^^^^",
         ),
     ] {
         let sheets = Sheets::new("errors", &[("bad.toml", text)]);
@@ -276,23 +276,16 @@ fn errors_of_changes_name_the_change() {
 }
 
 #[test]
-fn layers_of_hatching_are_by_default_as_documented() {
-    let manual = include_str!("../../docs/styles.md");
-    let section = manual.split("### Layers of hatching").nth(1).expect("the section");
-    let mut keys = 0;
+fn layers_of_hatching_are_by_default_as_in_the_table_of_keys() {
     let mut sheet = String::from("[[hatching.layer]]\n");
-    for row in section.split("```").next().expect("the table").lines().filter(|row| row.starts_with("| `")) {
-        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
-        keys += 1;
-        // What follows from other keys has a default in words.
-        if let [key, _, default] = cells[..]
-            && default.starts_with('`')
-            && default.ends_with('`')
-        {
-            sheet += &format!("{} = {}\n", key.trim_matches('`'), default.trim_matches('`'));
+    let keys: Vec<&StyleKey> =
+        StyleKey::all().iter().filter(|key| key.prefix == "hatching.layer[]").collect();
+    for key in &keys {
+        if let Some(default) = key.default {
+            sheet += &format!("{} = {default}\n", key.name);
         }
     }
-    assert!(keys > 20, "{keys}");
+    assert!(keys.len() > 20, "{}", keys.len());
     let style = Style::from_toml(&sheet).unwrap_or_else(|error| panic!("{sheet}\n{error}"));
     assert_eq!(style.hatch.layers, [ligne::stages::hatch::HatchLayer::default()]);
 }
@@ -307,25 +300,25 @@ fn a_missing_sheet_is_named() {
 
 #[test]
 fn the_sheets_of_the_documentation_load() {
-    let manual = include_str!("../../docs/styles.md");
-    let sheets: Vec<&str> =
-        manual.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    assert!(sheets.len() >= 3);
-    for (index, text) in sheets.iter().enumerate() {
-        let sheets = Sheets::new(&format!("manual-{index}"), &[("manual.toml", text)]);
-        if let Err(error) = Style::load(&sheets.path("manual.toml"), &[]) {
-            panic!("{error}");
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    for page in ["how-to/styles.md", "explanation/fills.md", "explanation/hatching.md"] {
+        // A block that writes a file has the name of that file behind `toml`: the test of the commands runs those.
+        let text = std::fs::read_to_string(docs.join(page)).unwrap_or_default();
+        let sheets = text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next());
+        for text in sheets {
+            Style::from_toml(text).unwrap_or_else(|error| panic!("{page}: {error}"));
         }
     }
 }
 
 #[test]
-fn the_defaults_of_the_documentation_are_those_of_the_code() {
+fn a_sheet_without_keys_has_the_defaults_of_the_code() {
     let sheets = Sheets::new("defaults", &[("empty.toml", "")]);
     let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
     assert_eq!(style.stroke.pen, ligne::stages::stroke::Pen::default());
+    assert_eq!(style.lines, ligne::stages::lines::LineOptions::default());
     assert_eq!(style.background, Some(Colour::WHITE));
-    let documented = "[lines]\nenabled = true\nkinds = [\"contour\", \"border\", \"crease\", \"material\", \"intersection\", \"wire\"]\ncontours = \"auto\"\ncrease_deg = 40\nhidden = \"none\"\njoints = true\n[lines.inside]\nsmooth = 0.3\nsuggestive = 0.01\nhighlights = false\nhighlight = 0.02\nridge = 0.1\nvalley = 0.1\napparent = false\napparent_ridge = 0.1\n[chain]\nsmooth = 0.5\nsimplify = 0.05\ntidy = 4\nfit = true\nfit_tolerance = 0.15\n[pen]\nwidth = 1\ncolour = \"#1a1a1a\"\ncap = \"round\"\njoin = \"round\"\ndash = []\nopacity = 1\nfade = 1\nhalo = 0\nbrush = \"none\"\n[pen.swell]\ntaper = 0\ntaper_to = 0.2\nbend = 0\nbend_radius = 40\nlit = 0\nnear = 0\ngap = 0\n[pen.hand]\ntremor = 0\ntremor_length = 60\novershoot = 0\nbreaks = 0\nbreak_gap = 3\npasses = 1\nstray = 1\n[layers]\nby = \"visibility\"\norder = \"strength\"\n[page]\nbackground = \"#ffffff\"\n[light]\nfrom_model = true\nsources = []\nambient = 0\nwrap = 0\nocclusion = 0\n[fills]\nenabled = false\nthresholds = [0.5]\nlit = 1\ncast_shadows = false\nseams = \"underlap\"\nunderlap = 0.6\ncrumb = 2\nfit_tolerance = 0.05\n[fills.highlight]\nenabled = false\nthresholds = [0.5]\nexponent = 40\ncolour = \"#ffffff\"\nstrength = 0.7\n[fills.gooch]\nenabled = false\ncool = \"#00008c\"\nwarm = \"#4d4d00\"\ncool_share = 0.25\nwarm_share = 0.5\n[motion]\nenabled = false\nlines = 7\nsegments = 20\nrate = 24\nparts = []\npath = \"vertex\"\nturn = 150\nover = false\nwidth = 1\ncolour = \"#000000\"\ntaper = 0\nline = []\nfade = 0\nfade_by = \"width\"\n";
-    let sheets = Sheets::new("documented", &[("all.toml", documented)]);
-    assert_eq!(Style::load(&sheets.path("all.toml"), &[]).unwrap(), style);
+    let all = Style::full_sheet(&sheets.path("empty.toml")).unwrap();
+    assert!(all.lines().filter(|line| line.contains(" = ") && !line.starts_with('#')).count() > 120, "{all}");
+    assert_eq!(Style::from_toml(&all).unwrap(), style);
 }

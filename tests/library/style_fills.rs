@@ -154,7 +154,7 @@ fn mistakes_are_named() {
         ("fills.table = [[\"#000\"], []]\n", "line 1: the table needs rows"),
         ("fills.highlight.exponent = 0\n", "line 1: 0 is not the exponent"),
         ("fills.lit = 9\n", "line 1: 9 is not a factor of colours"),
-        ("[[fills.material]]\nshadow = 1\n", "missing field `name`"),
+        ("[[fills.material]]\nshadow = 1\n", "`name` is missing; add name = …"),
         ("light.sources = [{ kind = \"point\" }]\n", "line 1: a point light needs a `position`"),
         ("light.oclusion = 1\n", "did you mean `occlusion`?"),
     ] {

@@ -36,15 +36,19 @@ pub(super) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Erro
     let text =
         std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
     let value: Value = serde_json::from_str(&text)
-        .map_err(|error| Error::new(format!("this is not JSON: {error}")).in_file(path).remedy(remedy))?;
+        .map_err(|error| Error::json("this is not JSON", &error).in_file(path).remedy(remedy))?;
     let list = value.get("faces").and_then(Value::as_array);
     let faces: Option<Vec<u64>> = list.and_then(|list| list.iter().map(Value::as_u64).collect());
-    let faces = faces
-        .ok_or_else(|| Error::new("this is no list of numbers of faces").in_file(path).remedy(remedy))?;
+    let faces = faces.ok_or_else(|| {
+        Error::new("`faces` is missing, or is not a list of whole numbers").in_file(path).remedy(remedy)
+    })?;
     if faces.len() != drawings {
-        return Err(Error::new(format!("it has {} levels, and there are {drawings} drawings", faces.len()))
-            .in_file(path)
-            .remedy("draw the frames that it was written for"));
+        return Err(Error::new(format!(
+            "the file has {} levels, but there are {drawings} drawings",
+            faces.len()
+        ))
+        .in_file(path)
+        .remedy("draw the frames that it was written for"));
     }
     Ok(faces)
 }

@@ -125,7 +125,8 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     if let Some(up) = request.up {
         rigged.scene.up = up;
     }
-    let notes = wonder::unmatched(&rigged.scene, &request.only, &request.hide);
+    let mut notes = wonder::unmatched(&rigged.scene, &request.only, &request.hide);
+    notes.extend(wonder::bare_lengths(request));
     let mut whole = (request.frame == Frame::All).then(|| rigged.clone());
     pipeline::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
     if request.section.is_asked() {

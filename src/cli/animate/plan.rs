@@ -176,7 +176,7 @@ fn open_path(path: &Path) -> Result<Vec<Camera>, Error> {
     let text =
         std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
     let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-        .map_err(|error| Error::new(format!("this is not JSON: {error}")).in_file(path).remedy(remedy))?;
+        .map_err(|error| Error::json("this is not JSON", &error).in_file(path).remedy(remedy))?;
     let Value::Array(records) = value else {
         return Err(Error::new("this is not a list").in_file(path).remedy(remedy));
     };

@@ -19,7 +19,7 @@ use watch::Watch;
 use super::draw_args::DrawArgs;
 use super::output::{check_place, is_stdout};
 use super::shard::{Shard, of_array};
-use super::{number, pipeline, say};
+use super::{number, pipeline, say, wonder};
 use crate::error::Error;
 use crate::render::Stopwatch;
 
@@ -39,6 +39,13 @@ pub(super) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     if let Some(request) = jobs.iter().flat_map(|job| &job.requests).next() {
         // Told once, and not by every model.
         pipeline::load_style(&request.style, &request.sets, request.background)?;
+        match wonder::bare_lengths(request) {
+            Some(warning) if request.strict => {
+                return Err(Error::new(warning).remedy("give the unit, or draw without --strict"));
+            }
+            Some(warning) if !request.quiet => say(&format!("warning: {warning}")),
+            _ => {}
+        }
     }
     if args.many.out_dir.is_none() {
         // No folder is made but the one that is asked for.

@@ -127,7 +127,11 @@ fn root(json: &[u8], warnings: &mut Warnings) -> Result<Root, Error> {
     // GLB pads its JSON with spaces; some exporters pad with zeros.
     let root: Root = serde_json::from_str(text.trim_end_matches('\0')).map_err(|error| {
         let place = format!("JSON line {} column {}", error.line(), error.column());
-        Error::new(error.to_string()).at(place).remedy("the file may be cut off or damaged; export it again")
+        let read = Error::json("", &error).at(place);
+        match error.is_data() {
+            true => read,
+            false => read.remedy("the file may be cut off or damaged; export it again"),
+        }
     })?;
     let version = root.asset.min_version.as_ref().or(root.asset.version.as_ref());
     match version.map(|version| version.split('.').next().unwrap_or_default()) {

@@ -107,6 +107,7 @@ pub struct LetteringKeys {
     /// Width of the lines around balloons. Default: 0.4 mm.
     pub line: Spanned<Mm>,
     /// Colour of letters and lines. Default: black.
+    #[serde(alias = "color")]
     pub colour: Colour,
     /// Colour of balloons. Default: white.
     pub fill: Colour,
@@ -209,6 +210,7 @@ pub struct SoundKeys {
     /// Colour of its letters. Default: white.
     pub fill: Option<Colour>,
     /// Colour of the line around them. Default: that of letters.
+    #[serde(alias = "color")]
     pub colour: Option<Colour>,
     /// Width of that line. Default: a tenth of its size.
     pub line: Option<Spanned<Mm>>,

@@ -33,6 +33,8 @@ pub fn compose(comic: &ComicPage, source: &Source) -> Result<Composed, Error> {
     for (shape, mut panel) in shapes.iter().zip(panels) {
         items.append(&mut panel.items);
         over.extend(panel.over.take());
+        // Panels share the style of the page, and a warning about it.
+        panel.warnings.retain(|warning| !warnings.contains(warning));
         warnings.append(&mut panel.warnings);
         letters.extend(lettering.letter(shape, panel.seen.as_ref(), &sheet, &mut warnings)?);
     }

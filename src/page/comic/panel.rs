@@ -86,7 +86,8 @@ pub(super) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
     if let Some(colour) = &keys.background {
         style.background = background(colour, source)?;
     }
-    let mut drawn = Drawn { items: Vec::new(), over: None, seen: None, warnings: Vec::new() };
+    let warnings = figure::look::unit_warning(name, &sets, source).into_iter().collect();
+    let mut drawn = Drawn { items: Vec::new(), over: None, seen: None, warnings };
     let item = |name: &str, drawing, corner: Vec2, clip| Item {
         name: name.to_owned(),
         drawing,

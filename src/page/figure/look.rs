@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use crate::error::Error;
 use crate::page::source::Source;
-use crate::style::{Style, fault, placed_change};
+use crate::style::{Style, bare_lengths, fault, placed_change};
 
 /// The style of that name or in that file, which is relative to the page file, changed by `sets` (`KEY=VALUE` each).
 ///
@@ -34,6 +34,15 @@ pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) 
         changes.push(change.map_err(|error| source.about(&set.span(), plain(error)))?);
     }
     Style::load(&sheet, &changes).map_err(|error| source.about(&name.span(), error))
+}
+
+/// The warning about lengths without a unit that the page file or its own sheets set: a page is in mm.
+#[must_use]
+pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Option<String> {
+    let sheet =
+        file(name, source).map_or_else(|| name.get_ref().clone(), |path| path.to_string_lossy().into_owned());
+    let sets: Vec<String> = sets.iter().map(|set| set.get_ref().clone()).collect();
+    bare_lengths(&sheet, &sets)
 }
 
 /// Without its place in another text.

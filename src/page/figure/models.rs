@@ -42,6 +42,7 @@ pub struct ModelKeys {
     /// Which of its animations plays. Default: the only one.
     pub animation: Option<Spanned<String>>,
     /// Its colour, or those of its parts by name, in place of its materials. Default: as in the file.
+    #[serde(alias = "color")]
     pub colour: Option<Spanned<Colours>>,
     /// Only parts with such names. Default: all.
     #[serde(default)]

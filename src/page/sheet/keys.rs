@@ -45,6 +45,7 @@ pub struct SheetPage {
     /// Whether the length, the height and the depth of the whole are told. Default: yes.
     pub overall: Option<bool>,
     /// Whether axes of whole cylinders are drawn. Default: where the model is a single part.
+    #[serde(alias = "center_lines")]
     pub centre_lines: Option<bool>,
     /// What the title block says.
     pub title: TitleKeys,
@@ -71,7 +72,10 @@ pub struct SheetPage {
 
 /// Where a parts list comes from.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "this is no parts list; write true, false, or the path of a file such as \"parts.csv\""
+)]
 pub enum ListKeys {
     /// From the names of parts, or none.
     Named(bool),
@@ -162,7 +166,10 @@ pub struct DimensionKeys {
 
 /// A place on the model: a point in its units, or the name of one, or of a side of a part: `housing.left`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "this is no place; write a point such as [0, 10, 5], or a name such as \"housing.left\""
+)]
 pub enum PlaceKeys {
     /// A point.
     Point([f64; 3]),

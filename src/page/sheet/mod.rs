@@ -120,6 +120,9 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
     };
     let mut plan = Plan::new(sheet, source)?;
     let (items, mut warnings) = items(sheet, &plan, source)?;
+    let technical = toml::Spanned::new(0..0, "technical".to_owned());
+    let style = sheet.style.as_ref().unwrap_or(&technical);
+    warnings.extend(figure::look::unit_warning(style, &sheet.set, source));
     let space = frame::space(size);
     let block = block::TitleBlock::new(&sheet.title, space, &font, source)?;
     let table = ItemTable::new(&items, block.place, space, &font).map_err(|error| {

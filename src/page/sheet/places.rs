@@ -91,6 +91,7 @@ fn point(
         return finite(p);
     }
     let (part, end) = name.rsplit_once('.').unwrap_or(("*", name));
+    let end = if end == "center" { "centre" } else { end };
     if !ENDS.contains(&end) {
         let known: Vec<&str> = sheet.points.keys().map(String::as_str).chain(ENDS).collect();
         return Err(source.unknown(&Spanned::new(told.span(), name.clone()), "place", &known));

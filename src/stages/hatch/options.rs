@@ -107,6 +107,7 @@ pub struct HatchLayer {
     /// true.
     pub graded: bool,
     /// Colour; also a darker shade of the material. Default: `#1a1a1a`.
+    #[serde(alias = "color")]
     pub colour: Ink,
     /// 0 to 1. Default: 1.
     #[serde(deserialize_with = "share")]

@@ -60,6 +60,7 @@ pub struct Pattern {
     /// Degrees that it is turned by, counter-clockwise. Default: 0.
     pub angle: f64,
     /// Its colour. Default: `#1a1a1a`.
+    #[serde(alias = "color")]
     pub colour: Ink,
     /// How opaque it is, 0 to 1. Default: 1.
     #[serde(deserialize_with = "fraction")]

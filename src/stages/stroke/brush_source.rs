@@ -185,14 +185,34 @@ struct ShapeTable {
 }
 
 /// The shape of a turn as it is written: path data, or a table.
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a turn is path data such as \"M0 0L10 1L0 2Z\", or a table with `path`, `file` or `image`"
-)]
 enum TurnTable {
     Path(String),
     Shape(ShapeTable),
+}
+
+impl<'de> Deserialize<'de> for TurnTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(TurnVisitor)
+    }
+}
+
+/// Reads either form by its type, so that errors keep their place in the sheet.
+struct TurnVisitor;
+
+impl<'de> Visitor<'de> for TurnVisitor {
+    type Value = TurnTable;
+
+    fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str("path data such as \"M0 0L10 1L0 2Z\", or a table with `path`, `file` or `image`")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<TurnTable, E> {
+        Ok(TurnTable::Path(text.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TurnTable, A::Error> {
+        ShapeTable::deserialize(MapAccessDeserializer::new(map)).map(TurnTable::Shape)
+    }
 }
 
 /// Turns of no more than this many degrees are straight, unless a brush says otherwise.

@@ -84,6 +84,7 @@ pub struct PenChange {
     /// Width of the line.
     pub width: Option<Length>,
     /// Colour.
+    #[serde(alias = "color")]
     pub colour: Option<Ink>,
     /// Ends.
     pub cap: Option<Cap>,

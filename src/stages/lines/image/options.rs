@@ -98,7 +98,7 @@ fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
     if value > 0.0 && value <= 100.0 {
         Ok(value)
     } else {
-        Err(D::Error::custom(format!("{value} is no threshold; write a number above 0")))
+        Err(D::Error::custom(format!("{value} is no threshold; write a number above 0, at most 100")))
     }
 }
 

@@ -1,5 +1,9 @@
 //! The one error of the crate: of which kind, which file, which place in it, what is wrong, what to do.
 
+pub(crate) mod messages;
+pub(crate) mod nearest;
+pub(crate) mod spelling;
+
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -60,6 +64,24 @@ impl Error {
     pub fn io(tried: impl fmt::Display, error: std::io::Error) -> Self {
         let message = format!("{tried}: {error}");
         Self { kind: ErrorKind::Io, source: Some(Arc::new(error)), ..Self::new(message) }
+    }
+
+    /// A text that is not JSON, or does not hold the values it should: `what` is wrong with it, at the parser's line and column;
+    /// it may be empty.
+    pub(crate) fn json(what: &str, error: &serde_json::Error) -> Self {
+        let message = error.to_string();
+        // The parser ends its message with the position.
+        let message = message.rsplit_once(" at line ").map_or(&*message, |(message, _)| message);
+        let messages::Explained { message, advice, .. } = messages::explain(message);
+        let made = Self::new(if what.is_empty() { message } else { format!("{what}: {message}") });
+        let made = match error.line() {
+            0 => made,
+            line => made.at(format!("line {line}, column {}", error.column())),
+        };
+        match advice {
+            Some(advice) => made.remedy(advice),
+            None => made,
+        }
     }
 
     /// Says of what kind it is.

@@ -1,0 +1,52 @@
+//! The keys of style sheets on the command line: `ligne styles --keys`, the completions of `--set`, and tips for unknown options.
+//!
+//! 1. [`list`] selects keys by a pattern and prints them as text, as JSON or as the page of the reference.
+//! 2. [`settings`] are the keys that shells offer after `--set`.
+//! 3. [`with_tip`] adds to the error about an unknown option the key of the same name: `--hidden` may stand for `--set lines.hidden=…`.
+
+mod listing;
+mod reference;
+mod unknown_option;
+
+use std::sync::OnceLock;
+
+pub(super) use unknown_option::with_tip;
+
+use crate::error::Error;
+use crate::error::spelling::british;
+use crate::math::glob::Glob;
+use crate::style::StyleKey;
+use crate::style::keys::advice::{alternatives, listed};
+
+/// The keys that a pattern fits, as text, as JSON or as the page of the reference. Without `*` and `?` it fits any part of a key.
+pub(super) fn list(glob: &str, json: bool, reference: bool) -> Result<String, Error> {
+    if reference {
+        return Ok(reference::page());
+    }
+    let spelt = british(glob);
+    let is_pattern = spelt.contains(['*', '?']);
+    let pattern = Glob::new(if is_pattern { spelt.clone() } else { format!("*{spelt}*") });
+    let keys: Vec<&StyleKey> = StyleKey::all()
+        .iter()
+        .filter(|key| pattern.matches(&key.path) || pattern.matches(&key.bare_path()))
+        .collect();
+    if keys.is_empty() {
+        let near = alternatives(&spelt, false);
+        let advice = match near[..] {
+            [] => "`ligne styles --keys` lists all keys".to_owned(),
+            _ => format!("did you mean {}?", listed(&near)),
+        };
+        return Err(Error::new(format!("no style key matches `{glob}`")).at("--keys").remedy(advice));
+    }
+    Ok(if json { listing::json(&keys) } else { listing::text(&keys) })
+}
+
+/// What shells offer for `--set`: the keys that it sets, each with `=`.
+pub(super) fn settings() -> &'static [&'static str] {
+    static SETTINGS: OnceLock<Vec<&'static str>> = OnceLock::new();
+    SETTINGS.get_or_init(|| {
+        let settable = StyleKey::all().iter().filter(|key| key.is_settable());
+        // The list lives as long as the program.
+        settable.map(|key| &*format!("{}=", key.path).leak()).collect()
+    })
+}

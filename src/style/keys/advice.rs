@@ -1,0 +1,90 @@
+//! Advice in error messages: the key that an unknown word stands for, and how the value of a key is written.
+
+use super::table::{KeyType, StyleKey};
+use crate::error::nearest::nearest;
+use crate::error::spelling::british;
+
+/// Keys that are suggested at once.
+const MAX_SUGGESTIONS: usize = 3;
+
+/// The keys in the whole tree whose path ends like a word or a dotted path that is no key; the most general ones first. A word that
+/// no path ends with stands for the nearest one.
+pub(crate) fn alternatives(typed: &str, only_settable: bool) -> Vec<String> {
+    let typed = british(&typed.to_lowercase().replace('-', "_"));
+    let exact = ending(&typed, only_settable);
+    if !exact.is_empty() {
+        return exact;
+    }
+    // The first part that is misspelt is replaced.
+    let known: Vec<&str> = StyleKey::all().iter().flat_map(|key| key.path.split(['.', '['])).collect();
+    let mut parts: Vec<&str> = typed.split('.').collect();
+    let Some(wrong) = parts.iter_mut().find(|part| !known.contains(*part)) else { return Vec::new() };
+    let Some(near) = nearest(wrong, &known) else { return Vec::new() };
+    *wrong = near;
+    ending(&parts.join("."), only_settable)
+}
+
+/// The keys, and the tables of keys, whose path ends with a word or a dotted path. For the command line only keys that `--set` sets.
+pub(crate) fn ending(typed: &str, only_settable: bool) -> Vec<String> {
+    let suffix = format!(".{typed}");
+    // The depth of each path, and whether it stands for others of its name as well.
+    let mut found: Vec<(usize, bool, &str)> = Vec::new();
+    for key in StyleKey::all().iter().filter(|key| key.is_settable() || !only_settable) {
+        let ends = key.path.match_indices('.').map(|(at, _)| at).chain([key.path.len()]);
+        for path in ends.filter_map(|end| key.path.get(..end)) {
+            let bare = path.replace("[]", "");
+            let fits = bare == typed || bare.ends_with(&suffix);
+            let is_general = key.inherits.is_none() || path.len() <= key.prefix.len();
+            if fits && found.iter().all(|(.., other)| *other != path) {
+                found.push((path.matches('.').count(), is_general, path));
+            }
+        }
+    }
+    if found.iter().any(|(_, is_general, _)| *is_general) {
+        found.retain(|(_, is_general, _)| *is_general);
+    }
+    let is_key = |path: &str| StyleKey::find(path).is_some();
+    if only_settable && found.iter().any(|(.., path)| is_key(path)) {
+        found.retain(|(.., path)| is_key(path));
+    }
+    found.sort_by_key(|(depth, ..)| *depth);
+    found.into_iter().take(MAX_SUGGESTIONS).map(|(.., path)| path.to_owned()).collect()
+}
+
+/// Words in a list with "or" before the last one, each in back quotes.
+pub(crate) fn listed(words: &[String]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    match quoted.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// How the value of a key is written: the advice of an error. On the command line lists need quotes of the shell.
+pub(crate) fn write_value(key: &StyleKey, on_command_line: bool) -> String {
+    let words = key.words.join(", ");
+    let range = match key.range {
+        "" | "any" => String::new(),
+        range if range.starts_with(|c: char| c.is_ascii_digit()) => format!(" from {range}"),
+        range if range.starts_with("at least") => format!(" of {range}"),
+        range => format!(" {range}"),
+    };
+    match key.kind {
+        KeyType::Choice => format!("write one of {words}"),
+        KeyType::Choices => {
+            let some: Vec<String> = key.words.iter().take(2).map(|word| format!("\"{word}\"")).collect();
+            let list = match (on_command_line, some.join(", ")) {
+                (true, some) => format!("--set '{}=[{some}]'", key.path),
+                (false, some) => format!("[{some}]"),
+            };
+            format!("write a list such as {list}; the words are {words}")
+        }
+        KeyType::Number => format!("write a number{range}"),
+        KeyType::Whole => format!("write a whole number{range}"),
+        KeyType::Numbers => format!("write a list of numbers{range}, such as [0.3, 0.7]"),
+        KeyType::Factor => format!("write {}; numbers go{range}", key.kind.form()),
+        kind if words.is_empty() || kind == KeyType::Brush => format!("write {}", kind.form()),
+        kind => format!("write {}, or {words}", kind.form()),
+    }
+}

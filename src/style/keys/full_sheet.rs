@@ -1,0 +1,131 @@
+//! [`full_sheet`]: a sheet with every key of a style.
+
+use std::fmt::Write as _;
+
+use toml::{Table, Value};
+
+use super::table::{KeyType, StyleKey};
+
+/// Columns of a comment that lists keys.
+const COLUMNS: usize = 100;
+
+/// A sheet with all keys: those that the style sets, and the defaults of the others. Keys without a value are comments.
+pub(in crate::style) fn full_sheet(name: &str, set: &Table) -> String {
+    let mut sheet = format!("# All keys of the style `{name}`. A line that begins with # has no effect.\n\n");
+    for key in StyleKey::all().iter().filter(|key| key.prefix.is_empty() && key.kind != KeyType::Tables) {
+        write_key(&mut sheet, key, key.name, set, true);
+    }
+    let mut written: Vec<&str> = Vec::new();
+    for key in StyleKey::all().iter().filter(|key| !key.prefix.is_empty()) {
+        let (list, is_list) = match key.prefix.split_once("[]") {
+            Some((list, _)) => (list, true),
+            None => (key.prefix, false),
+        };
+        if written.contains(&list) {
+            continue;
+        }
+        written.push(list);
+        if is_list { write_list(&mut sheet, list, set) } else { write_table(&mut sheet, list, set) }
+    }
+    sheet
+}
+
+/// A table `[prefix]` with its keys.
+fn write_table(sheet: &mut String, prefix: &str, set: &Table) {
+    let keys = || StyleKey::all().iter().filter(|key| key.prefix == prefix && key.kind != KeyType::Tables);
+    let empty = Table::new();
+    let own = value_at(set, prefix).and_then(Value::as_table).unwrap_or(&empty);
+    if prefix.starts_with("pen.") {
+        // A named pen changes only the fields that are set.
+        let (set_keys, unset): (Vec<_>, Vec<_>) = keys().partition(|key| is_set(own, key.name));
+        if set_keys.is_empty() {
+            let _ = writeln!(sheet, "\n# [{prefix}] sets no key: all are as in [pen].");
+            return;
+        }
+        let _ = writeln!(sheet, "\n[{prefix}]");
+        for key in set_keys {
+            write_key(sheet, key, key.name, own, false);
+        }
+        let names: Vec<&str> = unset.iter().map(|key| key.name).collect();
+        comment(sheet, "as in [pen]", &names);
+        return;
+    }
+    let _ = writeln!(sheet, "\n[{prefix}]");
+    for key in keys() {
+        write_key(sheet, key, key.name, own, true);
+    }
+}
+
+/// The entries of a list of tables, `[[list]]`, or its keys in a comment.
+fn write_list(sheet: &mut String, list: &str, set: &Table) {
+    let start = format!("{list}[].");
+    let keys: Vec<(&StyleKey, &str)> =
+        StyleKey::all().iter().filter_map(|key| Some((key, key.path.strip_prefix(&start)?))).collect();
+    let entries = value_at(set, list).and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
+    for entry in entries.iter().filter_map(Value::as_table) {
+        let _ = writeln!(sheet, "\n[[{list}]]");
+        for (key, name) in &keys {
+            // What a rule or a material does not set stays as it is elsewhere.
+            let changes = key.inherits.is_some() || key.prefix.starts_with("fills.material[]");
+            if !changes || is_set(entry, name) {
+                write_key(sheet, key, name, entry, !changes);
+            }
+        }
+    }
+    if entries.is_empty() {
+        let names: Vec<&str> = keys.iter().map(|(_, name)| *name).collect();
+        sheet.push('\n');
+        comment(sheet, &format!("[[{list}]] may be added, with the keys"), &names);
+    }
+}
+
+/// A line with a key: its value, its default, or a comment.
+fn write_key(sheet: &mut String, key: &StyleKey, name: &str, own: &Table, with_defaults: bool) {
+    let help = key.full_help();
+    if let Some(value) = value_at(own, name) {
+        let _ = writeln!(sheet, "{name} = {value}  # {help}");
+        return;
+    }
+    // The table that holds a key may be written as the value of another one: a brush, a shade.
+    let holder = name.rsplit_once('.').map(|(holder, _)| holder);
+    let is_held = holder.is_some_and(|holder| StyleKey::find(&key.path.replace(name, holder)).is_some());
+    if holder.is_some_and(|holder| is_held && value_at(own, holder).is_some()) {
+        return;
+    }
+    let other_scale = ["steps", "ramp", "table"].iter().any(|other| own.contains_key(*other));
+    let default = key.default.filter(|_| with_defaults && !is_held && !(name == "thresholds" && other_scale));
+    match default {
+        Some(default) => {
+            let _ = writeln!(sheet, "{name} = {default}  # {help}");
+        }
+        None => {
+            let _ = writeln!(sheet, "# {name} =  # {help}");
+        }
+    }
+}
+
+/// A comment that lists keys, in lines that are not too long.
+fn comment(sheet: &mut String, head: &str, names: &[&str]) {
+    let mut line = format!("# {head}:");
+    for (number, name) in names.iter().enumerate() {
+        if line.len() + name.len() + 2 > COLUMNS {
+            let _ = writeln!(sheet, "{line}");
+            "#  ".clone_into(&mut line);
+        }
+        let comma = if number + 1 < names.len() { "," } else { "" };
+        let _ = write!(line, " {name}{comma}");
+    }
+    let _ = writeln!(sheet, "{line}");
+}
+
+fn is_set(table: &Table, name: &str) -> bool {
+    value_at(table, name).is_some()
+}
+
+/// The value at a dotted path.
+pub(in crate::style) fn value_at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    match path.split_once('.') {
+        None => table.get(path),
+        Some((first, rest)) => value_at(table.get(first)?.as_table()?, rest),
+    }
+}

@@ -1,0 +1,419 @@
+//! Style keys from the terminal: lists, complete sheets, the reference, completions, suggestions, and numbers without a unit.
+
+use std::fs;
+use std::path::Path;
+
+use crate::folder::{Folder, Run};
+
+fn draw(folder: &Folder, set: &str) -> Run {
+    folder.run(&["draw", "cubes.obj", "a.svg", "--set", set])
+}
+
+#[test]
+fn keys_are_listed_with_type_default_and_values() {
+    let folder = Folder::new("keys-list");
+    let list = |glob: &str| folder.run(&["styles", "--keys", glob]).done().out.clone();
+    assert_eq!(
+        list("lines.crease_deg"),
+        "lines.crease_deg  number  40  Edges whose faces turn by more than this are creases (0 to 180 deg)\n"
+    );
+    assert!(list("hidden").contains("lines.hidden "), "any part of a key");
+    assert!(list("lines.hidden").contains("(none, dashed, solid)"));
+    let pens = list("pen.*.width");
+    let lines: Vec<&str> = pens.lines().collect();
+    assert_eq!(lines.len(), 17, "{pens}");
+    assert!(lines[0].starts_with("pen.contour.width ") && lines[0].contains(" as pen "), "{pens}");
+    // Columns are aligned.
+    let column = |line: &&str| line.find("length");
+    assert!(lines.iter().all(|line| column(line) == column(&lines[0])), "{pens}");
+    let all = folder.ligne("styles --keys").done().out.clone();
+    for key in [
+        "extends ",
+        "light.sources[].kind ",
+        "hatching.layer[].lpi ",
+        "fills.material[].name ",
+        "rule[].when.part ",
+    ] {
+        assert!(all.lines().any(|line| line.starts_with(key)), "{key}");
+    }
+    assert_eq!(list("pen.color"), list("pen.colour"));
+    folder
+        .ligne("styles --keys creese_deg")
+        .refused("no style key matches `creese_deg`; did you mean `lines.crease_deg`?");
+    folder.ligne("styles ink --keys").refused("cannot be used with");
+    folder.ligne("styles --json").refused("--keys");
+}
+
+#[test]
+fn keys_are_listed_as_json() {
+    let folder = Folder::new("keys-json");
+    let json = folder.ligne("styles --keys --json").done().out.clone();
+    let keys: Vec<serde_json::Value> = serde_json::from_str(&json).unwrap();
+    assert!(keys.len() > 700, "{}", keys.len());
+    let find = |path: &str| keys.iter().find(|key| key["key"] == path).unwrap_or_else(|| panic!("{path}"));
+    let fields = ["key", "type", "values", "range", "default", "inherits", "unit", "settable", "help"];
+    assert!(keys.iter().all(|key| fields.iter().all(|field| key.get(field).is_some())));
+    let hidden = find("lines.hidden");
+    assert_eq!((&hidden["default"], &hidden["type"]), (&"none".into(), &"choice".into()));
+    assert_eq!(hidden["values"], serde_json::json!(["none", "dashed", "solid"]));
+    let width = find("pen.contour.width");
+    assert_eq!(
+        (&width["inherits"], &width["unit"], &width["default"]),
+        (&"pen.width".into(), &"px".into(), &().into())
+    );
+    assert_eq!(find("lines.crease_deg")["default"], 40);
+    assert_eq!(find("fills.shadow")["default"], serde_json::json!([0.7, 0.66, 0.78]));
+    assert_eq!(find("rule[].when.part")["settable"], false);
+}
+
+#[test]
+fn a_complete_sheet_draws_the_same() {
+    let folder = Folder::with_cubes("keys-all");
+    for style in ["ink", "pencil", "gooch"] {
+        let sheet = folder.run(&["styles", style, "--all"]).done().out.clone();
+        folder.write("all.toml", &sheet);
+        let draw = |style: &str| {
+            folder.run(&["draw", "cubes.obj", "-", "--quiet", "--style", style]).done().out.clone()
+        };
+        assert_eq!(draw("all.toml"), draw(style), "{style}");
+        assert!(sheet.contains("\n[lines.inside]\n") && sheet.contains("crease_deg = 40"), "{sheet}");
+    }
+    folder.write("mine.toml", "extends = 'ink'\nlines.crease_deg = 12\n");
+    folder.ligne("styles mine.toml --all").done().says("crease_deg = 12  # Edges whose faces");
+    folder.ligne("styles inkk --all").refused("there is no style `inkk`; did you mean `ink`?");
+}
+
+#[test]
+fn the_reference_of_style_keys_is_current() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reference/style-keys.md");
+    let page = Folder::new("keys-reference").ligne("styles --keys --reference").done().out.clone();
+    let written = fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        written == page,
+        "docs/reference/style-keys.md is not current; renew it: ligne styles --keys --reference > docs/reference/style-keys.md"
+    );
+    let words = page.split_whitespace().count();
+    assert!(words < 7000, "{words} words");
+    // Every key is in it, those of single pens by the line that names their tables.
+    for key in
+        ["`pen.swell.taper_to`", "`pen.silhouette`", "`light.sources[].falloff`", "`hatching.layer[].lpi`"]
+    {
+        assert!(page.contains(key), "{key}");
+    }
+}
+
+#[test]
+fn shells_complete_the_keys_of_set() {
+    let folder = Folder::new("keys-completions");
+    for shell in ["bash", "zsh", "fish"] {
+        let script = folder.run(&["completions", shell]).done().out.clone();
+        for key in ["lines.crease_deg=", "pen.silhouette.hand.passes=", "fills.thresholds="] {
+            assert!(script.contains(key), "{shell}: {key}");
+        }
+        assert!(!script.contains("rule[].pen.width="), "{shell}");
+    }
+    // Where there is a bash, it completes a key, and writes no space behind it.
+    let script = folder.ligne("completions bash").out;
+    assert!(script.contains("--set)\n                    compopt -o nospace"));
+    folder.write("ligne.bash", &script);
+    let call = "source ligne.bash; COMP_WORDS=(ligne draw a.obj --set lines.cr); COMP_CWORD=4; \
+                _ligne ligne lines.cr --set; echo \"${COMPREPLY[@]}\"";
+    let bash = std::process::Command::new("bash").args(["-c", call]).current_dir(folder.path("")).output();
+    if let Ok(output) = bash {
+        assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "lines.crease_deg=");
+    }
+    // The help does not list them.
+    assert!(!folder.ligne("draw --help").done().out.contains("pen.silhouette.hand"));
+}
+
+#[test]
+fn suggestions_search_all_keys() {
+    let folder = Folder::with_cubes("keys-suggested");
+    for (set, wanted) in [
+        ("crease_deg=30", "unknown key `crease_deg`; did you mean `lines.crease_deg`?"),
+        ("crease-deg=30", "did you mean `lines.crease_deg`?"),
+        ("creese_deg=30", "did you mean `lines.crease_deg`?"),
+        ("width=3", "did you mean `pen.width`, `glass.width` or `motion.width`?"),
+        ("hidden=dashed", "did you mean `lines.hidden`?"),
+        ("silhouette.width=3", "did you mean `pen.silhouette.width`?"),
+        ("hand.passes=3", "did you mean `pen.hand.passes`?"),
+        ("pen.crease_deg=3", "did you mean `lines.crease_deg`?"),
+        ("pen.wdith=3", "did you mean `width`?"),
+        ("hatching.layers=3", "did you mean `layer`?"),
+        ("lines.hidden=true", "`true` does not fit here; write one of none, dashed, solid"),
+        ("lines.hidden=dot", "unknown value `dot`; known values: none, dashed, solid"),
+        (
+            "lines.kinds=contour",
+            "write a list such as --set 'lines.kinds=[\"contour\", \"border\"]'; the words are contour, border, crease, material, \
+             intersection, suggestive, ridge, valley, artist, isophote, image, wire, motion",
+        ),
+        ("lines.crease_deg=true", "`true` does not fit here; write a number from 0 to 180"),
+        ("hatching.blacks=-1", "`-1` does not fit here; write a whole number of at least 0"),
+        ("fills.steps=0.5", "`0.5` does not fit here; write a whole number from 1 to 1024"),
+        ("pen=3", "`3` does not fit here; write a table"),
+    ] {
+        draw(&folder, set).refused(&format!("--set {set}: "));
+        draw(&folder, set).refused(wanted);
+    }
+    folder.write("mine.toml", "[pen]\ncrease_deg = 20\n");
+    folder
+        .ligne("draw cubes.obj a.svg --style mine.toml")
+        .refused("mine.toml: line 2: unknown key `crease_deg`; did you mean `lines.crease_deg`?");
+    folder.write("mine.toml", "[lines]\nhidden = true\n");
+    folder.ligne("draw cubes.obj a.svg --style mine.toml").refused(
+        "mine.toml: line 2: `true` does not fit here; write one of none, dashed, solid\n 2 | hidden = true",
+    );
+    assert!(!folder.names().contains(&"a.svg".to_owned()));
+}
+
+#[test]
+fn unknown_options_lead_to_keys() {
+    let folder = Folder::with_cubes("keys-options");
+    for (option, wanted) in [
+        ("--hidden", "'--hidden' is a key of the style: --set lines.hidden=…"),
+        ("--crease-deg", "--set lines.crease_deg=…"),
+        ("--colour", "--set pen.colour=…"),
+        ("--color=red", "--set pen.colour=…"),
+        ("--pen.width", "--set pen.width=…"),
+    ] {
+        folder.run(&["draw", "cubes.obj", "a.svg", option]).refused(wanted);
+        folder.run(&["animate", "cubes.obj", "a.svg", option]).refused(wanted);
+    }
+    // Other commands have no styles, and other words no keys.
+    let plain = |words: &[&str]| assert!(!folder.run(words).err.contains("key of the style"), "{words:?}");
+    plain(&["info", "cubes.obj", "--hidden"]);
+    plain(&["draw", "cubes.obj", "a.svg", "--veiw"]);
+}
+
+#[test]
+fn american_spelling_is_accepted_everywhere() {
+    let folder = Folder::with_cubes("keys-color");
+    let svg = |words: &str| folder.ligne(&format!("draw cubes.obj - --quiet {words}")).done().out.clone();
+    let red = svg("--set pen.colour=#ff0000");
+    assert!(red.contains("#ff0000") || red.contains("#f00"));
+    assert_eq!(svg("--set pen.color=#ff0000"), red);
+    folder.write("mine.toml", "extends = 'ink'\npen.color = '#ff0000'\n");
+    assert_eq!(svg("--style mine.toml"), red);
+    folder.write("ligne.toml", "[draw]\nset = { pen.color = '#ff0000' }\n");
+    assert_eq!(svg(""), red);
+    assert_eq!(svg("--no-config --set pen.color=#ff0000"), red);
+    folder.write("ligne.toml", "[draw]\ncenter = '0,0,0'\npage = 'A5'\nscale = '10:1'\n");
+    let centred = svg("");
+    folder.write("ligne.toml", "");
+    assert_eq!(svg("--center 0,0,0 --page A5 --scale 10:1"), centred);
+    // Case files and page files.
+    folder.write("cases/a.toml", "model = '../cubes.obj'\nset = { pen.color = '#ff0000' }\n");
+    folder.ligne("test cases --bless").done();
+    assert!(folder.text("cases/a.svg").contains("#ff0000") || folder.text("cases/a.svg").contains("#f00"));
+    let page = "[page]\nkind = 'comic'\nsize = [80, 80]\nset = ['pen.color=#ff0000']\nlettering.color = '#00ff00'\n\
+                [[page.panel]]\nmodel = { file = 'cubes.obj', color = '#0000ff' }\nsound = [{ text = 'Bang', color = '#123456' }]\n";
+    folder.write("american.toml", page);
+    folder.write("british.toml", &page.replace("color", "colour"));
+    folder.ligne("page american.toml american.svg").done();
+    folder.ligne("page british.toml british.svg").done();
+    let text = |name: &str| folder.text(name).replace(name.trim_end_matches(".svg"), "");
+    assert_eq!(text("american.svg"), text("british.svg"));
+    folder.write("both.toml", "pen.color = '#ff0000'\npen.colour = '#00ff00'\n");
+    folder.ligne("draw cubes.obj a.svg --style both.toml").refused("`colour` is given twice; leave one out");
+}
+
+#[test]
+fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
+    let folder = Folder::with_cubes("keys-units");
+    let warnings = |words: &str| -> Vec<String> {
+        let run = folder.ligne(&format!("draw cubes.obj a.svg {words}"));
+        let lines = run.done().err.lines().filter(|line| line.contains(" is px")).map(ToOwned::to_owned);
+        lines.collect()
+    };
+    let one = warnings("--page A4 --set pen.width=0.35");
+    assert_eq!(one.len(), 1, "{one:?}");
+    assert!(
+        one[0].ends_with("pen.width: 0.35 is px, which is 0.093 mm here; write 0.35mm, or 0.35px to keep it"),
+        "{one:?}"
+    );
+    let two = warnings("--page A4 --set pen.width=0.35 --set pen.contour.width=1 --set pen.dash=[3,2]");
+    assert_eq!(two.len(), 1, "{two:?}");
+    assert!(two[0].ends_with("; so are pen.contour.width and 1 more"), "{two:?}");
+    // Not in px, not with a unit, not for numbers that are no lengths, not for 0.
+    for words in [
+        "--set pen.width=0.35",
+        "--page A4 --set pen.width=0.35mm",
+        "--page A4 --set pen.width=0.35px",
+        "--page A4 --set pen.opacity=0.35",
+        "--page A4 --set pen.halo=0",
+        "--page A4 --style pencil",
+        "--page A4 --style sketch --set pen.hand.passes=3",
+    ] {
+        assert_eq!(warnings(words), [""; 0], "{words}");
+    }
+    // Sheets of one's own, but not numbers that were copied from a built-in one, and not defaults.
+    folder.write("mine.toml", "extends = 'ink'\n[pen.contour]\nwidth = 0.5\n");
+    assert!(warnings("--page A4 --style mine.toml")[0].contains("pen.contour.width: 0.5 is px"));
+    for name in ["ink", "pencil", "comic"] {
+        for all in ["", "--all"] {
+            let copy = folder.ligne(&format!("styles {name} {all}")).done().out.clone();
+            folder.write("copy.toml", &copy);
+            assert_eq!(warnings("--page A4 --style copy.toml"), [""; 0], "{name} {all}");
+        }
+    }
+    // Warnings are errors under --strict, are said once for many models, and come from ligne.toml and page files as well.
+    folder
+        .ligne("draw cubes.obj b.svg --page A4 --set pen.width=0.35 --strict")
+        .refused("pen.width: 0.35 is px");
+    let many = folder
+        .ligne("draw cubes.obj cubes.obj --out-dir out --view front,top --page A4 --set pen.width=0.35");
+    let many_warnings = many.err.matches(" is px").count();
+    assert!(many_warnings <= 1, "{many:?}");
+    folder.write("ligne.toml", "[draw]\nset = { pen.width = 0.35 }\n");
+    assert_eq!(warnings("--page A4").len(), 1);
+    folder.write("ligne.toml", "");
+    let page = "[page]\nkind = 'comic'\nsize = [80, 80]\nlayout = '1 | 1'\nset = ['pen.width=0.35']\n\
+                [[page.panel]]\nmodel = 'cubes.obj'\n[[page.panel]]\nmodel = 'cubes.obj'\n";
+    folder.write("page.toml", page);
+    let run = folder.ligne("page page.toml page.svg");
+    assert_eq!(run.done().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
+    folder.write("sheet.toml", "[page]\nkind = 'sheet'\nmodel = 'cubes.obj'\nset = ['pen.width=0.35']\n");
+    let run = folder.ligne("page sheet.toml sheet.svg");
+    assert_eq!(run.done().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
+    folder.write("sheet.toml", "[page]\nkind = 'sheet'\nmodel = 'cubes.obj'\n");
+    assert!(!folder.ligne("page sheet.toml sheet.svg").done().err.contains(" is px"));
+}
+
+#[test]
+fn many_models_are_warned_about_once() {
+    let folder = Folder::with_cubes("keys-units-many");
+    folder.write("other.obj", crate::folder::CUBES);
+    let words = "draw cubes.obj other.obj --out-dir out --page A4 --set pen.width=0.35";
+    let run = folder.ligne(words);
+    assert_eq!(run.done().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
+    folder.ligne(&format!("{words} --strict")).refused("pen.width: 0.35 is px");
+}
+
+#[test]
+fn internals_do_not_leak_into_errors() {
+    let folder = Folder::with_cubes("keys-leaks");
+    let leaks = [
+        "struct ",
+        "enum ",
+        "usize",
+        "u8",
+        "u16",
+        "u32",
+        "u64",
+        "i32",
+        "i64",
+        "f64",
+        "sequence",
+        "map,",
+        "variant",
+        "untagged",
+        "floating point",
+        "expected `",
+    ];
+    let clean = |run: &Run, text: &str| {
+        assert_eq!(run.status, Some(2), "{text}: {run:?}");
+        let message = run.err.lines().next().unwrap_or_default();
+        let leak = leaks.iter().find(|leak| message.contains(*leak));
+        assert!(leak.is_none(), "{text}: {}", run.err);
+        assert!(message.len() < 400, "{text}: {}", run.err);
+    };
+    for value in ["3", "true", "'a'", "[1]", "{ a = 1 }", "-1.5"] {
+        for key in [
+            "lines",
+            "lines.kinds",
+            "lines.hidden",
+            "lines.image.passes",
+            "pen.contour",
+            "pen.brush",
+            "pen.brush.left",
+            "seed",
+            "hatching.blacks",
+            "hatching.layer",
+            "fills.material",
+            "fills.shadow",
+            "fills.texture_colours",
+            "light.sources",
+            "motion.lines",
+            "motion.parts",
+            "page.paper",
+            "pen.dash",
+            "rule",
+            "glass.materials",
+            "extends",
+        ] {
+            let text = format!("{key} = {value}\n");
+            folder.write("mine.toml", &text);
+            let run = folder.ligne("draw cubes.obj a.svg --style mine.toml --size 20");
+            if run.status != Some(0) {
+                clean(&run, &text);
+            }
+        }
+        for (kind, keys) in [
+            (
+                "comic",
+                "title size landscape bleed reading background layout gutter hand style set ink icc ink_limit spot lettering panel",
+            ),
+            (
+                "sheet",
+                "size model unit decimals decimal_comma style set projection scale views hidden title section detail exploded \
+                       parts_list balloons dimensions points dimension notes",
+            ),
+        ] {
+            for key in keys.split_whitespace() {
+                let text = format!("[page]\nkind = '{kind}'\n{key} = {value}\n");
+                folder.write("page.toml", &text);
+                let run = folder.ligne("page page.toml page.svg");
+                if run.status != Some(0) {
+                    clean(&run, &text);
+                }
+            }
+        }
+        for key in [
+            "style",
+            "set",
+            "view",
+            "azimuth",
+            "size",
+            "threads",
+            "precision",
+            "quiet",
+            "faces",
+            "only",
+            "camera",
+        ] {
+            let text = format!("[draw]\n{key} = {value}\n");
+            folder.write("ligne.toml", &text);
+            let run = folder.ligne("draw cubes.obj a.svg --size 20");
+            if run.status != Some(0) {
+                clean(&run, &text);
+            }
+            folder.write("ligne.toml", "");
+        }
+    }
+    for (text, wanted) in [
+        ("{", "c.json: line 1, column 1: the camera record is not JSON: "),
+        ("[]", "c.json: the camera record is not a JSON object"),
+        ("{\"type\": \"perspective\", \"eye\": 3}", "c.json: key eye: 3 is not a point; write three numbers"),
+    ] {
+        folder.write("c.json", text);
+        let run = folder.ligne("draw cubes.obj a.svg --camera c.json");
+        clean(&run, text);
+        run.refused(wanted);
+    }
+    folder.write("levels.json", "{\"faces\": 3}");
+    let levels = "animate cubes.obj a.gif --turntable 2 --size 20 --levels levels.json";
+    folder.ligne(levels).refused("levels.json: `faces` is missing, or is not a list of whole numbers");
+    folder.write("levels.json", "{\"faces\"");
+    let run = folder.ligne(levels);
+    clean(&run, "levels");
+    run.refused("levels.json: line 1, column 8: this is not JSON: ");
+    folder.write(
+        "scene.gltf",
+        "{\"asset\": {\"version\": \"2.0\"}, \"cameras\": [{\"type\": \"perspective\", \"perspective\": 3}]}",
+    );
+    let run = folder.ligne("draw scene.gltf a.svg");
+    clean(&run, "gltf");
+    run.refused("scene.gltf: JSON line 1 column ");
+    assert_eq!(run.err.matches("line 1").count(), 1, "the position is given once: {run:?}");
+    run.refused("`3` does not fit here; write a table");
+}
