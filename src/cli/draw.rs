@@ -12,6 +12,7 @@ use super::output::{Format, Staging, check_place, is_stdout};
 use super::print_args;
 use super::progress::Progress;
 use super::request::DrawRequest;
+use super::step::{open_rigged, open_scene};
 use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{dxf_args, lod, number, pipeline, print, say, web, wonder};
 use crate::drawing::{Drawing, Page, Unit};
@@ -235,8 +236,8 @@ fn open(request: &DrawRequest, style: &Style) -> Result<Opened, Error> {
         (Some(format), stands) => {
             read_piped(format, stands).map_err(|error| error.in_file(&request.model))?
         }
-        (None, true) => Scene::open(&request.model)?.into(),
-        (None, false) => Rigged::open(&request.model)?,
+        (None, true) => open_scene(&request.model, &request.step)?.into(),
+        (None, false) => open_rigged(&request.model, &request.step)?,
     };
     // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));

@@ -32,6 +32,7 @@ mod request;
 mod section_args;
 mod shard;
 mod status;
+mod step;
 mod styles;
 mod styles_sheet;
 mod test;

@@ -67,6 +67,10 @@ pub(super) fn doubt(scene: &Scene, longest: f64) -> Option<String> {
     if !(longest.is_finite() && longest > 0.0) {
         return None;
     }
+    if scene.format == "STEP" {
+        // The converter has read the unit of the file.
+        return None;
+    }
     if is_in_metres(scene) {
         return (longest > LONGEST_METRES).then(|| {
             let metres = number(longest / 1000.0);

@@ -19,7 +19,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(in crate::cli) struct AnimateArgs {
-    /// The model: .obj, .gltf, .glb, .stl or .ply
+    /// The model: .obj, .gltf, .glb, .stl, .ply or .step
     pub(super) model: PathBuf,
 
     /// One file of all frames: .svg, .gif, .png, .webp, .mp4 or .webm; or a file for each, its number in the

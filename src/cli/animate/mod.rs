@@ -25,6 +25,7 @@ use super::framing_args::Frame;
 use super::output::{Staging, check_place, is_stdout};
 use super::progress::Progress;
 use super::request::DrawRequest;
+use super::step::open_rigged;
 use super::viewpoint::viewpoint;
 use super::{lod, number, pipeline, print, say, wonder};
 use crate::error::Error;
@@ -115,7 +116,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
     let mut watch = Stopwatch::start();
-    let mut rigged = Rigged::open(&request.model)?;
+    let mut rigged = open_rigged(&request.model, &request.step)?;
     let coarse = args.budget.is_some() || args.levels.is_some() || request.faces.is_some();
     // Levels of detail are of the model as it is stored, whatever is shown of it.
     let detail = coarse.then(|| {
