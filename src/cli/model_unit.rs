@@ -55,8 +55,13 @@ impl ModelUnit {
     }
 }
 
-/// Whether the format of a scene says what its unit is.
-pub(super) fn is_in_metres(scene: &Scene) -> bool {
+/// Whether the unit of a scene is known without asking: glTF demands metres, and converters of STEP return millimetres.
+pub(super) fn is_stated(scene: &Scene) -> bool {
+    scene.format == "STEP" || is_in_metres(scene)
+}
+
+/// Whether the format of a scene demands metres.
+fn is_in_metres(scene: &Scene) -> bool {
     scene.format == "glTF"
 }
 

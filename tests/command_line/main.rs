@@ -22,4 +22,6 @@ mod pages;
 mod pictures;
 mod print;
 mod sheets;
+mod step;
+mod step_file;
 mod web;

@@ -3,7 +3,8 @@
 //! A STEP file names products, and sometimes their occurrences in an assembly. Open CASCADE writes a node for each occurrence. Two kinds
 //! of nodes have no name that a user knows:
 //!
-//! - A node called `=>[0:1:1:3]` is a reference in Open CASCADE's own document. The product's name stands on the node above.
+//! - A node called `=>[0:1:1:3]` is a reference in Open CASCADE's own document. The product's name stands on the node above; among
+//!   several children of one assembly it stands on the node's mesh.
 //! - A node called `NAUO12` or `12` has the number of its occurrence. The product's name stands on its mesh.
 //!
 //! Both take the product's name, so that `--only` and `--hide` find parts by it.
@@ -50,6 +51,11 @@ fn product(root: &Root, parents: &[Option<usize>], index: usize) -> Option<Strin
         return None;
     }
     let mut above = parents.get(index).copied().flatten();
+    let is_one_of_several =
+        above.and_then(|above| root.nodes.get(above)).is_some_and(|above| above.children.len() > 1);
+    if let Some(name) = of_mesh().filter(|_| is_one_of_several) {
+        return Some(name);
+    }
     // A damaged file may have a cycle of nodes.
     for _ in 0..root.nodes.len() {
         let Some(parent) = above else { break };
@@ -88,7 +94,8 @@ mod tests {
             "nodes":[{"name":"frame","children":[1,4]},{"name":"lid","children":[2,5]},{"name":"=>[0:1:1:3]","mesh":1},
             {"name":"NAUO7","mesh":0},{"name":"12","mesh":1},{"name":"=>[0:1:1:9]","children":[6]},{"name":"=>[0:1:1:3]"},
             {"name":"=>[0:1:1:3]","mesh":0},{"name":"=>[a]"},{"name":"=>[0:1]","children":[10]},
-            {"name":"=>[0:2]","children":[9]}]}"#;
+            {"name":"=>[0:2]","children":[9]},{"name":"stand","children":[12,13]},{"name":"=>[0:1:1:3]","mesh":0},
+            {"name":"=>[0:1:1:4]","mesh":1}]}"#;
         let mut root: Root = serde_json::from_str(&json.replace("GENERATOR", generator)).unwrap();
         name_after_products(&mut root);
         root.nodes.into_iter().map(|node| node.name.unwrap()).collect()
@@ -97,8 +104,10 @@ mod tests {
     #[test]
     fn references_and_numbers_become_products() {
         let named = names("Open CASCADE Technology 8.0 [dev.opencascade.org]");
-        let wanted =
-            ["frame", "lid", "lid", "bolt M6", "12", "lid", "lid", "bolt M6", "=>[a]", "=>[0:1]", "=>[0:2]"];
+        let wanted = [
+            "frame", "lid", "lid", "bolt M6", "12", "lid", "lid", "bolt M6", "=>[a]", "=>[0:1]", "=>[0:2]",
+            "stand", "bolt M6", "stand",
+        ];
         assert_eq!(named, wanted);
     }
 
