@@ -63,7 +63,8 @@ pub(super) fn complete(
         .filter_map(|option| option.get_long().map(ToOwned::to_owned))
         .collect();
 
-    let mut variables = of_variables(command, surroundings);
+    // Options of `ligne styles` are of its sheet only, which shows all styles unless some are typed.
+    let mut variables = if name == "styles" { Vec::new() } else { of_variables(command, surroundings) };
     displace(command, &mut variables, &known);
     known.extend(variables.iter().map(|given| given.option.clone()));
     check(command, &variables)?;
@@ -127,8 +128,8 @@ fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<Given>, Error> {
             find()?.map(|config| config.draw.into_iter().filter(|given| given.option != "time").collect())
         }
         "diff" => find()?.map(Config::diff),
-        // How STEP models are read is the same for all commands that read models.
-        "page" | "info" | "lod" => find()?.map(|config| {
+        // How STEP models are read is the same in all commands. These read nothing else from the file, and stand other faults in it.
+        "page" | "info" | "lod" => find().unwrap_or_default().map(|config| {
             config.draw.into_iter().filter(|given| given.option.starts_with("step-")).collect()
         }),
         _ => None,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 
+use super::contact_sheet::ViewSheetArgs;
 use super::dxf_args::DxfArgs;
 use super::framing_args::{FramingArgs, SaveArgs};
 use super::many::args::ManyArgs;
@@ -53,6 +54,9 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) how: HowArgs,
+
+    #[command(flatten)]
+    pub(super) contact: ViewSheetArgs,
 
     #[command(flatten)]
     pub(super) save: SaveArgs,

@@ -4,6 +4,7 @@ mod animate;
 mod blend;
 mod completions;
 mod config;
+mod contact_sheet;
 mod defaults;
 mod diff;
 mod draw;
@@ -34,7 +35,6 @@ mod shard;
 mod status;
 mod step;
 mod styles;
-mod styles_sheet;
 mod test;
 mod viewpoint;
 mod web;
@@ -128,6 +128,7 @@ pub fn main() -> ExitCode {
     };
     let all_well = |()| ExitCode::SUCCESS;
     let done = match cli.command {
+        Command::Draw(args) if args.contact.contact_sheet => contact_sheet::of_views(*args).map(all_well),
         Command::Draw(args) if many::is_asked(&args) => many::run(*args),
         Command::Draw(args) => {
             request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)

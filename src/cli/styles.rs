@@ -1,10 +1,9 @@
 //! `ligne styles`: the built-in styles, or the text of one.
 
-use std::path::{Path, PathBuf};
-
 use clap::Args;
 
-use super::{print, styles_sheet};
+use super::contact_sheet::{self, StyleSheetArgs};
+use super::print;
 use crate::error::Error;
 use crate::style::Style;
 
@@ -13,21 +12,21 @@ use crate::style::Style;
 #[command(after_help = "Examples:
   ligne styles                        list the styles
   ligne styles ink > mine.toml        start a style of your own
-  ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side")]
+  ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side
+  ligne styles --sheet some.png gear.obj --style 'ink,*pencil*,mine.toml' --azimuth -20 --size 400")]
 pub(super) struct StylesArgs {
     /// The style whose text is shown; with --sheet the model that is drawn
     #[arg(value_name = "NAME|MODEL")]
     name: Option<String>,
 
-    /// Draw a model in all styles on one sheet: .svg, .svgz, .png or .pdf, or - for SVG on standard output
-    #[arg(long, value_name = "OUT", requires = "name")]
-    sheet: Option<PathBuf>,
+    #[command(flatten)]
+    sheet: StyleSheetArgs,
 }
 
 /// Lists the styles with the idea of each, or shows a sheet.
 pub(super) fn run(args: &StylesArgs) -> Result<(), Error> {
-    if let (Some(out), Some(model)) = (&args.sheet, &args.name) {
-        return styles_sheet::run(out, Path::new(model));
+    if let (Some(out), Some(model)) = (&args.sheet.sheet, &args.name) {
+        return contact_sheet::of_styles(&args.sheet, out, model);
     }
     let names = Style::names().collect::<Vec<_>>();
     let Some(name) = &args.name else {

@@ -6,6 +6,7 @@ mod animate;
 mod calls;
 mod cases;
 mod config;
+mod contact_sheets;
 mod diff;
 mod diff_causes;
 mod documentation;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::contact_sheet::MomentSheetArgs;
 use crate::cli::draw_args::HowArgs;
 use crate::cli::shard::Share;
 
@@ -28,6 +29,9 @@ pub(in crate::cli) struct AnimateArgs {
 
     #[command(flatten)]
     pub(super) how: HowArgs,
+
+    #[command(flatten)]
+    pub(super) contact: MomentSheetArgs,
 
     /// Frames a second
     #[arg(long, value_name = "N", default_value_t = 12.0, help_heading = "Frames")]
