@@ -14,7 +14,8 @@ use crate::error::Error;
 use crate::style::Style;
 
 /// Variables that stand for options, in every command that has the option.
-pub(super) const VARIABLES: [(&str, &str); 2] = [("LIGNE_STYLE", "style"), ("LIGNE_THREADS", "threads")];
+pub(super) const VARIABLES: [(&str, &str); 3] =
+    [("LIGNE_STYLE", "style"), ("LIGNE_THREADS", "threads"), ("LIGNE_STEP_CONVERTER", "step-converter")];
 
 /// What surrounds a call.
 #[derive(Debug, Default)]
@@ -22,7 +23,7 @@ pub(super) struct Surroundings {
     /// The working folder.
     pub(super) folder: Option<PathBuf>,
     /// The values of [`VARIABLES`].
-    pub(super) variables: [Option<String>; 2],
+    pub(super) variables: [Option<String>; VARIABLES.len()],
     /// Whether no person is at work, but a machine that checks what people did.
     pub(super) is_ci: bool,
 }
@@ -62,7 +63,8 @@ pub(super) fn complete(
         .filter_map(|option| option.get_long().map(ToOwned::to_owned))
         .collect();
 
-    let mut variables = of_variables(command, surroundings);
+    // Options of `ligne styles` are of its sheet only, which shows all styles unless some are typed.
+    let mut variables = if name == "styles" { Vec::new() } else { of_variables(command, surroundings) };
     displace(command, &mut variables, &known);
     known.extend(variables.iter().map(|given| given.option.clone()));
     check(command, &variables)?;
@@ -126,6 +128,10 @@ fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<Given>, Error> {
             find()?.map(|config| config.draw.into_iter().filter(|given| given.option != "time").collect())
         }
         "diff" => find()?.map(Config::diff),
+        // How STEP models are read is the same in all commands. These read nothing else from the file, and stand other faults in it.
+        "page" | "info" | "lod" => find().unwrap_or_default().map(|config| {
+            config.draw.into_iter().filter(|given| given.option.starts_with("step-")).collect()
+        }),
         _ => None,
     }
     .unwrap_or_default())

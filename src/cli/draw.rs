@@ -12,6 +12,7 @@ use super::output::{Format, Staging, check_place, is_stdout};
 use super::print_args;
 use super::progress::Progress;
 use super::request::DrawRequest;
+use super::step::{open_rigged, open_scene};
 use super::viewpoint::{View, Viewpoint, viewpoint};
 use super::{dxf_args, lod, number, pipeline, print, say, web, wonder};
 use crate::drawing::{Drawing, Page, Unit};
@@ -37,6 +38,13 @@ pub(super) struct Drawn {
     /// One an output, in their order.
     pub(super) encoded: Vec<Vec<u8>>,
     maps: Option<MapFiles>,
+}
+
+impl Drawn {
+    /// The drawing alone.
+    pub(super) fn into_drawing(self) -> Drawing {
+        self.drawing
+    }
 }
 
 /// Draws, and says so in one line an output.
@@ -93,6 +101,17 @@ pub(super) fn draw_views(
     requests: &[&DrawRequest],
     watch: &mut Stopwatch,
     progress: &Progress,
+    take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
+) -> Result<(), Error> {
+    draw_model(None, requests, watch, progress, take)
+}
+
+/// The same for a model that may have been read before.
+pub(super) fn draw_model(
+    model: Option<Rigged>,
+    requests: &[&DrawRequest],
+    watch: &mut Stopwatch,
+    progress: &Progress,
     mut take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let Some(request) = requests.first() else { return Ok(()) };
@@ -101,13 +120,15 @@ pub(super) fn draw_views(
         style = style.to_scale();
     }
     progress.step("reading");
-    let Opened { mut scene, mut framed, mut notes } = open(request, &style)?;
+    let Opened { mut scene, mut framed, mut notes } = open(request, model, &style)?;
     if let Some(up) = request.up {
         scene.up = up;
     }
     let load_ms = watch.lap_ms();
     progress.step("drawing");
-    notes.extend(wonder::idle(request, std::env::args_os()));
+    if !request.outputs.is_empty() {
+        notes.extend(wonder::idle(request, std::env::args_os()));
+    }
     if request.section.section.is_some() {
         // The plane and the hatching follow the view of the whole model; the frame holds what is left of it, or all.
         let whole = framed.take().unwrap_or_else(|| world_points(&scene));
@@ -231,14 +252,8 @@ struct Opened {
 }
 
 /// The model: at the moment, with the parts, and with as many faces as asked for.
-fn open(request: &DrawRequest, style: &Style) -> Result<Opened, Error> {
-    let mut rigged = match (request.piped, request.stands()) {
-        (Some(format), stands) => {
-            read_piped(format, stands).map_err(|error| error.in_file(&request.model))?
-        }
-        (None, true) => Scene::open(&request.model)?.into(),
-        (None, false) => Rigged::open(&request.model)?,
-    };
+fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) -> Result<Opened, Error> {
+    let mut rigged = model.map_or_else(|| read(request), Ok)?;
     // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
     let mut scene = scene_at(rigged, request, style)?;
@@ -251,6 +266,15 @@ fn open(request: &DrawRequest, style: &Style) -> Result<Opened, Error> {
         None => scene,
     };
     Ok(Opened { scene, framed, notes })
+}
+
+/// The model as it is stored, with its animations if one of them is drawn.
+pub(super) fn read(request: &DrawRequest) -> Result<Rigged, Error> {
+    match (request.piped, request.stands()) {
+        (Some(format), stands) => read_piped(format, stands).map_err(|error| error.in_file(&request.model)),
+        (None, true) => open_scene(&request.model, &request.step).map(Rigged::from),
+        (None, false) => open_rigged(&request.model, &request.step),
+    }
 }
 
 /// The model on standard input.

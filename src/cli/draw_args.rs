@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 
+use super::contact_sheet::ViewSheetArgs;
 use super::dxf_args::DxfArgs;
 use super::framing_args::{FramingArgs, SaveArgs};
 use super::many::args::ManyArgs;
@@ -13,7 +14,11 @@ use super::paper::{self, Extent, Measure};
 #[cfg(feature = "pdf")]
 use super::print_args::PrintArgs;
 use super::section_args::SectionArgs;
+<<<<<<< HEAD
 use super::style_keys;
+=======
+use super::step::StepArgs;
+>>>>>>> door-b
 use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;
@@ -35,7 +40,7 @@ const USAGE: &str = "ligne draw [OPTIONS] <MODEL> [OUT]
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, override_usage = USAGE)]
 pub(super) struct DrawArgs {
-    /// The model: .obj, .gltf, .glb, .stl or .ply, or - for standard input (say with --format what it is)
+    /// The model: .obj, .gltf, .glb, .stl, .ply or .step, or - for standard input (say with --format what it is)
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) model: PathBuf,
 
@@ -53,6 +58,9 @@ pub(super) struct DrawArgs {
 
     #[command(flatten)]
     pub(super) how: HowArgs,
+
+    #[command(flatten)]
+    pub(super) contact: ViewSheetArgs,
 
     #[command(flatten)]
     pub(super) save: SaveArgs,
@@ -169,6 +177,9 @@ pub(super) struct HowArgs {
 
     #[command(flatten)]
     pub(super) section: SectionArgs,
+
+    #[command(flatten)]
+    pub(super) step: StepArgs,
 
     /// Size of the drawing in px: 1000x800, or 1000 for a square [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",

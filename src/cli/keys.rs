@@ -337,6 +337,7 @@ fn placed(
             style
         }
         "camera" if value.ends_with(".json") || beside.is_file() => beside_text(),
+        "step-converter" if value.contains(['/', '\\']) => beside_text(),
         _ => value,
     }))
 }

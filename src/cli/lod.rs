@@ -8,6 +8,7 @@ use super::number::{bytes as size, counted, grouped};
 use super::output::{Staging, check_place};
 use super::request::same_file;
 use super::say;
+use super::step::{StepArgs, open_scene};
 use crate::error::Error;
 use crate::lod::Detail;
 use crate::render::Stopwatch;
@@ -22,12 +23,15 @@ use crate::scene::Scene;
 
 Without such a file drawings with --faces are the same, but take longer.")]
 pub(super) struct LodArgs {
-    /// The model: .obj, .gltf, .glb, .stl or .ply
+    /// The model: .obj, .gltf, .glb, .stl, .ply or .step
     model: PathBuf,
 
     /// The file to write [default: beside the model, with its name]
     #[arg(value_name = "OUT.ligne-lod")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    step: StepArgs,
 
     /// Say nothing but errors
     #[arg(short, long)]
@@ -43,7 +47,7 @@ pub(super) fn run(args: &LodArgs) -> Result<(), Error> {
             .in_file(&out)
             .remedy("give them another name"));
     }
-    let scene = Scene::open(&args.model)?;
+    let scene = open_scene(&args.model, &args.step)?;
     let mut watch = Stopwatch::start();
     let detail = Detail::of(&scene);
     let took = watch.lap_ms();

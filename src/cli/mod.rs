@@ -4,6 +4,7 @@ mod animate;
 mod blend;
 mod completions;
 mod config;
+mod contact_sheet;
 mod defaults;
 mod diff;
 mod draw;
@@ -32,9 +33,12 @@ mod request;
 mod section_args;
 mod shard;
 mod status;
+<<<<<<< HEAD
 mod style_keys;
+=======
+mod step;
+>>>>>>> door-b
 mod styles;
-mod styles_sheet;
 mod test;
 mod viewpoint;
 mod web;
@@ -129,6 +133,7 @@ pub fn main() -> ExitCode {
     };
     let all_well = |()| ExitCode::SUCCESS;
     let done = match cli.command {
+        Command::Draw(args) if args.contact.contact_sheet => contact_sheet::of_views(*args).map(all_well),
         Command::Draw(args) if many::is_asked(&args) => many::run(*args),
         Command::Draw(args) => {
             request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)

@@ -55,8 +55,13 @@ impl ModelUnit {
     }
 }
 
-/// Whether the format of a scene says what its unit is.
-pub(super) fn is_in_metres(scene: &Scene) -> bool {
+/// Whether the unit of a scene is known without asking: glTF demands metres, and converters of STEP return millimetres.
+pub(super) fn is_stated(scene: &Scene) -> bool {
+    scene.format == "STEP" || is_in_metres(scene)
+}
+
+/// Whether the format of a scene demands metres.
+fn is_in_metres(scene: &Scene) -> bool {
     scene.format == "glTF"
 }
 
@@ -65,6 +70,10 @@ pub(super) fn doubt(scene: &Scene, longest: f64) -> Option<String> {
     let number = |value: f64| plain(value, if value < 1.0 { 4 } else { 1 });
     let long = number(longest);
     if !(longest.is_finite() && longest > 0.0) {
+        return None;
+    }
+    if scene.format == "STEP" {
+        // The converter has read the unit of the file.
         return None;
     }
     if is_in_metres(scene) {

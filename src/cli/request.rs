@@ -7,6 +7,7 @@ use super::dxf_args::DxfArgs;
 use super::framing_args::Frame;
 use super::output::{Format, Output, is_stdout};
 use super::section_args::SectionArgs;
+use super::step::StepArgs;
 use super::viewpoint::{Lens, Sheet, View};
 use super::web_args::WebArgs;
 use crate::drawing::Unit;
@@ -24,6 +25,8 @@ pub(super) struct DrawRequest {
     pub(super) model: PathBuf,
     /// What standard input holds, where the model is read from there.
     pub(super) piped: Option<ModelFormat>,
+    /// How a STEP model becomes triangles.
+    pub(super) step: StepArgs,
     /// At least one; no two to the same place.
     pub(super) outputs: Vec<Output>,
     pub(super) report: Option<PathBuf>,
@@ -153,6 +156,7 @@ impl DrawRequest {
         Ok(Self {
             model,
             piped: None,
+            step: args.step,
             outputs: vec![Output { path: PathBuf::from("-"), format: Format::SvgToStdout }],
             report: None,
             maps: None,

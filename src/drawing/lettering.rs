@@ -12,9 +12,39 @@ const HEIGHT: f64 = 4.0;
 const BOWL: &str = "M0-2C0-3.1.67-4 1.5-4S3-3.1 3-2 2.33 0 1.5 0 0-.9 0-2Z";
 
 /// Letters, how wide they are, whether they have a bowl, and their other lines: x right, y down, 0 on the line of writing.
-const LETTERS: [(char, f64, bool, &str); 28] = [
+const LETTERS: [(char, f64, bool, &str); 43] = [
     (' ', 1.0, false, ""),
     ('-', 1.8, false, "M0-2H1.8"),
+    ('.', 0.2, false, "M0 0H.2"),
+    (',', 0.3, false, "M.3-.2L0 .8"),
+    (':', 0.2, false, "M0-3H.2M0 0H.2"),
+    ('_', 2.6, false, "M0 1H2.6"),
+    ('/', 2.2, false, "M0 .8L2.2-6"),
+    ('0', 3.0, false, "M1.5-6C.6-6 0-4.8 0-3S.6 0 1.5 0 3-1.2 3-3 2.4-6 1.5-6Z"),
+    ('1', 1.4, false, "M0-4.8L1.4-6V0"),
+    ('2', 2.9, false, "M.1-4.6C.2-5.5.8-6 1.5-6 2.3-6 2.9-5.4 2.9-4.6 2.9-3 .8-2 0 0H2.9"),
+    (
+        '3',
+        2.9,
+        false,
+        "M.2-5.2C.5-5.7.9-6 1.5-6 2.2-6 2.7-5.4 2.7-4.6S2.2-3.2 1.3-3.2C2.3-3.2 2.9-2.5 2.9-1.6 2.9-.7 2.3 0 1.4 0 .8 0 .3-.3 0-.9",
+    ),
+    ('4', 3.0, false, "M2.3 0V-6L0-1.6H3"),
+    (
+        '5',
+        2.9,
+        false,
+        "M2.6-6H.5L.3-3.3C.6-3.6 1-3.8 1.5-3.8 2.3-3.8 2.9-3 2.9-1.9S2.3 0 1.4 0C.8 0 .3-.3 0-.8",
+    ),
+    ('6', 3.0, true, "M2.5-5.9C1-5.5 0-4 0-2"),
+    ('7', 2.8, false, "M0-6H2.8L.8 0"),
+    (
+        '8',
+        2.9,
+        false,
+        "M1.45-3.2C.7-3.2.2-3.8.2-4.6S.7-6 1.45-6 2.7-5.4 2.7-4.6 2.2-3.2 1.45-3.2ZM1.45-3.2C.6-3.2 0-2.5 0-1.6S.6 0 1.45 0 2.9-.7 2.9-1.6 2.3-3.2 1.45-3.2Z",
+    ),
+    ('9', 3.0, false, "M1.5-6C.67-6 0-5.1 0-4S.67-2 1.5-2 3-2.9 3-4 2.33-6 1.5-6ZM3-4C3-2 2-.5.5-.1"),
     ('a', 3.0, true, "M3-4V0"),
     ('b', 3.0, true, "M0-6V0"),
     ('c', 2.8, false, "M2.8-3.3C2.5-3.75 2.1-4 1.5-4 .67-4 0-3.1 0-2S.67 0 1.5 0C2.1 0 2.5-.25 2.8-.7"),
@@ -53,10 +83,13 @@ const LETTERS: [(char, f64, bool, &str); 28] = [
     ('z', 2.5, false, "M0-4H2.5L0 0H2.5"),
 ];
 
-/// A text of small letters, blanks and hyphens, whose letters are so high (without the upper ends of tall ones), with the middle of its
-/// line of writing at `middle`; other characters are left out.
+/// A text in small letters of the height `height`, without the upper ends of tall ones. The middle of its baseline is at `middle`.
+/// Capitals are written as small letters. Characters that [`LETTERS`] lacks are left out.
 pub(crate) fn lettered(text: &str, height: f64, middle: Point) -> BezPath {
-    let letters = text.chars().filter_map(|c| LETTERS.iter().find(|(known, ..)| *known == c));
+    let letters = text
+        .chars()
+        .map(|c| c.to_ascii_lowercase())
+        .filter_map(|c| LETTERS.iter().find(|(known, ..)| *known == c));
     let mut line = BezPath::new();
     let mut at = 0.0;
     for (_, width, has_bowl, strokes) in letters {

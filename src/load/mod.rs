@@ -124,6 +124,9 @@ fn open_with<T: From<Scene>>(
         Some(ModelFormat::Gltf) => read_gltf(path),
         Some(ModelFormat::Stl) => stl::read(path).map(T::from),
         Some(ModelFormat::Ply) => ply::read(path).map(T::from),
+        None if ["step", "stp"].contains(&&*ending) => {
+            Err(unknown("the library reads no STEP; the program `ligne` does, through a converter"))
+        }
         None if ending.is_empty() => Err(unknown("the file has no ending that tells its format")),
         None => Err(unknown(format!("the format .{ending} is not known"))),
     });

@@ -9,10 +9,12 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use super::comic::{self, ComicPage};
 use super::composed::Composed;
+use super::model_reader::ModelReader;
 use super::print::Print;
 use super::sheet::{self, SheetPage};
 use super::source::Source;
 use crate::error::Error;
+use crate::scene::Scene;
 
 /// What pages are of.
 const KINDS: [&str; 2] = ["comic", "sheet"];
@@ -56,9 +58,26 @@ impl PageFile {
     /// As [`PageFile::open`].
     pub fn from_text(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let mut read = Self { pages: Vec::new(), files: Vec::new() };
-        let source = Source { path: path.as_ref().to_path_buf(), text: text.to_owned() };
+        let source = Source {
+            path: path.as_ref().to_path_buf(),
+            text: text.to_owned(),
+            models: ModelReader::default(),
+        };
         read.add(source, &mut Vec::new())?;
         Ok(read)
+    }
+
+    /// Reads models in further formats by a function, which returns `None` for all others.
+    #[must_use]
+    pub fn reading_models(
+        mut self,
+        read: impl Fn(&Path) -> Result<Option<Scene>, Error> + Send + Sync + 'static,
+    ) -> Self {
+        let reader = ModelReader::new(read);
+        for (source, _) in &mut self.pages {
+            source.models = reader.clone();
+        }
+        self
     }
 
     /// How many pages there are.
@@ -130,7 +149,7 @@ impl PageFile {
         })?;
         self.files.push(path.clone());
         above.push(fs::canonicalize(&path).unwrap_or_else(|_| path.clone()));
-        self.add(Source { path, text }, above)?;
+        self.add(Source { path, text, models: ModelReader::default() }, above)?;
         above.pop();
         Ok(())
     }

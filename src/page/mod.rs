@@ -15,6 +15,7 @@ pub mod figure;
 pub mod file;
 pub mod layout;
 pub mod length;
+pub mod model_reader;
 pub mod placing;
 pub mod print;
 pub mod sheet;
@@ -23,5 +24,6 @@ pub mod source;
 
 pub use composed::Composed;
 pub use file::PageFile;
+pub use model_reader::ModelReader;
 pub use print::Print;
 pub use source::Source;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
+use super::model_reader::ModelReader;
 use crate::error::Error;
 use crate::style::fault;
 
@@ -15,6 +16,8 @@ pub struct Source {
     pub path: PathBuf,
     /// The text.
     pub text: String,
+    /// Reads the models that the file names and that are in other formats than ligne's own.
+    pub models: ModelReader,
 }
 
 impl Source {

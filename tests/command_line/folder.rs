@@ -92,6 +92,8 @@ impl Folder {
         command.args(args).current_dir(&self.0);
         // What the machine that runs the tests prefers is no matter of theirs.
         for variable in ["LIGNE_STYLE", "LIGNE_THREADS", "CI", "SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]
+            .iter()
+            .chain(&["LIGNE_STEP_CONVERTER", "LIGNE_STEP_SECONDS", "LIGNE_STEP_MB"])
         {
             command.env_remove(variable);
         }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::contact_sheet::MomentSheetArgs;
 use crate::cli::draw_args::HowArgs;
 use crate::cli::shard::Share;
 
@@ -19,7 +20,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(in crate::cli) struct AnimateArgs {
-    /// The model: .obj, .gltf, .glb, .stl or .ply
+    /// The model: .obj, .gltf, .glb, .stl, .ply or .step
     pub(super) model: PathBuf,
 
     /// One file of all frames: .svg, .gif, .png, .webp, .mp4 or .webm; or a file for each, its number in the
@@ -28,6 +29,9 @@ pub(in crate::cli) struct AnimateArgs {
 
     #[command(flatten)]
     pub(super) how: HowArgs,
+
+    #[command(flatten)]
+    pub(super) contact: MomentSheetArgs,
 
     /// Frames a second
     #[arg(long, value_name = "N", default_value_t = 12.0, help_heading = "Frames")]

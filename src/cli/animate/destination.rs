@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::numbered::Numbered;
-use crate::cli::output::is_stdout;
+use crate::cli::output::{Output, is_stdout};
 use crate::error::Error;
 
 /// Endings of numbered files and of films.
@@ -17,6 +17,8 @@ pub(super) enum Destination {
     Numbered(Numbered),
     /// One file of this kind.
     Film(PathBuf, FilmFormat),
+    /// One sheet of a few moments.
+    Sheet(Output),
 }
 
 /// One file of all frames.

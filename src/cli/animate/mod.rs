@@ -2,6 +2,7 @@
 
 mod args;
 mod around;
+mod contact_sheet;
 mod destination;
 mod detail;
 mod film;
@@ -13,7 +14,7 @@ mod video;
 use std::borrow::Cow;
 use std::path::Path;
 
-use crate::cli::output::Format;
+use crate::cli::output::{Format, Output};
 pub(super) use args::AnimateArgs;
 use destination::Destination;
 use detail::Faces;
@@ -21,10 +22,12 @@ use plan::Plan;
 use stage::Stage;
 use total::{Total, refuse_warnings};
 
+use super::contact_sheet::{check_outputs, picture_request};
 use super::framing_args::Frame;
 use super::output::{Staging, check_place, is_stdout};
 use super::progress::Progress;
-use super::request::DrawRequest;
+use super::request::{DrawRequest, check_apart};
+use super::step::open_rigged;
 use super::viewpoint::viewpoint;
 use super::{lod, number, pipeline, print, say, wonder};
 use crate::error::Error;
@@ -39,15 +42,27 @@ const HURRIED: &str = "lines.contours=mesh";
 /// Draws all frames, and says so in one line.
 pub(super) fn run(args: AnimateArgs) -> Result<(), Error> {
     let watch = Stopwatch::start();
-    let destination = Destination::of(&args.out)?;
-    let request = DrawRequest::of_model(args.model.clone(), args.how.clone())?;
+    let mut request = DrawRequest::of_model(args.model.clone(), args.how.clone())?;
+    let destination = if args.contact.contact_sheet {
+        request = picture_request(request);
+        Destination::Sheet(Output::new(args.out.clone())?)
+    } else {
+        Destination::of(&args.out)?
+    };
     check(&args, &request, &destination)?;
     let total = pipeline::in_threads(request.threads, || draw(&args, &request, &destination))??;
     if !request.quiet {
         for warning in &total.warnings {
             say(&format!("warning: {}: {warning}", request.model.display()));
         }
-        say(&format!("{}: {}", args.out.display(), summary(&total, watch.seconds())));
+        let line = match &destination {
+            Destination::Sheet(_) => {
+                let moments = number::counted(total.drawings, "moment");
+                format!("{moments}, {}", number::bytes(total.counts.bytes_out))
+            }
+            _ => summary(&total, watch.seconds()),
+        };
+        say(&format!("{}: {line}", args.out.display()));
     }
     Ok(())
 }
@@ -78,6 +93,10 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
     }
     match destination {
         Destination::Numbered(_) => Ok(()),
+        Destination::Sheet(output) => {
+            check_apart(&request.model, std::slice::from_ref(output), &[], None)?;
+            check_outputs(std::slice::from_ref(output))
+        }
         Destination::Film(path, _) => {
             let alone = [("--shard", args.shard.is_some()), ("--resume", args.resume)];
             if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given) {
@@ -115,7 +134,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let progress = Progress::start(request.quiet, &request.model);
     progress.step("reading");
     let mut watch = Stopwatch::start();
-    let mut rigged = Rigged::open(&request.model)?;
+    let mut rigged = open_rigged(&request.model, &request.step)?;
     let coarse = args.budget.is_some() || args.levels.is_some() || request.faces.is_some();
     // Levels of detail are of the model as it is stored, whatever is shown of it.
     let detail = coarse.then(|| {
@@ -161,6 +180,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     match destination {
         Destination::Numbered(numbered) => stage.numbered(numbered, &mut total)?,
         Destination::Film(path, format) => stage.film(path, *format, &mut total)?,
+        Destination::Sheet(output) => stage.sheet(output, &mut total)?,
     }
     drop(progress);
     if let (Some(ms), Some(path)) = (args.budget, &args.levels) {

@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::args::AnimateArgs;
 use crate::animate::{Moment, Timeline, Turntable, reach};
 use crate::cli::blend::Blend;
+use crate::cli::contact_sheet::PICTURES;
 use crate::cli::paper::Paper;
 use crate::cli::request::DrawRequest;
 use crate::cli::viewpoint::{View, Viewpoint, on_sheet, viewpoint};
@@ -73,6 +74,7 @@ impl Plan {
         let frames = args.turntable.map(|steps| steps as usize).or(cameras.as_ref().map(Vec::len));
         let timeline = match frames {
             Some(frames) => Timeline::of_frames(frames, from, args.fps),
+            None if args.contact.contact_sheet => moments(from, args.to.unwrap_or(ends)),
             None => Timeline::between(from, args.to.unwrap_or(ends), args.fps),
         };
         let timeline = timeline?.holding(usize::from(args.hold));
@@ -160,6 +162,16 @@ impl Course {
         let poses: Vec<_> = self.timeline.drawn().map(|frame| (self.playing(frame), moved(frame))).collect();
         reach(rigged, &poses)
     }
+}
+
+/// The moments of a contact sheet: evenly spread, the first and the last at the ends.
+fn moments(from: f64, to: f64) -> Result<Timeline, Error> {
+    if from == to {
+        return Timeline::of_frames(1, from, 1.0);
+    }
+    // This refuses times that are none.
+    Timeline::between(from, to, 1.0)?;
+    Timeline::of_frames(PICTURES, from, (PICTURES - 1) as f64 / (to - from))
 }
 
 /// Frames have times of their own.

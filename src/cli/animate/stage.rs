@@ -132,7 +132,7 @@ impl Stage<'_> {
     }
 
     /// Draws the frame of a number.
-    fn draw(&self, animator: &Animator, frame: usize) -> Result<Drawn, Error> {
+    pub(super) fn draw(&self, animator: &Animator, frame: usize) -> Result<Drawn, Error> {
         let mut watch = Stopwatch::start();
         let moment = self.plan.moment(self.rigged, frame, self.style.background)?;
         let (drawing, mut report) = animator.draw(&moment).map_err(|error| match error.file {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 
 /// Endings of models.
-pub(super) const MODELS: [&str; 5] = ["obj", "gltf", "glb", "stl", "ply"];
+pub(super) const MODELS: [&str; 7] = ["obj", "gltf", "glb", "stl", "ply", "step", "stp"];
 
 /// Folders within folders, at most: links may lead round.
 const DEEPEST: usize = 32;

@@ -32,7 +32,7 @@ Exit status: 0 the same, 1 something differs, 2 the call or a file is wrong.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct DiffArgs {
-    /// The old drawing (.svg), model (.obj, .gltf, .glb, .stl, .ply) or folder
+    /// The old drawing (.svg), model (.obj, .gltf, .glb, .stl, .ply, .step) or folder
     before: PathBuf,
 
     /// The new one

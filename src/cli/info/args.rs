@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::model_unit::ModelUnit;
+use crate::cli::step::StepArgs;
 
 /// Options of `ligne info`.
 #[derive(Debug, Args)]
@@ -14,7 +15,7 @@ use crate::cli::model_unit::ModelUnit;
   ligne info drive.glb --all
   ligne info drive.glb --json | jq '.parts[].name'")]
 pub(in crate::cli) struct InfoArgs {
-    /// The model: .obj, .gltf, .glb, .stl or .ply
+    /// The model: .obj, .gltf, .glb, .stl, .ply or .step
     pub(super) model: PathBuf,
 
     /// The unit of the model: mm, cm, m, in, ft [default: m in glTF, which demands it; the other formats do not say]
@@ -28,4 +29,7 @@ pub(in crate::cli) struct InfoArgs {
     /// Write JSON, for programs; always in full
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) step: StepArgs,
 }

@@ -73,7 +73,7 @@ impl Info {
         let mut warnings = warnings.lines();
         let bounds = bounds(&points);
         let unit =
-            (args.unit.is_some() || model_unit::is_in_metres(scene)).then(|| ModelUnit::of(scene, args.unit));
+            (args.unit.is_some() || model_unit::is_stated(scene)).then(|| ModelUnit::of(scene, args.unit));
         if let Some((min, max)) = bounds.filter(|_| args.unit.is_none()) {
             warnings.extend(model_unit::doubt(scene, (max - min).max_element()));
         }

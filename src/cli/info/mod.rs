@@ -19,12 +19,12 @@ mod tests;
 pub(super) use self::args::InfoArgs;
 use self::contents::Info;
 use super::print;
+use super::step::open_rigged;
 use crate::error::Error;
-use crate::pose::Rigged;
 
 /// Reads the model and prints its contents.
 pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
-    let rigged = Rigged::open(&args.model)?;
+    let rigged = open_rigged(&args.model, &args.step)?;
     let info = Info::of(&rigged.posed(&[])?, &rigged.rig.clips, args);
     if args.json {
         let json = serde_json::to_string_pretty(&info).unwrap_or_default();

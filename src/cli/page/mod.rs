@@ -12,6 +12,7 @@ use crate::cli::numbered::Numbered;
 use crate::cli::output::{Format, Output, Staging, check_place, is_stdout};
 use crate::cli::progress::Progress;
 use crate::cli::request::same_file;
+use crate::cli::step::{StepArgs, open_other};
 use crate::cli::{number, pipeline, print, say};
 use crate::drawing::Composition;
 use crate::error::Error;
@@ -74,6 +75,9 @@ pub(super) struct PageArgs {
     #[cfg(feature = "pdf")]
     #[command(flatten)]
     print: crate::cli::print_args::PrintArgs,
+
+    #[command(flatten)]
+    step: StepArgs,
 
     /// Number of threads; the page is the same with any [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -167,7 +171,8 @@ fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
     let watch = Stopwatch::start();
     let progress = Progress::start(args.quiet, &args.page);
     progress.step("reading");
-    let file = PageFile::open(&args.page)?;
+    let step = args.step.clone();
+    let file = PageFile::open(&args.page)?.reading_models(move |path| open_other(path, &step));
     let several = |target: &&Target| matches!(target, Target::One(output) if needs_numbers(output.format));
     if let Some(Target::One(output)) = targets.iter().find(several).filter(|_| file.len() > 1) {
         return Err(Error::new(format!("{} do not fit into one file of this kind", pages(file.len())))

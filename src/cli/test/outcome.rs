@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::case::{Case, Made, Order};
 use crate::cli::draw;
+use crate::cli::step::{StepArgs, open_other};
 use crate::diff::{self, Diff, DiffOptions, Picture, Tolerances, View};
 use crate::error::Error;
 use crate::export::SvgOptions;
@@ -49,7 +50,8 @@ pub(super) struct Outcome<'a> {
 
 /// The one page of a page file as SVG.
 fn page(file: &Path) -> Result<Vec<u8>, Error> {
-    let pages = PageFile::open(file)?.compose()?;
+    let pages =
+        PageFile::open(file)?.reading_models(|path| open_other(path, &StepArgs::default())).compose()?;
     match pages.as_slice() {
         [page] => Ok(page.composition.to_svg(&SvgOptions::default()).into_bytes()),
         pages => Err(Error::new(format!("it has {} pages, and a case is of one", pages.len()))

@@ -39,6 +39,7 @@ pub struct Root {
 pub struct Asset {
     pub version: Option<String>,
     pub min_version: Option<String>,
+    pub generator: Option<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -24,6 +24,7 @@ mod parts;
 mod pointers;
 mod pose;
 mod primitive;
+mod product_names;
 mod streams;
 mod uri;
 mod vertices;
@@ -90,7 +91,8 @@ pub fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
 fn read_all(bytes: &[u8], files: Files, rigged: bool) -> Result<Rigged, Error> {
     let mut warnings = Warnings::default();
     let container = container::split(bytes, &mut warnings)?;
-    let root = root(container.json, &mut warnings)?;
+    let mut root = root(container.json, &mut warnings)?;
+    product_names::name_after_products(&mut root);
     extensions::check(&root.extensions_required)?;
     let buffers = Buffers::gather(&root, container.bin, files.fetch)?;
     let mut nodes = nodes::Hierarchy::new(&root, &mut warnings)?;

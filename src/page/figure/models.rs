@@ -175,13 +175,18 @@ fn posed(
     let path = source.existing(&keys.file, "model")?;
     let own = keys.time.is_some() || keys.animation.is_some();
     let (time, animation) = (keys.time.as_ref().or(time), keys.animation.as_ref().or(animation));
-    let rigged = Rigged::open(&path)?;
+    let further = source.models.read(&path)?;
+    let rigged = match &further {
+        Some(scene) => Rigged::from(scene.clone()),
+        None => Rigged::open(&path)?,
+    };
     let moves = !rigged.rig.clips.is_empty() && (time.is_some() || animation.is_some());
     let mut scene = if moves || own {
         let playing = playing(&rigged.rig.clips, time, animation, keys, source)?;
         motion::posed(&rigged, &[playing], &style.motion, style.seed).map_err(|error| error.in_file(&path))?
     } else {
-        Scene { movers: Some(Vec::new()), ..Scene::open(&path)? }
+        let scene = further.map_or_else(|| Scene::open(&path), Ok)?;
+        Scene { movers: Some(Vec::new()), ..scene }
     };
     if let Some(up) = &keys.up {
         scene.up = match up.get_ref().as_str() {

@@ -1,0 +1,251 @@
+//! [`Converter`]: the programs that make GLB of STEP, and how each is called.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::args::StepArgs;
+use super::process::{Limits, Outcome, run};
+use crate::error::Error;
+use crate::scene::UpAxis;
+
+const CASCADIO: &str = include_str!("cascadio.py");
+const OCCT: &str = include_str!("occt.js");
+const FREECAD: &str = include_str!("freecad.py");
+
+/// The exit status of a script whose package is not installed.
+const NOT_INSTALLED: i32 = 91;
+
+/// The quickest way to a converter.
+pub(super) const REMEDY: &str = "install one with `pip install cascadio`, or name one with --step-converter";
+
+/// Names of the interpreters, in order of preference.
+const PYTHONS: &[&str] = if cfg!(windows) { &["python", "py"] } else { &["python3", "python"] };
+const NODES: &[&str] = &["node", "nodejs"];
+const FREECADS: &[&str] = &[
+    "freecadcmd",
+    "FreeCADCmd",
+    "freecad.cmd",
+    "/Applications/FreeCAD.app/Contents/Resources/bin/freecadcmd",
+];
+
+/// A program that makes GLB of STEP.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Converter {
+    kind: Kind,
+    program: PathBuf,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// A Python with cascadio.
+    Cascadio,
+    /// A Node with occt-import-js.
+    Occt,
+    Freecad,
+    /// A program of the user.
+    Own,
+}
+
+/// What came of a conversion.
+#[derive(Debug)]
+pub(super) enum Converted {
+    /// The file is written; this axis points up.
+    Done(UpAxis),
+    /// The interpreter has no such package, as it says itself.
+    NotInstalled(String),
+}
+
+/// The converters to try, in order.
+///
+/// # Errors
+/// If one is named and there is no such program.
+pub(super) fn candidates(args: &StepArgs) -> Result<Vec<Converter>, Error> {
+    let of = |kind: Kind, names: &[&str]| -> Vec<Converter> {
+        let programs = names.iter().filter_map(|name| find(name));
+        programs.map(|program| Converter { kind, program }).collect()
+    };
+    let [cascadio, occt, freecad] =
+        [of(Kind::Cascadio, PYTHONS), of(Kind::Occt, NODES), of(Kind::Freecad, FREECADS)];
+    let Some(named) = &args.converter() else {
+        return Ok([cascadio, occt, freecad].concat());
+    };
+    let missing = |needs: &str| {
+        Error::new(format!("there is no program `{needs}`"))
+            .at("--step-converter")
+            .remedy("give its path, or leave the option out")
+    };
+    let of_package = |found: Vec<Converter>, needs: &str| {
+        if found.is_empty() { Err(missing(needs)) } else { Ok(found) }
+    };
+    match named.as_str() {
+        "cascadio" => of_package(cascadio, "python3"),
+        "occt-import-js" => of_package(occt, "node"),
+        "freecad" => of_package(freecad, "freecadcmd"),
+        _ => {
+            let program = find(named).ok_or_else(|| missing(named))?;
+            Ok(vec![Converter { kind: Kind::of(&program), program }])
+        }
+    }
+}
+
+impl Kind {
+    /// By the program's name: `python3.12`, `node`, `freecadcmd`; anything else is the user's own.
+    fn of(program: &Path) -> Self {
+        let name = program.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        let name = name.strip_suffix(".exe").unwrap_or(&name);
+        let version = |rest: &str| rest.chars().all(|c| c.is_ascii_digit() || c == '.');
+        match name {
+            "py" | "pypy3" => Self::Cascadio,
+            "node" | "nodejs" => Self::Occt,
+            "freecadcmd" | "freecad.cmd" => Self::Freecad,
+            _ if name.strip_prefix("python").is_some_and(version) => Self::Cascadio,
+            _ => Self::Own,
+        }
+    }
+}
+
+/// A program by its path, or by its name in `PATH`.
+fn find(name: &str) -> Option<PathBuf> {
+    let path = Path::new(name);
+    if path.components().count() > 1 {
+        return path.is_file().then(|| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf()));
+    }
+    let endings: &[&str] = if cfg!(windows) { &["", ".exe", ".cmd", ".bat"] } else { &[""] };
+    let folders = std::env::var_os("PATH")?;
+    // An empty entry is the working folder, which must not stand in for an installed program.
+    let folders = std::env::split_paths(&folders).filter(|folder| !folder.as_os_str().is_empty());
+    let mut places =
+        folders.flat_map(|folder| endings.iter().map(move |ending| folder.join(format!("{name}{ending}"))));
+    places.find(|place| place.is_file())
+}
+
+impl Converter {
+    /// What it is called in messages.
+    pub(super) fn name(&self) -> String {
+        let package = match self.kind {
+            Kind::Cascadio => "cascadio",
+            Kind::Occt => "occt-import-js",
+            Kind::Freecad => "FreeCAD",
+            Kind::Own => return self.program.display().to_string(),
+        };
+        format!("{package} ({})", self.program.display())
+    }
+
+    /// What its results depend on besides the model: the script, or the user's program, which may be changed.
+    pub(super) fn identity(&self) -> Vec<u8> {
+        let mut identity = self.program.to_string_lossy().into_owned().into_bytes();
+        identity.push(0);
+        identity.extend(match self.kind {
+            Kind::Cascadio => CASCADIO.as_bytes().to_vec(),
+            Kind::Occt => OCCT.as_bytes().to_vec(),
+            Kind::Freecad => FREECAD.as_bytes().to_vec(),
+            Kind::Own => fs::read(&self.program).unwrap_or_default(),
+        });
+        identity
+    }
+
+    /// Makes the GLB.
+    ///
+    /// # Errors
+    /// If the converter fails, or exceeds its time or memory.
+    pub(super) fn convert(&self, model: &Path, glb: &Path, args: &StepArgs) -> Result<Converted, Error> {
+        let limits = Limits::of_process();
+        let model = std::path::absolute(model).unwrap_or_else(|_| model.to_path_buf());
+        let (tolerance, angle) = (args.tolerance_mm().to_string(), args.angle().to_string());
+        let in_and_out = || [OsString::from(&model), OsString::from(glb)];
+        let script = |flags: &[&str], text: &str| -> Vec<OsString> {
+            let flags = flags.iter().map(OsString::from).chain([OsString::from(text)]);
+            flags.chain(in_and_out()).chain([&tolerance, &angle].map(OsString::from)).collect()
+        };
+        let mut variables = Vec::new();
+        let mut script_file = None;
+        let words = match self.kind {
+            Kind::Cascadio => script(&["-c"], CASCADIO),
+            Kind::Occt => {
+                let memory = format!("--max-old-space-size={}", limits.mb);
+                script(&[&memory, "-e"], OCCT)
+            }
+            Kind::Freecad => {
+                let [source, target] = in_and_out();
+                variables.extend([
+                    ("LIGNE_STEP_IN", source),
+                    ("LIGNE_STEP_OUT", target),
+                    ("LIGNE_STEP_TOLERANCE", OsString::from(&tolerance)),
+                    ("LIGNE_STEP_ANGLE", OsString::from(&angle)),
+                ]);
+                let place = glb.with_extension("py");
+                fs::write(&place, FREECAD)
+                    .map_err(|error| Error::io("cannot write a script", error).in_file(&place))?;
+                vec![script_file.insert(place).clone().into_os_string()]
+            }
+            Kind::Own => in_and_out().into_iter().chain([OsString::from(&tolerance)]).collect(),
+        };
+        // Node reserves more address space than it uses; its own option and WebAssembly bound it.
+        let bounds = (limits, self.kind != Kind::Occt);
+        let outcome = run(&self.program, &words, &variables, bounds, &glb.with_extension("log"));
+        if let Some(script) = script_file {
+            let _ = fs::remove_file(script);
+        }
+        self.judge(outcome, limits, glb)
+    }
+
+    fn judge(&self, outcome: Outcome, limits: Limits, glb: &Path) -> Result<Converted, Error> {
+        let name = self.name();
+        let with = |said: String| if said.is_empty() { said } else { format!(": {said}") };
+        match outcome {
+            Outcome::Exited(0, said) if !glb.is_file() => {
+                Err(Error::new(format!("{name} wrote no GLB{}", with(said))).remedy(FAILED))
+            }
+            Outcome::Exited(0, _) => Ok(Converted::Done(match self.kind {
+                // It writes the axes of STEP as they are.
+                Kind::Cascadio => UpAxis::Z,
+                Kind::Occt | Kind::Freecad | Kind::Own => UpAxis::Y,
+            })),
+            Outcome::Exited(NOT_INSTALLED, said) if matches!(self.kind, Kind::Cascadio | Kind::Occt) => {
+                Ok(Converted::NotInstalled(said))
+            }
+            Outcome::Exited(code, said) => {
+                let message = format!("{name} failed with exit status {code}{}", with(said));
+                Err(Error::new(message).remedy(FAILED))
+            }
+            Outcome::Killed(said) => {
+                let message = format!(
+                    "{name} was stopped{}; it may have needed more than {} MB",
+                    with(said),
+                    limits.mb
+                );
+                Err(Error::new(message)
+                    .remedy("give a larger --step-tolerance, or more memory with LIGNE_STEP_MB"))
+            }
+            Outcome::TimedOut => Err(Error::new(format!("{name} was stopped after {} s", limits.seconds))
+                .remedy("give a larger --step-tolerance, or more time with LIGNE_STEP_SECONDS")),
+            Outcome::NotRun(error) => {
+                Err(Error::io(format!("cannot run {name}"), error).remedy("check --step-converter"))
+            }
+        }
+    }
+}
+
+const FAILED: &str = "export the STEP file again (AP214 or AP242), or try another --step-converter";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn programs_are_known_by_their_names() {
+        for (program, kind) in [
+            ("/usr/bin/python3", Kind::Cascadio),
+            ("venv/bin/python3.12", Kind::Cascadio),
+            ("C/Python.EXE", Kind::Cascadio),
+            ("node", Kind::Occt),
+            ("FreeCADCmd", Kind::Freecad),
+            ("python-convert.sh", Kind::Own),
+            ("node.sh", Kind::Own),
+            ("step2glb", Kind::Own),
+        ] {
+            assert_eq!(Kind::of(Path::new(program)), kind, "{program}");
+        }
+    }
+}

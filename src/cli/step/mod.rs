@@ -1,0 +1,146 @@
+//! Models in STEP files, through a converter.
+//!
+//! 1. The file is read and hashed. Together with tolerance and converter, the hash is the key of the result.
+//! 2. `cache` is queried for a GLB with that key. A damaged entry counts as none.
+//! 3. Otherwise `converter` finds the programs that can make one: the named one, or cascadio, occt-import-js and FreeCAD in this order.
+//!    `process` runs one with bounds on time and memory.
+//! 4. The GLB is read. GLB is in metres, and most converters turn it to y up. The scene gets the file's millimetres and z up back.
+//!
+//! Models in other formats are handed to the library. Only the program runs converters; the library has no part in it.
+
+mod args;
+mod cache;
+mod converter;
+mod process;
+
+use std::fs;
+use std::path::Path;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+pub(super) use self::args::StepArgs;
+use self::cache::{Cache, Key};
+use self::converter::{Converted, candidates};
+use crate::cli::many::stamp::stamp;
+use crate::error::{Error, ErrorKind};
+use crate::load::ModelFormat;
+use crate::pose::Rigged;
+use crate::scene::{Scene, UpAxis};
+
+/// Endings of STEP files.
+pub(super) const ENDINGS: [&str; 2] = ["step", "stp"];
+
+/// How a STEP file begins.
+const MARK: &[u8] = b"ISO-10303-21";
+
+/// Changes when the scene of a result changes in other ways than by its key.
+const VERSION: &[u8] = b"1";
+
+/// Millimetres in a metre.
+const MM_PER_M: f64 = 1000.0;
+
+/// Whether a model is in a STEP file, by its ending.
+pub(super) fn is_step(model: &Path) -> bool {
+    model.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
+}
+
+/// Reads a model of any format.
+///
+/// # Errors
+/// As [`Scene::open`]; for STEP also if there is no converter, or if it fails.
+pub(super) fn open_scene(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
+    if is_step(model) { open(model, args) } else { Scene::open(model) }
+}
+
+/// Reads a model of any format with its animations. STEP has none.
+///
+/// # Errors
+/// As [`open_scene`].
+pub(super) fn open_rigged(model: &Path, args: &StepArgs) -> Result<Rigged, Error> {
+    if is_step(model) { open(model, args).map(Rigged::from) } else { Rigged::open(model) }
+}
+
+/// Reads a model that the library cannot read; none if it can.
+///
+/// # Errors
+/// As [`open_scene`].
+pub(super) fn open_other(model: &Path, args: &StepArgs) -> Result<Option<Scene>, Error> {
+    is_step(model).then(|| open(model, args)).transpose()
+}
+
+fn open(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
+    let scene = converted(model, args);
+    scene.map_err(|error| if error.file.is_none() { error.in_file(model) } else { error })
+}
+
+fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
+    let before = stamp(model);
+    let bytes = fs::read(model).map_err(|error| Error::io("cannot be read", error))?;
+    let start = bytes.trim_ascii_start();
+    if !start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).starts_with(MARK) {
+        return Err(Error::new("this is no STEP file: it does not begin with ISO-10303-21")
+            .remedy("export it again as STEP (AP214 or AP242)"));
+    }
+    let cache = Cache::open()?;
+    let named = args.converter().is_some();
+    let candidates = candidates(args)?;
+    let identity: Vec<u8> =
+        if named { candidates.iter().flat_map(|one| one.identity()).collect() } else { Vec::new() };
+    let quality = format!("{} mm, {} rad", args.tolerance_mm(), args.angle());
+    let key = Key::of(&[VERSION, &bytes, quality.as_bytes(), &identity]);
+    if let Some(scene) = cache.get(key).and_then(|(glb, up)| read(model, &glb, up).ok()) {
+        return Ok(scene);
+    }
+    let mut missing = None;
+    for candidate in candidates {
+        let place = cache.unfinished("glb");
+        let made = candidate.convert(model, &place, args).and_then(|made| match made {
+            Converted::NotInstalled(said) => Ok(Err(said)),
+            Converted::Done(up) => {
+                let glb =
+                    fs::read(&place).map_err(|error| Error::io("cannot read the converted model", error))?;
+                Ok(Ok((glb, up)))
+            }
+        });
+        // A file that stays is swept later.
+        let _ = fs::remove_file(&place);
+        match made? {
+            Err(said) => missing = missing.or(Some((candidate, said))),
+            Ok((glb, up)) => {
+                let scene = read(model, &glb, up).map_err(|error| {
+                    Error::new(format!("{} wrote a GLB that cannot be read: {error}", candidate.name()))
+                        .remedy("try another --step-converter")
+                })?;
+                // A file that changed meanwhile is not the one that was hashed.
+                if stamp(model) == before {
+                    cache.put(key, &glb, up);
+                }
+                return Ok(scene);
+            }
+        }
+    }
+    let error = match missing.filter(|_| named) {
+        Some((candidate, said)) => Error::new(format!("{} is not installed: {said}", candidate.name())),
+        None => Error::new("STEP is read through a converter, and none was found"),
+    };
+    Err(error.of_kind(ErrorKind::Unsupported).remedy(converter::REMEDY))
+}
+
+/// The scene of a converted model, in millimetres and with z up as in the file.
+fn read(model: &Path, glb: &[u8], up: UpAxis) -> Result<Scene, Error> {
+    let mut scene = Scene::from_bytes(glb, ModelFormat::Gltf)?;
+    let turn = match up {
+        UpAxis::Z => DMat3::IDENTITY,
+        UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+    };
+    let to = DAffine3::from_mat3(turn * MM_PER_M);
+    for part in &mut scene.parts {
+        part.world_from_part = to * part.world_from_part;
+    }
+    scene.lights.clear();
+    scene.cameras.clear();
+    scene.up = UpAxis::Z;
+    scene.format = "STEP";
+    scene.file = Some(model.to_path_buf());
+    Ok(scene)
+}
