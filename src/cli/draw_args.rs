@@ -14,11 +14,8 @@ use super::paper::{self, Extent, Measure};
 #[cfg(feature = "pdf")]
 use super::print_args::PrintArgs;
 use super::section_args::SectionArgs;
-<<<<<<< HEAD
-use super::style_keys;
-=======
 use super::step::StepArgs;
->>>>>>> door-b
+use super::style_keys;
 use super::web_args::WebArgs;
 use crate::math::colour::Colour;
 use crate::render::Stage;

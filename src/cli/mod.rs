@@ -33,11 +33,8 @@ mod request;
 mod section_args;
 mod shard;
 mod status;
-<<<<<<< HEAD
-mod style_keys;
-=======
 mod step;
->>>>>>> door-b
+mod style_keys;
 mod styles;
 mod test;
 mod viewpoint;

@@ -2,12 +2,8 @@
 
 use clap::Args;
 
-<<<<<<< HEAD
-use super::{print, style_keys, styles_sheet};
-=======
 use super::contact_sheet::{self, StyleSheetArgs};
-use super::print;
->>>>>>> door-b
+use super::{print, style_keys};
 use crate::error::Error;
 use crate::style::Style;
 
@@ -16,23 +12,17 @@ use crate::style::Style;
 #[command(after_help = "Examples:
   ligne styles                        list the styles
   ligne styles ink > mine.toml        start a style of your own
-<<<<<<< HEAD
   ligne styles ink --all              every key of a style, with its value and a line of help
   ligne styles --keys 'lines.*'       list keys with type, default and allowed values
-  ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side")]
-=======
   ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side
   ligne styles --sheet some.png gear.obj --style 'ink,*pencil*,mine.toml' --azimuth -20 --size 400")]
->>>>>>> door-b
 pub(super) struct StylesArgs {
     /// The style whose text is shown; with --sheet the model that is drawn
     #[arg(value_name = "NAME|MODEL")]
     name: Option<String>,
 
-<<<<<<< HEAD
-    /// Draw a model in all styles on one sheet: .svg, .svgz, .png or .pdf, or - for SVG on standard output
-    #[arg(long, value_name = "OUT", requires = "name")]
-    sheet: Option<PathBuf>,
+    #[command(flatten)]
+    sheet: StyleSheetArgs,
 
     /// Show every key of the style, also those it does not set; NAME may be a style sheet
     #[arg(long, requires = "name", conflicts_with = "sheet")]
@@ -50,10 +40,6 @@ pub(super) struct StylesArgs {
     /// With --keys: print the page docs/reference/style-keys.md
     #[arg(long, hide = true, requires = "keys", conflicts_with = "json")]
     reference: bool,
-=======
-    #[command(flatten)]
-    sheet: StyleSheetArgs,
->>>>>>> door-b
 }
 
 /// Lists the styles with the idea of each, or shows a sheet.
