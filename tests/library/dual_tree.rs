@@ -13,7 +13,6 @@ use ligne::stages::lines::{self, Contours, EdgeSearch, Known, LineKind, LineOpti
 use ligne::stages::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
 use ligne::stages::trees::ToneTree;
 use ligne::stages::view::View;
-use rayon::prelude::*;
 
 /// Checks that both ways find the same lines and that no pair was left out that the eye parts;
 /// returns how many edges were asked for contours alone, and how many are contours.
