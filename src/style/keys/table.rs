@@ -197,7 +197,8 @@ impl StyleKey {
         let values: Vec<&str> = values.iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
         match values[..] {
             [] => self.help.to_owned(),
-            _ if self.kind == KeyType::Switch => self.help.to_owned(),
+            // Such words are in the help.
+            _ if self.kind == KeyType::Switch || self.values().starts_with("or ") => self.help.to_owned(),
             _ => format!("{} ({})", self.help, values.join(" ")),
         }
     }
