@@ -60,7 +60,11 @@ impl<'de> Visitor<'de> for FactorVisitor {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Factor, A::Error> {
-        let numbers = <[f64; 3]>::deserialize(SeqAccessDeserializer::new(list))?;
+        let list = Vec::<f64>::deserialize(SeqAccessDeserializer::new(list))?;
+        let count = list.len();
+        let numbers: [f64; 3] = list.try_into().map_err(|_| {
+            A::Error::custom(format!("{count} numbers are not a factor of red, green and blue; write three"))
+        })?;
         match numbers.iter().find(|number| !(0.0..=2.0).contains(*number)) {
             Some(number) => Err(A::Error::custom(format!(
                 "{number} is not a factor of colours; write numbers from 0 to 2"

@@ -21,6 +21,10 @@ All keys of a style sheet. In the terminal, `ligne styles --keys` lists them and
 /// The page.
 pub(super) fn page() -> String {
     let mut page = HEAD.to_owned();
+    page += "\n## Types\n\n| type | written as |\n| --- | --- |\n";
+    for kind in KeyType::all() {
+        let _ = writeln!(page, "| {} | {} |", kind.name(), kind.form());
+    }
     for (index, section) in StyleKey::sections().iter().enumerate() {
         let _ = write!(page, "\n## {}\n", section.title);
         let [first, others @ ..] = &section.prefixes[..] else { continue };
@@ -31,6 +35,9 @@ pub(super) fn page() -> String {
                 "\nUnder `{first}`, and for some lines or materials only under {}.\n",
                 names.join(", ")
             );
+        }
+        if !section.note.is_empty() {
+            let _ = write!(page, "\n{}\n", section.note);
         }
         page += "\n| key | type | default | meaning |\n| --- | --- | --- | --- |\n";
         let keys = StyleKey::all().iter().filter(|key| key.section == index && key.prefix == *first);

@@ -66,7 +66,8 @@ fn write_list(sheet: &mut String, list: &str, set: &Table) {
         let _ = writeln!(sheet, "\n[[{list}]]");
         for (key, name) in &keys {
             // What a rule or a material does not set stays as it is elsewhere.
-            let changes = key.inherits.is_some() || key.prefix.starts_with("fills.material[]");
+            let changes = key.inherits.is_some()
+                || ["fills.material[]", "rule[].pen"].iter().any(|table| key.prefix.starts_with(table));
             if !changes || is_set(entry, name) {
                 write_key(sheet, key, name, entry, !changes);
             }
@@ -82,14 +83,16 @@ fn write_list(sheet: &mut String, list: &str, set: &Table) {
 /// A line with a key: its value, its default, or a comment.
 fn write_key(sheet: &mut String, key: &StyleKey, name: &str, own: &Table, with_defaults: bool) {
     let help = key.full_help();
-    if let Some(value) = value_at(own, name) {
-        let _ = writeln!(sheet, "{name} = {value}  # {help}");
+    // The table that holds a key may be written as the value of another key: a brush, a shade.
+    let start = key.path.strip_suffix(name).unwrap_or_default();
+    let holders: Vec<&str> = name.match_indices('.').filter_map(|(at, _)| name.get(..at)).collect();
+    let is_key = |holder: &&&str| StyleKey::find(&format!("{start}{holder}")).is_some();
+    let is_held = holders.iter().any(|holder| is_key(&holder));
+    if holders.iter().filter(is_key).any(|holder| value_at(own, holder).is_some()) {
         return;
     }
-    // The table that holds a key may be written as the value of another one: a brush, a shade.
-    let holder = name.rsplit_once('.').map(|(holder, _)| holder);
-    let is_held = holder.is_some_and(|holder| StyleKey::find(&key.path.replace(name, holder)).is_some());
-    if holder.is_some_and(|holder| is_held && value_at(own, holder).is_some()) {
+    if let Some(value) = value_at(own, name) {
+        let _ = writeln!(sheet, "{name} = {value}  # {help}");
         return;
     }
     let other_scale = ["steps", "ramp", "table"].iter().any(|other| own.contains_key(*other));

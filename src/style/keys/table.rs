@@ -95,6 +95,8 @@ pub struct Section {
     pub title: &'static str,
     /// The tables that its keys stand under; empty text for the sheet itself.
     pub prefixes: Vec<&'static str>,
+    /// Sentences about all its keys; may be empty.
+    pub note: &'static str,
 }
 
 impl KeyType {
@@ -125,6 +127,11 @@ impl KeyType {
         (Self::Brush, "brush", "\"none\", or a table such as { path = \"M0 0L10 1L0 2Z\" }"),
         (Self::Tables, "tables", "a list of tables"),
     ];
+
+    /// All types.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::NAMES.iter().map(|(kind, ..)| *kind)
+    }
 
     fn row(self) -> &'static (Self, &'static str, &'static str) {
         Self::NAMES.iter().find(|(kind, ..)| *kind == self).unwrap_or(&Self::NAMES[0])
@@ -190,7 +197,8 @@ impl StyleKey {
         let values: Vec<&str> = values.iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
         match values[..] {
             [] => self.help.to_owned(),
-            _ if self.kind == KeyType::Switch => self.help.to_owned(),
+            // Such words are in the help.
+            _ if self.kind == KeyType::Switch || self.values().starts_with("or ") => self.help.to_owned(),
             _ => format!("{} ({})", self.help, values.join(" ")),
         }
     }
@@ -226,7 +234,9 @@ fn parse(text: &'static str) -> (Vec<Section>, Vec<StyleKey>) {
             rows.clear();
             let (title, prefixes) = head.split_once(" | ").unwrap_or((head, ""));
             let prefixes = prefixes.split_whitespace().map(|prefix| if prefix == "-" { "" } else { prefix });
-            sections.push(Section { title, prefixes: prefixes.collect() });
+            sections.push(Section { title, prefixes: prefixes.collect(), note: "" });
+        } else if let Some(note) = line.strip_prefix("! ") {
+            sections.iter_mut().last().into_iter().for_each(|section| section.note = note);
         } else if !line.starts_with('#') && line.contains(" | ") {
             rows.push(line.splitn(6, " | ").collect());
         }
