@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::args::InfoArgs;
 use super::contents::Info;
+use crate::cli::step::StepArgs;
 use crate::pose::{Channel, Clip, Interpolation, Property, Target, Track};
 use crate::scene::{Geometry, Material, Part, Scene};
 
@@ -39,7 +40,7 @@ fn walk() -> Clip {
 }
 
 fn args(model: &str) -> InfoArgs {
-    InfoArgs { model: model.into(), unit: None, all: false, json: false }
+    InfoArgs { model: model.into(), unit: None, all: false, json: false, step: StepArgs::default() }
 }
 
 #[test]
