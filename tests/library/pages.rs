@@ -146,7 +146,11 @@ fn heads(panel: &Item, text: &str, number: usize, folder: &Path) -> Vec<BezPath>
         camera: toml::Spanned<figure::Aim>,
     }
     let keys: Keys = toml::from_str(&format!("{models}\n{}", line("camera"))).unwrap();
-    let source = ligne::page::Source { path: folder.join("page.toml"), text: String::new() };
+    let source = ligne::page::Source {
+        path: folder.join("page.toml"),
+        text: String::new(),
+        models: Default::default(),
+    };
     let style = ligne::Style::default();
     let scene = figure::staged(&keys.model, None, None, &style, &source).unwrap();
     let bounds = panel.clip.as_ref().unwrap().bounding_box();
