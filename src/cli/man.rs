@@ -19,9 +19,19 @@ pub(super) struct ManArgs {
 }
 
 /// What a variable does, for those of [`VARIABLES`].
-const VARIABLES_DO: [&str; 2] = [
+const VARIABLES_DO: [&str; 3] = [
     "The style, in place of --style.",
     "The number of threads, in place of --threads. The drawing is the same with any.",
+    "The converter for STEP models, in place of --step-converter.",
+];
+
+/// Variables of STEP models without an option.
+const STEP: [(&str, &str); 2] = [
+    ("LIGNE_CACHE", "The folder for converted STEP models, in place of the user's cache folder."),
+    (
+        "LIGNE_STEP_SECONDS, LIGNE_STEP_MB",
+        "Limits of a converter: seconds (default 300), and megabytes of memory on Linux (default 8192).",
+    ),
 ];
 
 /// Variables of job arrays, and what they do.
@@ -42,7 +52,7 @@ const FILES: [&str; 4] = [
      over what is built in. An option that excludes a configured one (--azimuth a view, --size a page) displaces it; \
      --set adds to configured changes. --no-config leaves the file aside.",
     "[draw] says how models are drawn, by ligne draw, ligne animate and ligne diff; its keys are the long names of options: style, set (a table of style keys, or a list of texts), \
-     seed, camera, view, azimuth, elevation, fov, ortho, up, only, hide, section, uncut, explode, explode-part, animation, repeat, time, faces, frame, centre, unit, size, page, landscape, margin, scale, \
+     seed, camera, view, azimuth, elevation, fov, ortho, up, only, hide, section, uncut, explode, explode-part, step-converter, step-tolerance, animation, repeat, time, faces, frame, centre, unit, size, page, landscape, margin, scale, \
      background, precision, dpi, group, id-prefix, threads, quiet, strict.",
     "[diff] holds tolerance: within which distance lines and fills count as the same, as text or as a table. \
      ligne test takes it for cases that say nothing else, and takes nothing else of the file.",
@@ -126,7 +136,9 @@ fn environment(roff: &mut Roff, command: &Command, is_program: bool) {
     let has = |option: &str| command.get_arguments().any(|known| known.get_long() == Some(option));
     let mut entries: Vec<(&str, &str)> = Vec::new();
     for ((name, option), does) in VARIABLES.iter().zip(VARIABLES_DO) {
-        if is_program || has(option) {
+        // A sheet of styles shows all of them, not the one that a project prefers.
+        let is_ignored = command.get_name() == "styles" && *option != "step-converter";
+        if is_program || has(option) && !is_ignored {
             entries.push((name, does));
         }
     }
@@ -135,6 +147,9 @@ fn environment(roff: &mut Roff, command: &Command, is_program: bool) {
     }
     if is_program || has("out-dir") {
         entries.extend(ARRAYS);
+    }
+    if is_program || has("step-converter") {
+        entries.extend(STEP);
     }
     if entries.is_empty() {
         return;

@@ -100,7 +100,7 @@ enum Command {
     /// Write beside a model in which order it loses its faces
     Lod(lod::LodArgs),
     /// List the built-in styles, show one, or draw a model in all of them
-    Styles(styles::StylesArgs),
+    Styles(Box<styles::StylesArgs>),
     /// Write a completion script for a shell
     Completions(completions::CompletionsArgs),
     /// Write the manual page

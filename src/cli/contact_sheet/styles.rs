@@ -105,6 +105,6 @@ mod tests {
         let of = |typed: &[&str]| styles(&typed.iter().map(|&word| word.to_owned()).collect::<Vec<_>>());
         assert_eq!(of(&[]).unwrap().len(), Style::names().count());
         assert_eq!(of(&["ink, mine.toml", "ink", "to?n"]).unwrap(), ["ink", "mine.toml", "toon"]);
-        assert!(of(&["no*"]).is_err());
+        assert!(of(&["nonesuch*"]).is_err());
     }
 }

@@ -101,7 +101,7 @@ mod tests {
         for elevation in [-90.0, -80.0, 0.0, 80.0, 90.0] {
             let near = angles(None, Some(elevation));
             assert!(near.iter().all(|own| own[1].abs() <= 90.0), "{near:?}");
-            assert!(near.iter().any(|own| *own == [35.0, elevation]), "{near:?}");
+            assert!(near.contains(&[35.0, elevation]), "{near:?}");
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::drawing::{Length, Unit};
 const DEFAULT_TOLERANCE_MM: f64 = 0.1;
 
 /// The radius below which circles get no fewer facets, mm. Source: measured on parts of 50 to 150 mm; `docs/how-to/import.md` has the table.
-const SMALL_RADIUS_MM: f64 = 20.0;
+const MIN_SMOOTH_RADIUS_MM: f64 = 20.0;
 
 /// Bounds of the angle between neighbouring facets, radians.
 const MIN_ANGLE: f64 = 0.05;
@@ -41,11 +41,11 @@ impl StepArgs {
         self.step_tolerance.unwrap_or(DEFAULT_TOLERANCE_MM)
     }
 
-    /// The largest angle between neighbouring facets, radians: that of a circle of [`SMALL_RADIUS_MM`] at this tolerance. Small
-    /// holes and fillets stay round by it, whatever the tolerance would allow them.
+    /// The largest angle between neighbouring facets, radians: that of a circle of [`MIN_SMOOTH_RADIUS_MM`] at this tolerance. It keeps
+    /// small holes and fillets round, for which the tolerance alone would allow a few facets only.
     pub(super) fn angle(&self) -> f64 {
         // The sagitta of a chord is R a² / 8.
-        (8.0 * self.tolerance_mm() / SMALL_RADIUS_MM).sqrt().clamp(MIN_ANGLE, MAX_ANGLE)
+        (8.0 * self.tolerance_mm() / MIN_SMOOTH_RADIUS_MM).sqrt().clamp(MIN_ANGLE, MAX_ANGLE)
     }
 }
 

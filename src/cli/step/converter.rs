@@ -47,7 +47,7 @@ enum Kind {
     Own,
 }
 
-/// What came of a conversion.
+/// The result of a conversion that did not fail.
 #[derive(Debug)]
 pub(super) enum Converted {
     /// The file is written; this axis points up.
@@ -121,7 +121,7 @@ fn find(name: &str) -> Option<PathBuf> {
 }
 
 impl Converter {
-    /// What it is called in messages.
+    /// The name in messages.
     pub(super) fn name(&self) -> String {
         let package = match self.kind {
             Kind::Cascadio => "cascadio",
@@ -132,7 +132,7 @@ impl Converter {
         format!("{package} ({})", self.program.display())
     }
 
-    /// What its results depend on besides the model: the script, or the user's program, which may be changed.
+    /// The bytes that its results depend on, except for the model: the script, or the user's program, which may change.
     pub(super) fn identity(&self) -> Vec<u8> {
         let mut identity = self.program.to_string_lossy().into_owned().into_bytes();
         identity.push(0);

@@ -36,7 +36,7 @@ pub fn name_after_products(root: &mut Root) {
     }
 }
 
-/// The product's name for a node that has none of its own.
+/// The product's name for a node without one.
 fn product(root: &Root, parents: &[Option<usize>], index: usize) -> Option<String> {
     let node = root.nodes.get(index)?;
     let own = node.name.as_deref()?;
