@@ -47,12 +47,13 @@ impl File {
     /// The keys with their places.
     pub(super) fn table(&self) -> Result<DeTable<'_>, Error> {
         let parsed = DeTable::parse(&self.text).map(Spanned::into_inner);
-        parsed.map_err(|error| fault::in_sheet(&self.text, &error).in_file(&self.path))
+        parsed.map_err(|error| fault::in_sheet(&self.text, &error.into()).in_file(&self.path))
     }
 
     /// The keys as plain values.
     pub(super) fn values(&self) -> Result<Table, Error> {
-        toml::from_str(&self.text).map_err(|error| fault::in_sheet(&self.text, &error).in_file(&self.path))
+        toml::from_str(&self.text)
+            .map_err(|error| fault::in_sheet(&self.text, &error.into()).in_file(&self.path))
     }
 
     /// An error about a place in the file.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, ValueDeserializer};
+use toml::de::{DeTable, DeValue};
 
 use super::comic::{self, ComicPage};
 use super::composed::Composed;
@@ -15,6 +15,7 @@ use super::sheet::{self, SheetPage};
 use super::source::Source;
 use crate::error::Error;
 use crate::scene::Scene;
+use crate::style::toml_reader::{self, Fault};
 
 /// What pages are of.
 const KINDS: [&str; 2] = ["comic", "sheet"];
@@ -155,7 +156,7 @@ impl PageFile {
     }
 
     fn add(&mut self, source: Source, above: &mut Vec<PathBuf>) -> Result<(), Error> {
-        let document = DeTable::parse(&source.text).map_err(|error| source.unread(&error))?;
+        let document = DeTable::parse(&source.text).map_err(|error| source.unread(&error.into()))?;
         let mut pages = Vec::new();
         let mut named = None;
         for (key, value) in document.into_inner() {
@@ -205,8 +206,8 @@ fn listed(value: Spanned<DeValue>) -> Vec<Spanned<DeValue>> {
     }
 }
 
-fn read<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, toml::de::Error> {
-    T::deserialize(ValueDeserializer::from(value))
+fn read<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
+    toml_reader::from_value(value)
 }
 
 /// One page: `kind` says in which vocabulary the other keys are.

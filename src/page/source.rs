@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::model_reader::ModelReader;
 use crate::error::Error;
 use crate::style::fault;
+use crate::style::toml_reader::Fault;
 
 /// The text of a page file, and where it is.
 #[derive(Debug, Clone)]
@@ -28,7 +29,7 @@ impl Source {
     }
 
     /// An error of reading the file.
-    pub(crate) fn unread(&self, error: &toml::de::Error) -> Error {
+    pub(crate) fn unread(&self, error: &Fault) -> Error {
         fault::in_sheet(&self.text, error).in_file(&self.path)
     }
 

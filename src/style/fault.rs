@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::keys::StyleKey;
 use super::keys::advice::{alternatives, ending, listed, write_value};
+use super::toml_reader::Fault;
 use crate::error::Error;
 use crate::error::messages::{Explained, Mistake, explain};
 use crate::error::nearest::distance;
@@ -21,12 +22,12 @@ const LONGEST: usize = 120;
 const MAX_QUOTED: usize = 40;
 
 /// An error of a file's text: at its line, with the line and a caret.
-pub(crate) fn in_sheet(text: &str, error: &toml::de::Error) -> Error {
+pub(crate) fn in_sheet(text: &str, error: &Fault) -> Error {
     placed(text, error, &explained(text, error))
 }
 
 /// The parser's message in plain words; a value that it does not name is quoted from the text.
-fn explained(text: &str, error: &toml::de::Error) -> Explained {
+fn explained(text: &str, error: &Fault) -> Explained {
     let explained = explain(error.message());
     let value = error.span().and_then(|span| text.get(span)).unwrap_or_default().trim();
     match explained.message.strip_prefix("this does not") {
@@ -38,12 +39,12 @@ fn explained(text: &str, error: &toml::de::Error) -> Explained {
 }
 
 /// The same for a style sheet: advice names keys in the whole tree, and the values that a key may have.
-pub(super) fn in_style_sheet(text: &str, error: &toml::de::Error) -> Error {
+pub(super) fn in_style_sheet(text: &str, error: &Fault) -> Error {
     let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
     placed(text, error, &with_keys(explained(text, error), &path, &path, false))
 }
 
-fn placed(text: &str, error: &toml::de::Error, explained: &Explained) -> Error {
+fn placed(text: &str, error: &Fault, explained: &Explained) -> Error {
     let Explained { message, advice, .. } = explained;
     match error.span() {
         Some(span) => at_span(text, &span, message, advice.as_deref()),
@@ -62,7 +63,7 @@ pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Op
 }
 
 /// An error of a change on the command line: the place is the change itself.
-pub(super) fn in_change(set: &str, text: &str, error: &toml::de::Error) -> Error {
+pub(super) fn in_change(set: &str, text: &str, error: &Fault) -> Error {
     let typed = set.split('=').next().unwrap_or_default().trim();
     let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
     let Explained { message, advice, .. } = with_keys(explained(text, error), &path, typed, true);

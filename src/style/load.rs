@@ -16,6 +16,7 @@ use super::ramp_source::place_pictures;
 use super::sheet::Sheet;
 use super::spelling::to_british;
 use super::tile_file::place_tiles;
+use super::toml_reader::{self, Fault};
 use crate::error::Error;
 
 /// A sheet that has been found.
@@ -43,7 +44,7 @@ pub(super) fn load_text(text: &str) -> Result<Style, Error> {
 /// The style of a sheet, of those it extends, and of changes.
 fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     let merged = merged_table(source, sets)?;
-    let mut sheet: Sheet = merged.try_into().map_err(|error: toml::de::Error| Error::new(error.message()))?;
+    let mut sheet: Sheet = toml_reader::from_table(merged).map_err(|fault| Error::new(fault.message()))?;
     sheet.fills.read_pictures()?;
     sheet.fills.read_tiles()?;
     sheet.read_brushes()?;
@@ -154,8 +155,8 @@ fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
 }
 
 /// A sheet as options, to find its errors, and as a table, to merge it.
-fn read(text: &str) -> Result<(Sheet, Table), toml::de::Error> {
-    let (sheet, mut table) = (toml::from_str(text)?, toml::from_str(text)?);
+fn read(text: &str) -> Result<(Sheet, Table), Fault> {
+    let (sheet, mut table) = (toml_reader::from_text(text)?, toml::from_str(text)?);
     to_british(&mut table);
     Ok((sheet, table))
 }

@@ -25,6 +25,7 @@ mod sheet;
 mod spelling;
 mod svg_file;
 mod tile_file;
+pub(crate) mod toml_reader;
 
 pub(crate) use bare_lengths::bare_lengths;
 pub use keys::{KeyType, StyleKey};

@@ -22,18 +22,23 @@ fn pictures_are_what_is_drawn() {
 }
 
 #[test]
-fn every_svg_picture_of_the_readme_is_a_case() {
-    let readme = fs::read_to_string(root().join("README.md")).expect("the README");
+fn every_svg_picture_of_the_pages_is_a_case() {
     let mut cases = String::new();
     for entry in fs::read_dir(root().join("docs/pictures/cases")).expect("cases").flatten() {
         cases += &fs::read_to_string(entry.path()).expect("a case");
     }
-    let links = readme.split("](docs/pictures/").skip(1).filter_map(|rest| rest.split_once(')'));
     let mut pictures = 0;
-    // A difference is no drawing of a model.
-    for (link, _) in links.filter(|(link, _)| link.ends_with(".svg") && !link.starts_with("diff-")) {
-        assert!(cases.contains(&format!("drawing = \"../{link}\"")), "{link}");
-        pictures += 1;
+    for page in documents() {
+        let text = fs::read_to_string(root().join(&page)).expect("a page");
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
+        let names = links.filter_map(|(link, _)| link.split_once("pictures/").map(|(_, name)| name));
+        // Differences and stages are no drawings of a model.
+        let is_drawing =
+            |name: &&str| name.ends_with(".svg") && !name.starts_with("diff-") && !name.starts_with("stage-");
+        for name in names.filter(is_drawing) {
+            assert!(cases.contains(&format!("drawing = \"../{name}\"")), "{page}: {name}");
+            pictures += 1;
+        }
     }
     assert!(pictures > 6, "{pictures} pictures found");
 }

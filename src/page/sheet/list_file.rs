@@ -8,7 +8,7 @@ use super::list::Item;
 use crate::error::Error;
 use crate::math::glob::Glob;
 use crate::scene::Scene;
-use crate::style::fault;
+use crate::style::{fault, toml_reader};
 
 /// What a row tells.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -87,7 +87,7 @@ pub(super) fn read(path: &Path, scene: &Scene, own: &[Item]) -> Result<(Vec<Item
 }
 
 fn of_toml(text: &str) -> Result<Vec<(String, Row)>, Error> {
-    let rows: Rows = toml::from_str(text).map_err(|error| fault::in_sheet(text, &error))?;
+    let rows: Rows = toml_reader::from_text(text).map_err(|error| fault::in_sheet(text, &error))?;
     let line = |at: usize| text.get(..at).map_or(0, |before| before.matches('\n').count()) + 1;
     let placed = |row: toml::Spanned<Row>| (format!("line {}", line(row.span().start)), row.into_inner());
     Ok(rows.item.into_iter().map(placed).collect())

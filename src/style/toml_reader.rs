@@ -1,0 +1,378 @@
+//! Reads options from parsed TOML, with the place of each fault.
+//!
+//! The text is parsed by `toml`. Its tables become a tree of [`Node`]s, each with its span, and one small deserialiser walks
+//! the tree. The deserialisers of `toml` would do the same, but the compiler makes four copies of every table of options
+//! for them: for tables, for values with spans, for dates and for values without spans.
+
+use std::borrow::Cow;
+use std::fmt::Display;
+use std::ops::Range;
+use std::vec;
+
+use serde::de::value::{MapAccessDeserializer, StringDeserializer};
+use serde::de::{
+    DeserializeOwned, DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Unexpected, Visitor,
+};
+use serde::forward_to_deserialize_any;
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
+
+/// What is wrong in a TOML text, and where: a range of bytes.
+#[derive(Debug, Clone)]
+pub(crate) struct Fault {
+    message: String,
+    span: Option<Range<usize>>,
+}
+
+impl Fault {
+    pub(crate) fn message(&self) -> &str {
+        &self.message
+    }
+
+    pub(crate) fn span(&self) -> Option<Range<usize>> {
+        self.span.clone()
+    }
+
+    /// The same fault at this place, unless it has one.
+    fn at(self, span: &Option<Range<usize>>) -> Self {
+        Self { span: self.span.or_else(|| span.clone()), ..self }
+    }
+}
+
+impl Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl serde::de::Error for Fault {
+    fn custom<T: Display>(message: T) -> Self {
+        Self { message: message.to_string(), span: None }
+    }
+}
+
+impl From<toml::de::Error> for Fault {
+    fn from(error: toml::de::Error) -> Self {
+        Self { message: error.message().to_owned(), span: error.span() }
+    }
+}
+
+/// Reads options from a TOML text.
+pub(crate) fn from_text<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
+    let document = DeTable::parse(text)?;
+    let span = document.span();
+    T::deserialize(Node::table(document.into_inner(), span)?)
+}
+
+/// Reads options from a table without spans.
+pub(crate) fn from_table<T: DeserializeOwned>(table: Table) -> Result<T, Fault> {
+    T::deserialize(Node::from(Value::Table(table)))
+}
+
+/// Reads options from a part of a parsed text.
+pub(crate) fn from_value<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
+    T::deserialize(Node::spanned(value)?)
+}
+
+/// A value with its place in the text.
+struct Node {
+    kind: Kind,
+    span: Option<Range<usize>>,
+}
+
+enum Kind {
+    Bool(bool),
+    Integer(i64),
+    Unsigned(u64),
+    Float(f64),
+    Text(String),
+    Date,
+    List(Vec<Node>),
+    Table(Vec<(Key, Node)>),
+}
+
+struct Key {
+    text: Cow<'static, str>,
+    span: Option<Range<usize>>,
+}
+
+impl Node {
+    fn spanned(value: Spanned<DeValue>) -> Result<Self, Fault> {
+        let span = value.span();
+        let wrong = |message: &str| Fault { message: message.to_owned(), span: Some(span.clone()) };
+        let kind = match value.into_inner() {
+            DeValue::String(text) => Kind::Text(text.into_owned()),
+            DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
+                Ok(number) => Kind::Integer(number),
+                Err(_) => u64::from_str_radix(digits.as_str(), digits.radix())
+                    .map(Kind::Unsigned)
+                    .map_err(|_| wrong("integer number overflowed"))?,
+            },
+            DeValue::Float(digits) => {
+                let number: f64 = digits.as_str().parse().map_err(|_| wrong("not a number"))?;
+                if number.is_infinite() && !digits.as_str().contains("inf") {
+                    return Err(wrong("floating-point number overflowed"));
+                }
+                Kind::Float(number)
+            }
+            DeValue::Boolean(value) => Kind::Bool(value),
+            DeValue::Datetime(_) => Kind::Date,
+            DeValue::Array(items) => {
+                Kind::List(items.into_iter().map(Self::spanned).collect::<Result<_, _>>()?)
+            }
+            DeValue::Table(table) => return Self::table(table, span),
+        };
+        Ok(Self { kind, span: Some(span) })
+    }
+
+    fn table(table: DeTable, span: Range<usize>) -> Result<Self, Fault> {
+        let entry = |(key, value): (Spanned<_>, Spanned<DeValue>)| {
+            let (span, key): (_, Cow<str>) = (key.span(), key.into_inner());
+            Ok((Key { text: Cow::Owned(key.into_owned()), span: Some(span) }, Self::spanned(value)?))
+        };
+        let entries = table.into_iter().map(entry).collect::<Result<_, Fault>>()?;
+        Ok(Self { kind: Kind::Table(entries), span: Some(span) })
+    }
+}
+
+impl From<Value> for Node {
+    fn from(value: Value) -> Self {
+        let kind = match value {
+            Value::String(text) => Kind::Text(text),
+            Value::Integer(number) => Kind::Integer(number),
+            Value::Float(number) => Kind::Float(number),
+            Value::Boolean(value) => Kind::Bool(value),
+            Value::Datetime(_) => Kind::Date,
+            Value::Array(items) => Kind::List(items.into_iter().map(Self::from).collect()),
+            Value::Table(table) => {
+                let entry = |(text, value)| (Key { text: Cow::Owned(text), span: None }, Self::from(value));
+                Kind::Table(table.into_iter().map(entry).collect())
+            }
+        };
+        Self { kind, span: None }
+    }
+}
+
+impl<'de> Deserializer<'de> for Node {
+    type Error = Fault;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        let Self { kind, span } = self;
+        let read = match kind {
+            Kind::Bool(value) => visitor.visit_bool(value),
+            Kind::Integer(number) => visitor.visit_i64(number),
+            Kind::Unsigned(number) => visitor.visit_u64(number),
+            Kind::Float(number) => visitor.visit_f64(number),
+            Kind::Text(text) => visitor.visit_string(text),
+            Kind::Date => Err(Fault::invalid_type(Unexpected::Other("a date"), &visitor)),
+            Kind::List(items) => visitor.visit_seq(Items(items.into_iter())),
+            Kind::Table(entries) => visitor.visit_map(Entries::new(entries)),
+        };
+        read.map_err(|fault| fault.at(&span))
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        match fields {
+            // `Spanned` asks for its two ends and its value by three names of its own.
+            [start, end, value] if name.starts_with("$__serde_spanned") => {
+                let span = self.span.clone();
+                let range = span.clone().unwrap_or_default();
+                let place = |at: usize| Self { kind: Kind::Unsigned(at as u64), span: None };
+                let key = |name| Key { text: Cow::Borrowed(name), span: None };
+                let entries =
+                    vec![(key(start), place(range.start)), (key(end), place(range.end)), (key(value), self)];
+                visitor.visit_map(Entries::new(entries)).map_err(|fault| fault.at(&span))
+            }
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        let Self { kind, span } = self;
+        let read = match kind {
+            Kind::Text(text) => visitor.visit_enum(StringDeserializer::new(text)),
+            Kind::Table(entries) => {
+                MapAccessDeserializer::new(Entries::new(entries)).deserialize_enum(name, variants, visitor)
+            }
+            kind => Self { kind, span: span.clone() }.deserialize_any(visitor),
+        };
+        read.map_err(|fault| fault.at(&span))
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
+        tuple_struct map identifier ignored_any
+    }
+}
+
+impl<'de> Deserializer<'de> for Key {
+    type Error = Fault;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        match self.text {
+            Cow::Borrowed(text) => visitor.visit_borrowed_str(text),
+            Cow::Owned(text) => visitor.visit_string(text),
+        }
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        visitor.visit_enum(StringDeserializer::new(self.text.into_owned()))
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
+        newtype_struct seq tuple tuple_struct map struct identifier ignored_any
+    }
+}
+
+/// The items of a list.
+struct Items(vec::IntoIter<Node>);
+
+impl<'de> SeqAccess<'de> for Items {
+    type Error = Fault;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
+        self.0.next().map(|item| seed.deserialize(item)).transpose()
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some(self.0.len())
+    }
+}
+
+/// The entries of a table.
+struct Entries {
+    rest: vec::IntoIter<(Key, Node)>,
+    /// The value whose key was read last, with the place of the key.
+    next: Option<(Option<Range<usize>>, Node)>,
+}
+
+impl Entries {
+    fn new(entries: Vec<(Key, Node)>) -> Self {
+        Self { rest: entries.into_iter(), next: None }
+    }
+}
+
+impl<'de> MapAccess<'de> for Entries {
+    type Error = Fault;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
+        let Some((key, value)) = self.rest.next() else { return Ok(None) };
+        self.next = Some((key.span.clone(), value));
+        let span = key.span.clone();
+        seed.deserialize(key).map(Some).map_err(|fault| fault.at(&span))
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
+        let (key, value) = self.next.take().ok_or_else(|| Fault::custom("a value without a key"))?;
+        let span = value.span.clone().or(key);
+        seed.deserialize(value).map_err(|fault| fault.at(&span))
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some(self.rest.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Debug;
+
+    use serde::Deserialize;
+
+    use super::*;
+
+    #[derive(Debug, PartialEq, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Options {
+        width: f64,
+        #[serde(default)]
+        kind: Option<Kind>,
+        #[serde(default)]
+        names: Vec<Spanned<String>>,
+        #[serde(default)]
+        nested: std::collections::BTreeMap<String, [u8; 2]>,
+    }
+
+    #[derive(Debug, PartialEq, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    enum Kind {
+        Plain,
+        Dotted(f64),
+    }
+
+    /// What `toml` makes of a text: the value, or the message and the place.
+    fn expected<T: DeserializeOwned>(text: &str) -> Result<T, (String, Option<Range<usize>>)> {
+        toml::from_str(text).map_err(|error| (error.message().to_owned(), error.span()))
+    }
+
+    fn agree<T: DeserializeOwned + PartialEq + Debug>(text: &str) {
+        let read = from_text::<T>(text).map_err(|fault| (fault.message().to_owned(), fault.span()));
+        assert_eq!(read, expected::<T>(text), "{text}");
+    }
+
+    #[test]
+    fn values_and_faults_are_those_of_toml() {
+        for text in [
+            "width = 1.5",
+            "width = 2\nkind = \"plain\"\nnames = [\"a\", \"b\"]",
+            "width = 1e3\nkind = { dotted = 3 }\n[nested]\na = [1, 2]\nb = [0x10, 0o7]",
+            "width = inf",
+            "",
+            "width = \"wide\"",
+            "width = 1\nhight = 2",
+            "width = 1\nkind = \"dashed\"",
+            "width = 1\nkind = { dotted = \"x\" }",
+            "width = 1\nnames = [1]",
+            "width = 1\nnames = \"a\"",
+            "width = 1\n[nested]\na = [1, 300]",
+            "width = 1\n[nested]\na = [1]",
+            "width = 1\nwidth = 2",
+            "width = ",
+            "width = 99999999999999999999999999999999999999999",
+        ] {
+            agree::<Options>(text);
+        }
+        assert!(from_text::<Options>("width = 2020-01-02").is_err());
+    }
+
+    #[test]
+    fn built_in_sheets_are_read_alike() {
+        for name in crate::Style::names() {
+            let text = crate::Style::sheet_text(name).unwrap();
+            let table = toml::from_str::<Table>(text).unwrap();
+            let sheet = from_text::<super::super::sheet::Sheet>(text).unwrap();
+            let merged: super::super::sheet::Sheet = from_table(table).unwrap();
+            assert_eq!(format!("{sheet:?}"), format!("{merged:?}"), "{name}");
+        }
+    }
+}
