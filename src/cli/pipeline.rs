@@ -1,6 +1,6 @@
 //! The calls of the command line into the rest of the crate.
 
-use rayon::ThreadPool;
+use rayon_core::ThreadPool;
 
 use super::draw_args::GroupBy;
 use super::request::SvgChoices;
@@ -93,13 +93,13 @@ pub(super) fn png(drawing: &Drawing, dpi: f64) -> Result<Vec<u8>, Error> {
 pub(super) fn in_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
     match threads {
         // On one of the threads themselves, so that none has to be waited for at each part of the work.
-        None => Ok(rayon::scope(|_| work())),
+        None => Ok(rayon_core::scope(|_| work())),
         Some(_) => Ok(pool(threads)?.install(work)),
     }
 }
 
 /// So many threads, or as many as there are cores.
 pub(super) fn pool(threads: Option<u16>) -> Result<ThreadPool, Error> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
+    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
     pool.map_err(|error| Error::new(format!("cannot start threads: {error}")).at("--threads"))
 }

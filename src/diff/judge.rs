@@ -168,7 +168,7 @@ fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOpti
 /// Compares the pictures. The renderer follows nested references on a large stack, and may give up.
 fn look(pictures: [&Picture; 2], findings: &[Finding], options: &DiffOptions, ignore: Ignore) -> Decision {
     let groups = Groups::new(pictures, &options.tolerances, ignore);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
+    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
     let decide = || pictures::decide(pictures, findings, &groups, ignore);
     let decided = pool.map(|pool| pool.install(|| catch_unwind(AssertUnwindSafe(decide))));
     decided.ok().and_then(Result::ok).unwrap_or(Decision::Unknown)

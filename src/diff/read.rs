@@ -44,7 +44,7 @@ impl Picture {
 
 /// Reads a file.
 fn picture(svg: &str) -> Result<Picture, Error> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).stack_size(STACK_BYTES).build();
+    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(1).stack_size(STACK_BYTES).build();
     let pool = pool.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
     let gave_up = |_| Error::new("the reader of SVG gave up").remedy("save it as plain SVG");
     pool.install(|| catch_unwind(|| read(svg))).map_err(gave_up)?

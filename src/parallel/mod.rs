@@ -44,7 +44,7 @@ const MAX_PARTS_PER_THREAD: usize = 128;
 
 /// Runs `work(0)` to `work(tasks - 1)` on the threads of the current pool, each once, and waits for all.
 fn run(tasks: usize, work: &(dyn Fn(usize) + Sync)) {
-    let threads = rayon::current_num_threads().min(tasks);
+    let threads = rayon_core::current_num_threads().min(tasks);
     if threads <= 1 {
         (0..tasks).for_each(work);
         return;
@@ -59,7 +59,7 @@ fn run(tasks: usize, work: &(dyn Fn(usize) + Sync)) {
             work(task);
         }
     };
-    rayon::scope(|scope| {
+    rayon_core::scope(|scope| {
         for _ in 1..threads {
             scope.spawn(|_| take());
         }
@@ -84,12 +84,12 @@ pub(crate) fn join<A: Send, B: Send>(
 }
 
 fn join_tasks(first: &mut (dyn FnMut() + Send), second: &mut (dyn FnMut() + Send)) {
-    rayon::join(first, second);
+    rayon_core::join(first, second);
 }
 
 /// Number of parts of a loop over `len` items with at least `min` and at most `max` items in each.
 fn part_count(len: usize, min: usize, max: usize) -> usize {
-    let threads = rayon::current_num_threads();
+    let threads = rayon_core::current_num_threads();
     if threads == 1 {
         return 1;
     }

@@ -6,7 +6,7 @@ use super::{join, part_count};
 /// Runs the check on pools of one, two and five threads.
 fn with_threads(check: impl Fn() + Send + Sync) {
     for threads in [1, 2, 5] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(&check);
     }
 }
@@ -96,7 +96,7 @@ fn ends_agree_with_iterators() {
 #[test]
 fn parts_keep_to_their_limits() {
     with_threads(|| {
-        let threads = rayon::current_num_threads();
+        let threads = rayon_core::current_num_threads();
         for (len, min, max) in [(0, 1, 1), (1, 1, 9), (1000, 1, usize::MAX), (1000, 300, 1), (9999, 1, 4)] {
             let count = part_count(len, min, max);
             assert!(count >= 1 && (count == 1 || len / count >= min), "{count} parts of {len}");

@@ -3,7 +3,7 @@
 /// Does some work on one of the threads that parts of it are shared out to: whoever calls from another thread waits for them
 /// once, and not at each part.
 pub(super) fn on_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    rayon::scope(|_| work())
+    rayon_core::scope(|_| work())
 }
 
 #[cfg(test)]
@@ -12,7 +12,7 @@ mod tests {
 
     #[test]
     fn work_begins_on_a_thread_that_shares_it() {
-        assert!(rayon::current_thread_index().is_none());
-        assert!(on_threads(rayon::current_thread_index).is_some());
+        assert!(rayon_core::current_thread_index().is_none());
+        assert!(on_threads(rayon_core::current_thread_index).is_some());
     }
 }

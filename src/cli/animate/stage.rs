@@ -213,7 +213,7 @@ impl Stage<'_> {
         take: &mut impl FnMut(usize, &Made, &mut Total) -> Result<(), Error>,
         total: &mut Total,
     ) -> Result<(), Error> {
-        let at_once = rayon::current_num_threads().max(1);
+        let at_once = rayon_core::current_num_threads().max(1);
         let motion = &self.style.motion;
         let mut around = Around::new(&self.plan.course, motion.fade, motion.fade_by);
         let draw = |drawn: usize| self.draw(animator, drawn);

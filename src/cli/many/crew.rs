@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use rayon::ThreadPool;
+use rayon_core::ThreadPool;
 
 use super::plan::Job;
 use crate::cli::output::Staging;

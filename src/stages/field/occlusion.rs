@@ -228,7 +228,7 @@ mod tests {
             mesh.positions.iter().step_by(2).map(|p| Start { point: *p, reach: f64::INFINITY }).collect();
         assert!(ParallelRays::new(&mesh).blocked(&starts, DVec3::Z, None).is_none());
         let on = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| openness(&mesh, &[], everywhere))
         };
         assert_eq!(on(1), on(4));

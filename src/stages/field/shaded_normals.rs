@@ -70,7 +70,7 @@ impl ShadedNormals {
             }
         }
         let workers =
-            if self.normals.len() < FACES_PER_TASK { 1 } else { rayon::current_num_threads().min(8) };
+            if self.normals.len() < FACES_PER_TASK { 1 } else { rayon_core::current_num_threads().min(8) };
         let shares = shares(self.normals.len(), &self.corners, workers);
         let of_share = |share: &Share| {
             let mut sums = vec![DVec3::ZERO; share.vertices.len()];

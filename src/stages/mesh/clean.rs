@@ -33,7 +33,7 @@ pub(super) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     let Soup { triangles, triangle_part, triangle_material, triangle_paint, .. } = soup;
     let Soup { corner_normals, corner_uvs, corner_colours, edge_marks, .. } = soup;
     // Each list is gone through in order, all of them side by side.
-    rayon::scope(|all| {
+    rayon_core::scope(|all| {
         all.spawn(|_| filter(triangles, keep));
         all.spawn(|_| filter(triangle_part, keep));
         all.spawn(|_| filter(triangle_material, keep));

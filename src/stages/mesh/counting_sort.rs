@@ -16,7 +16,7 @@ pub(super) fn counting_sort<T: Copy + Default + Send + Sync>(
     keys: usize,
     key: impl Fn(&T) -> u32 + Sync,
 ) -> Vec<T> {
-    let threads = rayon::current_num_threads();
+    let threads = rayon_core::current_num_threads();
     let mut sorted = vec![T::default(); items.len()];
     if threads == 1 || items.len() < MANY {
         sort_into(&mut sorted, &items, keys, key);
@@ -105,7 +105,7 @@ mod tests {
             let mut expected = items.clone();
             expected.sort_by_key(key);
             for threads in [1, 3] {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+                let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
                 let sorted = pool.install(|| counting_sort(items.clone(), keys as usize, key));
                 assert!(sorted == expected, "{keys} keys on {threads} threads");
             }

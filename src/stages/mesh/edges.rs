@@ -303,7 +303,7 @@ mod tests {
             }
         }
         let run = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| Edges::build(((n + 1) * (n + 1)) as usize, &triangles))
         };
         let (one, three) = (run(1), run(3));

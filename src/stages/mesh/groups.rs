@@ -125,7 +125,7 @@ mod tests {
             .map(|k| [k, (u64::from(k) * 48_271 % u64::from(count)) as u32])
             .filter(|pair| pair.iter().all(|k| k % 7 != 0))
             .collect();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("a pool");
+        let pool = rayon_core::ThreadPoolBuilder::new().num_threads(4).build().expect("a pool");
         let groups = pool
             .install(|| Groups::new(count as usize, |join| pairs.par_iter().for_each(|[a, b]| join(*a, *b))));
         // As slow and plain as can be: the least number is handed on until nothing changes.
@@ -153,7 +153,7 @@ mod tests {
         // Whoever comes next has a lesser face for the group of the last one than all before.
         let (threads, each) = (4, 50_000_u32);
         let last = threads * each;
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build().expect("a pool");
+        let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads as usize).build().expect("a pool");
         // Often enough that two of them surely meet.
         for _ in 0..40 {
             let groups = pool.install(|| {

@@ -23,7 +23,7 @@ pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
     if vertices <= size.min(GRAIN) {
         return vertices.min(1);
     }
-    vertices.div_ceil(size).next_multiple_of(rayon::current_num_threads())
+    vertices.div_ceil(size).next_multiple_of(rayon_core::current_num_threads())
 }
 
 /// So many vertices in shares for so many workers. Vertices and faces mostly stand in one order, so that faces of a share
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn threads_have_equally_many_shares() {
         for threads in [1, 2, 3, 16] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             let count = |vertices: usize| pool.install(|| share_count(vertices, 100));
             assert_eq!([0, 1, 100].map(count), [0, 1, 1]);
             assert!([101, 299, 12_345].map(count).iter().all(|count| count.is_multiple_of(threads)));

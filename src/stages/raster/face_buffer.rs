@@ -157,7 +157,7 @@ mod tests {
         let (mesh, view) = crowd();
         let screen = Screen::new(&mesh, &view);
         let with = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| FaceBuffer::new(&screen))
         };
         assert_eq!(with(1), with(3));

@@ -49,7 +49,7 @@ mod tests {
         let items = 3 * CHUNK + 17;
         let adds = |k: usize| [((k / 1000 % 7) as u32, 1.0 / (k + 1) as f64), (7, 1.0)];
         let on = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| sums::<f64, _>(9, items, adds))
         };
         let found = on(1);

@@ -117,7 +117,7 @@ impl Covers {
             }
             (!cover.is_empty()).then_some(cover)
         };
-        let shares = rayon::current_num_threads().min(MOST_SHARES);
+        let shares = rayon_core::current_num_threads().min(MOST_SHARES);
         let mut covers: Vec<Vec<f32>> =
             (0..shares).into_par_iter().with_max_len(1).filter_map(of_share).collect();
         let Some(mut of_square) = covers.pop() else { return Self::none(triangles.grid) };

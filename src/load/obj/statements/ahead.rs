@@ -63,7 +63,7 @@ pub(super) struct Ahead {
 impl Ahead {
     /// For a text that is worth it.
     pub fn of(bytes: &[u8]) -> Self {
-        let alone = bytes.len() < LEAST_TEXT || rayon::current_num_threads() == 1;
+        let alone = bytes.len() < LEAST_TEXT || rayon_core::current_num_threads() == 1;
         Self::with_blocks(if alone { 0 } else { BLOCK })
     }
 

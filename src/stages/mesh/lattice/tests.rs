@@ -249,7 +249,7 @@ fn one_thread_moves_as_many_do() {
     let (truth, triangles) = torus(200, 60);
     let on_lattice = rounded(&truth, 8).0;
     let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let mut loose = on_lattice.clone();
         pool.install(|| loosen(&mut loose, &triangles, &[]));
         loose
