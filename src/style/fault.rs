@@ -97,6 +97,14 @@ pub(super) fn place_of_value(text: &str, key: &str) -> String {
 fn with_keys(explained: Explained, path: &str, typed: &str, only_settable: bool) -> Explained {
     let advice = match &explained.mistake {
         Mistake::UnknownKey(word, known) => {
+            // `crease` for `crease_deg`.
+            let start = format!("{word}_");
+            let begun: Vec<String> =
+                known.iter().filter(|known| known.starts_with(&start)).cloned().collect();
+            if !begun.is_empty() {
+                let advice = Some(format!("did you mean {}?", listed(&begun)));
+                return Explained { advice, ..explained };
+            }
             let near = known.iter().any(|known| distance(word, known) <= 1);
             let parts: Vec<&str> = typed.split('.').map(str::trim).collect();
             let at = parts.iter().position(|part| part == word);

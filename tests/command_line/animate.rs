@@ -184,7 +184,7 @@ fn levels_that_a_budget_chose_are_repeated() {
     animate(&folder, horn, "e/%d.svg", "--turntable 7 --levels mine.json").refused("it has 6 levels");
     folder.write("mine.json", "[3]");
     animate(&folder, horn, "e/%d.svg", "--turntable 6 --levels mine.json")
-        .refused("no list of numbers of faces");
+        .refused("`faces` is missing, or is not a list of whole numbers");
     animate(&folder, horn, "e/%d.svg", "--turntable 6 --budget soon").refused("a time, such as 33ms");
     animate(&folder, horn, "e/%d.svg", "--turntable 6 --budget 9ms --shard 1/2")
         .refused("cannot be used with");

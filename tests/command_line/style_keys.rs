@@ -140,6 +140,7 @@ fn suggestions_search_all_keys() {
         ("pen.crease_deg=3", "did you mean `lines.crease_deg`?"),
         ("pen.wdith=3", "did you mean `width`?"),
         ("hatching.layers=3", "did you mean `layer`?"),
+        ("lines.crease=3", "unknown key `crease`; did you mean `crease_deg`?"),
         ("lines.hidden=true", "`true` does not fit here; write one of none, dashed, solid"),
         ("lines.hidden=dot", "unknown value `dot`; known values: none, dashed, solid"),
         (

@@ -43,12 +43,9 @@ pub(super) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Erro
         Error::new("`faces` is missing, or is not a list of whole numbers").in_file(path).remedy(remedy)
     })?;
     if faces.len() != drawings {
-        return Err(Error::new(format!(
-            "the file has {} levels, but there are {drawings} drawings",
-            faces.len()
-        ))
-        .in_file(path)
-        .remedy("draw the frames that it was written for"));
+        return Err(Error::new(format!("it has {} levels, and there are {drawings} drawings", faces.len()))
+            .in_file(path)
+            .remedy("draw the frames that it was written for"));
     }
     Ok(faces)
 }
