@@ -9,11 +9,13 @@
 
 mod args;
 mod grid;
+mod style_args;
 mod styles;
 mod views;
 
-pub(super) use self::args::{MomentSheetArgs, StyleSheetArgs, ViewSheetArgs};
+pub(super) use self::args::{MomentSheetArgs, ViewSheetArgs};
 pub(super) use self::grid::{Picture, SIDE_PX};
+pub(super) use self::style_args::StyleSheetArgs;
 pub(super) use self::styles::run as of_styles;
 pub(super) use self::views::run as of_views;
 use super::draw::Drawn;

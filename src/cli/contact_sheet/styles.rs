@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::StyleSheetArgs;
+use super::style_args::StyleSheetArgs;
 use super::{Sheet, check_outputs, picture_request};
 use crate::cli::output::Output;
 use crate::cli::progress::Progress;
