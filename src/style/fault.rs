@@ -21,6 +21,7 @@ const LONGEST: usize = 120;
 const MAX_QUOTED: usize = 40;
 
 /// An error of a file's text: at its line, with the line and a caret.
+#[cfg(feature = "page")]
 pub(crate) fn in_sheet(text: &str, error: &toml::de::Error) -> Error {
     placed(text, error, &explained(text, error))
 }
