@@ -6,8 +6,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::StyleKey;
-use super::keys::advice::{alternatives, ending, listed, write_value};
 use super::toml_reader::Fault;
+use super::keys::advice::{alternatives, ending, listed, write_value};
 use crate::error::Error;
 use crate::error::messages::{Explained, Mistake, explain};
 use crate::error::nearest::distance;
@@ -22,6 +22,7 @@ const LONGEST: usize = 120;
 const MAX_QUOTED: usize = 40;
 
 /// An error of a file's text: at its line, with the line and a caret.
+#[cfg(feature = "page")]
 pub(crate) fn in_sheet(text: &str, error: &Fault) -> Error {
     placed(text, error, &explained(text, error))
 }

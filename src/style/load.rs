@@ -59,6 +59,7 @@ pub(super) fn all_keys(name_or_path: &str) -> Result<Table, Error> {
 }
 
 /// The sheets that a style is made of and that are not built in, as their names in messages and their keys; the last one counts most.
+#[cfg(feature = "page")]
 pub(super) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Error> {
     let chain = chain(find(name_or_path, None)?)?;
     Ok(chain

@@ -11,6 +11,7 @@
 //! ```
 
 mod artist_file;
+#[cfg(feature = "page")]
 mod bare_lengths;
 mod brush_file;
 pub(crate) mod fault;
@@ -27,6 +28,7 @@ mod svg_file;
 mod tile_file;
 pub(crate) mod toml_reader;
 
+#[cfg(feature = "page")]
 pub(crate) use bare_lengths::bare_lengths;
 pub use keys::{KeyType, StyleKey};
 #[cfg(feature = "page")]
