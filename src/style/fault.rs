@@ -6,8 +6,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::StyleKey;
-use super::toml_reader::Fault;
 use super::keys::advice::{alternatives, ending, listed, write_value};
+use super::toml_reader::Fault;
 use crate::error::Error;
 use crate::error::messages::{Explained, Mistake, explain};
 use crate::error::nearest::distance;

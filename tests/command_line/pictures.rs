@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::documentation::documents;
 use crate::folder::{Folder, Run};
 
 fn root() -> PathBuf {

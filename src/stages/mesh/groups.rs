@@ -153,7 +153,8 @@ mod tests {
         // Whoever comes next has a lesser face for the group of the last one than all before.
         let (threads, each) = (4, 50_000_u32);
         let last = threads * each;
-        let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads as usize).build().expect("a pool");
+        let pool =
+            rayon_core::ThreadPoolBuilder::new().num_threads(threads as usize).build().expect("a pool");
         // Often enough that two of them surely meet.
         for _ in 0..40 {
             let groups = pool.install(|| {
