@@ -2,7 +2,7 @@
 //!
 //! A drawing makes and drops arrays of many megabytes at every stage. By default glibc gives each back to the system
 //! and asks anew for the next, and the system hands out, and clears, four kilobytes at a time: a tenth to a sixth of
-//! the time of a drawing went there (`docs/speed.md`). What is asked for here are hints: where the system knows none
+//! the time of a drawing went there (`docs/dev/speed.md`). What is asked for here are hints: where the system knows none
 //! of them, or has little memory to promise, the program runs as it would without.
 //!
 //! This is the one place of the project that calls what the compiler cannot check. It calls two functions of the C

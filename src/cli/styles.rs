@@ -11,15 +11,15 @@ use crate::style::Style;
 /// What was typed.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  ligne styles                        list the styles
-  ligne styles ink > mine.toml        start a style of your own
+  ligne styles                            list the styles
+  ligne styles ink > mine.toml            start your own style
   ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side")]
 pub(super) struct StylesArgs {
-    /// The style whose text is shown; with --sheet the model that is drawn
+    /// Style to print; with --sheet, the model to draw
     #[arg(value_name = "NAME|MODEL")]
     name: Option<String>,
 
-    /// Draw a model in all styles on one sheet: .svg, .svgz, .png or .pdf, or - for SVG on standard output
+    /// Draw a model in all styles on one sheet: .svg, .svgz, .png or .pdf; - for SVG on standard output
     #[arg(long, value_name = "OUT", requires = "name")]
     sheet: Option<PathBuf>,
 }

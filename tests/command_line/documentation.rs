@@ -108,7 +108,8 @@ fn options_that_the_readme_names_are_there() {
             String::from_utf8(help.stdout).unwrap()
         })
         .concat();
-    let known = ["--release", "--path", "--open", "--json", "--example", "--test"];
+    // `--report-all` is an older spelling of `--html-all`.
+    let known = ["--release", "--path", "--open", "--json", "--example", "--test", "--report-all"];
     // Those of GNU parallel and of Slurm.
     let others = [
         "--joblog",
