@@ -15,7 +15,7 @@ use crate::math::glob::Glob;
 use crate::scene::coordinate::bounds;
 use crate::scene::{Scene, UpAxis};
 
-/// Height above z = 0 at which a model still stands on it, share of its extent along z.
+/// Largest distance from z = 0 of a model that stands on it, share of its extent along z.
 const MAX_BASE_GAP: f64 = 0.005;
 
 /// How far a model reaches to both sides of y = 0 at least, share of its extent along y.
@@ -146,7 +146,7 @@ mod tests {
         let lies = |format, low, high| !hints(format, &[("lid", low, high)]).is_empty();
         assert!(lies("OBJ", [-3.0, -2.0, 0.0], [3.0, 2.0, 5.0]));
         assert!(lies("PLY", [-3.0, -2.0, 0.01], [3.0, 2.0, 5.0]));
-        // The format says which axis is up, the model stands on y = 0, floats, is a sheet, or lies beside y = 0.
+        // The format says which axis is up, the model stands on y = 0, floats, is a sheet, or lies on one side of y = 0.
         assert!(!lies("glTF", [-3.0, -2.0, 0.0], [3.0, 2.0, 5.0]));
         assert!(!lies("OBJ", [-3.0, 0.0, 0.0], [3.0, 4.0, 5.0]));
         assert!(!lies("OBJ", [-3.0, -2.0, -2.5], [3.0, 2.0, 2.5]));

@@ -1,7 +1,7 @@
 //! The reference of the command line as Markdown, from the definitions of the parser.
 //!
 //! Each command gets its usage, its examples and a table of its options. Options that several commands take over from `ligne draw`
-//! are listed once, in a section of their own. The test `the_reference_is_current` compares the result with
+//! are listed once, in a separate section. The test `the_reference_is_current` compares the result with
 //! `docs/reference/command-line.md`.
 
 use std::fmt::Write;
@@ -89,7 +89,7 @@ fn section(text: &mut String, command: &Command, is_shared: &impl Fn(&Command, &
     }
 }
 
-/// A table for each heading, in the order in which the headings first occur.
+/// A table for each heading, in order of first occurrence.
 fn tables<'a>(text: &mut String, options: impl Iterator<Item = &'a Arg>) {
     let is_listed = |option: &&Arg| !option.is_hide_set() && !is_global(option);
     let options: Vec<&Arg> = options.filter(is_listed).collect();
@@ -183,7 +183,7 @@ mod tests {
         let page = page();
         for option in ["`--style ", "`--azimuth ", "`--strict`"] {
             let count = page.lines().filter(|line| line.starts_with(&format!("| {option}"))).count();
-            // `ligne page` has a `--strict` of its own.
+            // `ligne page` has another `--strict`.
             assert!(count == 1 || (option.contains("strict") && count == 2), "{option}: {count}");
         }
         for alias in ["--current-color", "--report-all"] {
